@@ -1,1 +1,1 @@
-"""What walks by whole pixels: characters among solids, belts and lifts."""
+"""Characters, which move by whole pixels among solids, belts and lifts."""

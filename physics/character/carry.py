@@ -1,4 +1,4 @@
-"""Moving solids carry the characters that ride them, and push those in their way."""
+"""Moving solids, which carry the characters that ride them and push those in their way."""
 
 import math
 
@@ -37,12 +37,12 @@ from physics.tables.step_state import StepState, stage
 from physics.tables.table import row_of, rows_of
 
 # ---- near ------------------------------------------------------------------------------------------------------------
-# What may carry, push or stop each character in a step: what is near those that something may have stirred.
+# The shapes that may carry, push or stop each character in a step: those near characters whose surroundings moved.
 
 
 @subkernel
 def motion_of(b):
-    """How far [px] any point of a body was moved by the step, at most."""
+    """Return the greatest distance [px] that any point of a body moved in the step."""
     turn = abs(b.angle - b.previous_angle) * (b.extent + abs(b.local_center_x) + abs(b.local_center_y))
     return abs(b.x - b.previous_x) + abs(b.y - b.previous_y) + turn
 
@@ -58,10 +58,10 @@ def find_stirred(
     # write
     stirred_out,
 ):
-    """Flag the characters that ride something, or stand on a belt, or that something which is not static may have met.
+    """Flag the characters that ride a body, stand on a belt, or may have met a body that is not static.
 
-    pairs (count, 2): shape rows out of the broad phase; stirred_out (characters,). Returns how far [px] any point of
-    what is ridden or may have been met was moved by the step. O(pairs · log characters).
+    pairs (count, 2): shape rows out of the broad phase. stirred_out (characters,). Return the greatest distance [px]
+    that any point of those bodies moved in the step. O(pairs · log characters).
     """
     most = 0.0
     for me in range(len(characters)):
@@ -81,7 +81,7 @@ def find_stirred(
 
 
 def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
-    """(near, spans) of a Walk for this step: the shape rows that may carry, push or stop each character."""
+    """Return (near, spans) of a Walk for this step: the shape rows that may carry, push or stop each character."""
     rows, pairs = state.characters, state.pairs.rows
     stirred = np.zeros(len(rows), bool)
     motion = find_stirred(state.bodies, state.shapes, rows, pairs, len(pairs), stirred)
@@ -90,7 +90,7 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
         if not near:
             state.queries.begin(state)
         row = rows[me]
-        # Carried as far as anything moved, or pressed out of it; up and down a slope on the way.
+        # The reach: as far as anything moved, or as a push-out, and up and down a slope on the way.
         reach = 2.0 * motion + abs(float(row["belt"])) * state.dt + 8.0
         climb = reach * float(row["climb"])
         left, top = float(row["left"]), float(row["top"])
@@ -105,12 +105,12 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
 
 
 # ---- shift -----------------------------------------------------------------------------------------------------------
-# A character that something else moves: shifted pixel by pixel, as far as nothing keeps it.
+# A character that a solid moves: it is shifted pixel by pixel, as far as it is free.
 
 
 @subkernel
 def shift_aside(me, without, pixels, walk_inout, rows_out):
-    """Move a character along x by up to so many pixels. Returns those that something kept it from moving."""
+    """Move a character along x by so many pixels at most. Return the number of pixels that were blocked."""
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
     along_slope = c.climb * abs(pixels)
@@ -133,7 +133,7 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift_along_y(me, without, pixels, walk_inout, rows_out):
-    """Move a character along y by up to so many pixels. Returns those that something kept it from moving."""
+    """Move a character along y by so many pixels at most. Return the number of pixels that were blocked."""
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
     gather(walk_inout, me, without, 2.0, reach, reach, rows_out)
@@ -148,10 +148,10 @@ def shift_along_y(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift(me, without, pixels, along_x, walk_inout, rows_out):
-    """Move a character up to so many pixels along an axis, up and down the slopes it walks.
+    """Move a character by so many pixels along an axis, up and down walkable slopes. Return the number of blocked
+    pixels.
 
-    without: body row that does not count, or -1; rows_out: room for the solids near. Returns the pixels that something
-    kept it from moving.
+    without: body row to ignore, or -1. rows_out: room for the solids near.
     """
     if along_x == 1:
         stopped = shift_aside(me, without, pixels, walk_inout, rows_out)
@@ -163,13 +163,13 @@ def shift(me, without, pixels, along_x, walk_inout, rows_out):
 
 @subkernel
 def carried_by(way, stopped):
-    """The pixels of a way that were gone when some of them were not."""
+    """Return the pixels of a translation that were moved, of which some were blocked."""
     return way - stopped if way > 0 else way + stopped
 
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Carry on to what stands on what was carried: the hero on a crate on a platform, whatever the pile's height."""
+    """Carry the riders of a carried character, and their riders: a stack of any height."""
     characters = walk_inout.characters
     for _ in range(len(characters)):
         again = False
@@ -189,12 +189,13 @@ def carry_riders(along_x, walk_inout):
 
 
 # ---- ride ------------------------------------------------------------------------------------------------------------
-# Characters on what turns, is pushed or is no box: carried by the point under the feet, moved out of what came in.
+# Characters on bodies that rotate, are dynamic or are no boxes: the point under the feet carries them, and bodies that
+# moved into them push them out.
 
 
 @subkernel
 def loose_under(walk, me):
-    """The shape row that carries a character by the motion of the point under its feet, or -1."""
+    """Return the shape row that carries a character by the motion of the point under its feet, or -1."""
     c = walk.characters[me]
     row = row_of(walk.shapes, c.riding_shape) if c.riding >= 0 else -1
     if row < 0 or walk.shapes[row].sensor or not is_loose(walk, row):
@@ -205,7 +206,7 @@ def loose_under(walk, me):
 
 @kernel
 def note_feet(shapes, characters_inout):
-    """Remember the point under the feet of those that ride: where it is before the step. O(characters · log shapes)."""
+    """Store the point under the feet of each rider before the step. O(characters · log shapes)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         row = row_of(shapes, c.riding_shape) if c.riding >= 0 else -1
@@ -215,7 +216,7 @@ def note_feet(shapes, characters_inout):
 
 @kernel
 def take_back(characters_inout, bodies_inout):
-    """Put the bodies of characters, which the solver has moved along, back where their boxes are. O(characters)."""
+    """Move the bodies of characters back to their boxes after the solver moved them. O(characters)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         if not bodies_inout[c.body_row].quarantined:
@@ -226,7 +227,7 @@ def take_back(characters_inout, bodies_inout):
 
 @subkernel
 def motion_under(c, body):
-    """How far [px] the point under a character's feet was moved by the body it stands on."""
+    """Return the distance [px] that the point under a character's feet moved with its ground in the step."""
     u, v = turned(
         c.foot_x - body.previous_x,
         c.foot_y - body.previous_y,
@@ -238,14 +239,14 @@ def motion_under(c, body):
 
 @subkernel
 def pixels_carried(me, row, along_x, walk_inout):
-    """Whole pixels that a character is carried along an axis by what is under it (shape row or -1) and by its belt."""
+    """Return the whole pixels that the ground (shape row or -1) and its belt carry a character along an axis."""
     c = walk_inout.characters[me]
     way = 0
     if row < 0:
         c.carry_x = 0.0
         c.carry_y = 0.0
     else:
-        # x is carried first; the point's motion is the same for both axes.
+        # x is carried first; the motion of the point is the same for both axes.
         x, y = motion_under(c, walk_inout.bodies[walk_inout.shapes[row].body_row])
         if along_x == 1:
             c.carry_x += x
@@ -265,7 +266,7 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Down to a ground that has gone down by less than it may fall on a pixel along."""
+    """Move a character down to ground that sank by less than it may drop on one pixel."""
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)
     drop, slope = drop_onto(walk_inout, me, walk_inout.found, c.left, 0.5)
@@ -276,9 +277,10 @@ def step_down(me, walk_inout):
 
 @subkernel
 def ride_bodies(walk_inout):
-    """Carry characters by what the point under their feet was moved by, in whole pixels with the remainder kept.
+    """Carry characters by the motion of the point under their feet, in whole pixels with a remainder.
 
-    walk_inout: a Walk for the step. They step down to where what turns or is pushed went. O(characters · solids near).
+    walk_inout: a Walk for the step. They also step down to ground that rotated or was pushed down. O(characters ·
+    solids near).
     """
     for axis in range(2):
         along_x = 1 - axis
@@ -301,7 +303,7 @@ def ride_bodies(walk_inout):
 
 @subkernel
 def move_out(me, row, walk_inout):
-    """Move a character out of one loose shape, as far as nothing keeps it, and note how deep it stays."""
+    """Move a character out of one loose shape as far as it is free, and note the depth that remains."""
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
     body_row = walk_inout.shapes[row].body_row
@@ -309,10 +311,10 @@ def move_out(me, row, walk_inout):
     into = nx if along_x == 1 else ny
     speed = walk_inout.bodies[body_row].vx
     if along_x == 1 and depth > 0.5 * walk_inout.settings.slop and speed * into < 0.0:
-        c.push_vx = speed  # what is pressed against it need not stop: it goes along
+        c.push_vx = speed  # a body pressed against it need not stop: it moves along
     too_deep = depth - 1.5 * FEET
     if along_x == 0 and abs(nx) > ny > 0.0:
-        too_deep /= ny  # up a slope steeper than 45 degrees, which he walks
+        too_deep /= ny  # up a walkable slope steeper than 45 degrees
     pixels = math.ceil(too_deep)
     if pixels <= 0:
         return
@@ -327,10 +329,10 @@ def move_out(me, row, walk_inout):
 
 @subkernel
 def give_way(walk_inout):
-    """Move characters out of the loose bodies that came into them; squeezed are those in which something stays.
+    """Move characters out of loose bodies that moved into them, and flag those that stay overlapped as squeezed.
 
-    walk_inout: a Walk for the step. What has just fallen into one is deep for a moment, until the solver has pushed it
-    out: it squeezes when it is no less deep after that. O(characters · solids near).
+    walk_inout: a Walk for the step. A body that has just fallen onto a character is deep until the solver has separated
+    it, so it squeezes only if it is no less deep after that. O(characters · solids near).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
@@ -350,13 +352,13 @@ def give_way(walk_inout):
 # ---- carry -----------------------------------------------------------------------------------------------------------
 # Moving solids carry the characters that ride them and push those in their way, one axis after the other.
 #
-# A character that cannot give way is squeezed: it stays, overlapping, and its next `move` says so. Source: Thorson,
-# Celeste and TowerFall Physics, 2018.
+# A character without room is squeezed: it stays overlapped, and its next `move` reports it. Source: Thorson, Celeste
+# and TowerFall Physics, 2018.
 
 
 @subkernel
 def swept_box(walk, row, along_x):
-    """(left, top, right, bottom [px], pixels moved) of what a box swept on the pixel grid along an axis, x first."""
+    """Return (left, top, right, bottom [px], pixels moved) of a box swept on the pixel grid along an axis, x first."""
     b = walk.bodies[walk.shapes[row].body_row]
     old_left, old_top, old_right, old_bottom = aabb_at(
         walk.geometry, walk.shapes, row, b.previous_x, b.previous_y, b.previous_angle
@@ -381,9 +383,10 @@ def swept_box(walk, row, along_x):
 
 @subkernel
 def in_swept(me, row, shifted, along_x, box, walk_inout):
-    """Whether a character, shifted by some pixels along an axis, is in what a solid swept along it; box: see swept_box.
+    """Return whether a character, shifted by some pixels along an axis, overlaps the sweep of a solid. box: see
+    swept_box.
 
-    A solid that is no box, a grid of tiles, is tested where it stands when it has moved along this axis.
+    A tile grid is tested at its pose after the motion along this axis.
     """
     c = walk_inout.characters[me]
     left, top, right, bottom, moved = box
@@ -409,7 +412,7 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
 
 @subkernel
 def way_clear(me, row, along_x, box, walk_inout):
-    """Whole pixels along an axis, the way a solid moved, that take a character out of what it swept; 0: it is out."""
+    """Return the whole pixels along the motion of a solid that move a character out of its sweep; 0 if it is out."""
     if not in_swept(me, row, 0, along_x, box, walk_inout):
         return 0
     left, top, right, bottom, moved = box
@@ -429,7 +432,7 @@ def way_clear(me, row, along_x, box, walk_inout):
 
 @subkernel
 def carry_one(me, row, along_x, box, walk_inout):
-    """Carry or push one character with a solid that has moved by whole pixels along an axis; box: see swept_box."""
+    """Carry or push one character with a solid that moved by whole pixels along an axis. box: see swept_box."""
     c = walk_inout.characters[me]
     s = walk_inout.shapes[row]
     b = walk_inout.bodies[s.body_row]
@@ -445,17 +448,17 @@ def carry_one(me, row, along_x, box, walk_inout):
         c.push_vy = b.vy
     stopped = shift(me, s.body_row, way, along_x, walk_inout, walk_inout.found)
     c.carried = carried_by(way, stopped)
-    # A rider that is stopped slides; it is squeezed where the solid now stands in it.
+    # A stopped rider slides; it is squeezed where the solid now overlaps it.
     if stopped > 0 and in_swept(me, row, 0, along_x, box, walk_inout):
         c.squeezed = True
 
 
 @subkernel
 def carry_and_push(movers, walk_inout):
-    """Let every kinematic solid that moved by whole pixels carry its riders and push what it ran into.
+    """Let every kinematic solid that moved by whole pixels carry its riders and push characters in its way.
 
-    movers: shape rows, in order, of which those count that keep to the pixel grid: upright boxes and tiles; the rest is
-    left to ride_bodies. O(moved solids · characters).
+    movers: shape rows, in order, of which upright boxes and tile grids count; ride_bodies handles the others. O(moved
+    solids · characters).
     """
     for k in range(len(movers)):
         row = movers[k]
@@ -482,7 +485,7 @@ def carry_all(
     # write
     walk_inout,
 ):
-    """Carry, push and press characters by all that moved in the step. movers: see carry_and_push."""
+    """Carry, push and press characters by all motion of the step. movers: see carry_and_push."""
     carry_and_push(movers, walk_inout)
     ride_bodies(walk_inout)
     give_way(walk_inout)
@@ -510,7 +513,7 @@ def carry_all(
     writes=(
         "characters",
         "manifolds",
-        "awake",  # its room for the shapes of what has moved
+        "awake",  # its room for the shapes that moved
         "pairs",
         "broadphase",
         "library",
@@ -522,7 +525,7 @@ def carry_all(
     ),
 )
 def carry_characters(state: StepState) -> None:
-    """Moving solids take characters along, and push them. Those that were moved meet others in this very step."""
+    """Move the characters that solids carry or push. Those that moved meet others in the same step."""
     characters = state.characters
     bodies, shapes = state.bodies, state.shapes
     find_own_rows(bodies, shapes, characters)
@@ -575,7 +578,7 @@ def carry_characters(state: StepState) -> None:
     ),
 )
 def bear_characters(state: StepState) -> None:
-    """Before a step: characters weigh on what they ride, and wake it when they came, left or walked."""
+    """Apply the weight of characters to their ground before a step, and wake it when they came, left or walked."""
     characters, bodies = state.characters, state.bodies
     if state.effects.sleeping:
         own = bodies[characters["body_row"]]

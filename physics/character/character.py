@@ -1,4 +1,6 @@
-"""Character: the player's body in a platformer, in whole pixels, with everything a jump needs to know."""
+"""Character: the player of a platformer, moved by whole pixels, with the ground, walls and slopes that a jump depends
+on.
+"""
 
 import math
 from typing import Any, NamedTuple
@@ -14,19 +16,26 @@ from physics.shapes.kinds import Shape
 from physics.shapes.mask import Bounds, PixelMask
 from physics.shapes.values import Capsule, Circle, Filter, Polygon
 
-LONGEST = 1e6  # [px] of one move: it is walked pixel by pixel
-PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it shoves ten times its own mass over ground with friction 0.6
-GIVEN = ["vx", "vy", "angular_velocity", "force_x", "force_y", "torque"]  # what a walk may write of other bodies
+LONGEST = 1e6  # [px] greatest move, which is walked pixel by pixel
+PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it pushes ten times its own mass over ground with friction 0.6
+GIVEN = [
+    "vx",
+    "vy",
+    "angular_velocity",
+    "force_x",
+    "force_y",
+    "torque",
+]  # columns of other bodies that a walk may write
 MAX_SLOPE = 0.8  # [rad] 46 degrees: a slope of one tile per tile is walked
 
 
 class Moved(NamedTuple):
-    """What a move did: pixels moved, and what the character touches after it.
+    """The result of a move: pixels moved, and the contacts of the character after it.
 
-    grounded: on ground that it walks, or that holds it; wall: -1 solid at its left, 1 at its right; slope: rise of the
-    ground under its feet per px to the right (1: 45 degrees up to the right), also of ground that it slides down;
-    riding: the kinematic or dynamic body, or pushable character, under its feet; squeezed: by what moved since the last
-    move and left no room, in every move until that is out of it.
+    grounded: it stands on ground that it walks, or that holds it. wall: -1 solid at its left, 1 at its right. slope:
+    rise of the ground under its feet per px to the right (1: 45 degrees up to the right), also of ground that it slides
+    down. riding: the kinematic or dynamic body, or pushable character, under its feet. squeezed: a body that moved left
+    it no room; it is set in every move until that body has left it.
     """
 
     x: int
@@ -39,21 +48,23 @@ class Moved(NamedTuple):
 
 
 class Character:
-    """A convex shape that is moved by the game, in whole pixels, and never overlaps a solid.
+    """A convex shape that the game moves, in whole pixels, and that never overlaps a solid.
 
-    shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel; a box without angle
-    is rounded to whole pixels. position [px]: of the shape's origin; the left side and the feet of the shape stand on
-    the pixel grid, at the place nearest to it. max_slope [rad], 0 <= max_slope < pi/2: flatter ground is walked up and
-    down, steeper ground is slid down; whatever the ground is made of, up to 86 degrees. pushable: solid for other
-    characters, and pushed by them. Its `body` is kinematic: contacts and sensors see it. Needs the effect response.
-    With the effect stacking, dynamic bodies stop and carry it too, and it acts on them: mass [density px2], None = that
-    of its shape at density 1, weighs on what it stands on and lands with momentum; push [px/s2], None = PUSH: what it
-    runs into is accelerated towards the speed of its moves by at most mass * push. Raises TypeError, ValueError.
+    shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel. A box without angle
+    is rounded to whole pixels. position [px]: of the shape's origin; the left side and the feet stand on the pixel
+    grid, at the nearest place. max_slope [rad], 0 <= max_slope < pi/2: flatter ground is walked up and down, steeper
+    ground up to 86 degrees is slid down, whatever it is made of. pushable: it is solid for other characters, and they
+    push it.
+
+    Its `body` is kinematic, so contacts and sensors see it. It needs the effect response. With the effect stacking,
+    dynamic bodies stop and carry it, too, and it acts on them: mass [density px2], None for that of its shape at
+    density 1, is its weight and its momentum on landing; push [px/s2], None for PUSH, accelerates bodies in its way to
+    the speed of its moves by at most mass * push. Raises TypeError, ValueError.
     """
 
     def __init__(
         self,
-        world: Any,  # a World, which is built on this folder
+        world: Any,  # a World, which stands further right in the import order
         shape: Shape,
         position: Pair,
         filter: Filter = Filter.ALL,
@@ -105,34 +116,34 @@ class Character:
 
     @property
     def position(self) -> tuple[float, float]:
-        """Of the shape's origin [px]."""
+        """Position of the shape's origin [px]."""
         return self.body.position
 
     @property
     def previous(self) -> tuple[float, float]:
-        """Of the shape's origin before the last move [px], for interpolated drawing."""
+        """Position of the shape's origin before the last move [px], for interpolated drawing."""
         row = self.world.characters.rows[self._row]
         return (float(row["previous_left"] + row["offset_x"]), float(row["previous_top"] + row["offset_y"]))
 
     @property
     def max_slope(self) -> float:
-        """The steepest ground that it walks [rad]."""
+        """Angle of the steepest ground that it walks [rad]."""
         return math.atan(self.world.characters.rows["climb"][self._row])
 
     @property
     def surface_speed(self) -> float:
-        """Speed [px/s] at which the ground under its feet runs to the right, felt in the last move; 0 in the air.
+        """Surface speed [px/s] to the right of the ground under its feet at the last move; 0 in the air.
 
-        It carries the character in a step of a world with the effect conveyor.
+        A step of a world with the effect conveyor carries the character along.
         """
         return float(self.world.characters.rows["belt"][self._row])
 
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
-        """Move by (dx, dy) [px], x first; drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError.
+        """Move by (dx, dy) [px], x first. drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError.
 
-        Down a slope that is too steep to stand on it slides, by the part of dy that leads along the slope. While its
-        body is quarantined, or has a number for which the next step will quarantine it, it stays and touches nothing.
-        Who was put into a still solid is let out of it, by two pixels in a move, where within its own size it is free.
+        On a slope that is too steep it slides down, by the part of dy along the slope. While its body is quarantined,
+        or would be by the next step, it stays and touches nothing. A character that was placed into a static solid is
+        moved out, two pixels a move, if there is a free place within its own size.
         """
         world = self.world
         world._unlocked()
@@ -152,7 +163,7 @@ class Character:
             reach = int(max(rows["width"][me], rows["height"][me]))
             lead_out(me, reach, self._walk(me, reach, reach), world.workspace.walked)
         if len(asleep):
-            # It was pushed from where the next pixel is: it may lie a hair away, where no touch would wake it.
+            # It was pushed from the next pixel: it may be a hair away, where no contact would wake it.
             disturb(world, world.bodies["id"][asleep[before != world.bodies[asleep][GIVEN]]])
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
@@ -167,10 +178,10 @@ class Character:
         )
 
     def blocked(self, dx: float, dy: float) -> bool:
-        """Whether a move by (dx, dy) [px] would be stopped at once: not one pixel of it is free, along x or along y.
+        """Return whether a move by (dx, dy) [px] would be stopped at once: no pixel of it is free, along x or along y.
 
-        What can be pushed by walking, and slopes that it walks or slides down, stop nothing. Changes nothing. Raises
-        TypeError, ValueError, RuntimeError.
+        Bodies that walking pushes, and slopes that it walks or slides down, do not block. The world is unchanged.
+        Raises TypeError, ValueError, RuntimeError.
         """
         self.world._unlocked()
         dx, dy = _checked_move(dx, dy)
@@ -178,12 +189,12 @@ class Character:
         return bool(is_stopped(me, int(np.sign(dx)), int(np.sign(dy)), self._walk(me, 0.0, 0.0)))
 
     def _walk(self, me, dx, dy):
-        """What the kernels of a move read and write, with the shapes near its way."""
+        """Return the Walk of a move, with the shapes near its way."""
         world = self.world
         rows = world.characters.rows
         find_own_rows(world.bodies, world.shapes, rows)
         row = rows[me]
-        # As far as it may go, slide or be lifted, and around what it may push.
+        # As far as it may move, slide or rise, and around the characters that it may push.
         reach = abs(dx) + abs(dy) + 5.0
         climb = STEEPEST_CLIMB + float(row["climb"]) * abs(dx)
         if rows["pushable"].any():
@@ -200,7 +211,7 @@ class Character:
         return walk_for(world, rows, near, spans, world.dt)
 
     def move_to(self, position: Pair) -> None:
-        """Put the shape's origin at the place on the pixel grid nearest to a position [px], without walking there."""
+        """Teleport the shape's origin to the place on the pixel grid nearest to a position [px]."""
         self.world._unlocked()
         x, y = checks.position("position", position)
         row = self.world.characters.rows[self._row : self._row + 1]
@@ -218,7 +229,7 @@ class Character:
 
 
 def _asleep(world, near):
-    """The rows of bodies that sleep, of those that these shape rows are of."""
+    """Return the body rows of these shape rows that sleep."""
     if not world.sleeps:
         return np.zeros(0, np.int64)
     rows = np.unique(world.shapes["body_row"][near])
@@ -239,7 +250,7 @@ def _is_upright_box(shape):
 
 
 def _extent(shape):
-    """(left, top, right, bottom) [px] of a shape at its origin, or None of what has no inside."""
+    """Return (left, top, right, bottom) [px] of a shape at its origin, or None for a shape without area."""
     if isinstance(shape, PixelMask):
         return shape.bounds
     points = (shape.center,) if isinstance(shape, Circle) else shape.points
@@ -249,7 +260,7 @@ def _extent(shape):
 
 
 def _outline(shape):
-    """(the shape of a character's body, left, top, right, bottom [px] of it at its origin)."""
+    """Return (the shape of a character's body, its left, top, right, bottom [px] at the origin)."""
     wrapped = isinstance(shape, Bounds)
     inner = shape.shape if wrapped else shape
     if not isinstance(inner, (Polygon, Circle, Capsule)) and not (wrapped and isinstance(inner, PixelMask)):

@@ -1,4 +1,4 @@
-"""What stands in the way of a character: tiles, chains, static and kinematic shapes, characters, bodies."""
+"""Solids in the way of a character: tiles, chains, static and kinematic shapes, characters, bodies."""
 
 import math
 from typing import NamedTuple
@@ -35,35 +35,38 @@ from physics.tables.step_state import WorldTables
 from physics.tables.table import row_of
 
 # ---- ground ----------------------------------------------------------------------------------------------------------
-# What a place is to a character: free, ground that it walks or slides down, or a wall.
+# The verdict on a place for a character: free, ground that it walks or slides down, or a wall.
 #
-# One rule for all grounds: the normal where the character would stand in the ground, against the steepest that it
-# walks.
+# One rule holds for all grounds: the normal at the place is compared with the steepest ground that the character walks.
 
-FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # in the order of what counts most where several are met
-GIVE = 2.0  # [px] what is carried or pressed may sink this deep into loose bodies: the solver moves them on
-FEET = 0.5  # [px] feet stand on the whole pixel nearest to a surface that moves
-LEADS_DEEPER = 0.02  # cosine between a way and a normal from which the way leads into a body that is pushed
-SHEER = 1e-9  # cosine between a wall's normal and down below which it bears nothing
-EVEN = 1e-9  # by how much rounding may make a slope steeper
-STEEPEST_CLIMB = 16.0  # [px] rise per px along (86 degrees): steeper ground is never walked, so a pixel costs few tests
+FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # in the order of strength, for a place with several of them
+GIVE = 2.0  # [px] depth to which characters may sink into loose bodies, which the solver then moves
+FEET = 0.5  # [px] the feet stand on the whole pixel nearest to a moving surface
+LEADS_DEEPER = 0.02  # cosine between motion and normal above which the motion leads into a dynamic body
+SHEER = 1e-9  # cosine between a wall's normal and down below which it carries nothing
+EVEN = 1e-9  # rounding of a slope
+STEEPEST_CLIMB = (
+    16.0  # [px] rise per px along (86 degrees): steeper ground is never walked, which bounds the tests of a pixel
+)
 
 
 @subkernel
 def pixels_along(slope):
-    """The most whole pixels that a surface of a slope rises or falls on one pixel along."""
+    """Return the greatest number of whole pixels that a slope rises or falls on one pixel along."""
     return math.floor(abs(slope) + 1.0 + 1e-6)
 
 
 @subkernel
 def is_walkable(c, nx, ny):
-    """Whether ground can be walked; (nx, ny): unit normal into it."""
+    """Return whether ground can be walked. (nx, ny): unit normal into it."""
     return ny > SHEER and abs(nx) <= c.climb * ny + EVEN
 
 
 @subkernel
 def verdict(c, nx, ny):
-    """(what ground is to a character that is in it, rise per px to the right); (nx, ny): unit, into the ground."""
+    """Return (the kind of ground for a character in it, rise per px to the right). (nx, ny): unit normal into the
+    ground.
+    """
     if ny <= SHEER:
         return BLOCKED, 0.0
     slope = nx / ny + 0.0
@@ -72,7 +75,9 @@ def verdict(c, nx, ny):
 
 @subkernel
 def allowed_depth(c, loose, nx, ny, give, slop):
-    """How deep [px] a character may be in a surface. give [px]: more of that in what is loose, see solids.is_loose."""
+    """Return the depth [px] up to which a character may overlap a surface. give [px]: more of it in a loose shape, see
+    solids.is_loose.
+    """
     if not loose:
         return slop
     return give + (FEET if is_walkable(c, nx, ny) else 0.1 * slop)
@@ -80,9 +85,9 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 
 @subkernel
 def deepest_of(b, slop, dt):
-    """How deep [px] a character may have come into an outline: by a pixel, or as far as that moved into it.
+    """Return the depth [px] that a character can have come into an outline: a pixel, or the motion of the outline.
 
-    What is deeper behind an edge of one part is told by a neighbour, see hulls.collide_hulls.
+    A deeper overlap behind an edge of one part belongs to a neighbouring part, see hulls.collide_hulls.
     """
     if b.kind == STATIC:
         return 1.0 + 2.0 * slop
@@ -91,9 +96,10 @@ def deepest_of(b, slop, dt):
 
 @subkernel
 def judge(c, kind, beyond, nx, ny, way_x, way_y):
-    """As `verdict`, for a surface that the character is in by so much more than allowed [px].
+    """Return the verdict for a surface that a character overlaps by so much more than allowed [px].
 
-    kind: of its body. What moves may have come into the character by itself: it blocks only a way that leads deeper.
+    kind: of its body. A moving body may have come into the character by itself, so it blocks only motion that leads
+    deeper.
     """
     if beyond <= 0.0:
         return FREE, 0.0
@@ -103,12 +109,12 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 
 
 # ---- meet ------------------------------------------------------------------------------------------------------------
-# How deep a character is in one shape, and which way that lies: its outline against hulls, discs and links.
+# The depth and normal of a character in one shape: its outline against hulls, discs and links.
 
 
 @subkernel
 def box_corners(left, top, width, height, corners_out):
-    """The corners of a box of pixels."""
+    """Write the corners of a box of pixels."""
     corners_out[0, 0] = left
     corners_out[0, 1] = top
     corners_out[1, 0] = left + width
@@ -121,7 +127,9 @@ def box_corners(left, top, width, height, corners_out):
 
 @subkernel
 def place_outline(walk, me, left, top):
-    """Write the character's corners, its box at a pixel, to scratch.mine. Returns their number and their rounding."""
+    """Write the character's corners, with its box at a pixel, to scratch.mine. Return their number and their rounding
+    radius.
+    """
     c = walk.characters[me]
     if c.is_box:
         box_corners(left, top, c.width, c.height, walk.scratch.mine)
@@ -134,7 +142,7 @@ def place_outline(walk, me, left, top):
 
 @subkernel
 def manifold_depth(points, manifold):
-    """(depth [px], normal, the middle of the points) of a manifold with so many points; depth 0: apart."""
+    """Return (depth [px], normal, middle of the points) of a manifold with so many points; depth 0 if apart."""
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
     depth = -manifold[5]
@@ -149,7 +157,7 @@ def manifold_depth(points, manifold):
 
 @subkernel
 def meet_disc(scratch, count, radius, x, y, other):
-    """As meet, for a disc of radius `other` [px] at (x, y)."""
+    """Return the result of meet for a disc of radius `other` [px] at (x, y)."""
     mine = scratch.mine
     if count == 1:
         nx, ny, px, py, separation = collide_circles(mine[0, 0], mine[0, 1], radius, x, y, other)
@@ -160,9 +168,9 @@ def meet_disc(scratch, count, radius, x, y, other):
 
 @subkernel
 def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
-    """As meet, for the hull in scratch.theirs, of so many corners and that rounding [px].
+    """Return the result of meet for the hull in scratch.theirs, of so many corners and that rounding radius [px].
 
-    edges, deepest: as in hulls.collide_hulls. scratch.points[0] is LEFT where a neighbour is to tell it.
+    edges, deepest: as in hulls.collide_hulls. scratch.points[0] is LEFT where a neighbouring part reports the contact.
     """
     mine = scratch.mine
     scratch.points[0] = 0.0
@@ -185,7 +193,7 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
 
 @subkernel
 def meet_link(links, link, scratch, count, radius):
-    """As meet, for one link of a chain, with its ends in scratch.theirs; from its back it is not met."""
+    """Return the result of meet for a link of a chain, with its ends in scratch.theirs; its back is not met."""
     if count == 1:
         hit, nx, ny, x, y, separation, feature = collide_link_circle(
             links[link], scratch.theirs, scratch.mine[0, 0], scratch.mine[0, 1], radius
@@ -200,10 +208,10 @@ def meet_link(links, link, scratch, count, radius):
 
 @subkernel
 def meet(walk, row, count, radius):
-    """(depth [px], normal from the character, the middle of what touches) of scratch.mine in a hull or a disc.
+    """Return (depth [px], normal from the character, middle of the contact) of scratch.mine in a hull or a disc.
 
-    count, radius: of the character, see place_outline. Depth 0: apart; or a neighbour in its mask's outline has the
-    nearer surface, which scratch.points[0] says: LEFT.
+    count, radius: of the character, see place_outline. Depth 0: apart, or a neighbouring part of the outline has the
+    nearer surface, for which scratch.points[0] is LEFT.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -217,12 +225,12 @@ def meet(walk, row, count, radius):
 
 
 # ---- chains ----------------------------------------------------------------------------------------------------------
-# Chains under a character, link by link.
+# Characters against chains, link by link.
 
 
 @subkernel
 def deepest_on(walk, body):
-    """How deep [px] a character may stand in a link of a body's chain that it came to from its front."""
+    """Return the depth [px] to which a character may overlap a link of a body's chain that it met from the front."""
     most = 1.0 + 2.0 * walk.settings.slop
     if body.kind == KINEMATIC:
         most += 1.0 + (abs(body.vx) + abs(body.vy) + abs(body.angular_velocity) * body.extent) * walk.settings.dt
@@ -231,10 +239,10 @@ def deepest_on(walk, body):
 
 @subkernel
 def link_depth(walk, row, link, drops, count, radius):
-    """(depth [px], normal from the character) of scratch.mine in a link of a chain that holds it, else depth 0.
+    """Return (depth [px], normal from the character) of scratch.mine in a link that holds it, otherwise depth 0.
 
-    A character moves by pixels and starts free, so what is deeper than that in a link came from its back, and passes;
-    so does what drops through a level link, or through a surface.
+    A character moves by pixels and starts free, so a deeper overlap came from the back of the link, and passes. It also
+    passes when it drops through a level link, or through a one-way surface.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -249,17 +257,17 @@ def link_depth(walk, row, link, drops, count, radius):
 
 @subkernel
 def is_across(walk, me, row, left, top):
-    """Whether a character lies across a surface, and so passes it; any other chain it meets."""
+    """Return whether a character lies across a one-way surface, and so passes it; any other chain is met."""
     s = walk.shapes[row]
     if s.role != PART:
         return False
     b = walk.bodies[s.body_row]
     count, radius = place_outline(walk, me, left, top)
-    # In what stands it was free before it moved: what is deeper came from elsewhere, or dropped.
+    # In a static shape it was free before it moved: a deeper overlap came from elsewhere, or by a drop.
     most = walk.settings.slop
     if b.kind == KINEMATIC:
         most = deepest_on(walk, b)
-        # What goes down comes no nearer to who stands on it, and does not take up whom it passes.
+        # A link that moves down does not approach the characters on it, and does not lift those that it passes.
         most -= max(0.0, b.vy * math.cos(b.angle) - b.vx * math.sin(b.angle)) * walk.settings.dt
     return lies_across(
         walk.geometry, s.geometry, b.x, b.y, b.angle, walk.scratch.mine, count, radius, most, walk.scratch.theirs
@@ -268,7 +276,7 @@ def is_across(walk, me, row, left, top):
 
 @subkernel
 def in_chain(walk, me, row, left, top, way_x, way_y, give):
-    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a chain: see solids.in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a chain. See solids.in_shape."""
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -299,7 +307,7 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
                 continue
             depth, nx, ny = link_depth(walk, row, k, c.drop, count, radius)
             allowed = allowed_depth(c, b.kind == KINEMATIC, nx, ny, give, walk.settings.slop)
-            # Open from its back, a link blocks only what leads deeper, like something that moves.
+            # A link is open from its back, so it blocks only motion that leads deeper, like a moving shape.
             what, rise = judge(c, KINEMATIC, depth - allowed, nx, ny, way_x, way_y)
             if what == BLOCKED:
                 return BLOCKED, 0.0
@@ -311,7 +319,7 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def deepest_link(walk, me, row, left, top):
-    """(depth [px], normal from the character) in the link of a chain that a character is deepest in."""
+    """Return (depth [px], normal from the character) of the link of a chain with the deepest overlap."""
     c = walk.characters[me]
     span = walk.geometry.chains[walk.shapes[row].geometry]
     if is_across(walk, me, row, left, top):
@@ -330,26 +338,26 @@ def deepest_link(walk, me, row, left, top):
 
 
 # ---- tiles -----------------------------------------------------------------------------------------------------------
-# Tiles under a character. A box meets them on the pixel grid; another outline meets each run of tiles as a polygon.
+# Characters against tiles. A box meets them on the pixel grid; another outline meets each run of tiles as a polygon.
 #
-# On the pixel grid touching never blocks, and one shared pixel does. What counts most of the tiles decides.
+# On the pixel grid touching never blocks, and one shared pixel does. The strongest verdict of the tiles decides.
 
 
 @subkernel
 def on_pixels(kind, coordinate):
-    """Where a grid [px] stands for characters: one that moves, on the whole pixel nearest to it."""
+    """Return the place of a grid [px] for characters: of a moving one the nearest whole pixel."""
     return float(math.floor(coordinate + 0.5)) if kind == KINEMATIC else coordinate
 
 
 @subkernel
 def is_falling(c, way_x, way_y):
-    """1 when a character that came this way is held by what is open from below."""
+    """Return 1 if one-way ground holds a character that came this way."""
     return 1 if way_x == 0 and way_y > 0 and not c.drop else 0
 
 
 @subkernel
 def slope_tile_verdict(c, slope, depth):
-    """What a slope tile is to a box that reaches `depth` [px] below its surface."""
+    """Return the verdict of a slope tile for a box that reaches `depth` [px] below its surface."""
     if depth > pixels_along(slope):
         return BLOCKED  # its side, or from inside
     return ON_SLOPE if abs(slope) <= c.climb + EVEN else STEEP
@@ -357,7 +365,7 @@ def slope_tile_verdict(c, slope, depth):
 
 @subkernel
 def in_tiles(walk, me, row, left, top, way_x, way_y):
-    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a box of pixels in a tile grid: see solids.in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a box of pixels in a tile grid. See solids.in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     g = walk.geometry.grids[walk.shapes[row].geometry]
@@ -399,7 +407,9 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 @subkernel
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
-    """(depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs, through its free edges."""
+    """Return (depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs, through its free
+    edges.
+    """
     mine = scratch.mine
     if count == 1:
         hit, nx, ny, x, y, separation, feature = collide_hull_circle(
@@ -421,7 +431,7 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
 
 @subkernel
 def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
-    """As in_tiles, for a character that is no box, by the outlines of the runs of tiles and of the slopes."""
+    """Return the result of in_tiles for a character that is no box, by the outlines of runs of tiles and of slopes."""
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -438,7 +448,7 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
     result = FREE
     slope = 0.0
     for attempt in range(2):
-        # What lies deep inside may be left to a neighbour by each of them: once more, by every edge.
+        # A deep overlap may be left by each tile to a neighbour: test once more, by every edge.
         deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
         met = False
         for line in range(first_row, last_row + 1):
@@ -485,49 +495,49 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
 
 
 # ---- workspace -------------------------------------------------------------------------------------------------------
-# Walk: all that the kernels of a character read and write, in one named context.
+# Walk: all arrays and values that the kernels of a character read and write, in one named context.
 
 
 class Scratch(NamedTuple):
-    """Room for one test in flight."""
+    """Arrays for one test."""
 
     mine: np.ndarray  # (16, 2) corners of the character [px]
-    theirs: np.ndarray  # (16, 2) corners of what it may meet
-    points: np.ndarray  # (POINTS,) a manifold in flight, see collision/hulls.py
+    theirs: np.ndarray  # (16, 2) corners of the other shape
+    points: np.ndarray  # (POINTS,) a manifold, see collision/hulls.py
 
 
 class Settings(NamedTuple):
-    """What of the world a walk depends on."""
+    """The values of a world on which walking depends."""
 
     stacking: int  # 1: dynamic bodies stop, carry and squeeze characters
-    rotation: int  # 1: they turn
-    conveyor: int  # 1: surfaces run
-    dt: float  # [s] that a move, or the step, stands for
+    rotation: int  # 1: they rotate
+    conveyor: int  # 1: surface speeds act
+    dt: float  # [s] length of a move, or of the step
     slop: float  # [px]
 
 
 class Walk(NamedTuple):
-    """Tables, what is near each character, and scratch room."""
+    """Tables, the shapes near each character, and scratch arrays."""
 
     geometry: Geometry
-    bodies: np.ndarray  # BODY, written: forces, and where the characters are
+    bodies: np.ndarray  # BODY, written: forces, and poses of characters
     shapes: np.ndarray  # SHAPE
     characters: np.ndarray  # CHARACTER, written
     near: np.ndarray  # shape rows, in order, of one character after the other
-    spans: np.ndarray  # (characters, 2) where those of each start, and how many there are
-    found: np.ndarray  # solids in reach of a character, see solids.gather
+    spans: np.ndarray  # (characters, 2) first and number of the rows of each
+    found: np.ndarray  # solids near a character, see solids.gather
     found_beside: np.ndarray  # the same, for a character that is moved by another
     scratch: Scratch
     settings: Settings
 
 
 def new_scratch() -> Scratch:
-    """Scratch room for the walks of one world."""
+    """Return scratch arrays for the walks of one world."""
     return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(POINTS))
 
 
 def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:
-    """The context of a world, or of its StepState, for dt [s]. characters: CHARACTER rows; near, spans: as in Walk."""
+    """Return the Walk of a world or a StepState for dt [s]. characters: CHARACTER rows. near, spans: see Walk."""
     effects = tables.effects
     room = len(near) + 1
     rows = tables.workspace.rows_for(2 * room)
@@ -547,7 +557,7 @@ def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, span
 
 @subkernel
 def character_of(characters, body):
-    """The row of the character with that body id, or -1. O(log characters)."""
+    """Return the row of the character with this body id, or -1. O(log characters)."""
     low = 0
     high = len(characters)
     while low < high:
@@ -561,13 +571,13 @@ def character_of(characters, body):
 
 @kernel
 def can_walk(me, characters):
-    """Whether the numbers of a character are such as it can be moved with."""
+    """Return whether a character can be moved: its numbers are finite and in range."""
     return is_sound_walk(characters[me])
 
 
 @kernel
 def find_own_rows(bodies, shapes, characters_inout):
-    """Write the rows of the characters' bodies and shapes. O(characters · log shapes)."""
+    """Write the body and shape rows of the characters. O(characters · log shapes)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         c.body_row = row_of(bodies, c.body)
@@ -576,7 +586,7 @@ def find_own_rows(bodies, shapes, characters_inout):
 
 @subkernel
 def place_body(c, body_inout):
-    """Put the body of a character (row c) where its box is."""
+    """Move the body of a character (row c) to its box."""
     body_inout.x = c.left + c.offset_x
     body_inout.y = c.top + c.offset_y
     body_inout.center_x = body_inout.x + body_inout.local_center_x
@@ -585,23 +595,23 @@ def place_body(c, body_inout):
 
 @subkernel
 def settle(me, walk_inout):
-    """Put the character's body where its box is."""
+    """Move the character's body to its box."""
     c = walk_inout.characters[me]
     place_body(c, walk_inout.bodies[c.body_row])
 
 
 # ---- solids ----------------------------------------------------------------------------------------------------------
-# What stands in the way of a character: tiles, static and kinematic shapes, characters that can be pushed, bodies.
+# Solids in the way of a character: tiles, static and kinematic shapes, pushable characters, bodies.
 #
-# A character that is a box meets boxes that are not turned, and tiles, on the pixel grid, as they are drawn: touching
-# never blocks, one shared pixel does. Everything else is met as it is: what stands still blocks what would be deeper in
-# it than the slop. What is pushed, or moves and is no box, is loose: it may have come into the character by itself, so
-# it blocks only a way that leads deeper, and nothing that moves ever traps it.
+# A character that is a box meets upright boxes and tiles on the pixel grid, as they are drawn: touching never blocks,
+# one shared pixel does. Other shapes are met exactly: a static one blocks an overlap deeper than the slop. A dynamic
+# shape, or a moving one that is no box, is loose: it may have moved into the character by itself, so it blocks only
+# motion that leads deeper, and a moving shape never traps a character.
 
 
 @subkernel
 def is_upright_box(corners, count):
-    """Whether an outline is a box along the axes."""
+    """Return whether an outline is an axis-aligned box."""
     if count != 4:
         return False
     along_x = corners[0, 1] == corners[1, 1] and corners[2, 1] == corners[3, 1]
@@ -613,18 +623,18 @@ def is_upright_box(corners, count):
 
 @subkernel
 def round_half_up(value):
-    """The whole pixel nearest to a coordinate."""
+    """Return the whole pixel nearest to a coordinate."""
     return math.floor(value + 0.5)
 
 
 @subkernel
 def is_box(walk, row):
-    """Whether a shape stands in the world as a box along the axes."""
+    """Return whether a shape is an axis-aligned box in the world."""
     s = walk.shapes[row]
     if s.kind == BOUNDS:
         return True
     if s.kind != POLYGON or s.radius != 0.0 or s.inner != 0:
-        return False  # a part of an outline has its place beside its neighbours, not on the pixel grid
+        return False  # parts of an outline meet at their seams, not on the pixel grid
     b = walk.bodies[s.body_row]
     count = corners_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle, walk.scratch.theirs)
     return is_upright_box(walk.scratch.theirs, count)
@@ -632,7 +642,7 @@ def is_box(walk, row):
 
 @subkernel
 def is_loose(walk, row):
-    """Whether a shape is pushed, or moves in another way than by the whole pixels of its box."""
+    """Return whether a shape is dynamic, or moves other than by the whole pixels of its box."""
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     if b.kind != KINEMATIC:
@@ -644,14 +654,14 @@ def is_loose(walk, row):
 
 @subkernel
 def aabb_of(walk, row):
-    """AABB [px] of a shape where its body is now."""
+    """Return the AABB [px] of a shape at the present pose of its body."""
     b = walk.bodies[walk.shapes[row].body_row]
     return aabb_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle)
 
 
 @subkernel
 def in_character(walk, me, other, left, top):
-    """Whether the character, its box at a pixel, would be in another one."""
+    """Return whether the character, with its box at a pixel, would overlap another one."""
     c = walk.characters[me]
     o = walk.characters[other]
     hit = left < o.left + o.width and o.left < left + c.width and top < o.top + o.height and o.top < top + c.height
@@ -664,7 +674,7 @@ def in_character(walk, me, other, left, top):
 
 @subkernel
 def in_upright_box(walk, me, row, left, top):
-    """Whether a character that is a box shares a pixel with an upright box, as it is drawn."""
+    """Return whether a character that is a box shares a pixel with an upright box, as it is drawn."""
     c = walk.characters[me]
     min_x, min_y, max_x, max_y = aabb_of(walk, row)
     return (
@@ -677,7 +687,7 @@ def in_upright_box(walk, me, row, left, top):
 
 @subkernel
 def in_hull(walk, me, row, left, top, way_x, way_y, give):
-    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a hull or a disc."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a hull or a disc."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     count, radius = place_outline(walk, me, left, top)
@@ -695,10 +705,10 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
-    """(FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character against one shape.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character against one shape.
 
-    left, top: pixel of its box; way_x, way_y: pixels it moved to get there; give [px]: how deep it may be in what is
-    loose, beyond its feet.
+    left, top: pixel of its box. way_x, way_y: pixels moved to get there. give [px]: depth that is allowed in a loose
+    shape, beyond the feet.
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -721,10 +731,9 @@ def in_shape(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
-    """List the shape rows near a character that may block it within so many pixels of its box: their number, then they.
+    """List the shape rows that may block a character within so many pixels of its box: their number, then the rows.
 
-    without: body row that does not count (the platform that moves it), or -1. The row of a loose shape is listed as
-    -1 - row. O(rows near).
+    without: body row to ignore (the platform that moves it), or -1. A loose shape is listed as -1 - row. O(rows near).
     """
     c = walk.characters[me]
     own = walk.shapes[c.shape_row]
@@ -762,16 +771,16 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 
 @subkernel
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
-    """(what a place is to a character: FREE, STEEP, ON_SLOPE or BLOCKED; the shape row that is, or -1; its slope).
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED of a place; the shape row that decides, or -1; its slope).
 
-    rows: as gather lists them; the rest as in in_shape. What counts most decides. Where parts of a mask that stands
-    still leave the place to their neighbours, and none of them tells it, it is deep inside.
+    rows: as gather lists them; the other arguments as in in_shape. The strongest verdict decides. Where all parts of a
+    static mask leave the place to their neighbours, it is deep inside.
     """
     result = FREE
     by = -1
     slope = 0.0
     owner = -1
-    left_by = -1  # a part of this owner that has left it to its neighbours, while none has told it
+    left_by = -1  # a part of this mask that left the contact to its neighbours, while none has reported it
     told = False
     for k in range(1, rows[0] + 1):
         row = rows[k] if rows[k] >= 0 else -1 - rows[k]

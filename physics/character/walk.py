@@ -1,4 +1,4 @@
-"""Moves one character pixel by pixel: slopes, what it touches, what it pushes."""
+"""Motion of one character pixel by pixel: slopes, contacts, pushing."""
 
 import math
 
@@ -28,15 +28,16 @@ from physics.tables.shape import CHAIN, TILES
 from physics.tables.table import row_of
 
 # ---- climb -----------------------------------------------------------------------------------------------------------
-# Up and down with the ground: how far a character rises onto a slope it walks into, or drops to one it walks down.
+# Slopes: how far a character rises onto a slope that it walks into, or drops to one that it walks down.
 
 
 @subkernel
 def rise_onto(walk, me, rows, direction, slope):
-    """Pixels up by which a character is free one pixel to a side, where it is on ground of a slope; -1: by too many.
+    """Return the pixels up by which a character is free one pixel to a side, on walkable ground; -1 if there are too
+    many.
 
-    Half a pixel more than the slope rises: for corners of outlines on steps of pixels. Not onto what only holds it by
-    ground that is too steep.
+    It allows half a pixel more than the slope rises, for corners of outlines on steps of pixels. Ground that is too
+    steep does not count, even if it holds the character.
     """
     c = walk.characters[me]
     most = pixels_along(abs(slope) + 0.5)
@@ -56,7 +57,9 @@ def rise_onto(walk, me, rows, direction, slope):
 
 @subkernel
 def way_aside(walk, me, rows, direction):
-    """(pixels up by which a character can go one pixel to a side, or -1; the shape row that blocks it or -1; slope)."""
+    """Return (pixels up by which a character can go one pixel to a side, or -1; the shape row that blocks it or -1;
+    slope).
+    """
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
     if what == FREE:
@@ -68,10 +71,10 @@ def way_aside(walk, me, rows, direction):
 
 @subkernel
 def drop_onto(walk, me, rows, left, onto):
-    """(pixels down at a pixel column until a character stands on ground it walks, 0: none is near; its slope).
+    """Return (pixels down at a pixel column until a character stands on walkable ground, 0 if none is near; its slope).
 
-    onto: the slope it comes from; 0: from the flat, off which it drops onto slopes only. Slopes may be as steep as it
-    walks; a flat is one pixel and as much lower as the slope it comes from.
+    onto: the slope that it leaves; 0 for flat ground, from which it drops onto slopes only. Slopes may be as steep as
+    it walks. Flat ground is found within one pixel and the drop of the slope that it leaves.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -80,9 +83,7 @@ def drop_onto(walk, me, rows, left, onto):
             continue
         most = max(pixels_along(slope), pixels_along(onto))
         if what == ON_SLOPE and walk.bodies[walk.shapes[by].body_row].kind != STATIC:
-            most += (
-                1  # feet stand on the pixel nearest to what moves: up to half a pixel in it before, and above it now
-            )
+            most += 1  # the feet are on the nearest pixel: up to half a pixel in moving ground before, and above it now
         if what == ON_SLOPE and drop <= most:
             return drop, slope
         if what == BLOCKED and onto != 0.0 and drop <= pixels_along(onto):
@@ -93,7 +94,9 @@ def drop_onto(walk, me, rows, left, onto):
 
 @subkernel
 def is_wedged(walk, me, rows, slope):
-    """Whether a character on ground too steep cannot slide down it: something stands at the foot of the slope."""
+    """Return whether a character on ground too steep cannot slide down, because a solid stands at the foot of the
+    slope.
+    """
     c = walk.characters[me]
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk, me, rows, c.left + side, c.top, side, 0, 0.0)
@@ -102,7 +105,9 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """The slope of the ground a character slides down, as far below as that falls on one pixel along; 0: none."""
+    """Return the slope of the ground that a character slides down, within its fall on one pixel along; 0 if there is
+    none.
+    """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
         what, by, found = blocked_at(walk, me, rows, c.left, c.top + drop, 0, drop, 0.0)
@@ -113,7 +118,7 @@ def steep_below(walk, me, rows, slope):
 
 @subkernel
 def slide_of(slope):
-    """(pixels along x, pixels down) of a slide along a slope for each pixel of a way straight down."""
+    """Return (pixels along x, pixels down) of a slide along a slope for each pixel straight down."""
     length = math.sqrt(1.0 + slope * slope)
     sine = slope / length
     return -sine / length, sine * sine
@@ -121,9 +126,9 @@ def slide_of(slope):
 
 @subkernel
 def slide_gently(me, rows, pixels, slope, walk_inout):
-    """Slide down ground that rises by less than it runs, for so many pixels of a way down, pixel by pixel along x.
+    """Slide down ground that rises by less than it runs, for so many pixels down, pixel by pixel along x.
 
-    Returns whether nothing stopped it.
+    Return whether the slide was free.
     """
     c = walk_inout.characters[me]
     aside, down = slide_of(slope)
@@ -146,12 +151,12 @@ def slide_gently(me, rows, pixels, slope, walk_inout):
 
 
 # ---- feel ------------------------------------------------------------------------------------------------------------
-# What a character touches after a move: ground, its slope, what carries it and how fast its surface runs, walls.
+# Contacts of a character after a move: its ground with slope, carrier and surface speed, and walls.
 
 
 @subkernel
 def tile_slope(walk, row, x, y):
-    """Rise per px to the right of the slope tile at a point [px] of a tile grid, 0 elsewhere."""
+    """Return the rise per px to the right of the slope tile at a point [px] of a tile grid, 0 elsewhere."""
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     g = walk.geometry.grids[s.geometry]
@@ -165,7 +170,9 @@ def tile_slope(walk, row, x, y):
 
 @subkernel
 def slope_under_box(walk, me, row):
-    """The slope of the tile under the middle of a box's feet; at its ends a foot beside it still stands on it."""
+    """Return the slope of the tile under the middle of a box's feet. At the end of a slope, a foot beside it still
+    stands on it.
+    """
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
     slope = tile_slope(walk, row, c.left + 0.5 * c.width, bottom)
@@ -178,9 +185,9 @@ def slope_under_box(walk, me, row):
 
 @subkernel
 def speed_under(walk, row, x, y):
-    """Speed [px/s] at which a surface runs to the right under a point [px] that stands on it.
+    """Return the surface speed [px/s] to the right under a point [px] that stands on it.
 
-    Source: engines' conveyor materials (Box2D's tangent speed): along the tangent, to the right on a floor.
+    It acts along the tangent, to the right on a floor (Box2D's tangent speed).
     """
     s = walk.shapes[row]
     if s.kind != CHAIN:
@@ -207,7 +214,7 @@ def speed_under(walk, row, x, y):
 
 @subkernel
 def feel_ground(me, walk_inout):
-    """Write whether a character stands, on what, and how that slopes and runs."""
+    """Write whether a character stands, on which body, and its slope and surface speed."""
     c = walk_inout.characters[me]
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + 1, 0, 1, 0.0)
     was_grounded = c.grounded
@@ -216,14 +223,16 @@ def feel_ground(me, walk_inout):
     c.riding_shape = -1
     c.belt = 0.0
     if what == FREE:
-        # Sliding, it is above its ground for a moment, by less than that goes down on one pixel along.
+        # A sliding character is above its ground for a moment, by less than its drop on one pixel.
         sliding = abs(c.slope) >= 1.0 and not was_grounded
         c.slope = steep_below(walk_inout, me, walk_inout.found, c.slope) if sliding else 0.0
         return
     c.slope = slope
     s = walk_inout.shapes[by]
     belt = speed_under(walk_inout, by, c.left + 0.5 * c.width, float(c.top + c.height))
-    c.belt = belt if abs(belt) < LARGEST else 0.0  # whose surface runs at no speed is put aside by the next step
+    c.belt = (
+        belt if abs(belt) < LARGEST else 0.0
+    )  # a body with a non-finite surface speed is quarantined by the next step
     if s.kind == TILES and c.is_box:
         c.slope = slope_under_box(walk_inout, me, by)
     if walk_inout.bodies[s.body_row].kind != STATIC:
@@ -233,7 +242,7 @@ def feel_ground(me, walk_inout):
 
 @subkernel
 def feel(me, walk_inout):
-    """Write what a character touches; walk_inout.found: what is near it."""
+    """Write the contacts of a character. walk_inout.found: the shapes near it."""
     c = walk_inout.characters[me]
     feel_ground(me, walk_inout)
     c.wall = 0
@@ -244,12 +253,12 @@ def feel(me, walk_inout):
 
 
 # ---- crush -----------------------------------------------------------------------------------------------------------
-# Whether what moves stands in a character that could not give way: it is squeezed as long as that is so.
+# Squeezing: a moving solid overlaps a character that had no room. The flag lasts as long as the overlap.
 
 
 @subkernel
 def depth_in(me, row, walk_inout):
-    """(depth [px], normal from the character) of a character where it is, in a loose shape."""
+    """Return (depth [px], normal from the character) of a character at its place in a loose shape."""
     c = walk_inout.characters[me]
     if walk_inout.shapes[row].kind == CHAIN:
         return deepest_link(walk_inout, me, row, c.left, c.top)
@@ -260,7 +269,7 @@ def depth_in(me, row, walk_inout):
 
 @subkernel
 def is_in_drawn(me, row, walk_inout):
-    """Whether a character is, where it is, in a shape that keeps to the pixel grid: some way there leads deeper."""
+    """Return whether a character overlaps a shape on the pixel grid, so that some motion leads deeper."""
     c = walk_inout.characters[me]
     for side in range(-1, 2, 2):
         what, slope = in_shape(walk_inout, me, row, c.left, c.top, side, 0, 0.0)
@@ -274,9 +283,9 @@ def is_in_drawn(me, row, walk_inout):
 
 @subkernel
 def is_crushed(me, all_kinds, walk_inout):
-    """Whether something that moves stands in a character by more than what is loose may. O(solids near).
+    """Return whether a moving solid overlaps a character by more than a loose shape may. O(solids near).
 
-    all_kinds: also what the solver pushes on, else only what goes its way by itself.
+    all_kinds: include bodies that the solver pushes, otherwise only kinematic ones.
     """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):
@@ -296,18 +305,17 @@ def is_crushed(me, all_kinds, walk_inout):
 
 
 # ---- way out ---------------------------------------------------------------------------------------------------------
-# The way out of a still solid that a character has come to stand in: put there, or the ground was changed around it.
+# The way out of a static solid that overlaps a character: it was placed there, or the ground was changed.
 #
-# Walking never leads into one, so who is in one was placed so: it is let out by the shortest of eight straight ways,
-# some pixels in each move, whatever it was told to do. What moves and stands in a character is none of this: see
-# "crush" below.
+# Walking never leads into a solid. The character leaves by the shortest of eight straight ways, some pixels in each
+# move, whatever the move is. Moving bodies that overlap a character are handled by "crush" above.
 
-PACE = 2  # [px] of a way out in one move: about what overlapping bodies are pushed apart by in a step
+PACE = 2  # [px] of a way out in one move: about the push-out of overlapping bodies in a step
 
 
 @subkernel
 def keep_still(walk, rows_inout):
-    """Keep of the rows that gather listed those of static bodies."""
+    """Keep the listed rows of static bodies."""
     kept = 0
     for k in range(1, rows_inout[0] + 1):
         row = rows_inout[k]
@@ -319,8 +327,9 @@ def keep_still(walk, rows_inout):
 
 @subkernel
 def is_inside(me, walk_inout):
-    """Whether a character stands in a still solid; walk_inout.found: what is near it, of which the still is kept.
-    O(solids near)."""
+    """Return whether a character overlaps a static solid. walk_inout.found: the shapes near it, of which the static
+    ones are kept. O(solids near).
+    """
     c = walk_inout.characters[me]
     keep_still(walk_inout, walk_inout.found)
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top, 0, 0, 0.0)
@@ -336,10 +345,10 @@ def lead_out(
     walk_inout,
     moved_inout,
 ):
-    """Move a character that stands in a still solid towards the nearest free place, up rather than aside rather than
-    down, no further than `reach` [px] off; without one it stays. O(reach · solids near).
+    """Move a character out of a static solid towards the nearest free place, up before aside before down.
 
-    walk_inout: a Walk with what is near as far as that; moved_inout: as walk writes it, with what this adds.
+    It stays if there is none within `reach` [px]. walk_inout: a Walk with the shapes near. moved_inout: as walk writes
+    it, and increased by this motion. O(reach · solids near).
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -348,7 +357,7 @@ def lead_out(
     way_y = 0
     nearest = 2 * reach * reach + 1
     for turn in range(8):
-        # Up, left, right, the slants upwards, down, those downwards.
+        # Up, left, right, the diagonals upwards, down, the diagonals downwards.
         dx = 0 if turn == 0 or turn == 5 else (-1 if turn == 1 or turn == 3 or turn == 6 else 1)
         dy = -1 if turn == 0 or turn == 3 or turn == 4 else (0 if turn < 3 else 1)
         for far in range(1, reach + 1):
@@ -371,15 +380,16 @@ def lead_out(
 
 
 # ---- push ------------------------------------------------------------------------------------------------------------
-# Impulses between characters and the bodies of a world that stacks: shoving, landing, weight.
+# Impulses between characters and the bodies of a world that stacks: pushing, landing, weight.
 #
-# A character has a mass but no velocity that a solver could change: it is moved by the game. So it acts on bodies by
-# impulses of its own, and the solver leaves out what lies under its feet: to that it is a weight and no ceiling.
+# A character has a mass but no velocity that a solver could change, because the game moves it. So it acts on bodies by
+# its own impulses, and the solver leaves out the contacts under its feet: there the character is a weight and no
+# ceiling.
 
 
 @subkernel
 def push_body(me, row, direction, speed, left, walk_inout):
-    """Push one body in the way towards a speed [px/s], by at most the impulse left. Returns what is left of that."""
+    """Push one body towards a speed [px/s], by the impulse left at most. Return the impulse that remains."""
     c = walk_inout.characters[me]
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
     settings = walk_inout.settings
@@ -404,12 +414,12 @@ def push_body(me, row, direction, speed, left, walk_inout):
 
 @subkernel
 def shove(me, direction, speed, walk_inout):
-    """Push what is in the way sideways towards the speed [px/s] of a move, as far as the character's strength allows.
+    """Push bodies sideways towards the speed [px/s] of a move, as far as the character's strength allows.
 
-    As a force over the coming step, not as a jolt before it: friction that is strong enough then holds a body in place.
+    It acts as a force over the coming step, so that sufficient friction holds a body in place.
     """
     c = walk_inout.characters[me]
-    speed += walk_inout.bodies[c.body_row].vx  # of what carries it
+    speed += walk_inout.bodies[c.body_row].vx  # of its carrier
     left = c.mass * c.push * walk_inout.settings.dt
     for k in range(1, walk_inout.found[0] + 1):
         row = -1 - walk_inout.found[k]
@@ -425,13 +435,13 @@ def shove(me, direction, speed, walk_inout):
 
 @subkernel
 def foot_of(c, s):
-    """The point [px] of a character's feet that stands on a shape: their middle, or the nearest to it that does."""
+    """Return the point [px] of a character's feet that stands on a shape: the middle, or the nearest such point."""
     return min(max(c.left + 0.5 * c.width, s.min_x), s.max_x), float(c.top + c.height)
 
 
 @subkernel
 def knock(me, row, direction, speed, walk_inout):
-    """Pass on the momentum of a landing (direction 1), or of a head that hits (-1), as two lumps of clay do."""
+    """Apply the momentum of a landing (direction 1), or of a head that hits (-1), as an inelastic impact."""
     c = walk_inout.characters[me]
     x, y = foot_of(c, walk_inout.shapes[row])
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
@@ -459,10 +469,10 @@ def press(
     characters_inout,
     bodies_inout,
 ):
-    """Let characters weigh on the awake bodies that they ride, and give their bodies the velocity of what carries them.
+    """Apply the weight of characters to the awake bodies that they ride, and copy the velocity of their ground.
 
-    gravity [px/s2]; slow [px/s]: what carries them by less is about to rest, and they must not keep it awake. Remembers
-    the point under their feet [px]. O(characters · log shapes).
+    gravity [px/s2]. slow [px/s]: slower ground is coming to rest, and is not kept awake. Store the point under their
+    feet [px]. O(characters · log shapes).
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -492,7 +502,7 @@ def press(
 
 @subkernel
 def is_between(manifold, first, second):
-    """Whether a manifold is between two bodies, by id."""
+    """Return whether a manifold is between two bodies, by id."""
     m = manifold
     return (m.body_a == first and m.body_b == second) or (m.body_b == first and m.body_a == second)
 
@@ -505,9 +515,9 @@ def tell_weight(
     # write
     manifolds_inout,
 ):
-    """Write the weight that characters have put on what they ride into the manifolds with it.
+    """Write the impulse of the weight of characters into the manifolds with their ground.
 
-    weight_rate [px/s]: gravity times the step; the points between the two share it. O(characters · manifolds).
+    weight_rate [px/s]: gravity times the step; the points of a pair share it. O(characters · manifolds).
     """
     for me in range(len(characters)):
         c = characters[me]
@@ -525,22 +535,22 @@ def tell_weight(
 
 
 # ---- walk ------------------------------------------------------------------------------------------------------------
-# Moves one character, pixel by pixel, one axis after the other.
+# Motion of one character, pixel by pixel, one axis after the other.
 #
-# Whole pixels with the remainder carried over, as in Celeste and TowerFall: a character never overlaps a solid and
-# never misses one (Thorson, Celeste and TowerFall Physics, 2018). Added here: slopes, pushing, and in worlds that stack
-# the impulses that it gives to the bodies it runs into and lands on.
+# Whole pixels with a remainder, as in Celeste and TowerFall: a character never overlaps a solid and never misses one
+# (Thorson, Celeste and TowerFall Physics, 2018). In addition: slopes, pushing, and in worlds that stack the impulses on
+# bodies that it runs into and lands on.
 
 
 @subkernel
 def whole_pixels(remainder):
-    """The pixels to move for a remainder: it stays within half a pixel."""
+    """Return the whole pixels of a remainder, which stays within half a pixel."""
     return math.floor(remainder + 0.5)
 
 
 @subkernel
 def way_for_pushed(by, direction, walk_inout):
-    """(the character whose shape blocks a way sideways, or -1; pixels up by which it gives way one pixel, or -1)."""
+    """Return (the character that blocks a way sideways, or -1; pixels up by which it moves one pixel, or -1)."""
     other = character_of(walk_inout.characters, walk_inout.shapes[by].body)
     if other < 0:
         return -1, -1
@@ -551,12 +561,12 @@ def way_for_pushed(by, direction, walk_inout):
 
 @subkernel
 def step_sideways(me, direction, follow, walk_inout):
-    """One pixel along x: up a slope, down one when `follow` is 1, pushing characters. Returns whether it moved."""
+    """Move one pixel along x: up a slope, down one if `follow` is 1, pushing characters. Return whether it moved."""
     c = walk_inout.characters[me]
     rows = walk_inout.found
     lift, by, slope = way_aside(walk_inout, me, rows, direction)
     if lift < 0 and by >= 0:
-        # Only from beside: what stands on a crate, or carries it, does not push it.
+        # Only from the side: a character on a crate, or under it, does not push it.
         other, its_lift = way_for_pushed(by, direction, walk_inout)
         if other < 0 or its_lift < 0:
             return False
@@ -581,7 +591,7 @@ def step_sideways(me, direction, follow, walk_inout):
 
 @subkernel
 def walk_along(me, dx, follow, walk_inout, moved_out):
-    """The part of a move along x [px]: in steps, and with what is pushed by impulses."""
+    """Make the part of a move along x [px]: pixel by pixel, pushing bodies by impulses."""
     c = walk_inout.characters[me]
     c.remainder_x += dx
     pixels = whole_pixels(c.remainder_x)
@@ -594,13 +604,13 @@ def walk_along(me, dx, follow, walk_inout, moved_out):
             break
     settings = walk_inout.settings
     if settings.stacking == 1 and settings.dt > 0.0 and dx != 0.0:
-        # Also when the next pixel is not due yet: what is pushed keeps its speed between two pixels.
+        # Also when the next pixel is not due yet: a pushed body keeps its speed between two pixels.
         shove(me, 1 if dx > 0.0 else -1, dx / settings.dt, walk_inout)
 
 
 @subkernel
 def slide_pixel(me, slope, walk_inout):
-    """One pixel aside, down a slope that a character is on and does not walk. Returns whether it was free."""
+    """Move one pixel aside, down a slope that the character does not walk. Return whether it was free."""
     c = walk_inout.characters[me]
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk_inout, me, walk_inout.found, c.left + side, c.top, side, 0, 0.0)
@@ -611,7 +621,7 @@ def slide_pixel(me, slope, walk_inout):
 
 @subkernel
 def fall_or_rise(me, dy, walk_inout, moved_out):
-    """The part of a move along y [px]. On ground too steep to stand on it slides, as far as that leads along it."""
+    """Make the part of a move along y [px]. On ground too steep to walk it slides, by its part along the slope."""
     c = walk_inout.characters[me]
     rows = walk_inout.found
     settings = walk_inout.settings
@@ -627,7 +637,7 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
     c.remainder_y -= pixels
     direction = 1 if pixels > 0 else -1
     left = abs(pixels)
-    asides = 0  # since it last went down
+    asides = 0  # pixels since it last went down
     while left > 0:
         what, by, slope = blocked_at(walk_inout, me, rows, c.left, c.top + direction, 0, direction, 0.0)
         if what == FREE:
@@ -668,11 +678,10 @@ def walk(
     walk_inout,
     moved_out,
 ):
-    """Move a character by (dx, dy) [px], x first, and write what it touches then. Returns whether it stands in a still
-    solid; see "way out" above.
+    """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
-    me: its row; walk_inout: a Walk; moved_out (4,): pixels moved along x and y, 1 where it was stopped along x, along
-    y. O(pixels · solids near).
+    me: its row. walk_inout: a Walk. moved_out (4,): pixels moved along x and y, 1 if it was stopped along x, along y.
+    See "way out" above. O(pixels · solids near).
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -687,7 +696,7 @@ def walk(
     settle(me, walk_inout)
     feel(me, walk_inout)
     if c.squeezed:
-        # Told; from now on for as long as what crushes it is in it.
+        # Reported; from now on for as long as the solid overlaps it.
         c.squeezed = is_crushed(me, True, walk_inout)
     moved_out[0] = c.left - start_left
     moved_out[1] = c.top - start_top
@@ -703,7 +712,9 @@ def is_stopped(
     # write
     walk_inout,
 ):
-    """Whether a character cannot go a single pixel: along_x, along_y: -1, 0 or 1. Moves nothing. O(solids near)."""
+    """Return whether a character cannot move a single pixel; it is not moved. along_x, along_y: -1, 0 or 1. O(solids
+    near).
+    """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)
     if along_x != 0:

@@ -1,1 +1,1 @@
-"""Questions without a step: rays, casts, overlaps, and two shapes alone."""
+"""Queries between steps: rays, casts, overlaps, and pairs of shapes without a world."""

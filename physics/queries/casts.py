@@ -48,13 +48,14 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, NARROW_TESTS, TO
 from physics.tables.table import joined
 
 # ---- boxes -----------------------------------------------------------------------------------------------------------
-# Questions about boxes: which bodies stand in one, and which box a body stands in.
+# Bodies by boxes: those whose AABBs meet a box, and the AABB of a body.
 
 
 def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
-    """Bodies with a shape whose AABB meets the closed box [px]; what holds no pixel or tile has none.
+    """Return the bodies with a shape whose AABB meets a closed box [px]. Empty masks and grids have no AABB.
 
-    Raises ValueError for lower > upper."""
+    Raises ValueError for lower > upper.
+    """
     lower, upper = checks.vector("lower", lower), checks.vector("upper", upper)
     if lower[0] > upper[0] or lower[1] > upper[1]:
         raise ValueError(f"lower must be <= upper (got {lower} and {upper})")
@@ -68,7 +69,7 @@ def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
 
 
 def query_rect(world: AskedWorld, rect: Any) -> list:
-    """query_aabb of (x, y, width, height) or ((x, y), (width, height)). Raises TypeError, ValueError."""
+    """Return query_aabb of (x, y, width, height) or ((x, y), (width, height)). Raises TypeError, ValueError."""
     try:
         parts = tuple(rect)
         x, y, width, height = (*parts[0], *parts[1]) if len(parts) == 2 else parts
@@ -80,7 +81,7 @@ def query_rect(world: AskedWorld, rect: Any) -> list:
 
 
 def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, float] | None:
-    """(min_x, min_y, max_x, max_y) [px] of a body's shapes at its present pose; None when they hold nothing."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a body's shapes at its pose; None if they are empty."""
     world.queries.refresh(world)
     rows = with_content(world, np.flatnonzero(world.shapes["body"] == identity))
     if not len(rows):
@@ -90,13 +91,13 @@ def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, 
 
 
 def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
-    """The shape rows without masks that have no solid pixel, and grids of empty cells."""
+    """Return the shape rows without empty masks and empty grids."""
     shapes, library = world.shapes[rows], world.library
     kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
     keep = np.ones(len(rows), bool)
     masks = np.flatnonzero(kinds == MASK)
     if len(masks):
-        upright = library.raster_of[shapes["geometry"][masks], 0]  # turned, it has as many pixels
+        upright = library.raster_of[shapes["geometry"][masks], 0]  # rotated, it has as many pixels
         keep[masks] = library.rasters.rows["area"][upright] > 0
     grids = np.flatnonzero(kinds == TILES)
     keep[grids] = [not library.tile_grids[grid].is_empty for grid in shapes["geometry"][grids].tolist()]
@@ -104,7 +105,7 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 
 
 # ---- cast rows -------------------------------------------------------------------------------------------------------
-# A ray, a shape that moves without turning, or a point, against listed shapes that stand still.
+# A ray, a shape that moves without rotation, or a point, against listed shapes that stand still.
 
 
 @kernel
@@ -123,9 +124,10 @@ def cast_ray_at_rows(
     hits_out,
     work_inout,
 ):
-    """Write (row, fraction, normal) of every listed shape that a ray from (x, y) by (dx, dy) [px] meets.
+    """Write (row, fraction, normal) of every listed shape that a ray from (x, y) by (dx, dy) [px] hits. Return their
+    number.
 
-    Returns their number. rows: SHAPE rows; corners_inout (16, 2): scratch; hits_out (rows, 4).
+    rows: SHAPE rows. corners_inout (16, 2): scratch. hits_out (rows, 4).
     """
     found = 0
     for k in range(len(rows)):
@@ -151,9 +153,9 @@ def cast_ray_at_parts(
     hit_out,
     work_inout,
 ):
-    """Write (fraction, normal) to hit_out[1:], where a ray from the origin by (dx, dy) [px] first meets a part.
+    """Write (fraction, normal) to hit_out[1:] for the first part that a ray from the origin by (dx, dy) [px] hits.
 
-    parts: Parts; corners_inout (16, 2): scratch; hit_out (4,). Returns whether it meets any. O(parts).
+    Return whether it hits any. parts: Parts. corners_inout (16, 2): scratch. hit_out (4,). O(parts).
     """
     hit_out[1] = MISS
     for k in range(len(parts.counts)):
@@ -190,11 +192,11 @@ def cast_hull_at_rows(
     hits_out,
     work_inout,
 ):
-    """Write (row, fraction, normal to the hull) of every listed shape that a rounded hull meets on its way.
+    """Write (row, fraction, normal to the hull) of every listed shape that a moving rounded hull hits. Return their
+    number.
 
-    Returns their number. rows: SHAPE rows, no masks among them; corners (16, 2) [px] from (x, y), `count` of
-    them, moved by (dx, dy); workspace: RotationalWorkspace; hits_out (rows, 4). Touching at the start counts when it
-    approaches: 0.
+    rows: SHAPE rows without masks. corners (16, 2) [px] from (x, y), `count` of them, moved by (dx, dy). workspace:
+    RotationalWorkspace. hits_out (rows, 4). Touching at the start is a hit at 0 if the hull approaches.
     """
     r = workspace.advance
     found = 0
@@ -261,10 +263,10 @@ def nearest_hull(
     nearest_out,
     work_inout,
 ):
-    """Write (distance, x, y) [px] of the point of the listed hulls nearest to (x, y). Returns its row, -1 without any.
+    """Write (distance, x, y) [px] of the point of the listed hulls nearest to (x, y). Return its row, -1 without any.
 
-    rows: SHAPE rows in order, of which tiles, masks and chains are left out; 0 and the point itself when it is inside;
-    point_inout, corners_inout (16, 2): scratch; workspace: GapWorkspace.
+    rows: SHAPE rows in order; tiles, masks and chains are left out. Inside a hull the result is 0 and the point itself.
+    point_inout, corners_inout (16, 2): scratch. workspace: GapWorkspace.
     """
     best = -1
     nearest_out[0] = math.inf
@@ -273,7 +275,7 @@ def nearest_hull(
         if not is_hull(s.kind):
             continue
         b = bodies[s.body_row]
-        # Seen from the point, so that no digits are lost far from the origin.
+        # Relative to the point, so that precision does not depend on the distance from the origin.
         point_inout[0, 0] = 0.0
         point_inout[0, 1] = 0.0
         n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners_inout)
@@ -289,18 +291,18 @@ def nearest_hull(
 
 
 # ---- casts -----------------------------------------------------------------------------------------------------------
-# Questions to a world between steps: rays, casts, overlaps, points. They read the present poses, and go through
-# the broad phase's structure; what the last one cost is in `world.queries.counters`.
+# Queries of a world between steps: rays, casts, overlaps, points. They read the present poses and search the broad
+# phase; the work of the last query is in `world.queries.counters`.
 
-RAY_PIECES = 16  # a long slanted ray asks for up to this many boxes along it, not for one around it …
-PIECE = 8.0  # [m] … each about that wide
+RAY_PIECES = 16  # a long slanted ray searches up to this many boxes along it, not one around it …
+PIECE = 8.0  # [m] … of about this width
 
 
 @dataclass(frozen=True)
 class RayHit:
-    """Where a ray meets a shape: the body, the shape's id, point [px], unit normal, fraction of the translation."""
+    """A hit of a ray: the body, the id of the shape, point [px], unit normal, fraction of the translation."""
 
-    body: Any  # a Body, which is defined to the right of this folder
+    body: Any  # a Body, which stands further right in the import order
     shape: int
     point: Vec2
     normal: Vec2
@@ -310,10 +312,10 @@ class RayHit:
 def ray_cast_all(
     world: AskedWorld, origin: Pair, translation: Pair, filter: Filter, sensors: bool, first: bool = False
 ) -> list[RayHit]:
-    """All hits of a ray, nearest first, ties by shape id; with `first` no more than what is nearest.
+    """Return all hits of a ray, nearest first, ties by shape id; with `first` at least the nearest.
 
-    Inside a shape at the start: fraction 0 and the normal against the direction. Zero length: a point query, whose
-    normals are (0, -1). Raises TypeError, ValueError.
+    A ray that starts inside a shape hits at fraction 0, with the normal against its direction. A ray of zero length is
+    a point query with normals (0, -1). Raises TypeError, ValueError.
     """
     x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
@@ -323,7 +325,7 @@ def ray_cast_all(
     index.begin(world)
     pieces = 1 + int(min(RAY_PIECES - 1.0, min(abs(dx), abs(dy)) / (PIECE * world.tolerances.pixels_per_meter)))
     beyond = _beyond_drawn(world)
-    leave = PART if dx == 0.0 and dy == 0.0 else PIXELS  # a point is asked of the pixels, a ray of the outline
+    leave = PART if dx == 0.0 and dy == 0.0 else PIXELS  # points are tested against pixels, rays against outlines
     corners, asked, hits = np.zeros((16, 2)), np.zeros(0, np.int64), np.zeros((0, 4))
     for piece in range(pieces):
         start, end = ((x + share * dx, y + share * dy) for share in (piece / pieces, (piece + 1) / pieces))
@@ -338,12 +340,12 @@ def ray_cast_all(
             world.library.tables, world.bodies, world.shapes, others, x, y, dx, dy, corners, workspace, index.work
         )
         hits = np.concatenate([hits, workspace[:found], *_rays_at_outlines(world, by_parts, x, y, dx, dy)])
-        # What is met within the pieces so far has been asked: nothing nearer is left.
+        # The pieces so far contain the nearest hit.
         if first and len(hits) and hits[:, 1].min() * pieces < piece + 1:
             break
     hits = hits[np.lexsort((hits[:, 0], hits[:, 1]))]
     _, nearest = np.unique(world.shapes["owner"][hits[:, 0].astype(np.int64)], return_index=True)
-    hits = hits[np.sort(nearest)]  # of a mask's parts, the first that is met
+    hits = hits[np.sort(nearest)]  # the first hit of a mask's parts
     return [
         _hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
         for row, fraction, nx, ny in hits[: 1 if first else None].tolist()
@@ -351,7 +353,7 @@ def ray_cast_all(
 
 
 def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
-    """Those of the SHAPE rows whose boxes, wider by `beyond` [px] all round, the line of a ray passes through."""
+    """Return the SHAPE rows whose boxes, grown by `beyond` [px], the line of a ray crosses."""
     if not len(rows):
         return rows
     left, top, right, bottom = (world.shapes[name][rows] for name in ("min_x", "min_y", "max_x", "max_y"))
@@ -361,7 +363,7 @@ def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
 
 
 def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
-    """(row, fraction, normal) of the masks that a ray meets, each by the parts of its outline near the ray."""
+    """Return (row, fraction, normal) of the masks that a ray hits, each by the parts of its outline near the ray."""
     hits, corners = [], np.zeros((16, 2))
     for row in rows.tolist():
         parts = swept_parts(world.library, world.bodies, world.shapes, row, x, y, math.inf)
@@ -374,12 +376,13 @@ def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
 
 
 def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter) -> RayHit | None:
-    """The first shape that a shape at a pose touches when it is moved by a translation, ties by shape id.
+    """Return the first shape that a shape at a pose touches on a translation, ties by shape id.
 
-    Sensors are left out. The normal points from what is met to the shape, the point lies midway between them. Touching
-    or overlapping at the start: fraction 0 when it approaches; when it parts or slides the cast looks on. Zero length:
-    the first shape it overlaps. A PixelMask is its outline at the exact pose, and what only grazes it passes. A Chain
-    is met from its front, a one-way tile or mask from above. Raises TypeError, ValueError.
+    Sensors are left out. The normal points from the shape that is hit to the cast shape, and the point lies midway
+    between them. Touching or overlapping at the start is a hit at fraction 0 if the shape approaches; otherwise the
+    cast goes on. A cast of zero length returns the first shape that it overlaps. A PixelMask is cast as its outline at
+    the exact pose, and a grazing contact is no hit. A Chain is hit from its front, a one-way tile or mask from above.
+    Raises TypeError, ValueError.
     """
     pose, filter = _placeable(shape, pose), _checked(filter)
     dx, dy = checks.vector("translation", translation)
@@ -416,7 +419,7 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
 
 
 def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
-    """(row, fraction, normal to the probe) of what a probe meets: of a mask the first of its rows."""
+    """Return (row, fraction, normal to the probe) of the hits of a probe; of a mask its first row."""
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
     s = world.shapes[rows]
@@ -457,7 +460,7 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
 
 
 def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
-    """The parts, seen from (x, y), of the rows of one shape, that a probe may meet on its way [px]."""
+    """Return the parts, seen from (x, y), of the rows of one shape that a probe may hit on its way [px]."""
     every = [swept_parts(world.library, world.bodies, world.shapes, row, x, y, feet) for row in rows.tolist()]
     parts = Parts(*(np.concatenate(columns) for columns in zip(*every, strict=True)))
     if not len(probe.counts):
@@ -468,10 +471,10 @@ def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
 
 
 def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, float] | None:
-    """(body, point, distance) [px] of the nearest point of any shape, ties by shape id; None in an empty world.
+    """Return (body, point, distance) [px] of the nearest point of any shape, ties by shape id; None in an empty world.
 
-    Inside a shape: the point itself, and 0. Sensors are left out; a Chain is near from both sides, a one-way tile from
-    above. Raises TypeError, ValueError.
+    Inside a shape the result is the point itself, and 0. Sensors are left out. A Chain has both sides, a one-way tile
+    its upper one. Raises TypeError, ValueError.
     """
     x, y = checks.position("point", point)
     filter, index = _checked(filter), world.queries
@@ -486,7 +489,7 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
         found = _nearest(world, _allowed(world, rows, filter, False), x, y)
         if everything or (found and found[1] <= reach):
             break
-        # What was found bounds the search; without it the box grows.
+        # A result bounds the search; without one the box grows.
         reach = found[1] * (1.0 + 1e-9) if found else 4.0 * reach
     if not found:
         return None
@@ -495,7 +498,7 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
 
 
 def _nearest(world, rows, x, y):
-    """(row, distance, point) of the nearest point of the shapes in these rows, or None."""
+    """Return (row, distance, point) of the nearest point of the shapes in these rows, or None."""
     nearest, workspace, work = np.zeros(3), new_gap_workspace(), world.queries.work
     point, corners = np.zeros((16, 2)), np.zeros((16, 2))
     best = nearest_hull(
@@ -522,14 +525,14 @@ def _nearest(world, rows, x, y):
 
 
 def query_point(world: AskedWorld, point: Pair) -> list:
-    """Bodies with a shape that holds the point [px], sensors included."""
+    """Return the bodies with a shape that contains the point [px], sensors included."""
     checks.vector("point", point)
     hits = ray_cast_all(world, point, (0.0, 0.0), Filter.ALL, True)
     return [world.body(each) for each in sorted({hit.body.id for hit in hits})]
 
 
 def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list:
-    """Bodies that a shape at a pose overlaps, sensors included. Raises TypeError, ValueError."""
+    """Return the bodies that a shape at a pose overlaps, sensors included. Raises TypeError, ValueError."""
     pose, filter = _placeable(shape, pose), _checked(filter)
     world.queries.begin(world)
     with world.library.visited():
@@ -542,7 +545,7 @@ def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list
 
 
 def _contacts(world, bodies, shapes, rows):
-    """Manifolds of a probe, as B, with the shapes in these rows; `candidate` tells which."""
+    """Return the manifolds of a probe, as B, with the shapes in these rows, whose index is in `candidate`."""
     others, owners = np.unique(world.shapes["body_row"][rows], return_inverse=True)
     all_bodies = joined([world.bodies[others], bodies])
     all_shapes = joined([world.shapes[rows], shapes])
@@ -568,7 +571,7 @@ def _first_contact(world, bodies, shapes, rows):
 
 
 def _probe(world, shape, pose):
-    """BODY and SHAPE of a shape at a pose; it stays in the library only while that is visited."""
+    """Return the BODY and SHAPE rows of a shape at a pose. It stays in the library only while the context is open."""
     bodies, shapes = np.zeros(1, BODY), np.zeros(1, SHAPE)
     place(world.library, shape, bodies, shapes, 0, pose)
     refresh_aabbs(np.arange(1), world.library.tables, bodies, shapes)
@@ -591,8 +594,10 @@ def _checked(filter):
 
 
 def _allowed(world, rows, filter, sensors, leave=PIXELS):
-    """The rows whose filter agrees with the query's; without sensors unless asked for. leave: the role that is left
-    out: a mask's PIXELS where its outline is asked, its PARTs where its pixels are."""
+    """Return the rows whose filter agrees with the query's, without sensors unless included.
+
+    leave: the role of mask rows to leave out, PIXELS for queries of outlines, PART for queries of pixels.
+    """
     s = world.shapes
     rows = rows[s["role"][rows] != leave]
     keep = (s["membership"][rows] & filter.mask != 0) & (s["mask"][rows] & filter.membership != 0)
@@ -607,7 +612,7 @@ def _box_around(start, end, beyond):
 
 
 def _beyond_drawn(world):
-    """How far [px] a mask's outline at the exact pose may reach out of the box that its pixels are drawn in."""
+    """Return how far [px] a mask's outline at the exact pose may leave the box in which its pixels are drawn."""
     if not world.library.masks or not len(world.bodies):
         return 0.0
     extent = world.bodies["extent"]

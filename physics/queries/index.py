@@ -18,20 +18,21 @@ from physics.shapes.placement import refresh_aabbs
 from physics.tables.step_state import COUNTERS, PAIRS_TESTED, WorldTables
 
 # ---- index -----------------------------------------------------------------------------------------------------------
-# Which shapes may meet a box right now, asked of the broad phase's structure between steps.
+# The shapes that may meet a box now, found in the data structure of the broad phase between steps.
 #
-# The structure is as the last step left it. What has moved out of its box since then, was added, or was pushed there by
-# the step itself is listed as loose and looked at one by one, so an answer is always that of a look at every shape.
-# Poses may be written straight into world.bodies, so they are compared with those last seen: one pass over the bodies
-# that may have moved.
+# The structure is as the last step left it. Shapes that have left their boxes since, were added, or were moved out by
+# the step itself are listed as loose and compared one by one, so an answer equals that of a search of all shapes. Poses
+# may be written into world.bodies, so they are compared with those last read: one pass over the bodies that may have
+# moved.
 
-ROUNDING = 2.0**-48  # a box is asked for with this much of its coordinates around it: casts round as well
+ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates: casts are rounded, too
 
 
 @subkernel
 def is_somewhere(body):
-    """Whether a body can be met: it is in the simulation, and its pose is one. What is not will be quarantined by the
-    next step."""
+    """Return whether queries can find a body: it is simulated, and its pose is finite. Another one is quarantined by
+    the next step.
+    """
     b = body
     there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < POSITION_LIMIT
     return there and not b.quarantined
@@ -46,9 +47,10 @@ def find_moved(
     poses_inout,
     moved_out,
 ):
-    """List those of the body rows whose pose is not the one last seen, and write what is seen. poses_inout (bodies, 3).
+    """List the body rows whose pose differs from the last one read, and store the new poses. Return their number.
+    O(rows).
 
-    Returns how many have moved. O(rows).
+    poses_inout (bodies, 3).
     """
     found = 0
     for n in range(len(rows)):
@@ -77,10 +79,11 @@ def find_loose(
     row_of_slot_inout,
     loose_out,
 ):
-    """List those of the shape rows that the structure may not find, and the row that each slot stands for (-1: none).
+    """List the shape rows that the broad phase may not find, and the row of each slot (-1: none). Return their number.
+    O(rows).
 
-    A shape is found when its AABB lies within the box of its proxy. known 0: the structure has heard of none. Returns
-    the number of loose rows; those of bodies that are nowhere are neither. O(rows).
+    A shape is found if its AABB lies within the box of its proxy. known: 0 if the broad phase has no data yet. Rows of
+    bodies that queries cannot find are in neither list.
     """
     found = 0
     for n in range(len(rows)):
@@ -126,7 +129,7 @@ def rows_meeting(
     rows_out,
     work_inout,
 ):
-    """List the rows of the slots, and of the loose ones, whose AABB meets a closed box [px]. Returns their number."""
+    """List the rows of the slots, and the loose rows, whose AABB meets a closed box [px]. Return their number."""
     found = 0
     for k in range(slot_count + loose_count):
         if k >= slot_count:
@@ -144,43 +147,43 @@ def rows_meeting(
 
 
 def is_same(now: tuple, before: tuple) -> bool:
-    """Whether two tuples hold the same objects, and equal ints."""
+    """Return whether two tuples hold the same objects, and equal ints."""
     return len(now) == len(before) and all(
         a is b or (type(a) is int and a == b) for a, b in zip(now, before, strict=True)
     )
 
 
 class IndexedWorld(WorldTables, Protocol):
-    """A world, or the StepState of its step, whose shapes can be looked up."""
+    """A world, or the StepState of its step, with a shape index."""
 
     queries: "QueryIndex"
     steps: int
 
     @property
     def broadphase(self) -> Strategy:
-        """Whose structure is asked."""
+        """The strategy whose data structure is searched."""
         ...
 
 
 class AskedWorld(IndexedWorld, Protocol):
-    """What queries read of a world. Any stands for what is defined to the right of this folder."""
+    """The fields of a world that queries read. Any stands for types that stand further right in the import order."""
 
     def body(self, identity: int) -> Any:
-        """The Body of an id."""
+        """Return the Body of an id."""
         ...
 
 
 class QueryIndex:
-    """The look-up of one world. The counters of its last step are left alone: a query counts in `work`.
+    """The shape index of one world. Queries count their work in `work`, not in the counters of the last step.
 
-    asked: the boxes (lower x, y, upper x, y) [px] that the last query looked into, in order.
+    asked: the boxes (lower x, y, upper x, y) [px] that the last query searched, in order.
     """
 
     def __init__(self) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
         self.asked: list[Box] = []
-        self.seen = ()  # what everything was looked at for: other tables make it stale
-        self.step = -1  # the step after which it was last brought up to date
+        self.seen = ()  # the tables that were read: other tables make the index stale
+        self.step = -1  # the step after which it was last refreshed
         self.awake = np.zeros(0, np.int64)  # body rows that were awake then
         self.lists, self.watched = (), np.zeros(0, np.int64)
         self.poses = np.zeros((0, 3))
@@ -191,7 +194,7 @@ class QueryIndex:
         self.loose_count = 0
 
     def __getstate__(self):
-        return self.work, self.asked  # the rest is about tables that a copy does not have
+        return self.work, self.asked  # the rest belongs to tables that a copy does not have
 
     def __setstate__(self, state):
         self.__init__()
@@ -199,24 +202,24 @@ class QueryIndex:
 
     @property
     def counters(self) -> dict[str, int]:
-        """What the last query cost: {name: int}, every name of profile.COUNTERS present."""
+        """The work of the last query: {name: int}, every name of profile.COUNTERS present."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
     def begin(self, world: IndexedWorld) -> None:
-        """Start a query: counters to zero, AABBs and loose rows up to date."""
+        """Start a query: reset the counters, and refresh AABBs and loose rows."""
         self.work[:] = 0
         self.asked.clear()
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Whether a query asks the strategy: there is something that it knows."""
+        """Whether a query searches the broad phase, which holds some shape."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:
-        """Bring AABBs and loose rows up to date. world: a World, or the StepState of its step.
+        """Refresh AABBs and loose rows. world: a World, or the StepState of its step.
 
-        After a step of a world with sleeping that is what was awake before or after it, moved by itself or was touched;
-        else it is everything. Where nothing has moved since the last time, that is all that is found.
+        After a step of a world with sleeping, only bodies that were awake before or after it, moved or were touched are
+        read; otherwise all bodies are. If no body moved since the last call, nothing else is done.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
@@ -230,9 +233,9 @@ class QueryIndex:
         if known and world.steps == self.step:
             if not moved:
                 return
-            rows = self.moved[:moved]  # the boxes that the structure knows are the same
+            rows = self.moved[:moved]  # the boxes in the structure are the same
         self.seen, self.step = seen, world.steps
-        self.awake = np.arange(len(bodies)) if awake.stale else awake.bodies  # what is stale names rows of before
+        self.awake = np.arange(len(bodies)) if awake.stale else awake.bodies  # a stale index names rows that are gone
         of = awake.shapes_of(rows) if some else np.arange(len(shapes))
         if some:
             of = np.union1d(of, self.loose[: self.loose_count])
@@ -245,7 +248,7 @@ class QueryIndex:
         )
 
     def _watched(self, awake, bodies):
-        """Body rows that may have moved; the same until the lists of what is awake are others."""
+        """Return the body rows that may have moved. The result is cached while the lists of awake bodies stay."""
         lists = (self.awake, awake.bodies, awake.dynamic, awake.kinematic)
         if awake.stirred or not is_same(lists, self.lists):
             self.lists, self.watched = lists, awake.may_move(bodies, self.awake)
@@ -260,7 +263,9 @@ class QueryIndex:
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
     def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Shape rows, in order, whose AABB meets the closed box [px] within rounding; none quarantined."""
+        """Return the shape rows, in order, whose AABB meets a closed box [px] within rounding, without quarantined
+        bodies.
+        """
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         self.asked.append(box)
@@ -274,25 +279,24 @@ class QueryIndex:
 
 
 # ---- visited ---------------------------------------------------------------------------------------------------------
-# What the last query looked at in the broad phase's structure, box by box, for drawing. Only reads.
+# The boxes of the last query in the data structure of the broad phase, for drawing. Functions only read.
 #
-# The structure is walked once more, as the strategies' `near` does, with each box that the query asked for.
+# The structure is walked once more, as the `near` of the strategies does, with each box that the query searched.
 
 CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
 
 class Visited(NamedTuple):
-    """The boxes that a query asked for, and those that it looked at for them [px], in order; twice looked at is twice
-    there."""
+    """The boxes that a query searched, and the boxes that it compared [px], in order, with repetitions."""
 
     kind: str  # brute, sweep, hash, tree
     asked: np.ndarray  # (k, 4) min_x min_y max_x max_y
     rects: np.ndarray  # (m, 4) nodes of the tree, cells of the hash, boxes that were compared
-    met: np.ndarray  # (m,) whether the box asked for meets it
+    met: np.ndarray  # (m,) whether it meets the searched box
 
 
 def visited(world: IndexedWorld) -> Visited:
-    """What the last query of a world visited. As long as nobody has stepped or changed it since."""
+    """Return the boxes that the last query of a world visited. They are valid until the world is changed."""
     strategy, asked = world.broadphase, np.array(world.queries.asked).reshape(-1, 4)
     boxes = asked.tolist() if world.queries.asks_broadphase(world) else []
     found = [_rects(strategy, world.pairs.proxies, tuple(box)) for box in boxes]
@@ -321,7 +325,7 @@ def _boxes(rows):
 
 
 def _nodes(tree, box):
-    """The nodes from the roots down, as deep as they meet the box."""
+    """Return the nodes from the roots down, as deep as they meet the box."""
     boxes, children, height = _boxes(tree.nodes), tree.nodes[["child_a", "child_b"]], tree.nodes["height"]
     found, level = [], tree.state[ROOT_MOVING:]
     level = level[level >= 0]
@@ -333,7 +337,9 @@ def _nodes(tree, box):
 
 
 def _cells(grid, proxies, box):
-    """The cells that the box reaches into, per level; of a level that has fewer bodies, those."""
+    """Return the cells that the box covers, per level; on a level with fewer bodies than cells, the cells of the
+    bodies.
+    """
     found, (x0, y0, x1, y1) = [np.zeros((0, 4))], box
     for level in np.flatnonzero(grid.level_counts).tolist():
         size = grid.base * 2.0**level
@@ -354,7 +360,7 @@ def _cells(grid, proxies, box):
 
 
 def _stretch(sweep, proxies, box):
-    """The boxes along the sorted axis from the first that may reach the box to the last that begins before its end."""
+    """Return the boxes along the sorted axis that may overlap the interval of the box."""
     axis = sweep.sorted[0]
     lows, highest = axis.boxes[: len(axis.order), 0], np.maximum.accumulate(axis.boxes[: len(axis.order), 1])
     first = int(np.searchsorted(highest, box[axis.axis]))

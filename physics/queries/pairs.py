@@ -41,14 +41,14 @@ from physics.tables.shape import CIRCLE, SHAPE
 # ---- pair rows -------------------------------------------------------------------------------------------------------
 # Two shapes at two poses as the rows that kernels read, without a world.
 #
-# What depends on a shape alone is kept with the shape, which never changes. Convex shapes need little more than their
-# corners; whatever is concave gets a library of its own.
+# Data that follow from a shape alone are cached with the shape, which is immutable. Convex shapes need little more than
+# their corners; a concave shape gets a library of its own.
 
 Placed = tuple[float, float, float]
 
 
 class PairRows(NamedTuple):
-    """The first shape is row 0, the second row 1."""
+    """Tables of two shapes: the first is row 0, the second row 1."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -56,7 +56,7 @@ class PairRows(NamedTuple):
 
 
 class HullRow(NamedTuple):
-    """What is kept of a hull: bytes, which are joined at a tenth of what joining structured arrays costs."""
+    """The cached rows of a hull as bytes, which join at a tenth of the cost of structured arrays."""
 
     first: bytes  # its SHAPE row as the first of a pair
     second: bytes
@@ -65,7 +65,7 @@ class HullRow(NamedTuple):
 
 
 def _kept(shape, name, make) -> Any:
-    """What `make` finds out about a shape, asked once."""
+    """Return the result of `make` for a shape, cached with the shape."""
     kept = vars(shape.bare)
     if name not in kept:
         kept[name] = make(shape.bare)
@@ -73,7 +73,7 @@ def _kept(shape, name, make) -> Any:
 
 
 def hull_row(shape: Shape) -> HullRow | None:
-    """The row of a convex shape, but for its place; None for a mask, tiles, a chain, and a Bounds, which is its box."""
+    """Return the row of a convex shape without its pose; None for a mask, tiles, a chain, and a Bounds."""
     return _kept(shape, "_hull_row", _make_hull_row)
 
 
@@ -91,7 +91,7 @@ def _make_hull_row(shape) -> HullRow | None:
 
 
 def order_of(shape: Shape) -> tuple:
-    """A key that orders any two shapes, so that which one is named first changes no bit of a result but the signs."""
+    """Return a sort key of a shape. The order of two shapes then changes only the signs of a result."""
     return _kept(shape, "_order", _make_order)
 
 
@@ -109,7 +109,7 @@ def _make_order(shape) -> tuple:
 
 
 def name_of(shape: Shape) -> tuple:
-    """Another such key, of how a shape is written."""
+    """Return another sort key, from the constructor of a shape."""
     return _kept(shape, "_name", _make_name)
 
 
@@ -118,16 +118,16 @@ def _make_name(shape) -> tuple:
     return SHAPES.index(type(shape)), repr(shape), pixels
 
 
-NOTHING = Library().tables  # of what a pair of hulls has none
+NOTHING = Library().tables  # empty tables that a pair of hulls does not use
 BODIES = np.zeros(2, BODY)
 BODIES["id"] = 0, 1
 SPANS = Struct("4q")
-POSE = Struct("3d")  # x, y, angle, which stand side by side in BODY
+POSE = Struct("3d")  # x, y, angle, which are adjacent in BODY
 FIRST_POSE = int(BODIES["x"].__array_interface__["data"][0] - BODIES.__array_interface__["data"][0])  # [bytes]
 
 
 def hull_pair(a: HullRow, pose_a: Placed, b: HullRow, pose_b: Placed) -> PairRows:
-    """Two hulls at two poses; their boxes are not written."""
+    """Return the rows of two hulls at two poses; their boxes are not written."""
     spans = np.frombuffer(bytearray(SPANS.pack(0, a.count, a.count, b.count)), SPAN)
     corners = np.frombuffer(bytearray(a.corners + b.corners), CORNER) if a.count + b.count else NOTHING.corners
     shapes = np.frombuffer(bytearray(a.first + b.second), SHAPE)
@@ -138,7 +138,7 @@ def hull_pair(a: HullRow, pose_a: Placed, b: HullRow, pose_b: Placed) -> PairRow
 
 
 def any_pair(shape_a: Shape, pose_a: Placed, shape_b: Shape, pose_b: Placed) -> tuple[Library, PairRows]:
-    """Any two shapes at two poses, and the library that they stand in."""
+    """Return two shapes at two poses as rows, and the library of their geometry."""
     library, bodies, shapes = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE)
     for row, (shape, pose) in enumerate(((shape_a, pose_a), (shape_b, pose_b))):
         place(library, shape, bodies, shapes, row, pose)
@@ -147,9 +147,9 @@ def any_pair(shape_a: Shape, pose_a: Placed, shape_b: Shape, pose_b: Placed) -> 
 
 
 # ---- pair manifold ---------------------------------------------------------------------------------------------------
-# Two shapes at two poses, without a world.
+# collide: the contact of two shapes at two poses.
 
-# What a pass over one pair is given and only reads.
+# Arguments of a pass over one pair that it only reads.
 PAIRS = {False: np.array([[0, 1]], np.int64), True: np.array([[1, 0]], np.int64)}
 KINDS = {kind: np.array([kind], np.int64) for kind in (CIRCLES, POLYGON_CIRCLE, POLYGONS)}
 HULL_PASSES = {
@@ -162,10 +162,10 @@ NAMES = MANIFOLD.names or ()
 
 @dataclass(frozen=True)
 class Manifold:
-    """Where two shapes touch: unit normal from A to B, points (n, 2) midway between the surfaces [px], separations (n,)
-    negative where they overlap, features (n,) that tell the points apart, shared area of two masks [px2].
+    """A contact: unit normal from A to B, points (n, 2) midway between the surfaces [px], separations (n,).
 
-    len() is the number of points; without any the normal is (0, 0).
+    separations are negative where the shapes overlap. features (n,) identify the points. area [px2] is the shared area
+    of two masks. len() is the number of points; without points the normal is (0, 0).
     """
 
     normal: Vec2
@@ -179,11 +179,12 @@ class Manifold:
 
 
 def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
-    """Contact of two shapes at poses (x, y) or (x, y, angle); apart by more than margin [px]: no points.
+    """Return the contact of two shapes at poses (x, y) or (x, y, angle); without points if they are more than margin
+    [px] apart.
 
-    Asked in the other order the points and separations are the same, and the normal is turned round. Against a TileGrid
-    or a Chain the points of all tiles or links stand together, with the normal of the deepest one; two of these never
-    meet. Raises TypeError, ValueError.
+    In the other order of shapes the points and separations are the same, and the normal is reversed. Against a TileGrid
+    or a Chain the points of all tiles or links are listed, with the normal of the deepest one; two of these never
+    collide. Raises TypeError, ValueError.
     """
     for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
         if not isinstance(shape, SHAPES):
@@ -203,7 +204,7 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
 
 
 def _collide_hulls(rows, margin, swapped) -> Manifold:
-    """Of two convex shapes: the one pass that they need, and at most one manifold."""
+    """Return the contact of two convex shapes, by the one pass of their kinds: at most one manifold."""
     low, high = sorted(rows.shapes["kind"].tolist())
     kind = kind_of_pair(low, high)
     batch = Batch(rows.geometry, rows.bodies, rows.shapes, PAIRS[swapped], KINDS[kind], 1, margin, 0.0)
@@ -235,7 +236,7 @@ def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
     sign = -1.0 if swapped else 1.0
     features = contacts["feature"].copy()
     if swapped and isinstance(shape_a, PixelMask) and isinstance(shape_b, PixelMask):
-        features = points_of(False)["feature"].copy()  # a pixel of the mask that was named first
+        features = points_of(False)["feature"].copy()  # a pixel of the first mask
     return Manifold(
         Vec2(sign * float(deepest["normal_x"]) + 0.0, sign * float(deepest["normal_y"]) + 0.0),
         np.stack([contacts["point_x"], contacts["point_y"]], axis=1),
@@ -246,23 +247,25 @@ def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
 
 
 def nowhere() -> Manifold:
-    """Of shapes that do not touch."""
+    """Return the manifold of shapes that do not touch."""
     return Manifold(Vec2(0.0, 0.0), np.zeros((0, 2)), np.zeros(0), np.zeros(0, np.int64), 0.0)
 
 
 # ---- pair distance ---------------------------------------------------------------------------------------------------
-# How far apart two shapes are at two poses, without a world; and GJK's steps between them, for drawing.
+# distance: the distance of two shapes at two poses.
 
-ROUNDING_BAND = 1e-11  # of the size: within it the contact test says on which side of touching two shapes are
-NEXT_TO_NOTHING = math.ulp(0.0)  # [px] apart, and no number is smaller: shapes that touch without a contact
+ROUNDING_BAND = 1e-11  # share of the size below which the contact test decides whether two shapes touch
+NEXT_TO_NOTHING = math.ulp(
+    0.0
+)  # [px] the smallest positive number: the distance of shapes that touch without a contact
 
 
 @dataclass(frozen=True)
 class Distance:
-    """Distance [px], negative when they overlap; nearest points; unit normal from A to B; rounds of GJK and EPA.
+    """A distance [px], negative for an overlap: nearest points, unit normal from A to B, rounds of GJK and EPA.
 
-    point_b = point_a + distance · normal. Of shapes that overlap the distance is -(the move of B along the normal that
-    ends it), and the points are the two surfaces' along it.
+    point_b = point_a + distance · normal. For overlapping shapes the distance is minus the shortest translation of B
+    along the normal that ends the overlap, and the points lie on the two surfaces.
     """
 
     distance: float
@@ -273,14 +276,14 @@ class Distance:
 
 
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
-    """Distance of two shapes at poses (x, y) or (x, y, angle). <= 0 exactly where `collide` finds a contact, of masks
-    < 0.
+    """Return the distance of two shapes at poses (x, y) or (x, y, angle). It is <= 0 where `collide` finds a contact, <
+    0 for masks.
 
-    Convex shapes: exact to rounding. Concave ones: that of their nearest parts, and where they overlap the depth that
-    `collide` gives. What touches a mask without sharing area is 0 from it, without a contact; where other shapes touch
-    or cross without a contact (a Chain from behind; tiles on tiles) it is the smallest number above 0. A mask is
-    measured by its pixels, a snapped one as it is drawn, on the pixel grid. Infinite, with the normal (1, 0), to a
-    shape without a solid cell or pixel. Raises TypeError, ValueError.
+    Convex shapes: exact to rounding. Concave shapes: the distance of the nearest parts, and the depth of `collide` for
+    an overlap. A shape that touches a mask without shared area has distance 0 and no contact. Where other shapes touch
+    or cross without a contact (a Chain from behind, tiles on tiles) it is the smallest positive number. A mask is
+    measured by its pixels, a snapped one as it is drawn on the pixel grid. To an empty shape the distance is infinite,
+    with the normal (1, 0). Raises TypeError, ValueError.
     """
     pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
     if (*order_of(shape_b), *pose_b) < (*order_of(shape_a), *pose_a):
@@ -296,10 +299,10 @@ def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Dist
 
 
 def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
-    # Seen from A, so that far from the origin no digits are lost.
+    # Relative to A, so that precision does not depend on the distance from the origin.
     x, y = pose_a[0], pose_a[1]
     workspace, row_a, row_b = new_gap_workspace(), hull_row(shape_a), hull_row(shape_b)
-    boxes = isinstance(shape_a, Bounds) or isinstance(shape_b, Bounds)  # which stand where they stand in the world
+    boxes = isinstance(shape_a, Bounds) or isinstance(shape_b, Bounds)  # at their poses in the world
     if row_a is not None and row_b is not None and not boxes:
         rows = hull_pair(row_a, pose_a, row_b, pose_b)
         found, size, rounds = separate_hulls(*rows, x, y, np.zeros((16, 2)), np.zeros((16, 2)), workspace)
@@ -311,7 +314,7 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     convex = not any(isinstance(each, (TileGrid, PixelMask, Chain)) for each in (shape_a, shape_b))
     band = ROUNDING_BAND * size + 4.0 * math.ulp(max(map(abs, (*pose_a[:2], *pose_b[:2]))))
     if any(isinstance(each, Chain) for each in (shape_a, shape_b)):
-        band = size  # what was pressed through a link may hang wholly behind it and still be pushed out
+        band = size  # a shape that was pressed through a link may lie wholly behind it and still be pushed out
     if found <= band and not (convex and found < -band):
         contact = collide(shape_a, pose_a, shape_b, pose_b)
         if not len(contact):
@@ -329,7 +332,7 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
 
 
 def _are_open(shape_a, shape_b) -> bool:
-    """Whether one is a mask, the other no chain: touching, they are 0 apart and share nothing."""
+    """Return whether one shape is a mask and the other no chain: touching, they have distance 0 and share no area."""
     pair = (shape_a, shape_b)
     return any(isinstance(each, PixelMask) for each in pair) and not any(isinstance(each, Chain) for each in pair)
 
@@ -338,8 +341,8 @@ def _are_open(shape_a, shape_b) -> bool:
 def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out, workspace):
     """Write separation, normal and points, seen from (x, y) [px], of the hulls in rows 0 and 1 to workspace.gap.
 
-    corners_a_out, corners_b_out (16, 2): scratch. Returns (separation [px], the greater size of both [px], rounds of
-    GJK and EPA).
+    corners_a_out, corners_b_out (16, 2): scratch. Return (separation [px], greater size of the two [px], rounds of GJK
+    and EPA).
     """
     a = bodies[0]
     b = bodies[1]
@@ -354,7 +357,7 @@ def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out,
 
 @subkernel
 def size_of(corners, count, radius):
-    """The longer side of the box [px] around a rounded hull."""
+    """Return the longer side of the box [px] around a rounded hull."""
     longest = 0.0
     for axis in range(2):
         low = corners[0, axis]
@@ -367,7 +370,7 @@ def size_of(corners, count, radius):
 
 
 def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
-    """What separate_hulls tells, of any two shapes; infinite where one has no parts."""
+    """Return the results of separate_hulls for any two shapes; infinite if one has no parts."""
     parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     totals = np.zeros(2)
     found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
@@ -386,7 +389,7 @@ def parts_of_pair(
 
 
 def checked(shape_name: str, shape: Any, pose_name: str, pose: Any) -> tuple[float, float, float]:
-    """The pose as numbers. Raises TypeError or ValueError that names the argument."""
+    """Return the pose as numbers. Raises TypeError or ValueError that names the argument."""
     if not isinstance(shape, SHAPES):
         raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
     pose = checks.pose(pose_name, pose)
@@ -396,16 +399,17 @@ def checked(shape_name: str, shape: Any, pose_name: str, pose: Any) -> tuple[flo
 
 
 # ---- pair impact -----------------------------------------------------------------------------------------------------
-# When two moving shapes first touch, without a world.
+# time_of_impact: the first contact of two moving shapes.
 
-BOX_STOPS = 4000  # of a turning box, whose speed is only bounded: each is before the impact
-LOOKS = 1024  # of shapes that touch and do not approach
+BOX_STOPS = 4000  # steps of a rotating box, whose speed is only bounded: each ends before the impact
+LOOKS = 1024  # steps of shapes that touch and do not approach
 
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """Whether two motions meet; the first fraction 0..1 at which they touch; where [px];
-    the unit normal from A to B."""
+    """The result of time_of_impact: hit, the first fraction 0..1 at which they touch, point [px], unit normal from A to
+    B.
+    """
 
     hit: bool
     fraction: float
@@ -419,14 +423,14 @@ NO_IMPACT = TimeOfImpact(False, 1.0, None, None)
 def time_of_impact(
     shape_a: Shape, start_a: Pose, end_a: Pose, shape_b: Shape, start_b: Pose, end_b: Pose
 ) -> TimeOfImpact:
-    """First fraction at which two shapes touch while their poses (x, y) or (x, y, angle) go straight from start to end,
-    angles unwrapped.
+    """Return the first fraction at which two shapes touch while their poses move linearly from start to end.
 
-    Two discs: in closed form; convex shapes: to 1e-13 of their size and motion. Touching or overlapping at the start:
-    fraction 0 when they approach; when they part or slide they are looked at until they approach. A Chain is met from
-    its front, a one-way tile from above; no seam of ground is felt, and what only grazes tiles or links does not meet
-    them; nor does what only grazes a PixelMask, which is its outline at the exact pose. A Bounds whose shape turns
-    changes its size on the way: to 1e-12 of it. Tiles and chains do not meet each other. Raises TypeError, ValueError.
+    Poses are (x, y) or (x, y, angle), angles unwrapped. Two discs are solved in closed form, convex shapes to 1e-13 of
+    their size and motion. Touching or overlapping at the start is fraction 0 if they approach; otherwise the search
+    goes on until they approach. A Chain is hit from its front, a one-way tile from above. Seams of ground are not hit,
+    and neither are grazing contacts with tiles, links and PixelMasks, which are their outlines at the exact pose. A
+    Bounds whose shape rotates changes its size on the way, and is solved to 1e-12 of it. Tiles and chains do not
+    collide with each other. Raises TypeError, ValueError.
     """
     moves = [
         [checked(f"shape_{side}", shape, f"{when}_{side}", pose) for when, pose in (("start", start), ("end", end))]
@@ -489,7 +493,7 @@ def _motion(move):
 
 
 def _local(shape, move) -> tuple[Parts, np.ndarray]:
-    """Parts in body space, and the motion they make; a Bounds that does not turn is the box it has at its angle."""
+    """Return the parts in body space and their motion; a Bounds that does not rotate is its box at that angle."""
     motion = _motion(move)
     if not isinstance(shape, Bounds):
         return _body_parts(shape), motion
@@ -498,7 +502,7 @@ def _local(shape, move) -> tuple[Parts, np.ndarray]:
 
 
 def _body_parts(shape) -> Parts:
-    """In body space; of a mask its outline."""
+    """Return the parts in body space, of a mask those of its outline."""
     if isinstance(shape, PixelMask):
         return outline_parts(shape)
     if isinstance(shape, TileGrid):
@@ -511,14 +515,14 @@ def _body_parts(shape) -> Parts:
 
 
 def _boxed_parts(shape) -> Parts:
-    """As _body_parts, of what a Bounds wraps: of a mask its pixels."""
+    """Return the parts inside a Bounds in body space, of a mask its pixels."""
     if isinstance(shape, PixelMask):
         return parts_of(mask_outlines(shape, 0, -shape.origin[0], -shape.origin[1]))
     return _body_parts(shape)
 
 
 def _box_at(shape, angle) -> Parts:
-    """The box around a shape that is turned by an angle; around a mask's pixels as it is drawn at that angle."""
+    """Return the box around a shape rotated by an angle; around a mask's pixels as drawn at that angle."""
     parts = _boxed_parts(shape)
     if isinstance(shape, PixelMask) and shape.snap and shape.area:
         turned = shape.turned(angle)
@@ -532,7 +536,7 @@ def _box_at(shape, angle) -> Parts:
 
 
 def _placed(parts, pose, x=0.0, y=0.0) -> Parts:
-    """Parts at a pose, seen from (x, y)."""
+    """Return parts at a pose, seen from (x, y)."""
     return turned_parts(parts, pose[0] - x, pose[1] - y, math.cos(pose[2]), math.sin(pose[2]))
 
 
@@ -548,7 +552,7 @@ def _parts_at(shape, move, fraction, x, y) -> Parts:
 
 
 def _point(a, move_a, b, move_b, fraction):
-    """Midway between the nearest points at a fraction [px]."""
+    """Return the point midway between the nearest points at a fraction [px]."""
     x, y = move_a[0][:2]
     gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
     return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))
@@ -561,7 +565,7 @@ def _gap_at(parts_a, parts_b):
 
 
 def _advance_boxes(a, move_a, b, move_b):
-    """Conservative advancement by the distance and a bound on the speed: where a box changes its size as it turns."""
+    """Return the impact of boxes whose size changes with rotation: conservative advancement with a bound on the speed."""
     x, y = move_a[0][:2]
     parts = [_boxed_parts(each.shape) if isinstance(each, Bounds) else _body_parts(each) for each in (a, b)]
     if not all(len(each.counts) for each in parts):
@@ -569,7 +573,7 @@ def _advance_boxes(a, move_a, b, move_b):
     reach = [float(np.hypot(*np.abs(each.boxes).reshape(-1, 2, 2).max(axis=(0, 1)))) for each in parts]
     turn = [abs(move[1][2] - move[0][2]) for move in (move_a, move_b)]
     path = math.hypot(*((move_b[1][k] - move_b[0][k]) - (move_a[1][k] - move_a[0][k]) for k in (0, 1)))
-    # Each side of a turning box moves no faster than its shape's furthest point, and a normal meets two sides.
+    # Each side of a rotating box moves no faster than its shape's furthest point, and a normal meets two sides.
     speed = path + math.sqrt(2.0) * (turn[0] * reach[0] + turn[1] * reach[1])
     tolerance = 1e-12 * (sum(reach) + path)
 

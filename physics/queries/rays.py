@@ -13,15 +13,15 @@ from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY, SLOPE, SOLID
 from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 
 # ---- ray lines -------------------------------------------------------------------------------------------------------
-# A ray against lines and rounded hulls: segments from both sides, the links of a chain from the front, capsules.
+# A ray against lines and rounded hulls: segments from both sides, links of a chain from the front, capsules.
 
 
 @subkernel
 def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
-    """A ray from (x, y) by (dx, dy) [px] against the closed line from a to b: the fraction, or MISS.
+    """Return the fraction at which a ray from (x, y) by (dx, dy) [px] hits the closed line from a to b, or MISS.
 
-    By the sides of the ray on which the ends lie, so that nothing slips through between two lines that share an end. A
-    ray along the line meets its nearer end; a start on it is met at 0.
+    It follows from the sides of the ray on which the ends lie, so no ray passes between two lines that share an end. A
+    ray along the line hits its nearer end; a start on the line is hit at 0.
     """
     side_a = dx * (ay - y) - dy * (ax - x)
     side_b = dx * (by - y) - dy * (bx - x)
@@ -45,7 +45,7 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
 
 @subkernel
 def cast_on_segment(corners, x, y, dx, dy):
-    """A ray against a segment, met from both sides [px]: (fraction or MISS, normal against the ray)."""
+    """Return (fraction or MISS, normal against the ray) of a ray and a two-sided segment [px]."""
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
     if edge_gap(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y) == 0.0:
         return 0.0, back_x, back_y
@@ -59,7 +59,9 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """A ray from (x, y), seen from the centre of a closed disc [px]: (fraction or MISS, normal); inside: 0."""
+    """Return (fraction or MISS, normal) of a ray from (x, y), seen from the centre of a closed disc [px]; 0 for a start
+    inside.
+    """
     if x * x + y * y <= radius * radius:
         back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
         return 0.0, back_x, back_y
@@ -68,9 +70,9 @@ def cast_on_disc(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_hull(corners, count, radius, x, y, dx, dy):
-    """A ray against a closed hull of two or more corners grown by a radius [px]: (fraction or MISS, normal).
+    """Return (fraction or MISS, normal) of a ray and a closed hull of two or more corners with a rounding radius [px].
 
-    Inside at the start: 0 and the normal against the ray; of no length: the point alone.
+    A start inside gives 0 and the normal against the ray. A ray of zero length tests its point.
     """
     if radius == 0.0 and count == 2:
         return cast_on_segment(corners, x, y, dx, dy)
@@ -113,7 +115,7 @@ def cast_on_hull(corners, count, radius, x, y, dx, dy):
 
 @subkernel
 def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
-    """Whether a ray [px] comes near a closed box, as far as rounding goes."""
+    """Return whether a ray [px] may meet a closed box, with a margin for rounding."""
     rim = 1e-9 * (max_x - min_x + max_y - min_y + abs(dx) + abs(dy)) + 1e-15 * (abs(x) + abs(y))
     enter = 0.0
     leave = 1.0
@@ -133,10 +135,10 @@ def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
 
 @subkernel
 def cast_on_chain(chains, links, blocks, chain, x, y, cosine, sine, dx, dy, block_links):
-    """A ray against a chain's links from their front: (fraction or MISS, normal). Of no length: a point on the line.
+    """Return (fraction or MISS, normal) of a ray and the links of a chain, hit from their front.
 
-    x, y [px]: the start seen from the chain's body, in the world's directions; cosine, sine: of the body's angle.
-    block_links: links per block. O(blocks + links near the ray).
+    x, y [px]: start relative to the chain's body, in world directions. cosine, sine: of the body's angle. block_links:
+    links per block. A ray of zero length tests whether its point is on the line. O(blocks + links near the ray).
     """
     span = chains[chain]
     x, y = turned(x, y, cosine, -sine)
@@ -175,7 +177,7 @@ def cast_on_chain(chains, links, blocks, chain, x, y, cosine, sine, dx, dy, bloc
 
 @subkernel
 def enter_box(x, y, dx, dy, width, height):
-    """Where a ray enters and leaves the box 0..width, 0..height: (enter, leave), enter > leave when it misses."""
+    """Return the fractions at which a ray enters and leaves the box 0..width, 0..height; enter > leave for a miss."""
     enter = 0.0
     leave = 1.0
     for axis in range(2):
@@ -195,7 +197,7 @@ def enter_box(x, y, dx, dy, width, height):
 
 @subkernel
 def next_border(position, step, cell, size):
-    """Fraction at which a ray leaves a cell along one axis; infinite when it runs along the other."""
+    """Return the fraction at which a ray leaves a cell along one axis; infinite for a ray along the other axis."""
     if step > 0.0:
         return ((cell + 1) * size - position) / step
     if step < 0.0:
@@ -205,7 +207,7 @@ def next_border(position, step, cell, size):
 
 @subkernel
 def start_cell(position, step, size, count):
-    """The cell a ray starts in, or enters first; on a border it is the one that it moves into."""
+    """Return the cell in which a ray starts, or which it enters first; on a border, the cell that it moves into."""
     at = position / size
     cell = math.floor(at)
     if step < 0.0 and cell == at:
@@ -215,7 +217,7 @@ def start_cell(position, step, size, count):
 
 @subkernel
 def cast_on_cell(geometry, grid, row, column, x, y, dx, dy, corners_inout):
-    """A ray, seen from the grid's origin [px], against a cell: (fraction or MISS, normal). One-way from above."""
+    """Return (fraction or MISS, normal) of a ray, seen from the grid's origin [px], and a cell. One-way from above."""
     g = geometry.grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return MISS, 0.0, -1.0
@@ -228,10 +230,10 @@ def cast_on_cell(geometry, grid, row, column, x, y, dx, dy, corners_inout):
 
 @subkernel
 def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
-    """A ray, seen from the grid's origin [px], against its tiles, which are closed: (fraction or MISS, normal).
+    """Return (fraction or MISS, normal) of a ray, seen from the grid's origin [px], and its closed tiles.
 
-    A ray along a border meets the tiles on both sides, one through a corner all four: the cells around each crossing
-    are asked too. O(cells on the way).
+    A ray along a border hits the tiles on both sides, one through a corner all four, so the cells around each crossing
+    are tested, too. O(cells on the way).
     """
     g = geometry.grids[grid]
     size = g.tile_size
@@ -256,7 +258,7 @@ def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
                     best_y = ny
         across = next_border(x, dx, column, size)
         down = next_border(y, dy, row, size)
-        # What was found further on may still be beaten by a cell between.
+        # A cell in between may still have a nearer hit.
         if best <= min(across, down) or min(across, down) > leave:
             break
         if across < down:
@@ -268,7 +270,7 @@ def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
 
 @subkernel
 def is_solid_at(rasters, words, mask, x, y):
-    """Whether a point, seen from the raster's corner [px], lies in a solid pixel: [i, i + 1) x [j, j + 1)."""
+    """Return whether a point, seen from the raster's corner [px], lies in a solid pixel: [i, i + 1) x [j, j + 1)."""
     r = rasters[mask]
     if not (0.0 <= x < r.width and 0.0 <= y < r.height):
         return False
@@ -277,7 +279,7 @@ def is_solid_at(rasters, words, mask, x, y):
 
 @subkernel
 def is_in_mask(geometry, shape, body, x, y):
-    """Whether a point [px] lies in a solid pixel of a mask, as drawn where it is snapped."""
+    """Return whether a point [px] lies in a solid pixel of a mask, as drawn if it is snapped."""
     if not shape.snap:
         mask = raster_of_shape(geometry, shape)
         cosine, sine = cosine_and_sine(body.angle, body.angle)
@@ -292,7 +294,7 @@ def is_in_mask(geometry, shape, body, x, y):
 
 @subkernel
 def inside_polygon(corners, count, x, y):
-    """Whether a point lies in a closed convex polygon, clockwise on the screen."""
+    """Return whether a point lies in a closed convex polygon, clockwise on the screen."""
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
         ex = corners[n, 0] - corners[k, 0]
@@ -304,11 +306,11 @@ def inside_polygon(corners, count, x, y):
 
 @subkernel
 def point_in_tiles(geometry, grid, x, y, corners_inout):
-    """Whether a point, seen from the grid's origin [px], lies in a closed solid tile or slope."""
+    """Return whether a point, seen from the grid's origin [px], lies in a closed solid tile or slope."""
     g = geometry.grids[grid]
     column = math.floor(x / g.tile_size)
     row = math.floor(y / g.tile_size)
-    # On a border the tile before it holds the point too.
+    # On a border the tile before it contains the point, too.
     first_column = column - 1 if column * g.tile_size == x else column
     first_row = row - 1 if row * g.tile_size == y else row
     for j in range(max(0, first_row), min(g.rows - 1, row) + 1):
@@ -325,9 +327,10 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 
 @subkernel
 def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
-    """A ray from (x, y) by (dx, dy) [px] against a shape: (fraction or MISS, normal). No length: of the point.
+    """Return (fraction or MISS, normal) of a ray from (x, y) by (dx, dy) [px] and a shape. A ray of zero length tests
+    its point.
 
-    A mask is asked for points alone: rays are cast at its outline.
+    Only points are tested against the pixels of a mask; rays are cast at its outline.
     """
     s = shapes[row]
     b = bodies[s.body_row]
