@@ -1,1 +1,1 @@
-"""When moving shapes first meet: continuous collision detection."""
+"""Continuous collision detection: first time of impact of moving shapes."""

@@ -1,4 +1,4 @@
-"""Which bodies are fast, what each meets first on its path, and where it stops."""
+"""Fast bodies, their first impact on their path, and the pose at which they stop."""
 
 import math
 
@@ -12,7 +12,7 @@ from physics.tables.shape import CHAIN, MASK, TILES
 from physics.tables.step_state import TOI_CALLS
 
 # ---- paths -----------------------------------------------------------------------------------------------------------
-# The paths of the bodies through a step, and who of them is fast: jumps over what it should meet.
+# Paths of the bodies through a step, and the bodies that are fast enough to pass through others.
 #
 # Source: Catto, Box2D v3, solver.c (half the smallest extent).
 
@@ -27,7 +27,7 @@ def list_paths(
 ):
     """Write centre of mass and angle before and after the step: x0 y0 angle0 x1 y1 angle1 [px, rad]. O(rows).
 
-    What asks for a sweep without turning is swept at the angle it has before.
+    A body with a sweep without rotation keeps its angle before the step.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -44,13 +44,13 @@ def list_paths(
 
 @subkernel
 def asks_straight(body):
-    """Whether a body asks for a sweep without turning, whether it moves or not."""
+    """Return whether the continuous mode of a body is a sweep without rotation, moving or not."""
     return body.kind == DYNAMIC and (body.continuous == RAY or body.continuous == SWEPT)
 
 
 @subkernel
 def way_of(bodies, paths, row):
-    """How far [px] any point of a body moves at most."""
+    """Return the greatest distance [px] that any point of a body moves."""
     moved = length_of(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
     return moved + bodies[row].extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
 
@@ -64,12 +64,11 @@ def find_fast(
     # write
     fast_out,
 ):
-    """Flag the bodies that a sweep is asked for. Returns (how many there are to look at, the number of those that are
-    swept without turning, moving or not). O(rows).
+    """Flag the bodies to sweep. Return (the number of bodies to look at, the number swept without rotation). O(rows).
 
-    "toi", "ray" and "swept" always, while they move; "auto" when a point may move by more than half the body's size.
-    To be looked at as well, without a flag, is who may be jumped over by something kinematic: see outruns. fast_out
-    (bodies) bool.
+    Modes "toi", "ray" and "swept" are always swept while they move; "auto" if a point may move by more than half the
+    body's size. Bodies that a kinematic body may pass through count as bodies to look at, without a flag: see outruns.
+    fast_out (bodies) bool.
     """
     found = 0
     straight = 0
@@ -96,7 +95,7 @@ def find_fast(
 
 @subkernel
 def outruns(bodies, paths, row, other):
-    """Whether a kinematic body (other) and a dynamic one move against each other by more than half its size."""
+    """Return whether a kinematic body (other) and a dynamic one have a relative motion above half its size."""
     b = bodies[row]
     if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
         return False
@@ -119,10 +118,7 @@ def find_outgrown(
     # write
     rows_out,
 ):
-    """List those of the shape rows that left their motion rectangle, of bodies that are swept. Returns their number.
-
-    O(rows).
-    """
+    """List the shape rows of swept bodies that left their swept AABB. Return their number. O(rows)."""
     found = 0
     for k in range(len(rows)):
         row = rows[k]
@@ -148,7 +144,7 @@ def foresee_paths(
     # write
     paths_out,
 ):
-    """Write the paths (see list_paths) that the bodies will take in dt [s] if nothing is in the way. O(rows)."""
+    """Write the paths (see list_paths) of the bodies in dt [s] without obstacles. O(rows)."""
     for k in range(len(rows)):
         i = rows[k]
         b = bodies[i]
@@ -172,19 +168,18 @@ def cut_path(paths, row, start, end, cut_out):
 
 
 # ---- impacts ---------------------------------------------------------------------------------------------------------
-# Who is fast, whom it meets first, and where it stops: the sweep over one step of bodies that also turn.
+# The sweep over one step of bodies that also rotate: the first impact of each fast body, and where it stops.
 #
-# Two bullets that meet stop each other. A body that stops earlier than was foreseen may stand in another's way, so the
-# moving pairs are looked at again until nothing changes. Sources: Catto, Box2D v3, solver.c (fast bodies, core circle);
+# Two bullets that meet stop each other. A body that stops earlier than expected may be in the way of another, so the
+# moving pairs are swept again until no fraction changes. Sources: Catto, Box2D v3, solver.c (fast bodies, core circle);
 # Mirtich, Timewarp Rigid Body Simulation, 2000 (conservative rounds).
 
 
 @subkernel
 def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts_out, workspace, work_inout):
-    """Fraction of the step at which `mover` first meets `other`,
-    each going as far as its body's fraction and resting then.
+    """Return the first impact of `mover` with `other` as (fraction or MISS, normal from other to mover, feature).
 
-    Returns (fraction or MISS, normal from other to mover, feature).
+    Each body moves up to its fraction of the step, and then rests.
     """
     p = shapes[mover].body_row
     q = shapes[other].body_row
@@ -214,7 +209,7 @@ def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way,
 
 @subkernel
 def stands_still(bodies, paths, row):
-    """Whether a body is static, or kinematic and not moved in this step."""
+    """Return whether a body is static, or kinematic and did not move in this step."""
     return bodies[row].kind != DYNAMIC and (
         paths[row, 0] == paths[row, 3] and paths[row, 1] == paths[row, 4] and paths[row, 2] == paths[row, 5]
     )
@@ -222,7 +217,7 @@ def stands_still(bodies, paths, row):
 
 @subkernel
 def rest_where_it_is(bodies, row, paths_inout, fast_inout):
-    """Give a body that no pass of this step goes over the path of one that stands."""
+    """Write the path of a resting body for one that no pass of this step reads."""
     b = bodies[row]
     if b.active:
         return
@@ -235,8 +230,11 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
 
 @subkernel
 def goes_on(bodies, paths, mover, other, fraction, nx, ny):
-    """How far [px] two bodies that meet at a fraction of the step have still to go: into each other, along the unit
-    normal from other to mover, or by any point when they turn, whichever is more."""
+    """Return the distance [px] that two bodies still move after they meet at a fraction of the step.
+
+    It is the motion into each other along the unit normal from other to mover, or of any point by rotation, whichever
+    is greater.
+    """
     left_m = max(0.0, bodies[mover].fraction - fraction)
     left_o = max(0.0, bodies[other].fraction - fraction)
     dx = left_m * (paths[mover, 3] - paths[mover, 0]) - left_o * (paths[other, 3] - paths[other, 0])
@@ -271,11 +269,11 @@ def find_rotational_impacts(
 ):
     """List (candidate, fraction, normal from A to B, stops, feature) of the pairs that a fast body meets on its path.
 
-    paths_inout (bodies, 6) from list_paths; fast (bodies) bool; moving: 0 for the pairs with what stands still, 1 for
-    the others; stacking: two dynamic bodies are left to the solver unless one is a bullet; without, motion into the
-    other by less than a quarter of the half size stops nobody: the contact lets it out at once; rotation: without,
-    nothing turns, and what has a closed form was found by it; slack [px]: see sweep_part. impacts_out (n, 8). Returns
-    the number found. O(candidates).
+    paths_inout (bodies, 6) from list_paths. fast (bodies) bool. moving: 0 for pairs with resting bodies, 1 for the
+    others. stacking: two dynamic bodies are left to the solver unless one is a bullet; without it, motion into the
+    other by less than a quarter of the half extent does not stop a body, because the contact removes it at once.
+    rotation: without it, pairs with a closed form were found by that. slack [px]: see sweep_part. impacts_out (n, 8).
+    Return the number found. O(candidates).
     """
     found = 0
     for i in range(count):
@@ -294,7 +292,7 @@ def find_rotational_impacts(
             continue
         if stacking and p.kind == DYNAMIC and q.kind == DYNAMIC and not (p.bullet or q.bullet):
             continue
-        # The one that can be stopped is swept, or else the fast one: they move relative to each other.
+        # The body that can be stopped is swept, otherwise the fast one: they move relative to each other.
         ground_a = a.kind == TILES or a.kind == CHAIN or a.kind == MASK
         first = fast_inout[a.body_row] if (p.kind == DYNAMIC) == (q.kind == DYNAMIC) else p.kind == DYNAMIC
         from_a = first and not ground_a
@@ -306,7 +304,7 @@ def find_rotational_impacts(
         mode = bodies[shapes[mover].body_row].continuous
         straight = mode == RAY or mode == SWEPT or (mode == AUTO and not (stacking or rotation))
         if straight and has_closed_form(shapes[mover], shapes[other], mode):
-            # From deep inside, by the rule of the others.
+            # From deep inside, by the rule of the other shapes.
             if not stands_deep(geometry, bodies, shapes, paths_inout, mover, other, slack, workspace):
                 continue
         work_inout[TOI_CALLS] += 1
@@ -320,7 +318,7 @@ def find_rotational_impacts(
         room_left = 0.25 * bodies[m].smallest_half
         stops = stacking or goes_on(bodies, paths_inout, m, o, fraction, nx, ny) > room_left
         if not stops and (shapes[other].kind == TILES or shapes[other].kind == CHAIN):
-            # What lets it pass may not be all of the ground that it meets: a ball that runs down a wall has a floor.
+            # The part that it may pass need not be all of the ground: a ball that rolls down a wall has a floor.
             later, u, v, part = first_meeting(
                 geometry,
                 bodies,
@@ -348,7 +346,7 @@ def move_back(
     # write
     bodies_inout,
 ):
-    """Put the dynamic bodies that were stopped where they stopped; their velocities stay. O(rows)."""
+    """Move the stopped dynamic bodies back to where they stopped; their velocities stay. O(rows)."""
     for k in range(len(rows)):
         i = rows[k]
         b = bodies_inout[i]
@@ -371,15 +369,16 @@ def move_back(
 
 @subkernel
 def is_ray(body, other):
-    """Whether a body meets another with the ray from its middle: the other is not swept with its outline."""
+    """Return whether a body meets another with the ray of its centre, not with its outline."""
     return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
 
 
 @subkernel
 def impact_point(body, shape, side, nx, ny, fraction, flew_on):
-    """Where [px] a shape met another, towards side times the normal: the edge of its box, or the middle of a ray's.
+    """Return the point [px] where a shape met another, towards side times the normal.
 
-    Its box is that of the end of the step; flew_on: put back from there, where nothing has kept it.
+    It is on the edge of its box, or at the centre of a ray. The box is that of the end of the step. flew_on: whether it
+    is moved back from there, because no contact kept it.
     """
     reach = 0.0 if body.continuous == RAY and body.kind != STATIC else side
     x = 0.5 * (shape.min_x + shape.max_x) + reach * nx * 0.5 * (shape.max_x - shape.min_x)
@@ -404,11 +403,11 @@ def write_impacts(
     # write
     manifolds_out,
 ):
-    """Write a manifold for every impact that is the first of a body on its way, or of a sensor. Returns their number.
+    """Write a manifold for every impact that is the first of a body on its path, or of a sensor. Return their number.
 
-    impacts (n, 8): candidate, fraction, normal, stops, feature, point. Where that is nan it is the edge, along the
-    normal, of the smaller of the two boxes, or where a ray met the other. With response 1 the separation is that at the
-    final poses: what a side went on by after the impact.
+    impacts (n, 8): candidate, fraction, normal, stops, feature, point. A point of nan is replaced by the edge, along
+    the normal, of the smaller box, or by the place where a ray hit. With response 1 the separation is that at the final
+    poses: the motion of a side after the impact.
     """
     found = 0
     for i in range(count):
@@ -435,7 +434,7 @@ def write_impacts(
         if response == 1:
             after_x = (q.x - q.previous_x) - (p.x - p.previous_x) - impacts[i, 1] * dt * (q.vx - p.vx)
             after_y = (q.y - q.previous_y) - (p.y - p.previous_y) - impacts[i, 1] * dt * (q.vy - p.vy)
-            # What it slid on after a graze is no overlap.
+            # The motion after a grazing contact is no overlap.
             separation = min(0.0, nx * after_x + ny * after_y) if impacts[i, 4] == 1.0 else 0.0
         if found < len(manifolds_out):
             m = manifolds_out[found]

@@ -1,8 +1,8 @@
-"""The sweep of masks by their pixels: what tells, where nothing pushes, the latest time before which no area is shared.
+"""Sweep of masks by their pixels, for worlds without response and for sensors: the latest time without shared area.
 
-A mask is the union of its pixel squares at the exact pose, in rectangles, however it is drawn. By the rule of
-rotational.py, without a slop: what gets no deeper than the two stand in each other at the start shares no new area, so
-a graze is nothing and no seam between two rectangles is felt.
+A mask is the union of its pixel squares at the exact pose, in rectangles, however it is drawn. The rule is that of
+rotational.py, without a slop: a motion that leads no deeper than the overlap at the start shares no new area. So
+grazing contacts and seams between two rectangles are no impacts.
 """
 
 import math
@@ -36,7 +36,7 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 class Squares(NamedTuple):
     """The solid pixels of the masks of a library, in rectangles."""
 
-    spans: np.ndarray  # (masks, 2) first rectangle, and how many; -1: not listed yet
+    spans: np.ndarray  # (masks, 2) first rectangle and number; -1: not listed yet
     boxes: np.ndarray  # (n, 4) left top right bottom [px] in body space
 
 
@@ -44,7 +44,7 @@ NO_SQUARES = Squares(np.zeros((0, 2), np.int64), np.zeros((0, 4)))
 
 
 def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
-    """What is known of a library, and the rectangles of these of its masks (rows)."""
+    """Return the cached rectangles of a library, with those of these masks (rows)."""
     missing = [row for row in masks.tolist() if row >= len(known.spans) or known.spans[row, 0] < 0]
     if not missing:
         return known
@@ -62,7 +62,7 @@ def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
 
 @subkernel
 def write_square(boxes, k, body, corners_out):
-    """Corners of a rectangle of a mask from its body's centre of mass [px] at angle 0. Returns their number."""
+    """Write the corners of a mask's rectangle from the centre of mass [px] at angle 0. Return their number."""
     for corner in range(4):
         corners_out[corner, 0] = boxes[k, 2 if corner == 1 or corner == 2 else 0] - body.local_center_x
         corners_out[corner, 1] = boxes[k, 3 if corner > 1 else 1] - body.local_center_y
@@ -71,8 +71,9 @@ def write_square(boxes, k, body, corners_out):
 
 @subkernel
 def pieces_of(shape, body, spans, as_ray):
-    """(first rectangle, number of pieces, whether they are rectangles): what a mask is swept as. A hull is one piece,
-    and so is the point of a ray."""
+    """Return (first rectangle, number of pieces, whether they are rectangles) of a shape. A hull, and the point of a
+    ray, is one piece.
+    """
     if shape.kind != MASK or (as_ray and body.continuous == RAY):
         return 0, 1, False
     return spans[shape.geometry, 0], spans[shape.geometry, 1], True
@@ -80,7 +81,7 @@ def pieces_of(shape, body, spans, as_ray):
 
 @subkernel
 def write_single(geometry, bodies, shapes, row, workspace):
-    """Write the one piece of a mover to workspace.mover. Returns its number of corners and its rounding [px]."""
+    """Write the one piece of a mover to workspace.mover. Return its number of corners and its rounding radius [px]."""
     body = bodies[shapes[row].body_row]
     if shapes[row].kind == MASK:
         workspace.mover[0, 0] = 0.0
@@ -94,8 +95,10 @@ def write_single(geometry, bodies, shapes, row, workspace):
 
 @subkernel
 def misses_square(boxes, k, body, x, y, dx, dy, reach):
-    """Whether what moves from (x, y) by (dx, dy), and reaches so far, stays beside a rectangle; all [px], seen from the
-    centre of mass of its body, which does not turn."""
+    """Return whether a motion from (x, y) by (dx, dy) with this reach passes beside a rectangle; all in px.
+
+    Coordinates are relative to the centre of mass of the rectangle's body, which does not rotate.
+    """
     left = boxes[k, 0] - body.local_center_x - reach
     top = boxes[k, 1] - body.local_center_y - reach
     right = boxes[k, 2] - body.local_center_x + reach
@@ -107,9 +110,8 @@ def misses_square(boxes, k, body, x, y, dx, dy, reach):
 def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, workspace, best_out):
     """Sweep one piece of the mover, in workspace.mover, past the pieces of the other shape.
 
-    depth [px]: how deep the two stand in each other; negative: this is what is asked, and returned. body: the other's;
-    span: see pieces_of; n, radius_b: corners of the one piece in local_b. best_out (5,): see sweep_squares. O(pieces
-    near).
+    depth [px]: the overlap at the start; negative: measure and return it. body: of the other shape. span: see
+    pieces_of. n, radius_b: corners of the one piece in local_b. best_out (5,): see sweep_squares. O(pieces near).
     """
     r = workspace.advance
     first, pieces, are_squares = span
@@ -152,8 +154,10 @@ def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, work
 
 @subkernel
 def middle_of_mask(geometry, shape, body, angle):
-    """The middle [px] of the AABB that a MASK row has at an angle [rad], which is what decides on which side of a link
-    it is: from its body's centre of mass, at angle 0."""
+    """Return the centre [px] of the AABB of a MASK row at an angle [rad], from its body's centre of mass, at angle 0.
+
+    It decides on which side of a link the mask is.
+    """
     raster = geometry.raster_of[shape.geometry, 0]
     left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
     u, v = turned(0.5 * (left + right), 0.5 * (top + bottom), math.cos(angle), -math.sin(angle))
@@ -164,7 +168,7 @@ def middle_of_mask(geometry, shape, body, angle):
 def sweep_on_ground(geometry, other, body, middle, count, radius, one_way, workspace, best_out):
     """Sweep one piece of the mover, in workspace.mover, past tiles or a chain (SHAPE row `other`).
 
-    middle: the mover's; it lies in front of a link, or behind, as a whole.
+    middle: of the mover, which lies in front of a link, or behind it, as a whole.
     """
     if other.kind == TILES:
         fraction, nx, ny, _ = sweep_tiles(
@@ -204,10 +208,10 @@ def sweep_on_ground(geometry, other, body, middle, count, radius, one_way, works
 
 @subkernel
 def sweep_squares(geometry, bodies, shapes, motions, row, other, one_way, squares, workspace, best_out, work_inout):
-    """Shape `row` against shape `other`, at least one of them a mask, both on their way; see sweep_rotational.
+    """Sweep shape `row` against shape `other`, at least one of them a mask, both moving. See sweep_rotational.
 
-    Writes (fraction or MISS, normal from other to row, point [px], nan where it is not known) to best_out (5,).
-    O(pieces · pieces near).
+    Write (fraction or MISS, normal from other to row, point [px], nan if unknown) to best_out (5,). O(pieces · pieces
+    near).
     """
     s = shapes[row]
     o = shapes[other]
@@ -255,7 +259,9 @@ def sweep_squares(geometry, bodies, shapes, motions, row, other, one_way, square
 def first_shared(
     geometry, bodies, shapes, paths, row, other, one_way, squares, cuts_out, workspace, best_out, work_inout
 ):
-    """As impacts.first_meeting, by pixels: each goes as far as its body's fraction and rests then. To best_out (5,)."""
+    """Write the result of impacts.first_meeting by pixels to best_out (5,): each moves up to its fraction, and then
+    rests.
+    """
     p = shapes[row].body_row
     q = shapes[other].body_row
     both = min(bodies[p].fraction, bodies[q].fraction)
@@ -298,12 +304,12 @@ def find_shared_areas(
     impacts_out,
     work_inout,
 ):
-    """List (candidate, fraction, normal from A to B, 0, -1, point) of the pairs with a mask, told by pixels, that come
-    to share area on the path of a fast body.
+    """List (candidate, fraction, normal from A to B, 0, -1, point) of pairs with a mask that come to share area on a
+    fast path.
 
-    As find_rotational_impacts, which has the arguments' meaning; squares: Squares of all masks among the candidates;
-    best_out (5,): scratch. It stops nobody: where bodies are pushed these are the pairs of sensors. Returns the number
-    found. O(candidates).
+    The arguments are those of find_rotational_impacts. squares: Squares of all masks among the candidates. best_out
+    (5,): scratch. No body is stopped: with response these are the pairs of sensors. Return the number found.
+    O(candidates).
     """
     found = 0
     for i in range(count):

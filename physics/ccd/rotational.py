@@ -1,4 +1,4 @@
-"""Rotational continuous collision: a hull that moves and turns, against hulls, tiles, chains and parts."""
+"""Rotational continuous collision: a hull that moves and rotates, against hulls, tiles, chains and parts."""
 
 import math
 from typing import NamedTuple
@@ -36,23 +36,23 @@ from physics.tables.shape import BOUNDS, CHAIN, PART, TILES
 from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 
 # ---- rotational ------------------------------------------------------------------------------------------------------
-# The sweep of a hull that moves and turns about its centre of mass: one rule for whatever it may meet.
+# The sweep of a hull that moves and rotates about its centre of mass: one rule for all obstacles.
 #
-# Nothing is gone into deeper than the mover stands in it already, and a slop more: then it is put back to where it was
-# no deeper than at the start. So what rests or slides is never held, no seam between two pieces of ground is felt (a
-# piece that lies flush is no deeper under the mover than the whole), and what breaks through is stopped, wherever it
-# was at the start. What stands so deep that its core, a quarter of its smallest half extent about its centre of mass,
-# would go in too, has this core swept instead: a centre never gets across (Box2D v3's core circle). One-sided ground is
-# met only while the mover is in front of it.
+# A mover may get no deeper into a shape than it is at the start, and a slop more; otherwise it is moved back to the
+# last fraction at which it was no deeper than at the start. So resting and sliding bodies are not held, no seam between
+# two pieces of ground is hit (a flush piece is no deeper under the mover than the whole), and a body that breaks
+# through is stopped from any start. A mover that is so deep that its core, a quarter of its smallest half extent about
+# its centre of mass, would enter is swept by this core: a centre never crosses (Box2D v3's core circle). One-sided
+# ground is hit only while the mover is in front of it.
 
-BEFORE = 2.0**-20  # of the way
-BACKWARDS = 6  # rounds of Newton's method: two or three do
-CORE_LEFT = 0.9  # of the distance of a centre that is nearer than its core
-CORE = 0.25  # of a body's smallest half extent
+BEFORE = 2.0**-20  # share of the path
+BACKWARDS = 6  # rounds of Newton's method, of which two or three are needed
+CORE_LEFT = 0.9  # share of the distance of a centre that is nearer than its core radius
+CORE = 0.25  # share of a body's smallest half extent
 
 
 class RotationalWorkspace(NamedTuple):
-    """Room for one shape on its way."""
+    """Scratch arrays of one moving shape."""
 
     advance: AdvanceWorkspace
     mover: np.ndarray  # (16, 2) its corners from its centre of mass [px], at angle 0
@@ -64,7 +64,9 @@ def new_rotational_workspace() -> RotationalWorkspace:
 
 @subkernel
 def write_motion(motions, body_row, motion_out):
-    """Start and change of one body's motion. motions (bodies, 6): centre of mass [px] and angle, at start and end."""
+    """Write start and change of the motion of one body. motions (bodies, 6): centre of mass [px] and angle, at start
+    and end.
+    """
     motion_out[CENTER_X] = motions[body_row, 0]
     motion_out[CENTER_Y] = motions[body_row, 1]
     motion_out[ANGLE] = motions[body_row, 2]
@@ -75,9 +77,9 @@ def write_motion(motions, body_row, motion_out):
 
 @subkernel
 def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
-    """Corners of a hull from its body's centre of mass [px] at angle 0. Returns their number.
+    """Write the corners of a hull from its body's centre of mass [px] at angle 0. Return their number.
 
-    A BOUNDS does not turn: it keeps the box it has at the start.
+    A BOUNDS does not rotate: it keeps its box at the start.
     """
     b = bodies[shapes[row].body_row]
     if shapes[row].kind != BOUNDS:
@@ -91,7 +93,7 @@ def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
 
 @subkernel
 def place_mover(count, workspace):
-    """Have the mover swept, with nothing of what the last pair left behind. Returns its reach [px]."""
+    """Set up the mover and reset the state of the last pair. Return its reach [px]."""
     for k in range(count):
         workspace.advance.local_a[k, 0] = workspace.mover[k, 0]
         workspace.advance.local_a[k, 1] = workspace.mover[k, 1]
@@ -102,17 +104,17 @@ def place_mover(count, workspace):
 
 @subkernel
 def depth_at_start(count, radius, other_count, other_radius, workspace):
-    """How deep [px] the mover stands in workspace.advance.local_b before it moves; 0: not at all."""
+    """Return the depth [px] of the mover in workspace.advance.local_b before it moves; 0 if they do not overlap."""
     place_mover(count, workspace)
     return max(0.0, -separate_at(count, radius, other_count, other_radius, 0.0, workspace.advance))
 
 
 @subkernel
 def sweep_core(core_radius, other_count, other_radius, workspace):
-    """Fraction, or MISS, of the core circle against workspace.advance.local_b; MISS when its centre is in it.
+    """Return the fraction, or MISS, of the core circle against workspace.advance.local_b; MISS if its centre is inside.
 
-    Where the circle touches already it shrinks to most of the distance that is left: the centre never gets across.
-    Measured, moving rooms: with half of it three of 768 lost a body whose centre had come to the wall step by step.
+    If the circle touches at the start, it shrinks to most of the remaining distance, so that the centre never crosses.
+    With half of it, three of 768 moving rooms lost a body whose centre had come to the wall step by step.
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
@@ -126,9 +128,9 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 
 @subkernel
 def back_to(count, radius, other_count, other_radius, depth, fraction, size, workspace):
-    """The fraction, before one at which the mover is deeper than `depth` [px], at which it was that deep.
+    """Return the fraction, before one at which the mover is deeper than `depth` [px], at which it was that deep.
 
-    Newton's method from there: an earlier touch with a side of the piece that the ground goes on behind is not met.
+    Newton's method starts from there, so that an earlier contact with a covered side of the piece is not found.
     """
     gap = workspace.advance.gap.gap
     nx = gap[NX]
@@ -142,22 +144,23 @@ def back_to(count, radius, other_count, other_radius, depth, fraction, size, wor
         fraction = min(max(0.0, fraction + (separation + depth) / approach), most)
         separation = separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
     if nx * gap[NX] + ny * gap[NY] < 0.5:
-        gap[NX] = nx  # another side is nearer there, which it did not come through
+        gap[NX] = nx  # another side is nearer there, through which it did not enter
         gap[NY] = ny
     return fraction
 
 
 @subkernel
 def sweep_part(count, radius, other_count, other_radius, half, depth, slack, workspace):
-    """(fraction or MISS, whether the core met it) of the mover against a convex piece, workspace.advance.local_b.
+    """Return (fraction or MISS, whether the core hit it) of the mover against a convex piece,
+    workspace.advance.local_b.
 
-    half [px]: the mover's smallest half extent, 0: it has no core; depth [px]: how deep it may be in any case, as it
-    stands in the whole that the piece belongs to; slack [px]: how much deeper it may get, 0: by no more than rounding.
+    half [px]: smallest half extent of the mover, 0 for no core. depth [px]: depth that is allowed in any case, that of
+    the mover in the whole of the piece. slack [px]: additional allowed depth, 0 for rounding alone.
     """
     reach = place_mover(count, workspace)
-    if count == 1 and radius == 0.0:  # a ray's point has no depth: it meets what it touches
+    if count == 1 and radius == 0.0:  # the point of a ray has no depth: touching is an impact
         fraction = advance(1, 0.0, other_count, other_radius, workspace.advance)
-        if fraction <= 1.0:  # where it touches it has no normal: that of just before
+        if fraction <= 1.0:  # touching has no normal, so the one just before is used
             separate_at(1, 0.0, other_count, other_radius, max(0.0, fraction - BEFORE), workspace.advance)
         return fraction, False
     motion = workspace.advance.motion_a
@@ -177,7 +180,7 @@ def sweep_part(count, radius, other_count, other_radius, half, depth, slack, wor
 
 @subkernel
 def swept_box(reach, motion_a, motion_b):
-    """Box (min_x, min_y, max_x, max_y) [px] that holds a body on its way, seen from the other's own moving point."""
+    """Return the box (min_x, min_y, max_x, max_y) [px] of a body on its path, relative to the point of the other."""
     x = motion_a[CENTER_X] - motion_b[CENTER_X]
     y = motion_a[CENTER_Y] - motion_b[CENTER_Y]
     dx = motion_a[MOVE_X] - motion_b[MOVE_X]
@@ -186,12 +189,12 @@ def swept_box(reach, motion_a, motion_b):
 
 
 # ---- rotational ground -----------------------------------------------------------------------------------------------
-# The sweep of a hull against tiles and chains: piece by piece, all by the rule of rotational.py.
+# The sweep of a hull against tiles and chains, piece by piece, by the rule above.
 
 
 @subkernel
 def feet_of(count, radius, local_y, workspace):
-    """How far down [px] the mover reaches before it moves, seen from the origin of a grid."""
+    """Return how far down [px] the mover reaches before it moves, seen from the origin of a grid."""
     motion = workspace.advance.motion_a
     cosine = math.cos(motion[ANGLE])
     sine = math.sin(motion[ANGLE])
@@ -204,9 +207,10 @@ def feet_of(count, radius, local_y, workspace):
 
 @subkernel
 def place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace):
-    """Write what of a tile stops the mover to workspace.advance.local_b. Returns its number of corners, 0: nothing.
+    """Write the part of a tile that stops the mover to workspace.advance.local_b. Return its number of corners, 0 for
+    none.
 
-    Of a tile that is open from below it is its top, for a mover whose feet are no lower than `stood` [px].
+    Of a one-way tile it is the top, for a mover whose feet are no lower than `stood` [px].
     """
     g = geometry.grids[grid]
     kind = geometry.cells[g.offset + line * g.columns + column].kind
@@ -215,16 +219,16 @@ def place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
     corners, edges = tile_at(geometry, grid, -local_x, -local_y, line, column, workspace.advance.local_b)
     if kind == ONE_WAY:
         return 2
-    return 0 if edges == ALL_EDGES else corners  # covered all round: nothing gets there first
+    return 0 if edges == ALL_EDGES else corners  # covered on all sides, so it is never hit first
 
 
 @subkernel
 def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, one_way, but, workspace):
-    """(fraction or MISS, normal from the tiles, feature) of the mover against the tiles in its swept box.
+    """Return (fraction or MISS, normal from the tiles, feature) of the mover against the tiles in its swept box.
 
-    O(cells in it). local_x, local_y [px]: the grid's centre of mass in its body space; a grid does not turn. half,
-    slack: see sweep_part; one_way: whether tiles open from below take part; they stop what falls from above them; but:
-    the feature that does not count, or -1.
+    local_x, local_y [px]: centre of mass of the grid in its body space; a grid does not rotate. half, slack: see
+    sweep_part. one_way: whether one-way tiles take part, which stop motion from above. but: the feature to ignore, or
+    -1. O(cells in the box).
     """
     g = geometry.grids[grid]
     size = g.tile_size
@@ -282,13 +286,13 @@ def place_link(link, local_x, local_y, workspace):
 
 @subkernel
 def ahead_of(ax, ay, bx, by, u, v):
-    """How far a point is in front of the line from a to b, times its length."""
+    """Return the distance of a point in front of the line from a to b, times the length of the line."""
     return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
 
 
 @subkernel
 def middle_of(count, corners):
-    """The middle of so many corners [px]."""
+    """Return the mean of so many corners [px]."""
     x = 0.0
     y = 0.0
     for k in range(count):
@@ -299,8 +303,10 @@ def middle_of(count, corners):
 
 @subkernel
 def is_before(link, local_x, local_y, middle, fraction, core, workspace):
-    """Whether the mover's middle [px from its centre of mass], or its centre of mass, is in front of a link at a
-    fraction of both motions. Beyond an end where the chain turns to its front, in front of the neighbour there as well.
+    """Return whether the mover's middle [px from its centre of mass], or its centre of mass, is in front of a link at a
+    fraction.
+
+    Beyond an end where the chain bends to its front, it has to be in front of the neighbour, too.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -330,7 +336,7 @@ def is_before(link, local_x, local_y, middle, fraction, core, workspace):
 
 @subkernel
 def misses_block(box, local_x, local_y, left, top, right, bottom):
-    """Whether the links of a block lie beside a box [px], seen from the chain's own moving point."""
+    """Return whether the links of a block lie beside a box [px], seen from the chain's moving point."""
     return (
         box.min_x - local_x > right
         or box.max_x - local_x < left
@@ -341,7 +347,7 @@ def misses_block(box, local_x, local_y, left, top, right, bottom):
 
 @subkernel
 def depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, workspace):
-    """How deep [px] the mover stands in the links that its middle is in front of, before it moves."""
+    """Return the depth [px] of the mover, before it moves, in the links that its middle is in front of."""
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -368,7 +374,7 @@ def depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, wor
 
 @subkernel
 def starts_across(geometry, chain, local_x, local_y, count, radius, slack, workspace):
-    """Whether the mover lies deeper than slack [px] across a surface before it moves, so that it passes."""
+    """Return whether the mover starts deeper than slack [px] across a one-way surface, and so passes it."""
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     u, v = turned(local_x, local_y, math.cos(other[ANGLE]), math.sin(other[ANGLE]))
@@ -389,16 +395,22 @@ def starts_across(geometry, chain, local_x, local_y, count, radius, slack, works
 
 @subkernel
 def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, but, workspace):
-    """(fraction or MISS, normal from the chain, feature) of the mover against the links of a chain within reach, from
-    their front. half, slack: see sweep_part; but: the feature that does not count, or -1. O(links near the way)."""
+    """Return (fraction or MISS, normal from the chain, feature) of the mover against the links within reach, from their
+    front.
+
+    half, slack: see sweep_part. but: the feature to ignore, or -1. O(links near the path).
+    """
     middle = middle_of(count, workspace.mover)
     return sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radius, half, slack, but, workspace)
 
 
 @subkernel
 def sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radius, half, slack, but, workspace):
-    """As sweep_chain, of a mover that is a piece of something: the middle of the whole, (x, y) [px] from its centre of
-    mass at angle 0, decides which links it is in front of."""
+    """Return the result of sweep_chain for a mover that is a piece of a shape.
+
+    The middle of the whole shape, (x, y) [px] from its centre of mass at angle 0, decides which links it is in front
+    of.
+    """
     span = geometry.chains[chain]
     other = workspace.advance.motion_b
     reach = reach_of(workspace.mover, count) + radius
@@ -421,7 +433,7 @@ def sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radi
             link = geometry.links[k]
             place_link(link, local_x, local_y, workspace)
             fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
-            # The point of a ray is on the link when it meets it: what counts is where it comes from.
+            # The point of a ray is on the link at the impact, so its start decides on the side.
             when = 0.0 if count == 1 and radius == 0.0 else fraction
             if fraction < best and is_before(link, local_x, local_y, middle, when, core, workspace):
                 best = fraction
@@ -437,7 +449,7 @@ def sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radi
 
 @subkernel
 def shrink_to_middle(count, mover_inout):
-    """Leave of a hull the middle of its corners: what is swept as a ray. Returns 1, the number of corners left."""
+    """Reduce a hull to the mean of its corners, which is swept as a ray. Return 1, the number of corners left."""
     x = 0.0
     y = 0.0
     for k in range(count):
@@ -450,14 +462,14 @@ def shrink_to_middle(count, mover_inout):
 
 @subkernel
 def sweep_hull(count, radius, half, core_b, n, radius_b, slack, workspace):
-    """(fraction or MISS, normal from the other) of the mover against the hull in workspace.advance.local_b.
+    """Return (fraction or MISS, normal from the other) of the mover against the hull in workspace.advance.local_b.
 
-    core_b [px]: radius of the other's core, 0: it has none.
+    core_b [px]: radius of the other's core, 0 for none.
     """
     depth = depth_at_start(count, radius, n, radius_b, workspace)
     fraction, core = sweep_part(count, radius, n, radius_b, half, depth, slack, workspace)
     if core and fraction > 1.0 and core_b > 0.0:
-        # Deep in each other: at least their cores do not change places.
+        # A deep overlap: their cores must not change places.
         workspace.advance.local_b[0, 0] = 0.0
         workspace.advance.local_b[0, 1] = 0.0
         fraction = sweep_core(CORE * half, 1, core_b, workspace)
@@ -466,7 +478,7 @@ def sweep_hull(count, radius, half, core_b, n, radius_b, slack, workspace):
 
 @subkernel
 def stands_deep(geometry, bodies, shapes, motions, row, other, slack, workspace):
-    """Whether a hull stands deeper than slack [px] in another before both go their ways: see sweep_rotational."""
+    """Return whether a hull overlaps another deeper than slack [px] before both move. See sweep_rotational."""
     write_motion(motions, shapes[row].body_row, workspace.advance.motion_a)
     write_motion(motions, shapes[other].body_row, workspace.advance.motion_b)
     count = write_local(geometry, bodies, shapes, row, workspace.advance.motion_a, workspace.mover)
@@ -476,12 +488,12 @@ def stands_deep(geometry, bodies, shapes, motions, row, other, slack, workspace)
 
 @subkernel
 def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_way, but, workspace, work_inout):
-    """Shape `row` against shape `other`, both on their way through a step:
-    (fraction or MISS, normal from other to row, feature: which tiles or link, -1 of a hull).
+    """Sweep shape `row` against shape `other`, both moving through a step.
 
-    motions (bodies, 6) float64, by body row: centre of mass [px] and angle, at the start and at the end of the step.
-    row: a hull; other: a hull, tiles or a chain, from its front; for anything else MISS. slack [px]: see sweep_part;
-    one_way: whether what is open from below takes part; but: the feature, of tiles or links, that does not count, or -1
+    Return (fraction or MISS, normal from other to row, feature: index of tiles or link, -1 of a hull). motions (bodies,
+    6) float64, by body row: centre of mass [px] and angle, at the start and at the end of the step. row: a hull. other:
+    a hull, tiles or a chain, from its front; MISS for other kinds. slack [px]: see sweep_part. one_way: whether one-way
+    shapes take part. but: the feature of tiles or links to ignore, or -1.
     """
     s = shapes[row]
     o = shapes[other]
@@ -539,12 +551,12 @@ def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_w
 
 
 # ---- parts -----------------------------------------------------------------------------------------------------------
-# The first impact of shapes made of parts, on their way between two poses.
+# First impact of shapes made of parts, along two motions.
 
 
 @subkernel
 def begin_sweep(motion_a, motion_b, workspace, impact_out):
-    """Take in two motions, with nothing met yet. Returns the way of the one as seen from the other [px]."""
+    """Write two motions and reset the result. Return the relative translation of the first [px]."""
     r = workspace.advance
     for k in range(6):
         r.motion_a[k] = motion_a[k]
@@ -559,7 +571,9 @@ def begin_sweep(motion_a, motion_b, workspace, impact_out):
 
 @subkernel
 def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
-    """At least so far [px] are the hulls in local_a and local_b apart before they move; below 0 they may touch."""
+    """Return a lower bound [px] of the distance of the hulls in local_a and local_b before they move; below 0 they may
+    touch.
+    """
     r = workspace.advance
     place_at(r.local_a, a_count, r.motion_a, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.a)
     place_at(r.local_b, b_count, r.motion_b, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.b)
@@ -584,11 +598,12 @@ def advance_parts(
     impact_out,
     totals_out,
 ):
-    """Write (fraction or MISS, normal from A to B) of the first impact of a part of A with one of B to impact_out (3,).
+    """Write (fraction or MISS, normal from A to B) of the first impact of a part of A with a part of B to impact_out
+    (3,).
 
-    a, b: Parts in body space; motion_a, motion_b (6,): see advance.AdvanceWorkspace; workspace: RotationalWorkspace;
-    totals_out (2,): rounds of GJK and EPA, caps hit. Pairs too far apart to meet before the first impact so far are
-    skipped. O(parts of A · parts of B).
+    a, b: Parts in body space. motion_a, motion_b (6,): see AdvanceWorkspace. workspace: RotationalWorkspace. totals_out
+    (2,): rounds of GJK and EPA, caps hit. Pairs that cannot meet before the first impact so far are skipped. O(parts of
+    A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(motion_a, motion_b, workspace, impact_out)
@@ -622,10 +637,10 @@ def sweep_unions(
     impact_out,
     totals_out,
 ):
-    """As advance_parts, for shapes that are the union of their parts, which may lie flush: masks.
+    """Write the result of advance_parts for shapes that are the union of their parts, which may lie flush: masks.
 
-    By the rule of rotational.py: what gets no deeper than the two stand in each other at the start meets nothing, so no
-    seam between two parts is felt, and what only grazes is not met. O(parts of A · parts of B).
+    By the rule of "rotational" above, a motion that leads no deeper than the overlap at the start is no impact. So
+    seams between parts and grazing contacts are no impacts. O(parts of A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(motion_a, motion_b, workspace, impact_out)
@@ -670,7 +685,8 @@ def advance_on_ground(
     impact_out,
     totals_out,
 ):
-    """As advance_parts, against tiles (is_chain 0), through no covered side, or a chain (1), from its front.
+    """Write the result of advance_parts against tiles (is_chain 0), through uncovered sides, or a chain (1), from its
+    front.
 
     ground: row of the grid or chain.
     """

@@ -1,4 +1,4 @@
-"""The stages of continuous collision: fast bodies stop at what they meet on their way."""
+"""The stages of continuous collision: fast bodies stop at their first impact."""
 
 import math
 
@@ -33,13 +33,12 @@ from physics.tables.step_state import CAP_HITS, StepState, stage
 from physics.tables.table import joined
 
 # ---- push ahead ------------------------------------------------------------------------------------------------------
-# What kinematic bodies run into stays in front of them for the rest of the step.
+# Kinematic bodies push the bodies that stopped in their way, for the rest of the step.
 #
-# A body that was stopped on its way waits there for the next step; what moves by its script does not wait. So the rest
-# of the step is swept once more, piece by piece: wherever the scripted surface would go into the body, it takes it
-# along.
+# A body that was stopped waits for the next step, but a kinematic body goes on. So the rest of the step is swept once
+# more, piece by piece: wherever the kinematic surface would enter the body, it pushes it along.
 
-MEETINGS = 2  # parts of one pusher that are looked at in a round: the two sides of a corner
+MEETINGS = 2  # parts of one pusher in a round: the two sides of a corner
 
 
 @kernel
@@ -59,11 +58,11 @@ def push_ahead(
     moves_inout,
     work_inout,
 ):
-    """Lengthen the moves of stopped bodies so that nothing kinematic goes into them until the end of the step.
+    """Extend the moves of stopped bodies so that no kinematic body overlaps them until the end of the step.
 
-    paths (bodies, 6) from list_paths; slack [px]: see rotational.sweep_part; moves_inout (bodies, 2) [px]: how far each
-    is taken along from where it was stopped, in its body's fraction of the step. Returns how many pushes were added: as
-    each takes a body along a line, a corner needs two and the next look at it finds none. O(candidates).
+    paths (bodies, 6) from list_paths. slack [px]: see rotational.sweep_part. moves_inout (bodies, 2) [px]: translation
+    of each from where it stopped, at its body's fraction of the step. Return the number of pushes. Each push is along a
+    line, so a corner needs two, and a further call adds none. O(candidates).
     """
     found = 0
     for i in range(count):
@@ -91,7 +90,8 @@ def push_ahead(
                 )
                 if fraction >= 1.0:
                     break
-                # Where the point of the pusher that is now at the body's centre of mass will be, beyond its own move.
+                # The final place of the pusher's point that is now at the body's centre of mass, relative to its own
+                # motion.
                 left = 1.0 - fraction
                 x = cuts_out[row, 0] + fraction * moves_inout[row, 0]
                 y = cuts_out[row, 1] + fraction * moves_inout[row, 1]
@@ -109,23 +109,23 @@ def push_ahead(
                     break
                 if feature < 0:
                     break
-                but = feature  # what pushes no further hides what is met after it: the other side of a corner
+                but = feature  # a part that pushes no further hides the next one: the other side of a corner
     return found
 
 
 # ---- sweep -----------------------------------------------------------------------------------------------------------
-# The stages that stop fast bodies at what they meet on their way.
+# The stages that stop fast bodies at their first impact.
 #
-# Without a stacking solver impacts are foreseen, and bodies moved no further than to the first of them. With one the
-# solver moves everybody; then each fast body is swept from where it was to where it is. It is put back to where it
-# first met something, and keeps its velocity: the contact of the next step takes the impact, with its whole speed.
+# Without a stacking solver impacts are found ahead, and bodies move no further than to the first one. A stacking solver
+# moves all bodies; then each fast body is swept from its pose before to its pose after the step. It is moved back to
+# its first impact and keeps its velocity, so the contact of the next step gets the impact at full speed.
 
 SAME_FRACTION = 1e-9  # of a step
 NO_IMPACTS, NO_ROWS = np.zeros((0, 8)), np.zeros(0, np.int64)
 
 
 class Sweeper:
-    """The arrays that sweeps of one world need, grown and used again."""
+    """Arrays for the sweeps of one world, which grow and are reused."""
 
     def __init__(self) -> None:
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
@@ -145,7 +145,7 @@ class Sweeper:
 
 
 def _look(state, moving, strict=False) -> np.ndarray:
-    """Impacts (n, 8) of the fast with what stands still (moving 0), or moves (1); strict: the least of them stops."""
+    """Return impacts (n, 8) of fast bodies with resting (moving 0) or moving ones (1). strict: any depth stops."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_rotational_impacts(
@@ -197,7 +197,9 @@ def _look(state, moving, strict=False) -> np.ndarray:
 
 
 def _masks_in(state) -> np.ndarray:
-    """Rows in the library of the masks that candidates are told by: all where nothing is pushed, else with sensors."""
+    """Return the library rows of masks whose candidates are tested by pixels: all without response, otherwise those of
+    sensors.
+    """
     if not state.library.masks:
         return NO_ROWS
     rows = state.pairs.rows
@@ -206,7 +208,7 @@ def _masks_in(state) -> np.ndarray:
 
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
-    """Impacts (n, 8) of the bodies whose way has a closed form."""
+    """Return impacts (n, 8) of the bodies whose sweep has a closed form."""
     sweeper, rows = state.workspace.sweep, state.pairs.rows
     sweeper.grow(state)
     found = find_impacts(
@@ -231,7 +233,7 @@ PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y",
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
 def foresee_impacts(state: StepState) -> None:
-    """What the bodies are about to meet, and which part of their motion is free."""
+    """Find the impacts of the coming motion, and the part of it that is free."""
     sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt
     found = _look_straight(state, bodies, dt, state.effects.rotation)
     foresee_paths(rows, bodies, dt, sweeper.paths)
@@ -257,7 +259,7 @@ def foresee_impacts(state: StepState) -> None:
     ),
 )
 def detect_moved(state: StepState) -> None:
-    """Manifolds where the bodies ended, with the impacts on their way that the test at the final poses did not see."""
+    """Find manifolds at the final poses, and add impacts on the way that the test at the final poses missed."""
     rows = state.awake.bodies
     stopped = rows[state.bodies["fraction"][rows] < 1.0] if len(state.impacts) and state.effects.response else rows[:0]
     if len(stopped) and push_stopped(state, stopped):
@@ -269,23 +271,23 @@ def detect_moved(state: StepState) -> None:
     met = _written(state, state.impacts, int(state.effects.response))
     if state.effects.response:
         state.swept_sensors, met = met[met["sensor"]], met[~met["sensor"]]
-    # Where a side went on after the impact, as a kinematic one does, the final poses may show it from behind.
+    # If a side moved on after the impact, as a kinematic one does, the final poses may show it from behind.
     passed = met["candidate"][met["separation_1"] < -state.tolerances.slop]
     manifolds = manifolds[~np.isin(manifolds["candidate"], passed)]
-    # A body that ended just behind what it flew through is near it, but going away: the impact is what counts.
+    # A body that ended just behind its obstacle is near it but moves away, so the impact counts.
     two = manifolds["count"] == 2
     nears = (manifolds["speed_1"] > 0.0) | (two & (manifolds["speed_2"] > 0.0))
     apart = (manifolds["separation_1"] > 0.0) & ~(two & (manifolds["separation_2"] <= 0.0))
     seen = np.isin(manifolds["candidate"], met["candidate"])
     manifolds["swept"][seen & nears] = True
-    # Where nothing responds it may have ended inside, nearer to the far side.
+    # Without response it may have ended inside, nearer to the far side.
     manifolds = manifolds[~(seen & ~nears & (apart | (not state.effects.response)))]
     met = met[~np.isin(met["candidate"], manifolds["candidate"])]
     state.manifolds = in_order(joined([manifolds, met]))
 
 
 def _written(state, impacts, response) -> np.ndarray:
-    """MANIFOLD rows of the impacts that are the first of a body, with the speeds of approach."""
+    """Return MANIFOLD rows of the impacts that are the first of a body, with the approach speeds."""
     workspace = np.zeros(len(impacts), MANIFOLD)
     found = write_impacts(
         state.bodies, state.shapes, state.pairs.rows, impacts, len(impacts), state.dt, response, workspace
@@ -313,7 +315,7 @@ def _written(state, impacts, response) -> np.ndarray:
     ),
 )
 def sweep_piles(state: StepState) -> None:
-    """Find the fast bodies, what they have met in the step, and put them there."""
+    """Find the fast bodies and their first impacts in the step, and move them there."""
     bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep
     state.ghosts = None
     sweeper.grow(state)
@@ -337,7 +339,7 @@ def sweep_piles(state: StepState) -> None:
 
 
 def _cover(state):
-    """Where a body went further than its rectangle foresaw, look for what it may have met there."""
+    """Find candidates for bodies that left their swept AABBs."""
     own, shapes, pairs = state.awake.shapes, state.shapes, state.pairs
     rows = state.workspace.rows_for(len(own))
     found = find_outgrown(own, state.bodies, shapes, pairs.proxies, state.workspace.sweep.fast, rows)
@@ -347,7 +349,7 @@ def _cover(state):
 
 
 def _sweep_straight(state) -> np.ndarray:
-    """Impacts of the bodies that ask for a ray or a sweep without turning: along the way that the solver found."""
+    """Find impacts of bodies that are swept as a ray or without rotation, along the path that the solver found."""
     dt, moved = state.dt, state.bodies.copy()
     for name, velocity in (("x", "vx"), ("y", "vy")):
         moved[velocity] = (moved[name] - moved["previous_" + name]) / dt if dt > 0.0 else 0.0
@@ -359,7 +361,7 @@ def _sweep_straight(state) -> np.ndarray:
 
 
 def _sweep_rotational(state) -> np.ndarray:
-    """Impacts with what stands still, then, in rounds, with what moves and may be stopped itself."""
+    """Find impacts with resting bodies, then, in rounds, with moving ones, which may be stopped, too."""
     found = [_look(state, 0)]
     stop_at_impacts(state.shapes, state.pairs.rows, found[0], len(found[0]), state.bodies)
     found.append(_look(state, 1))
@@ -368,23 +370,24 @@ def _sweep_rotational(state) -> np.ndarray:
             state.work[CAP_HITS] += 1
             break
         found.append(_look(state, 1))
-    # Those of earlier rounds that somebody no longer gets to are left out when they are written.
+    # Impacts of earlier rounds that a body no longer reaches are left out when they are written.
     return np.concatenate(found)
 
 
 def _stop(state, impacts) -> bool:
-    """Stop the bodies of these impacts. Returns whether anybody stops earlier than before."""
+    """Stop the bodies of these impacts. Return whether any stops earlier than before."""
     rows = state.awake.bodies
     before = state.bodies["fraction"][rows]
     stop_at_impacts(state.shapes, state.pairs.rows, impacts, len(impacts), state.bodies)
-    # The same impact may come out a rounding earlier from the shortened paths: that stops nobody anew.
+    # The same impact may come out slightly earlier from shortened paths, which is no new stop.
     return bool((state.bodies["fraction"][rows] < before - SAME_FRACTION).any())
 
 
 def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
-    """Have what kinematic bodies run into stay in front of them for the rest of the step, as far as nothing that
-    stands is in the way. stopped: rows of bodies that were stopped at their fraction of the paths of the sweep. Returns
-    whether any was pushed."""
+    """Keep stopped bodies in front of kinematic ones for the rest of the step, as far as no resting body is in the way.
+
+    stopped: rows of bodies that were stopped at their fraction of the paths. Return whether any was pushed.
+    """
     sweeper, bodies, pairs = state.workspace.sweep, state.bodies, state.pairs.rows
     moves = np.zeros((len(bodies), 2))
     for rounds in range(PUSH_ROUNDS):
@@ -413,8 +416,10 @@ def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
 
 
 def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived: bool = False) -> None:
-    """Shift bodies by (n, 2) [px], each as far as nothing that stands is in the way; arrived: nor what is kinematic,
-    which has come to where it ends the step."""
+    """Translate bodies by (n, 2) [px], each as far as no resting body is in the way.
+
+    arrived: also no kinematic body, which is at its final pose.
+    """
     sweeper, bodies, awake = state.workspace.sweep, state.bodies, state.awake.bodies
     sweeper.grow(state)
     fractions = bodies["fraction"][rows]
@@ -432,11 +437,13 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
 
 
 def _tell(state, met):
-    """Add the impacts to what touches, and to what is sensed: begun in this step, though the push comes in the next."""
+    """Add the impacts to the contacts and the sensed pairs: they begin in this step, though the impulse follows in the
+    next.
+    """
     if not len(met):
         return
     written = _written(state, met, 0)
-    # Two ways of being found are one impact.
+    # An impact that was found in two ways is one impact.
     _, first = np.unique(written["shape_a"] << 32 | written["shape_b"], return_index=True)
     written = written[first]
     sensed = written[written["sensor"]]
@@ -448,7 +455,7 @@ def _tell(state, met):
     state.manifolds["swept"][np.isin(known, keys)] = True
     new = solid[~np.isin(keys, known)]
     if len(new):
-        # The impact is told, with its impulse, by the contact of the next step.
+        # The contact of the next step reports the impact with its impulse.
         touch_where_they_are(state, new)
         new["speed_1"] = new["speed_2"] = 0.0
         both = joined([state.manifolds, new])

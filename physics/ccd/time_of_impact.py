@@ -27,16 +27,17 @@ from physics.tables.shape import BOUNDS, CIRCLE, POLYGON, TILES
 from physics.tables.step_state import TOI_CALLS
 
 # ---- closed form -----------------------------------------------------------------------------------------------------
-# First times of impact in closed form, of two shapes that move along a line without turning: discs, polygons, rays.
+# First time of impact in closed form, of two shapes that move along a line without rotation: discs, polygons, rays.
 
 MISS = 2.0  # a fraction beyond the step
 
 
 @subkernel
 def sweep_circles(x, y, dx, dy, radius):
-    """A point at (x, y) from the centre of a disc [px], moved by (dx, dy): (fraction or MISS, normal to it).
+    """Return (fraction or MISS, normal to the point) of a point at (x, y) from the centre of a disc [px], moved by (dx,
+    dy).
 
-    radius: the sum of both discs'. Touching at the start: 0 when it approaches.
+    radius: sum of both radii. Touching at the start is 0 if it approaches.
     """
     nx, ny = unit(x, y, 1.0, 0.0)
     approach = x * dx + y * dy
@@ -49,7 +50,7 @@ def sweep_circles(x, y, dx, dy, radius):
     discriminant = approach * approach - a * c
     if discriminant < 0.0:
         return MISS, nx, ny
-    # The smaller root, in the form that does not cancel.
+    # The smaller root, in the form without cancellation.
     fraction = c / (-approach + math.sqrt(discriminant))
     if fraction > 1.0:
         return MISS, nx, ny
@@ -59,10 +60,10 @@ def sweep_circles(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_polygon(corners, count, edges, x, y, dx, dy):
-    """A ray from outside against a closed convex polygon [px]: (fraction or MISS, normal).
+    """Return (fraction or MISS, normal) of a ray from outside against a closed convex polygon [px].
 
-    By cutting the ray with every half plane, so that nothing slips through between two edges (Cyrus and Beck 1978).
-    edges: bits of the edges that may be touched.
+    The ray is clipped by every half plane, so that none passes between two edges (Cyrus and Beck 1978). edges: bits of
+    the edges that may be hit.
     """
     enter = -1.0
     leave = 1.0
@@ -87,9 +88,10 @@ def cast_on_polygon(corners, count, edges, x, y, dx, dy):
 
 @subkernel
 def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
-    """A disc moved by (dx, dy) against a polygon at rest [px]: (fraction or MISS, normal from the polygon to the disc).
+    """Return (fraction or MISS, normal from the polygon to the disc) of a disc moved by (dx, dy) against a resting
+    polygon [px].
 
-    edges: bits of the edges that may be touched. A radius of 0 casts a ray.
+    edges: bits of the edges that may be hit. A radius of 0 casts a ray.
     """
     hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
     if hit and separation <= 0.0:
@@ -127,10 +129,11 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 
 @subkernel
 def half_planes(a, a_count, b, b_count, edges, side, dx, dy, slack, enter, leave, entering, nx, ny):
-    """Cut the time of overlap by the faces of one outline.
+    """Clip the time of overlap by the faces of one outline.
 
-    side 1: the faces of B, which A's corners cross; -1: those of A, crossed by B's corners. A face that is crossed by
-    less than `slack` [px] does not count. Returns (enter, leave, entering face or -1 - face of A, normal from B to A).
+    side: 1 for the faces of B, which A's corners cross; -1 for those of A, crossed by B's corners. A face that is
+    crossed by less than `slack` [px] does not count. Return (enter, leave, entering face or -1 - face of A, normal from
+    B to A).
     """
     for k in range(b_count):
         mx, my = edge_normal(b, b_count, k)
@@ -154,10 +157,10 @@ def half_planes(a, a_count, b, b_count, edges, side, dx, dy, slack, enter, leave
 
 @subkernel
 def sweep_polygons(a, a_count, b, b_count, b_edges, dx, dy, slack):
-    """Polygon A moved by (dx, dy) against B at rest [px]: (fraction or MISS, normal from B to A).
+    """Return (fraction or MISS, normal from B to A) of polygon A moved by (dx, dy) against B at rest [px].
 
-    b_edges: bits of B's edges that may be touched; slack [px]: shallower overlaps do not count. Already overlapping
-    by more: MISS, the contact solver lets it out.
+    b_edges: bits of B's edges that may be hit. slack [px]: shallower overlaps do not count. A deeper overlap at the
+    start is MISS, and left to the contact solver.
     """
     enter, leave, entering, nx, ny = half_planes(
         a, a_count, b, b_count, b_edges, 1.0, dx, dy, slack, -1.0, 1.0, 0, 0.0, -1.0
@@ -178,17 +181,19 @@ def sweep_polygons(a, a_count, b, b_count, b_edges, dx, dy, slack):
 
 
 # ---- linear ----------------------------------------------------------------------------------------------------------
-# First time of impact of shapes that move without turning: circles and convex polygons, against each other.
+# First time of impact of shapes that move without rotation: circles and convex polygons, against each other.
 #
 # Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines, so the relative
 # motion enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: quadratic per corner, linear
-# per edge (Ericson, Real-Time Collision Detection, 5.5). All in closed form, relative to B. What stands deeper in the
-# other than the slop before it moves is left to the sweep of rotational.py.
+# per edge (Ericson, Real-Time Collision Detection, 5.5). All are in closed form, relative to B. Overlaps deeper than
+# the slop at the start are left to the sweep of rotational.py.
 
 
 @subkernel
 def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, slack, corners_inout):
-    """A moving circle or polygon (or a ray from its middle) against an outline: (fraction or MISS, normal to it)."""
+    """Return (fraction or MISS, normal to the mover) of a moving circle or polygon, or a ray of its centre, against an
+    outline.
+    """
     s = shapes[row]
     if s.kind == CIRCLE:
         u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
@@ -214,9 +219,10 @@ def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_
 
 @subkernel
 def is_fast(body, dt, only_straight):
-    """Whether a body's continuous mode asks for a sweep in this step; "auto" when it moves by more than half its size.
+    """Return whether the continuous mode of a body needs a sweep in this step; "auto" does if it moves by more than
+    half its size.
 
-    only_straight: 1 where those that turn on their way are left to the sweep with turning.
+    only_straight: 1 to leave bodies that rotate to the sweep with rotation.
     """
     if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
         return False
@@ -229,7 +235,9 @@ def is_fast(body, dt, only_straight):
 
 @subkernel
 def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
-    """Shape `row` against shape `other`, both moving through dt [s]: (fraction or MISS, normal from other to row)."""
+    """Return (fraction or MISS, normal from other to row) of shape `row` against shape `other`, both moving through dt
+    [s].
+    """
     s = shapes[row]
     o = shapes[other]
     p = bodies[s.body_row]
@@ -258,7 +266,7 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
                 x += scratch.a[k, 0] / count
                 y += scratch.a[k, 1] / count
             return sweep_circles(x - q.x - u, y - q.y - v, dx, dy, o.radius)
-        # The circle flies the other way, against the polygon at rest.
+        # The circle moves the opposite way, against the polygon at rest.
         x = q.x + u
         y = q.y + v
         fraction, nx, ny = sweep_circle_polygon(scratch.a, count, ALL_EDGES, x, y, -dx, -dy, o.radius)
@@ -273,13 +281,15 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
 
 @subkernel
 def is_straight(shape):
-    """Whether the closed forms here know a shape; what is rounded, and ground, is left to the sweep with turning."""
+    """Return whether the closed forms here handle a shape; rounded shapes and ground are left to the sweep with
+    rotation.
+    """
     return shape.kind == CIRCLE or shape.kind == BOUNDS or (shape.kind == POLYGON and shape.radius == 0.0)
 
 
 @subkernel
 def has_closed_form(mover, other, mode):
-    """Whether a fast shape is swept here: by its own outline, or as a ray from the middle of any hull."""
+    """Return whether a fast shape is swept here: by its own outline, or as a ray from the centre of any hull."""
     if mode == RAY:
         return is_straight(other) and is_hull(mover.kind)
     return is_straight(other) and is_straight(mover)
@@ -287,9 +297,9 @@ def has_closed_form(mover, other, mode):
 
 @subkernel
 def write_impact(pair, fraction, nx, ny, feature, from_a, stops, found, impacts_out):
-    """Write an impact of a candidate pair when there is room. Returns the count, which goes on past the capacity.
+    """Write an impact of a candidate pair if there is room. Return the count, which may exceed the capacity.
 
-    nx, ny: from what was met to the mover, which is A of the pair where from_a says so; feature: which tiles or link.
+    nx, ny: from the obstacle to the mover, which is A of the pair if from_a. feature: index of tiles or link.
     """
     if found < impacts_out.shape[0]:
         impacts_out[found, 0] = float(pair)
@@ -319,10 +329,9 @@ def find_impacts(
 ):
     """List (candidate, fraction, normal from A to B, stops, -1) of the pairs that a fast body meets within dt [s].
 
-    Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at
-    the end of the step pushes it out, and nothing that slides along the ground is held by it. slack [px];
-    only_straight: see is_fast; impacts_out (n, 8) float64, of which no
-    point is written. Returns the number found. O(candidates).
+    Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at the
+    end of the step removes it, and a body that slides along the ground is not held. slack [px]. only_straight: see
+    is_fast. impacts_out (n, 8) float64, without points. Return the number found. O(candidates).
     """
     found = 0
     for i in range(count):
@@ -369,7 +378,9 @@ def stop_at_impacts(
     # write
     bodies_inout,
 ):
-    """Set each body's free fraction to its first impact with what is no sensor. bodies_inout BODY rows. O(impacts)."""
+    """Set the free fraction of each body to its first impact with a shape that is no sensor. bodies_inout: BODY rows.
+    O(impacts).
+    """
     for i in range(count):
         pair = int(impacts[i, 0])
         a = shapes[candidates[pair, 0]]
@@ -378,7 +389,7 @@ def stop_at_impacts(
             continue
         p = bodies_inout[a.body_row]
         q = bodies_inout[b.body_row]
-        # What is moved by its script goes on; what is met by it is pushed.
+        # A kinematic body goes on and pushes the body that it meets.
         if p.kind == DYNAMIC:
             p.fraction = min(p.fraction, impacts[i, 1])
         if q.kind == DYNAMIC:
@@ -386,31 +397,33 @@ def stop_at_impacts(
 
 
 # ---- advance ---------------------------------------------------------------------------------------------------------
-# First time of impact of two rounded hulls that move and turn, by conservative advancement of second order.
+# First time of impact of two rounded hulls that move and rotate, by conservative advancement of second order.
 #
 # At a fraction t of the motion the nearest points give a normal n. Along this fixed n every corner moves by its
-# velocity, and its path bends by no more than (turn rate)² · arm, so each pair of corners is apart until the root of a
-# quadratic. The motion is free up to the smallest root; there a new normal is taken. Each stop is before the impact,
-# and near it the gap shrinks with the square of the step, as in Newton's method: a few rounds, and nothing is stepped
-# over however fast it turns. Source: Mirtich, Impulse-based Dynamic Simulation, 1996; Catto, Continuous Collision, GDC
-# 2013.
+# velocity, and its path bends by no more than (angular velocity)² · arm, so each pair of corners is apart until the
+# root of a quadratic. The motion is free up to the smallest root, where a new normal is computed. Each stop is before
+# the impact, and near it the gap shrinks quadratically, as in Newton's method: few rounds are needed, and no impact is
+# missed at any angular velocity. Source: Mirtich, Impulse-based Dynamic Simulation, 1996; Catto, Continuous Collision,
+# GDC 2013.
 
-ADVANCE_CAP = 256  # stops; transversal impacts take under ten, grazes some forty
-LEAVING_CAP = 1024  # stops of a pair that touches and does not approach, each at least 1 / LEAVING_CAP long
-TOLERANCE = 2.0**-43  # 1e-13 of the size of shapes and motion: met
-TOUCHING_BAND = 2.0**-30  # 1e-9 of the size: corners this near to the touching one touch too
-RESTING = 2.0**-42  # of the speed: a slide, whose approach is but rounding
+ADVANCE_CAP = 256  # greatest number of rounds; transversal impacts take under ten, grazing ones about forty
+LEAVING_CAP = (
+    1024  # greatest number of rounds of a pair that touches and does not approach, each at least 1 / LEAVING_CAP long
+)
+TOLERANCE = 2.0**-43  # share of the size of shapes and motion below which they touch
+TOUCHING_BAND = 2.0**-30  # share of the size within which corners beside the touching one touch, too
+RESTING = 2.0**-42  # share of the speed below which an approach is rounding
 CENTER_X, CENTER_Y, ANGLE, MOVE_X, MOVE_Y, TURN = range(6)
 
 
 class AdvanceWorkspace(NamedTuple):
-    """Room for one pair on its way."""
+    """Scratch arrays of one moving pair."""
 
-    local_a: np.ndarray  # (16, 2) corners from the point that each side turns about [px], at angle 0
+    local_a: np.ndarray  # (16, 2) corners from the centre of rotation of each side [px], at angle 0
     local_b: np.ndarray
-    a: np.ndarray  # (16, 2) corners at the present fraction, from where A's point was at the start [px]
+    a: np.ndarray  # (16, 2) corners at the present fraction, from A's centre of rotation at the start [px]
     b: np.ndarray
-    motion_a: np.ndarray  # (6,) point it turns about and angle at the start; what they change by until the end
+    motion_a: np.ndarray  # (6,) centre of rotation and angle at the start, and their changes until the end
     motion_b: np.ndarray
     totals: np.ndarray  # (2,) rounds of GJK and EPA, caps hit
     gap: GapWorkspace
@@ -445,13 +458,15 @@ def place_at(local, count, motion, fraction, x, y, corners_out):
 
 @subkernel
 def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
-    """Separation [px] at a fraction of the motion; workspace.gap.gap has the normal,
-    workspace.a and workspace.b the corners."""
+    """Return the separation [px] at a fraction of the motion.
+
+    workspace.gap.gap has the normal, workspace.a and workspace.b the corners.
+    """
     x = workspace.motion_a[CENTER_X]
     y = workspace.motion_a[CENTER_Y]
     place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
     place_at(workspace.local_b, b_count, workspace.motion_b, fraction, x, y, workspace.b)
-    # At the start nothing is known of the pair: what another one left must not show, not even in the last bit.
+    # Reset the state of the last pair, so that it does not affect this one, not even in the last bit.
     i = min(int(workspace.gap.gap[FIRST_A]), a_count - 1) if fraction > 0.0 else 0
     j = min(int(workspace.gap.gap[FIRST_B]), b_count - 1) if fraction > 0.0 else 0
     separation = separate(workspace.a, a_count, a_radius, workspace.b, b_count, b_radius, i, j, workspace.gap)
@@ -462,7 +477,7 @@ def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
 
 @subkernel
 def reach_of(local, count):
-    """The furthest corner from the point that a hull turns about [px]."""
+    """Return the distance [px] of the furthest corner from the centre of rotation of a hull."""
     reach = 0.0
     for k in range(count):
         reach = max(reach, length_of(local[k, 0], local[k, 1]))
@@ -471,7 +486,9 @@ def reach_of(local, count):
 
 @subkernel
 def along(corners, motion, fraction, k, x, y, nx, ny):
-    """(place along n [px], velocity along n, bend) of corner k at a fraction; x, y: what the corners are seen from."""
+    """Return (place along n [px], velocity along n, curvature bound) of corner k at a fraction. x, y: origin of the
+    corners.
+    """
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
     turn = motion[TURN]
@@ -481,7 +498,7 @@ def along(corners, motion, fraction, k, x, y, nx, ny):
 
 @subkernel
 def free_until(gap, speed, bend):
-    """The first root of gap + speed · t - bend / 2 · t², for gap >= 0; infinite without one."""
+    """Return the first root of gap + speed · t - bend / 2 · t², for gap >= 0; infinite without one."""
     if bend > 0.0:
         root = math.sqrt(speed * speed + 2.0 * bend * gap)
         if speed < 0.0:
@@ -494,9 +511,9 @@ def free_until(gap, speed, bend):
 
 @subkernel
 def free_motion(a_count, b_count, radii, fraction, separation, workspace):
-    """How much further the motion is free at least: until a pair of corners can meet along the present normal.
+    """Return a lower bound of the free motion: until a pair of corners can meet along the present normal.
 
-    separation [px]: pairs that are nearer than 0 count as touching. O(corners of A · corners of B).
+    separation [px]: closer pairs count as touching at 0. O(corners of A · corners of B).
     """
     nx = workspace.gap.gap[NX]
     ny = workspace.gap.gap[NY]
@@ -507,11 +524,11 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
         at_a, speed_a, bend_a = along(workspace.a, workspace.motion_a, fraction, i, x, y, nx, ny)
         for j in range(b_count):
             at_b, speed_b, bend_b = along(workspace.b, workspace.motion_b, fraction, j, x, y, nx, ny)
-            # No pair is nearer than the separation; what rounding makes of it must not be.
+            # No pair is nearer than the separation, also after rounding.
             gap = max(separation, at_b - at_a - radii)
             until = min(until, free_until(max(0.0, gap), speed_b - speed_a, bend_a + bend_b))
     if separation > 0.0:
-        # Far apart and turning fast: no corner leaves its circle.
+        # Far apart and rotating fast: no corner leaves its circle.
         center = nx * (
             (workspace.motion_b[CENTER_X] - x)
             + fraction * workspace.motion_b[MOVE_X]
@@ -532,8 +549,9 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 
 @subkernel
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
-    """Speed along n [px per motion] of the point of a body that is at (x, y),
-    seen from where another's motion starts."""
+    """Return the speed along n [px per motion] of the point of a body at (x, y), seen from the start of another's
+    motion.
+    """
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
     return nx * (motion[MOVE_X] - motion[TURN] * arm_y) + ny * (motion[MOVE_Y] + motion[TURN] * arm_x)
@@ -541,7 +559,9 @@ def speed_of(motion, seen_from, fraction, x, y, nx, ny):
 
 @subkernel
 def touching_span(corners, count, nx, ny, side, band):
-    """(low, high) along the tangent (-ny, nx) of the corners that lie furthest along side · n, within a band [px]."""
+    """Return (low, high) along the tangent (-ny, nx) of the corners that lie furthest along side · n, within a band
+    [px].
+    """
     furthest = -math.inf
     for k in range(count):
         furthest = max(furthest, side * (nx * corners[k, 0] + ny * corners[k, 1]))
@@ -557,10 +577,10 @@ def touching_span(corners, count, nx, ny, side, band):
 
 @subkernel
 def approach_at(a_count, b_count, fraction, band, workspace):
-    """The greatest speed along the normal [px per motion] at which the two surfaces come nearer where they touch.
+    """Return the greatest approach speed along the normal [px per motion] of the two surfaces where they touch.
 
-    They touch at a point, or along the part of two faces that lie on each other within a band [px]: there the speed is
-    greatest at an end.
+    They touch at a point, or along the common part of two faces within a band [px], where the speed is greatest at an
+    end.
     """
     nx = workspace.gap.gap[NX]
     ny = workspace.gap.gap[NY]
@@ -587,12 +607,11 @@ def approach_at(a_count, b_count, fraction, band, workspace):
 
 @subkernel
 def advance(a_count, a_radius, b_count, b_radius, workspace):
-    """The first fraction at which two hulls meet on their way, or MISS; workspace.gap.gap has normal and points at it.
+    """Return the first fraction at which two moving hulls meet, or MISS. workspace.gap.gap has normal and points there.
 
-    workspace: local corners and motions of both are filled in by the caller; radii [px]. Touching or overlapping at the
-    start counts only when they approach: 0. When they part they are looked at until they approach again.
-    workspace.totals counts GJK's rounds and caps; when ADVANCE_CAP is hit it counts too, and the motion ends there,
-    before the impact.
+    workspace: the caller fills in local corners and motions of both. radii [px]. Touching or overlapping at the start
+    is 0 if they approach; otherwise the search goes on until they approach. workspace.totals counts GJK's rounds and
+    caps. If ADVANCE_CAP is hit, the motion ends there, before the impact, and the cap is counted.
     """
     turn_a = abs(workspace.motion_a[TURN])
     turn_b = abs(workspace.motion_b[TURN])
@@ -619,7 +638,7 @@ def advance(a_count, a_radius, b_count, b_radius, workspace):
             if approach_at(a_count, b_count, fraction, TOUCHING_BAND * size, workspace) > RESTING * speed:
                 return fraction
             if turn_a * reach_a + turn_b * reach_b == 0.0:
-                return MISS  # convex and not turning: they part for good
+                return MISS  # convex and without rotation: they separate for good
             leaving += 1
             fraction += max(free_motion(a_count, b_count, radii, fraction, separation, workspace), 1.0 / LEAVING_CAP)
             if fraction >= 1.0:
@@ -629,7 +648,7 @@ def advance(a_count, a_radius, b_count, b_radius, workspace):
         stops += 1
         if fraction == 1.0:
             return MISS
-        # A rounding beyond the end may still touch at the end.
+        # A motion that ends within rounding of a contact may touch at the end.
         fraction += free_motion(a_count, b_count, radii, fraction, separation, workspace)
         if fraction > 1.0 + TOUCHING_BAND:
             return MISS

@@ -565,7 +565,7 @@ def _gap_at(parts_a, parts_b):
 
 
 def _advance_boxes(a, move_a, b, move_b):
-    """Return the impact of boxes whose size changes with rotation: conservative advancement with a bound on the speed."""
+    """Return the impact of boxes whose size changes with rotation, by conservative advancement with bounded speed."""
     x, y = move_a[0][:2]
     parts = [_boxed_parts(each.shape) if isinstance(each, Bounds) else _body_parts(each) for each in (a, b)]
     if not all(len(each.counts) for each in parts):
