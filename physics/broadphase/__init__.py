@@ -1,1 +1,1 @@
-"""From boxes to the pairs that may touch."""
+"""The broad phases: pairs of shapes whose boxes overlap."""

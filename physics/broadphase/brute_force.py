@@ -1,6 +1,6 @@
-"""Brute force: every changed proxy against every other. The baseline that all others are measured against.
+"""Brute force: every changed proxy against every other. The baseline of all measurements.
 
-Exact, no state, O(changed · n). Best for a few dozen bodies; the truth the other strategies are tested with.
+Exact, no state, O(changed · n). Best for a few dozen bodies; the reference in tests of the other strategies.
 """
 
 import numpy as np
@@ -21,9 +21,9 @@ def find_all(
     pairs_out,
     work_inout,
 ):
-    """List the pairs of which at least one side changed.
+    """List the pairs with at least one changed side.
 
-    proxies PROXY rows, free slots have row -1; changed: slots. Returns the number found. O(changed · n).
+    proxies PROXY rows, free slots have row -1; changed: slots. Return the number found. O(changed · n).
     """
     found = 0
     for i in range(len(changed)):
@@ -51,7 +51,7 @@ def near_in_all(
     slots_out,
     work_inout,
 ):
-    """List the slots whose box meets a closed box [px], one by one. Returns their number. O(n)."""
+    """List the slots whose box meets a closed box [px], one by one. Return their number. O(n)."""
     found = 0
     for slot in range(len(proxies)):
         p = proxies[slot]
@@ -65,10 +65,10 @@ def near_in_all(
 
 
 class BruteForce:
-    """Tests all pairs: O(n²) for the first step, O(moved · n) after it.
+    """Broad phase that tests all pairs: O(n²) for the first step, O(moved · n) after it.
 
-    incremental False: all n (n - 1) / 2 in every step, whatever moved: what papers mean by brute force, and measure
-    against. It finds the same. Raises TypeError.
+    incremental False: all n (n - 1) / 2 pairs in every step, as "brute force" means in papers, with the same result.
+    Raises TypeError.
     """
 
     name = "brute"
@@ -77,20 +77,20 @@ class BruteForce:
         self.incremental = checks.flag("incremental", incremental)
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "BruteForce":
-        """A copy without state."""
+        """Return a copy without state."""
         return BruteForce(self.incremental)
 
     def update(self, arena: Arena) -> None:
-        """Nothing to keep."""
+        """Do nothing: there is no state."""
 
     def query(self, arena: Arena) -> Query:
-        """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
 
     def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         return near_in_all(proxies, *box, slots, work)

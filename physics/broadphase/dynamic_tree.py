@@ -1,10 +1,10 @@
-"""Two dynamic bounding volume trees, one for still proxies and one for moving ones, balanced as AVL trees are.
+"""Two dynamic bounding volume hierarchies with AVL balance, one for static proxies and one for moving ones.
 
 A leaf holds a fat box: a proxy that moves within it costs one comparison. Insertion descends by surface area to a leaf
-or its parent, then single rotations restore the AVL balance on the way up; children have no order, so a single rotation
-always suffices, and the height stays within 1.45·log2(n) + 2. When most proxies of a tree change at once, it is built
-anew by median splits. Source: Catto, Dynamic Bounding Volume Hierarchies,
-GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many still things and few moving ones.
+or its parent, then single rotations restore the AVL balance on the way up. Children have no order, so a single rotation
+always suffices, and the height stays within 1.45·log2(n) + 2. When most proxies of a tree change at once, it is rebuilt
+by median splits. Source: Catto, Dynamic Bounding Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
+O(moved · log n). Suits many static bodies and few moving ones.
 """
 
 import numpy as np
@@ -34,10 +34,10 @@ from physics.jit import kernel
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, PIXELS_PER_METER
 from physics.tables.step_state import REINSERTS
 
-REBUILD_FROM = 64  # changed proxies below which every leaf is moved by itself
-STACK = 256  # far above any height that fits in memory: with four boxes, three more for every other level
+REBUILD_FROM = 64  # up to this many changed proxies, each leaf is moved by itself
+STACK = 256  # far above any height that fits in memory: BVH4 nodes push three more for every other level
 WIDTHS = (2, WIDTH)
-BEST_WIDTH = 2  # boxes are found 1.2 to 1.8 times as fast by four, but what moves keeps the fours up to date (README)
+BEST_WIDTH = 2  # BVH4 search is 1.2 to 1.8 times as fast, but moving leaves must update the BVH4 nodes (README)
 
 
 @kernel
@@ -56,13 +56,12 @@ def place_changed(
     state_inout,
     work_inout,
 ):
-    """Insert, remove, or move the changed proxies; one that is still within its fat box stays.
+    """Insert, remove, or move the changed proxies; one that is still within its fat box stays. O(moved · log n).
 
-    changed: slots; margin [px] and margin_fraction of the box: by the smaller a leaf outgrows it; leaf_of_inout
-    (slots): leaf or -1; stale_inout (nodes): whose four is to be written, empty where there are none; state_inout: free
-    list, used nodes, stale ones, two roots. loose, loose_still 1: leaves of the moving, the still tree are neither hung
-    in nor unhung, because that tree is rebuilt next. Returns the number of leaves that were
-    moved. O(moved · log n).
+    changed: slots; margin [px] and margin_fraction of the box: the smaller is the margin of a leaf; leaf_of_inout
+    (slots): leaf or -1; stale_inout (nodes): nodes whose BVH4 node has to be written, empty without these; state_inout:
+    free list, used nodes, stale ones, two roots. loose, loose_still 1: leaves of the moving or the static tree are
+    neither linked nor unlinked, because that tree is rebuilt next. Return the number of leaves that were moved.
     """
     moved = 0
     for i in range(len(changed)):
@@ -80,7 +79,7 @@ def place_changed(
                 and n.upper_x >= p.upper_x
                 and n.upper_y >= p.upper_y
             )
-            # A box that was fast and is no more would stay huge for ever.
+            # The box of a body that was fast would otherwise stay too large.
             if fits and (
                 (n.upper_x - n.lower_x) + (n.upper_y - n.lower_y)
                 <= 8.0 * grow + (p.upper_x - p.lower_x) + (p.upper_y - p.lower_y)
@@ -120,8 +119,11 @@ def place_changed(
 
 
 class DynamicTree:
-    """width: boxes a node, 2 or 4, which find the same; None takes what measures better. margin [px]: how far a moving
-    leaf outgrows its box, at most; None takes the setting for 32 px per metre. Raises TypeError, ValueError."""
+    """Broad phase with two dynamic bounding volume trees.
+
+    width: boxes a node, 2 or 4, with the same result; None takes the faster one. margin [px]: the largest margin of a
+    moving leaf; None takes the setting for 32 px per metre. Raises TypeError, ValueError.
+    """
 
     name = "tree"
     incremental = True
@@ -131,22 +133,22 @@ class DynamicTree:
         self.margin = AABB_MARGIN * PIXELS_PER_METER if margin is None else checks.number("margin", margin, low=0.0)
         self.leaf_of = np.zeros(0, np.int64)
         self.nodes = np.zeros(0, NODE)
-        # See tree_fours; empty where nodes have two boxes.
+        # BVH4 nodes, see tree_nodes.py; empty where nodes have two boxes.
         self.fours, self.kin, self.stale = np.zeros(0), np.zeros(0, np.int64), np.zeros(0, np.int64)
         self.state = np.array([-1, 0, 0, -1, -1], np.int64)
         self.stack = np.zeros(STACK, np.int64)
         self.leaves, self.spans, self.twice = np.zeros(0, np.int64), np.zeros((0, 4), np.int64), np.zeros((2, 0))
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "DynamicTree":
-        """A copy without state."""
+        """Return a copy without state."""
         return DynamicTree(self.width, self.margin)
 
     def update(self, arena: Arena) -> None:
-        """Move the leaves whose boxes left their fat ones."""
+        """Move the leaves whose boxes left their fat boxes."""
         if len(self.leaf_of) < len(arena.proxies):
             slots = max(len(arena.proxies), 2 * len(self.leaf_of))
             self.leaf_of = np.concatenate([self.leaf_of, np.full(slots - len(self.leaf_of), -1, np.int64)])
@@ -184,15 +186,17 @@ class DynamicTree:
                     write_fours(self.nodes, still, self.fours, self.kin)
 
     def _rebuilds(self, arena):
-        """Whether so many of the moving, of the still proxies changed that building their tree anew costs less than
-        moving each leaf, and gives the better tree."""
+        """Return for the moving and the static tree whether to rebuild it: most of its proxies have changed.
+
+        A rebuild then costs less than moving each leaf, and gives the better tree.
+        """
         still = arena.proxies["still"]
         total = np.bincount(still[self.leaf_of[: len(still)] >= 0], minlength=2)
         changed = np.bincount(still[arena.changed], minlength=2)
         return tuple(bool(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
 
     def query(self, arena: Arena) -> Query:
-        """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
         proxies, changed = arena.proxies, arena.changed
         if self.width == WIDTH:
             return lambda pairs, work: find_in_fours(
@@ -201,7 +205,7 @@ class DynamicTree:
         return lambda pairs, work: find_in_trees(proxies, changed, self.nodes, self.state, self.stack, pairs, work)
 
     def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         roots = self.state[ROOT_MOVING:]
         if self.width == WIDTH:
             return near_in_fours(self.nodes, self.fours, self.kin, roots, *box, self.stack, slots, work)
@@ -209,11 +213,11 @@ class DynamicTree:
 
     @property
     def height(self) -> int:
-        """Height of the higher of the two trees; 0 for a lone leaf, -1 when empty."""
+        """Height of the higher of the two trees; 0 for a single leaf, -1 when empty."""
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
     def boxes(self) -> tuple[np.ndarray, np.ndarray]:
-        """All nodes: (m, 4) boxes [px] and (m,) depths from the root, for drawing."""
+        """Return all nodes: (m, 4) boxes [px] and (m,) depths from the root, for drawing."""
         found, depths = [], []
         for root in self.state[ROOT_MOVING:].tolist():
             todo = [(root, 0)] if root >= 0 else []
@@ -231,7 +235,7 @@ class DynamicTree:
 
 
 def _checked_width(value):
-    """2 or 4. Raises TypeError, ValueError."""
+    """Return the width if it is 2 or 4. Raises TypeError, ValueError."""
     width = checks.whole("width", value, *WIDTHS)
     if width not in WIDTHS:
         raise ValueError(f"width must be 2 or 4 (got {width})")

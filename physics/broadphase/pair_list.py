@@ -1,4 +1,4 @@
-"""The candidate pairs, kept from step to step: only pairs of which a side changed are found again."""
+"""The candidate pairs, kept between steps: only pairs with a changed side are searched again."""
 
 import numpy as np
 
@@ -30,33 +30,32 @@ NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 
 
 class PairList:
-    """Proxies for the shapes of a world, and the sorted list of their pairs.
+    """The proxies of the shapes of a world, and the sorted list of their pairs.
 
-    `rows` (n, 2): shape rows of the candidates of this step. sleeping: what is new is asleep until it is said to be
-    awake; pairs of which neither side is awake are not kept. Slots are handed in as shapes have them: the -1 of a shape
-    whose body is quarantined is passed over.
+    `rows` (n, 2): shape rows of the candidates of this step. sleeping: new proxies are asleep until they are set awake;
+    pairs without an awake side are not kept. Methods skip the slot -1 of a shape whose body is disabled (quarantine).
     """
 
     def __init__(self, sleeping: bool = False) -> None:
         self.sleeping = sleeping
         self.arena = Arena()
-        self.free = []  # slots that a new shape may take
-        self.freed = []  # slots freed since the last update: strategies have not heard yet
+        self.free = []  # slots available to new shapes
+        self.freed = []  # slots freed since the last update, still in the strategy
         self.slots = np.zeros((64, 2), np.int32)
         self.candidates = np.zeros((64, 2), np.int64)
         self.changed = np.zeros(64, np.int64)
         self.count = 0
         self.rows = self.candidates[:0]
-        self.known_ids = self.owners = self.candidates[:0]  # None until somebody asks; owners as SHAPE has them
-        self.everything = False  # the strategy is new: tell it about all proxies
-        self.again = []  # slots whose pairs are to be found again, besides those whose rectangles changed
-        self.sensors = 0  # how many proxies are those of sensors
+        self.known_ids = self.owners = self.candidates[:0]  # None until they are read; owners as in SHAPE
+        self.everything = False  # the strategy is new: pass it all proxies
+        self.again = []  # slots whose pairs have to be searched again, besides those with changed boxes
+        self.sensors = 0  # number of sensor proxies
         self.moved = False  # shape rows have moved since the last update
-        self.resting = False  # pairs may have lost their last side that is awake
+        self.resting = False  # pairs may have lost their last awake side
         self._make_room()
 
     def _make_room(self):
-        """What an update writes before it reads it."""
+        """Create the arrays that an update writes before it reads them."""
         self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
         self.states, self.keys = np.zeros(64, np.int8), np.zeros(64, np.int64)
 
@@ -73,21 +72,22 @@ class PairList:
         return self.arena.proxies
 
     def ids(self, shapes: np.ndarray) -> np.ndarray:
-        """(n, 2) shape ids of the candidates, whose rows are those of the SHAPE rows given, unless named before."""
+        """Return the (n, 2) owner ids of the candidates, whose rows refer to the given SHAPE rows unless named
+        before."""
         if self.known_ids is None:
-            owners = np.sort(self.name(shapes), axis=1)  # new parts of a mask stand in rows after those of later shapes
+            owners = np.sort(self.name(shapes), axis=1)  # new parts of a mask are in rows after those of later shapes
             keys = np.unique(owners[:, 0] << 32 | owners[:, 1])  # each once, in the order of both
             self.known_ids = np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
         return self.known_ids
 
     def name(self, shapes: np.ndarray) -> np.ndarray:
-        """Look up whose the candidates are, (n, 2) shape ids, while the SHAPE rows given still stand."""
+        """Return the (n, 2) owner ids of the candidates, read while the given SHAPE rows are still valid."""
         if self.owners is None:
             self.owners = shapes["owner"][self.rows]
         return self.owners
 
     def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:
-        """Give the shapes at these rows of a SHAPE array a slot each; still: whether each is static."""
+        """Assign a slot to each shape at these rows of a SHAPE array; still: whether each is static."""
         while len(self.free) < len(rows):
             used = len(self.proxies)
             grown = np.zeros(max(64, 2 * used, used + len(rows)), PROXY)
@@ -102,10 +102,10 @@ class PairList:
         self._set_planes(slots, shapes["role"][rows], shapes["sensor"][rows])
         self.proxies["still"][slots] = still
         self.proxies["awake"][slots] = not self.sleeping
-        self.proxies["row"][slots] = -1  # until its rectangle is known
+        self.proxies["row"][slots] = -1  # until its swept AABB is written
 
     def free_proxies(self, slots: np.ndarray) -> None:
-        """Take shapes out of the broad phase."""
+        """Remove shapes from the broad phase."""
         slots = slots[slots >= 0]
         self.sensors -= int(np.count_nonzero(self.proxies["plane"][slots] == SENSED))
         self.proxies["plane"][slots] = NOWHERE
@@ -114,42 +114,46 @@ class PairList:
         self.freed += slots.tolist()
 
     def touch(self, slots: np.ndarray) -> None:
-        """Have the rectangles of these slots written, and their pairs found, anew."""
+        """Mark slots to have their swept AABBs written, and their pairs searched, again."""
         slots = slots[slots >= 0]
         self.proxies["changed"][slots] = True
 
     def let_sleep(self, sleeping: bool) -> None:
-        """From now on what is new is asleep until it is said to be awake, or everything is awake."""
+        """Set whether new proxies are asleep until they are set awake; otherwise all are awake."""
         self.sleeping = sleeping
         self.proxies["awake"] = not sleeping
         self.start_over()
 
     def set_awake(self, slots: np.ndarray, awake: bool) -> None:
-        """Say whether slots are awake: the pairs of what wakes are found again, those of two that sleep are dropped."""
+        """Set whether slots are awake: pairs of woken slots are searched again, pairs of two sleeping ones dropped."""
         slots = slots[slots >= 0]
         self.proxies["awake"][slots] = awake
         if awake:
-            known = slots[self.proxies["row"][slots] >= 0]  # what is new is listed by its rectangle
+            known = slots[self.proxies["row"][slots] >= 0]  # a new proxy is listed with its swept AABB
             self.proxies["changed"][known] = True
             self.again.append(known)
         else:
             self.resting = True
 
     def room_for(self, count: int) -> np.ndarray:
-        """Room for the slots that a rectangle pass over so many shapes lists."""
+        """Return an array for the slots that update_rectangles lists for `count` shapes."""
         if len(self.changed) < count:
             self.changed = np.zeros(2 * count, np.int64)
         return self.changed
 
     def rename(self, shapes: np.ndarray) -> None:
-        """Shape rows have moved: tell the proxies theirs. The next update writes those of the candidates."""
+        """Write the new shape rows to the proxies after rows have moved. The next update writes those of the
+        candidates."""
         tell_rows(shapes, self.proxies)
         self.moved = True
 
     def widen(self, shapes: np.ndarray, margin: float) -> int:
-        """Let the rectangles of SHAPE rows hold their present AABBs too, grown by a margin [px], and list them as
-        changed. Returns how many."""
-        shapes = shapes[shapes["proxy"] >= 0]  # what is quarantined has none
+        """Extend the swept AABBs of SHAPE rows by their present AABBs, grown by a margin [px], and list them as
+        changed.
+
+        Return their number.
+        """
+        shapes = shapes[shapes["proxy"] >= 0]  # shapes of disabled bodies have no proxy
         slots = shapes["proxy"]
         for low, high, axis in (
             ("lower_x", "min_x", -1.0),
@@ -164,19 +168,19 @@ class PairList:
         return len(slots)
 
     def set_filter(self, slots: np.ndarray, value: Filter) -> None:
-        """Change the filter of slots."""
+        """Set the filter of slots."""
         slots = slots[slots >= 0]
         self.proxies["membership"][slots], self.proxies["mask"][slots] = value.membership, value.mask
         self.touch(slots)
 
     def set_sensor(self, shapes: np.ndarray, rows: np.ndarray) -> None:
-        """Take in that the shapes at these rows of a SHAPE array have become sensors, or are solid again."""
+        """Update the proxies after the shapes at these rows of a SHAPE array became sensors, or solid again."""
         rows = rows[shapes["proxy"][rows] >= 0]
         self._set_planes(shapes["proxy"][rows], shapes["role"][rows], shapes["sensor"][rows])
         self.touch(shapes["proxy"][rows])
 
     def _set_planes(self, slots, roles, sensors):
-        """Who asks for pixels meets masks themselves; what is pushed meets their parts."""
+        """Write the planes of slots: sensors and pixel shapes pair with whole masks, solid shapes with their parts."""
         plane = np.where(sensors, SENSED, np.array([SOLID, PIXEL, OUTLINE])[roles])
         plane[sensors & (roles == PART)] = NOWHERE
         before = self.proxies["plane"][slots]
@@ -184,17 +188,17 @@ class PairList:
         self.proxies["plane"][slots], self.proxies["avoids"][slots] = plane, AVOIDS[plane]
 
     def set_still(self, slots: np.ndarray, still: bool) -> None:
-        """Change whether slots are static."""
+        """Set whether slots are static."""
         slots = slots[slots >= 0]
         self.proxies["still"][slots] = still
         self.touch(slots)
 
     def start_over(self) -> None:
-        """A new strategy knows nothing yet."""
+        """Mark all proxies to be passed to a new strategy."""
         self.everything = True
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
-        """Bring the candidates up to date with `changed_count` slots in `self.changed`, and those freed."""
+        """Update the candidates with `changed_count` slots in `self.changed`, and the freed ones."""
         news = changed_count or self.freed or self.again or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
             self._take_in(strategy, shapes, changed_count, work)
@@ -205,7 +209,7 @@ class PairList:
         arena.work = work
         freed = np.array(self.freed, np.int64)
         if self.everything or not strategy.incremental:
-            # A new strategy has never heard of the freed slots; no pair is kept.
+            # A new strategy has no freed slots; no pair is kept.
             arena.changed = np.flatnonzero(self.proxies["row"] >= 0)
             self.proxies["changed"][arena.changed] = True
             self.proxies["changed"][freed] = False
@@ -227,11 +231,11 @@ class PairList:
         self.moved = self.resting = False
         self.free += self.freed
         self.freed = []
-        arena.work = NOBODY_COUNTS  # the counters are the step's
+        arena.work = NOBODY_COUNTS  # the step's counters are released
 
     def _collect(self, strategy, shapes):
         arena, proxies = self.arena, self.proxies
-        # Where nothing changed, pairs may only have come to rest: there is nothing to ask a strategy.
+        # Without changed proxies, pairs may only have fallen asleep: the strategy is not queried.
         found = arena.collect(strategy.query(arena)) if len(arena.changed) else 0
         if len(self.kept) < self.count:
             self.kept, self.kept_rows = np.zeros_like(self.slots), np.zeros_like(self.candidates)
@@ -255,7 +259,7 @@ class PairList:
         self.known_ids = self.owners = None
 
     def _rename(self, shapes):
-        """Rows may have moved though nothing changed: a body without proxies was removed."""
+        """Write the shape rows of the candidates again: removing a body without proxies moves rows."""
         self.candidates[: self.count] = self.proxies["row"][self.slots[: self.count]]
         self.rows = self.candidates[: self.count]
         self.known_ids = self.owners = None
@@ -263,5 +267,5 @@ class PairList:
 
 @stage("broad_phase", reads=("broadphase", "pairs", "shapes", "changed_count"), writes=("pairs", "broadphase", "work"))
 def broad_phase(state: StepState) -> None:
-    """The pairs whose rectangles touch and whose filters agree."""
+    """Find the pairs whose swept AABBs touch and whose filters agree."""
     state.pairs.update(state.broadphase, state.shapes, state.changed_count, state.work)

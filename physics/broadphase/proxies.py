@@ -1,4 +1,4 @@
-"""Proxies, the boxes that every broad phase compares, and the swept AABBs that they are made from."""
+"""Proxies, the boxes that every broad phase compares, and the swept AABBs that they hold."""
 
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
@@ -16,13 +16,13 @@ from physics.tables.shape import PIXELS, PROXY
 from physics.tables.step_state import COUNTERS, FILTERED, PAIRS_TESTED, StepState, WorldTables, stage
 
 # ---- proxies ---------------------------------------------------------------------------------------------------------
-# The boxes that every broad phase works on, and the test of one pair of them.
+# The boxes that every broad phase works on, and the overlap test of two of them.
 #
 # A proxy is a slot of the PROXY table: box, filter, owner. Strategies differ in which pairs they test, never in the
-# test: so the list of pairs is the same from all of them.
+# test, so all of them find the same list of pairs.
 
 Box = tuple[float, float, float, float]  # lower x, y, upper x, y [px]
-Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> how many pairs there are
+Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> number of pairs
 
 
 @subkernel
@@ -35,7 +35,7 @@ def overlaps(
     # write
     work_inout,
 ):
-    """Whether two proxies may pair: filters agree and the closed boxes touch.
+    """Return whether two proxies may pair: the closed boxes touch and the filters agree.
 
     proxies PROXY rows, boxes in px; a, b are slots; work_inout: counters. O(1).
     """
@@ -57,8 +57,11 @@ def may_meet(
     # write
     work_inout,
 ):
-    """Whether two boxes that touch may pair: not both still or asleep, not of one body, in planes that meet, filters
-    agree. O(1)."""
+    """Return whether two touching boxes may pair. O(1).
+
+    Excluded are two static boxes, two sleeping ones, boxes of one body, planes that avoid each other, and filtered
+    pairs.
+    """
     p = proxies[a]
     q = proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
@@ -78,9 +81,10 @@ def write_pair(
     # write
     pairs_out,
 ):
-    """Write a pair of slots when there is room, and return the count, which goes on past the capacity.
+    """Write a pair of slots if there is room, and return the new count, which may exceed the capacity.
 
-    pairs_out (capacity, 2) int32. A caller that gets more than the capacity grows the array and asks again. O(1).
+    pairs_out (capacity, 2) int32. If the count exceeds the capacity, the caller enlarges the array and repeats the
+    call. O(1).
     """
     if found < pairs_out.shape[0]:
         pairs_out[found, 0] = a
@@ -89,7 +93,7 @@ def write_pair(
 
 
 class Arena:
-    """What a strategy is given in each update: proxies, which of them changed, where to write pairs, and counters."""
+    """The data of a broad-phase update: proxies, the changed ones, the array for pairs, and counters."""
 
     def __init__(self) -> None:
         self.proxies = np.zeros(0, PROXY)
@@ -98,7 +102,7 @@ class Arena:
         self.work = np.zeros(len(COUNTERS), np.int64)
 
     def collect(self, query: Query) -> int:
-        """Run query(pairs, work) -> count, once more with room where the first run found more than fits."""
+        """Run query(pairs, work) -> count, and repeat it with a larger array if the pairs did not fit."""
         work = self.work.copy()
         count = query(self.pairs, self.work)
         if count > len(self.pairs):
@@ -112,31 +116,31 @@ class Strategy(Protocol):
     """A broad phase: BruteForce, SweepAndPrune, SpatialHashGrid or DynamicTree."""
 
     name: str
-    incremental: bool  # whether the pairs of what did not change are known from the step before
+    incremental: bool  # whether the pairs of unchanged proxies are kept from the last step
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         ...
 
     def fresh(self) -> "Strategy":
-        """A copy without state."""
+        """Return a copy without state."""
         ...
 
     def update(self, arena: Arena) -> None:
-        """Take in the proxies that changed."""
+        """Update the structure with the proxies that changed."""
         ...
 
     def query(self, arena: Arena) -> Query:
-        """What lists the pairs of the changed proxies."""
+        """Return the function that lists the pairs of the changed proxies."""
         ...
 
     def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         ...
 
 
 def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-    """All pairs of closed boxes that touch: (m, 2) int32, a < b, sorted, each once.
+    """Return all pairs of closed boxes that touch: (m, 2) int32, a < b, sorted, each once.
 
     strategy: a broad phase without state; lower, upper (n, 2) px. Raises ValueError on NaN, infinity where it is
     out of order, or lower > upper.
@@ -181,7 +185,7 @@ def _corners(name, value):
 
 @kernel
 def tell_rows(shapes, proxies_inout):
-    """Write the shape rows of proxies whose rectangles are known. O(shapes)."""
+    """Write the shape rows of proxies that have a swept AABB. O(shapes)."""
     for k in range(len(shapes)):
         slot = shapes[k].proxy
         if slot >= 0 and proxies_inout[slot].row >= 0:
@@ -189,7 +193,7 @@ def tell_rows(shapes, proxies_inout):
 
 
 def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
-    """Write of each proxy 2 if it changed, + 1 if it is awake: asked many times, so close together. O(proxies)."""
+    """Write 2 for each changed proxy, plus 1 for each awake one: a compact array for many reads. O(proxies)."""
     np.left_shift(proxies["changed"].view(np.int8), 1, out=states_out)
     states_out |= proxies["awake"].view(np.int8)
 
@@ -205,11 +209,11 @@ def keep_pairs(
     kept_out,
     rows_out,
 ):
-    """Copy the pairs of which neither side changed or was freed, and a side is awake, in their order.
+    """Copy the pairs with no changed or freed side and at least one awake side, in their order.
 
     states (proxies,) int8 of write_states(); old, kept_out (capacity, 2) int32 slots; old_rows, rows_out (capacity, 2)
-    int64 their shape rows. Returns how many were kept. Without a branch: which pairs are kept is what no processor
-    predicts. O(pairs).
+    int64 their shape rows. Return the number of kept pairs. The loop has no branch, because it would be mispredicted.
+    O(pairs).
     """
     kept = 0
     for i in range(old_count):
@@ -295,24 +299,25 @@ def mark_settled(changed, proxies_inout):
 
 
 # ---- rectangles ------------------------------------------------------------------------------------------------------
-# Bounding motion rectangles: where each shape can be during the step. They are what the broad phase compares.
+# Swept AABBs ("bounding motion rectangles"): where each shape can be during the step. The broad phase compares them.
 #
-# They are kept while what the shape needs stays inside. In a world whose bodies tremble in piles they have room to
-# spare all round: a pile that rests costs the broad phase nothing. Elsewhere they reach ahead along the motion: what
-# flies is looked for once in some steps. More candidates, the same contacts: the narrow phase looks at the tight boxes.
-# Source: Catto, Box2D v3.2, constants.h (margin); Bullet, btDbvtBroadphase (boxes that reach ahead along the velocity).
+# A swept AABB is kept while the box the shape needs stays inside it. In a world with stacking it has a margin all
+# round, so that resting bodies cost the broad phase nothing. In other worlds it is extended along the motion for
+# several steps, so that a moving body is updated once in some steps. This adds candidates, not contacts: the narrow
+# phase tests the tight boxes. Source: Catto, Box2D v3.2, constants.h (margin); Bullet, btDbvtBroadphase (boxes extended
+# along the velocity).
 
 
 class Reach(NamedTuple):
-    """How far a rectangle has to reach, and how much further it does."""
+    """The parameters of swept AABBs."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
     dt: float  # [s]
-    margin: float  # [px] contacts up to it are candidates
-    spare: float  # [px] how far a rectangle outgrows its need, at most …
-    share: float  # … that share of the box
-    ahead: float  # of how many steps it holds the motion besides this one
+    margin: float  # [px] largest gap of a candidate pair
+    spare: float  # [px] largest margin of a swept AABB …
+    share: float  # … and its largest share of the box size
+    ahead: float  # steps of motion it is extended by, beyond this one
 
 
 @kernel
@@ -327,8 +332,9 @@ def update_rectangles(
     proxies_inout,
     changed_out,
 ):
-    """Write the boxes of these shape rows, and the motion rectangles that no longer fit, and list the slots that
-    changed. Returns the number of slots. reach: see Reach. O(rows).
+    """Write the AABBs of these shape rows and the swept AABBs that no longer fit, and list the changed slots.
+
+    Return the number of slots. reach: see Reach. O(rows).
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
     rasters = geometry.rasters
@@ -372,13 +378,13 @@ def update_rectangles(
             most = AHEAD_FRACTION * size
             steps = ahead
             if fresh and ahead > 0.0:
-                steps = 1.0 + s.proxy % int(ahead)  # or all that came together would be looked for in the same step
+                steps = 1.0 + s.proxy % int(ahead)  # else all shapes added together would be updated in the same step
             ahead_x = min(max(steps * dx, -most), most)
             ahead_y = min(max(steps * dy, -most), most)
-            # A point turns by no more than its arc, or across the whole circle.
+            # Rotation moves a point by at most its arc, or the diameter of its circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
             if s.snap and s.role != PIXELS:
-                # Drawn on the pixel grid at both ends; at another angle its edges are rounded anew.
+                # Snapped to the pixel grid at both ends; at another angle the edges are rounded again.
                 r = rasters[s.raster]
                 dx = float(snapped(b.x + dx, r.origin_x) - s.left)
                 dy = float(snapped(b.y + dy, r.origin_y) - s.top)
@@ -391,7 +397,7 @@ def update_rectangles(
         fits = p.lower_x <= lower_x and p.lower_y <= lower_y and p.upper_x >= upper_x and p.upper_y >= upper_y
         room = max(fat, abs(ahead_x), abs(ahead_y))
         if room > 0.0:
-            # A rectangle left over from a fast step would be far too large.
+            # A swept AABB left from a fast step would be far too large.
             slack = 4.0 * room + length_of(upper_x - lower_x, upper_y - lower_y)
             fits = fits and length_of(p.upper_x - p.lower_x, p.upper_y - p.lower_y) <= slack
         else:
@@ -419,7 +425,7 @@ def list_outside(
     # write
     rows_out,
 ):
-    """List those of the shape rows that reach, as they are drawn, out of their motion rectangle. Returns their number.
+    """List the shape rows whose AABB, as drawn, extends beyond their swept AABB. Return their number.
 
     O(rows).
     """
@@ -442,8 +448,10 @@ def list_outside(
 
 
 def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
-    """Write new motion rectangles for those of the shape rows that were pushed out of theirs, and find their pairs: the
-    candidates then hold all that overlaps at the final poses. The next step finds them in place."""
+    """Write new swept AABBs for the shape rows that left theirs, and find their pairs.
+
+    The candidates then contain all overlaps at the final poses, and are valid for the next step.
+    """
     outside = state.workspace.rows_for(len(rows))
     found = list_outside(rows, state.bodies, state.shapes, state.pairs.proxies, outside)
     if found:
@@ -462,20 +470,19 @@ def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
     ),
 )
 def motion_rectangles(state: StepState) -> None:
-    """Bring the boxes, and the rectangles that no longer fit, up to date."""
+    """Update the AABBs, and the swept AABBs that no longer fit."""
     state.changed_count = write_rectangles(state, state.awake.shapes)
 
 
 def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
-    """Bring the boxes and rectangles of these shape rows up to date.
-    Returns how many slots changed, listed by the pairs.
+    """Update the AABBs and swept AABBs of these shape rows. Return the number of changed slots, listed in the pairs.
 
-    tables: a StepState, or a world whose shapes have just got places in the broad phase.
+    tables: a StepState, or a world whose shapes have just been added to the broad phase.
     """
     bodies, shapes, pairs, tolerances, dt = tables.bodies, tables.shapes, tables.pairs, tables.tolerances, tables.dt
     piles = tables.stacks
     add_missing_rasters(tables.library, rows, bodies, shapes, dt)
-    # Where velocities were integrated before, gravity and forces are in them.
+    # Where velocities are integrated first, they include gravity and forces.
     gravity_x, gravity_y = tables.gravity if tables.effects.gravity and piles else (0.0, 0.0)
     reach = Reach(
         gravity_x,

@@ -1,4 +1,4 @@
-"""SpatialHashGrid: a uniform grid in a hash table, with coarser grids above it for larger boxes."""
+"""A uniform grid in a hash table, with coarser grids above it for larger boxes (hierarchical spatial hash)."""
 
 import math
 
@@ -11,12 +11,12 @@ from physics.jit import kernel, subkernel
 from physics.tables.step_state import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERTS
 
 # ---- cells -----------------------------------------------------------------------------------------------------------
-# The cells of a hashed hierarchy of grids: which of them a box touches, who is in them, who meets whom there.
+# The cells of a hashed hierarchy of grids: the cells of a box, and the lists of proxies in them.
 #
-# See spatial_hash.py for what a grid keeps, and the sources.
+# See "spatial hash" below for the structure and its sources.
 
-LEVELS = 24  # cell sizes base · 2^0 … 2^23; level 24 is the list of what fits nowhere
-CELL_RANGE = 1e9  # cells from the origin up to which coordinates are hashed exactly in 64 bits
+LEVELS = 24  # cell sizes base · 2^0 … 2^23; level 24 is the list of boxes that fit no level
+CELL_RANGE = 1e9  # cells from the origin within which coordinates are hashed exactly in 64 bits
 ENTRY = np.dtype(
     [
         ("lower_x", np.float64),
@@ -36,19 +36,20 @@ ENTRY = np.dtype(
 
 @subkernel
 def cell_of(coordinate, inverse_size):
-    """The cell a coordinate [px] lies in."""
+    """Return the cell of a coordinate [px]."""
     return math.floor(coordinate * inverse_size)
 
 
 @subkernel
 def bucket_at(level, cell_x, cell_y, mask):
-    """The bucket of a cell. Products stay below 2^62 for cells within CELL_RANGE. Source: Teschner 2003."""
+    """Return the bucket of a cell. Products stay below 2^62 for cells within CELL_RANGE. Source: Teschner 2003."""
     return ((cell_x * 73856093) ^ (cell_y * 19349663) ^ (level * 83492791)) & mask
 
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """The finest level whose cells hold the box; LEVELS when none does or the box lies too far out."""
+    """Return the finest level whose cells are as large as the box; LEVELS if there is none or the box is too far
+    out."""
     extent = max(upper_x - lower_x, upper_y - lower_y)
     size = base
     level = 0
@@ -168,11 +169,11 @@ def place_changed(
     level_counts_inout,
     work_inout,
 ):
-    """Move the changed proxies to the cells they touch now; those that stay in theirs are left alone.
+    """Move the changed proxies to the cells they touch; one that stays in its cells is only updated. O(changed).
 
     changed: slots; levels_inout (slots) level or -1; heads_inout: first entry of each bucket; entries_inout four per
-    slot; lists_inout (slots, 2) previous and next of the level. Returns 1 when a box spans more than four cells,
-    which rounding alone cannot do, else 0. O(changed).
+    slot; lists_inout (slots, 2) previous and next of the level. A box that spans more than two cells along an axis, by
+    its ends on cell borders, goes to the next coarser level.
     """
     mask = len(heads_inout) - 1
     for i in range(len(changed)):
@@ -247,19 +248,18 @@ def place_changed(
 
 
 # ---- cell pairs ------------------------------------------------------------------------------------------------------
-# Who meets whom in the cells of a hashed hierarchy of grids: the pairs of what changed, and what a box may meet.
+# Pairs in the cells of a hashed hierarchy of grids: those of changed proxies, and the proxies near a query box.
 
-CHAINS, NEAR = 8, 64  # cells whose lists are followed side by side; entries that are noted before they are looked at
+CHAINS, NEAR = 8, 64  # cells whose lists are traversed side by side; entries collected before they are tested
 
 
 @subkernel
 def follow(entries, p, level, count, chains_inout, near_out):
-    """Follow the lists of some cells and note the entries whose boxes meet that of the PROXY row p, until they end or
-    there is no more room.
+    """Traverse the lists of some cells and collect the entries whose boxes overlap the PROXY row p, up to NEAR entries.
 
     chains_inout (CHAINS, 3) int64: the next entry of each list, and its cell's column and row; near_out (NEAR,) int64.
-    Side by side, as each step waits for its memory; without a branch, as what the tests find is what no processor
-    predicts. Returns how many lists have not ended, how many entries are near, and how many were tested.
+    The lists are traversed side by side, so that their memory latencies overlap. The tests have no branch, because it
+    would be mispredicted. Return the number of unfinished lists, of collected entries, and of tests.
     """
     near = 0
     tested = 0
@@ -269,7 +269,7 @@ def follow(entries, p, level, count, chains_inout, near_out):
             k = chains_inout[i, 0]
             cell_x = chains_inout[i, 1]
             cell_y = chains_inout[i, 2]
-            e = entries[k]  # its box stands in it: most tests read nothing else
+            e = entries[k]  # the entry holds the box: most tests read nothing else
             near_out[near] = k
             near += int(
                 (e.lower_x <= p.upper_x)
@@ -307,10 +307,10 @@ def find_in_cells(
     pairs_out,
     work_inout,
 ):
-    """List the pairs of which a side changed: per level through the cells its box touches, or through the level's list.
+    """List the pairs with a changed side: per level from the cells the box touches, or from the level's list.
 
-    A pair that shares several cells is reported in the one that holds the lower corner of the shared rectangle.
-    Returns the number of pairs. O(cells + candidates); cells are at most in proportion to the outline of the box.
+    A pair that shares several cells is reported in the cell of the lower corner of the shared rectangle. Return the
+    number of pairs. O(cells + candidates); the number of cells is at most proportional to the outline of the box.
     """
     mask = len(heads) - 1
     found = 0
@@ -398,10 +398,10 @@ def near_in_cells(
     slots_out,
     work_inout,
 ):
-    """List the slots whose box meets a closed box [px], by the cells or the list of each level. Returns their number.
+    """List the slots whose box meets a closed box [px], by the cells or the list of each level. Return their number.
 
-    A slot that stands in several cells is taken from the one that holds the lower corner of the shared rectangle.
-    O(cells + boxes in them); cells are at most in proportion to the outline of the box.
+    A slot in several cells is taken from the cell of the lower corner of the shared rectangle. O(cells + boxes in
+    them); the number of cells is at most proportional to the level's proxies.
     """
     mask = len(heads) - 1
     reach = max(max(abs(lower_x), abs(upper_x)), max(abs(lower_y), abs(upper_y)))
@@ -457,20 +457,22 @@ def near_in_cells(
 
 
 # ---- spatial hash ----------------------------------------------------------------------------------------------------
-# A uniform grid in a hash table, with coarser grids above it for what outgrows a cell.
+# A uniform grid in a hash table, with coarser grids above it for larger boxes.
 #
-# A proxy sits in the level whose cells are at least as large as its box, so it touches at most four cells, whatever its
-# size: a giant sits in one coarse cell and floods nothing. A box that spans more cells of a finer level than its
-# outline is long walks the list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2.
-# O(cells touched + candidates). Suits many things of one size, moving or not.
+# A proxy is in the level whose cells are at least as large as its box, so it touches at most four cells. A giant is in
+# one coarse cell and does not flood the fine ones. A box that would cover too many cells of a finer level walks the
+# list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2. O(cells touched + candidates).
+# Suits many bodies of one size, moving or not.
 
-CELL_OF_MEDIAN = 2.0  # an untuned cell is this many median boxes wide: the flat optimum of `tests.bench broadphase`
-SMALLEST_CELL = 2.0**-1000  # its inverse is still finite
+CELL_OF_MEDIAN = 2.0  # cell width in median boxes, untuned: the flat optimum of `tests.bench broadphase`
+SMALLEST_CELL = 2.0**-1000  # its inverse is finite
 
 
 class SpatialHashGrid:
-    """cell: size of the finest cells [px]; None tunes itself to the bodies.
-    Raises ValueError for a cell below 2^-1000."""
+    """Broad phase with a hierarchical hash grid.
+
+    cell: size of the finest cells [px]; None tunes it to the bodies. Raises ValueError for a cell below 2^-1000.
+    """
 
     name = "hash"
     incremental = True
@@ -492,18 +494,19 @@ class SpatialHashGrid:
         self.level_counts = np.zeros(LEVELS + 1, np.int64)
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "SpatialHashGrid":
-        """A copy without state."""
+        """Return a copy without state."""
         return SpatialHashGrid(self.cell)
 
     def update(self, arena: Arena) -> None:
-        """Move what changed to its cells; grow, and tune the cell size anew, when the number of bodies doubled."""
+        """Move the changed proxies to their cells; enlarge the table and tune the cell size when the bodies have
+        doubled."""
         proxies = arena.proxies
         changed = arena.changed
-        alive = int(self.level_counts.sum()) + len(changed)  # an upper bound, cheap, good enough to double by
+        alive = int(self.level_counts.sum()) + len(changed)  # a cheap upper bound
         coarse = int(self.level_counts[2:LEVELS].sum())
         retune = self.cell is None and (alive > 2 * self.tuned_for or 2 * coarse > max(alive, 8))
         if retune or alive > len(self.heads) or len(proxies) > len(self.levels):
@@ -526,20 +529,20 @@ class SpatialHashGrid:
 
     @staticmethod
     def _tuned(boxes):
-        """Twice the median box, in finite boxes that have a size; 1 when there is none."""
+        """Return twice the median extent of the finite boxes with a size; 1 if there is none."""
         with np.errstate(invalid="ignore", over="ignore"):
             extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
         extent = extent[np.isfinite(extent) & (extent > 0.0)]
         return max(SMALLEST_CELL, CELL_OF_MEDIAN * float(np.median(extent))) if len(extent) else 1.0
 
     def query(self, arena: Arena) -> Query:
-        """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_in_cells(
             arena.proxies, arena.changed, self.base, *self._state(), self.chains, self.near_entries, pairs, work
         )
 
     def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         return near_in_cells(
             self.base,
             self.heads,
@@ -554,7 +557,7 @@ class SpatialHashGrid:
         )
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:
-        """Occupied cells: (m, 4) rectangles [px] and (m,) levels, for drawing."""
+        """Return the occupied cells: (m, 4) rectangles [px] and (m,) levels, for drawing."""
         used = self.entries[self.entries["bucket"] >= 0]
         level = np.repeat(self.levels, 4)[self.entries["bucket"] >= 0]
         cells = (

@@ -1,9 +1,9 @@
-"""Sort and sweep: sort the boxes along an axis and test only those whose intervals overlap there.
+"""Sweep and prune: sort the boxes along an axis and test only those whose intervals overlap there.
 
-`axes="auto"` sorts the axis along which the centres vary more and tests the other; `axes="both"` sweeps x and y and
-intersects the two lists: the dimension reduction taken literally. Insertion sort keeps the order from step to step,
-so slow movers cost as many swaps as they pass neighbours. Source: Baraff 1992; Ericson, Real-Time Collision
-Detection, 7.5. O(n + swaps + interval overlaps of the changed). Suits slow movers spread along one axis.
+`axes="auto"` sorts the axis along which the centres vary more and tests the other. `axes="both"` sweeps x and y and
+intersects the two lists (dimension reduction). Insertion sort keeps the order between steps, so its swaps are the
+changes of order. Source: Baraff 1992; Ericson, Real-Time Collision Detection, 7.5. O(n + swaps + interval overlaps of
+the changed). Suits slow bodies spread along one axis.
 """
 
 import numpy as np
@@ -14,9 +14,9 @@ from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, 
 from physics.jit import kernel
 from physics.tables.step_state import NODES_VISITED, PAIRS_TESTED, SWAPS
 
-AXIS_SWITCH = 2.0  # the other axis must vary this much more before the order is sorted anew
-AXIS_INTERVAL = 32  # updates between two looks at how the bodies are spread
-SWAP_BUDGET = 16  # swaps per body after which a full sort is cheaper than going on inserting
+AXIS_SWITCH = 2.0  # the variance along the other axis must be this much greater before the axis is switched
+AXIS_INTERVAL = 32  # updates between two measurements of the variance
+SWAP_BUDGET = 16  # swaps per body after which a full sort is cheaper than insertion sort
 
 
 @kernel
@@ -30,7 +30,7 @@ def refresh_order(
 ):
     """Drop freed slots from the order and read the lower ends along the axis.
 
-    order_inout: slots; lower_out [px]. Returns how many are left. O(n).
+    order_inout: slots; lower_out [px]. Return the number of slots left. O(n).
     """
     count = 0
     for i in range(len(order_inout)):
@@ -53,7 +53,7 @@ def insertion_sort(
     lower_inout,
     work_inout,
 ):
-    """Restore the order of nearly sorted lower ends. Returns 0, or 1 when the budget of swaps ran out.
+    """Sort nearly sorted lower ends by insertion sort. Return 0, or 1 when the budget of swaps was exceeded.
 
     order_inout: slots; lower_inout [px]. O(n + swaps).
     """
@@ -86,7 +86,7 @@ def sort_boxes(
     boxes_out,
     next_changed_out,
 ):
-    """Copy boxes and owners into sorted order, where the sweep reads them one after another.
+    """Copy the boxes into sorted order, where the sweep reads them sequentially.
 
     boxes_out (n, 4) float64 [px]: low and high along the axis, low and high along the other; next_changed_out: place
     of the next changed proxy. O(n).
@@ -116,10 +116,10 @@ def sweep_one(
     pairs_out,
     work_inout,
 ):
-    """Sweep the sorted intervals; test each overlap of which a side changed. Returns the number of pairs.
+    """Sweep the sorted intervals; test each overlap with a changed side. Return the number of pairs.
 
-    order: slots; boxes (n, 4) [px]; next_changed: places. An unchanged proxy jumps from one changed neighbour to the
-    next, so few movers among many cost few tests. The boxes are read one after another, which makes a test cheap.
+    order: slots; boxes (n, 4) [px]; next_changed: places. An unchanged proxy is tested against changed neighbours only,
+    so few movers among many cost few tests. The boxes are read sequentially, which makes a test cheap.
     """
     found = 0
     tested = 0
@@ -136,7 +136,7 @@ def sweep_one(
         while j < count and boxes[j, 0] <= upper:
             if not changed:
                 tested += 1
-            # Written always and counted only on overlap: no branch to mispredict. The last row takes what is too many.
+            # Always written, and counted only on overlap: no branch to mispredict. The last row takes the surplus.
             at = min(found, room)
             pairs_out[at, 0] = a
             pairs_out[at, 1] = order[j]
@@ -170,7 +170,7 @@ def sweep_intervals(
     keys_out,
     work_inout,
 ):
-    """List the interval overlaps along one axis as keys slot << 32 | slot. Returns their number."""
+    """Write the interval overlaps along one axis as keys slot << 32 | slot. Return their number."""
     found = 0
     for i in range(count):
         a = order[i]
@@ -203,7 +203,7 @@ def intersect(
     pairs_out,
     work_inout,
 ):
-    """Pairs that stand in both sorted key lists and may meet. Returns their number. O(both lists)."""
+    """Write the pairs that are in both sorted key lists and may meet. Return their number. O(both lists)."""
     found = 0
     i = 0
     j = 0
@@ -237,11 +237,11 @@ def near_in_order(
     slots_out,
     work_inout,
 ):
-    """List the slots whose box meets a closed box, by binary search along the sorted axis. Returns their number.
+    """List the slots whose box meets a closed box, by binary search along the sorted axis. Return their number.
 
     order: slots by the lower ends of their boxes; boxes (n, 4) [px]: low and high along the axis, along the other;
-    highest (n,) [px]: the greatest high end so far. What lies wholly before is skipped by the second search; one giant
-    at the start spoils that. O(log n + boxes between).
+    highest (n,) [px]: running maximum of the high ends, by which boxes that end before the query are skipped. One giant
+    at the start defeats that. O(log n + boxes between).
     """
     count = len(order)
     first = 0
@@ -265,7 +265,7 @@ def near_in_order(
 
 
 class Axis:
-    """The proxies in order of their lower ends along one axis, kept from step to step."""
+    """The proxies in order of their lower ends along one axis, kept between steps."""
 
     def __init__(self, axis: int) -> None:
         self.axis = axis
@@ -274,10 +274,10 @@ class Axis:
         self.boxes = np.zeros((0, 4))
         self.next_changed = np.zeros(0, np.int64)
         self.keys = np.zeros(64, np.int64)
-        self.highest = None  # the greatest upper end so far, along the order; None until a query asks
+        self.highest = None  # running maximum of the upper ends; None until a query needs it
 
     def update(self, arena: Arena) -> None:
-        """Bring the order up to date with the changed proxies."""
+        """Update the order with the changed proxies."""
         proxies, changed = arena.proxies, arena.changed
         if len(self.known) < len(proxies):
             self.known = np.concatenate([self.known, np.zeros(len(proxies) - len(self.known), bool)])
@@ -300,7 +300,7 @@ class Axis:
         self.highest = None
 
     def near(self, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """List the slots whose box meets box (lower x, y, upper x, y) [px]; how many there are."""
+        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
         other = 1 - self.axis
@@ -320,7 +320,7 @@ class Axis:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
 
     def intervals(self, arena: Arena, work: np.ndarray) -> tuple[np.ndarray, int]:
-        """Sorted keys of the interval overlaps along this axis."""
+        """Return the sorted keys of the interval overlaps along this axis, and their number."""
         before = work.copy()
         count = sweep_intervals(
             arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, self.keys, work
@@ -334,7 +334,7 @@ class Axis:
 
 
 class SweepAndPrune:
-    """Sorts along x, y, or both. Raises ValueError for other axes than "auto" and "both"."""
+    """Broad phase by sorting along x, y, or both. Raises ValueError for other axes than "auto" and "both"."""
 
     name = "sweep"
     incremental = True
@@ -345,15 +345,15 @@ class SweepAndPrune:
         self.sorted = [Axis(0), Axis(1)] if self.axes == "both" else [Axis(0)]
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """(m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "SweepAndPrune":
-        """A copy without state."""
+        """Return a copy without state."""
         return SweepAndPrune(self.axes)
 
     def update(self, arena: Arena) -> None:
-        """Sort what changed into its place."""
+        """Sort the changed proxies into their places."""
         self.updates += 1
         if self.axes == "auto" and (
             self.updates % AXIS_INTERVAL == 1 or len(arena.changed) > 2 * len(self.sorted[0].order)
@@ -380,7 +380,7 @@ class SweepAndPrune:
         return 1 - now if spread[1 - now] > needed * spread[now] else now
 
     def query(self, arena: Arena) -> Query:
-        """A function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
         if self.axes == "auto":
             return lambda pairs, work: self.sorted[0].sweep(arena, pairs, work)
 
@@ -392,5 +392,5 @@ class SweepAndPrune:
         return both
 
     def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """List the slots whose box meets box (lower x, y, upper x, y) [px] in `slots`; how many there are."""
+        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         return self.sorted[0].near(box, slots, work)

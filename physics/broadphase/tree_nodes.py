@@ -1,4 +1,4 @@
-"""Nodes of a bounding volume tree that is balanced as AVL trees are: insert, remove, rebuild, search."""
+"""Nodes of a bounding volume hierarchy (BVH) with AVL balance: insert, remove, rebuild, search."""
 
 import math
 
@@ -9,7 +9,7 @@ from physics.jit import inlined, kernel, subkernel
 from physics.tables.step_state import NODES_VISITED
 
 # ---- tree nodes ------------------------------------------------------------------------------------------------------
-# Nodes of a bounding volume tree that stays balanced as AVL trees do: insert, remove, rotate, improve.
+# Nodes of a BVH with AVL balance: insert, remove, rotate, improve.
 #
 # Children have no order, so a single rotation always restores the balance. Source: Catto, Dynamic Bounding Volume
 # Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
@@ -26,16 +26,16 @@ NODE = np.dtype(
         ("height", np.int64),  # 0 in a leaf, -1 in a free node
         ("slot", np.int64),  # of the proxy in a leaf, else -1
         ("still", np.bool_),
-        ("stale", np.bool_),  # is on the list of those whose four is to be written
+        ("stale", np.bool_),  # is in the list of nodes whose BVH4 node has to be written
     ],
     align=True,
 )
-FREE, USED, STALE, ROOT_MOVING, ROOT_STILL = range(5)  # places in the state array
+FREE, USED, STALE, ROOT_MOVING, ROOT_STILL = range(5)  # indices into the state array
 
 
 @subkernel
 def joined_outline(nodes, a, b):
-    """Half the outline [px] of the box around two nodes: the surface area of two dimensions."""
+    """Return half the outline [px] of the box around two nodes: the surface area heuristic in two dimensions."""
     p = nodes[a]
     q = nodes[b]
     return (max(p.upper_x, q.upper_x) - min(p.lower_x, q.lower_x)) + (
@@ -45,7 +45,7 @@ def joined_outline(nodes, a, b):
 
 @subkernel
 def refit(index, nodes_inout):
-    """Set a node's box and height from its children."""
+    """Write a node's box and height from its children."""
     n = nodes_inout[index]
     p = nodes_inout[n.child_a]
     q = nodes_inout[n.child_b]
@@ -58,7 +58,7 @@ def refit(index, nodes_inout):
 
 @subkernel
 def replace_child(parent, old, new, root, nodes_inout, state_inout):
-    """Let a parent, or the root, point to another node."""
+    """Replace a child of a parent, or the root."""
     nodes_inout[new].parent = parent
     if parent < 0:
         state_inout[root] = new
@@ -70,11 +70,11 @@ def replace_child(parent, old, new, root, nodes_inout, state_inout):
 
 @subkernel
 def rotate(index, root, nodes_inout, state_inout):
-    """Lift the higher child when it is two levels above the other. Returns the node that now stands here.
+    """Raise the higher child when it is two levels above the other. Return the node that is now at this place.
 
          A                  C
         / \\                / \\
-       B   C      ->      A   F      F the higher of C's children (of equal ones, the pair that stays smaller)
+       B   C      ->      A   F      F the higher of C's children (of equal ones, G joins B if their box is smaller)
           / \\            / \\
          F   G          B   G
     """
@@ -106,7 +106,8 @@ def rotate(index, root, nodes_inout, state_inout):
 
 @subkernel
 def swap_pays(upper, lower_parent, lower, nodes):
-    """Outline [px] that swapping a child with a grandchild on the other side saves; 0 where it would unbalance.
+    """Return the outline [px] saved by swapping a child with a grandchild on the other side; 0 where it would
+    unbalance.
 
     upper: child of the node; lower: child of upper's sibling lower_parent.
     """
@@ -123,10 +124,9 @@ def swap_pays(upper, lower_parent, lower, nodes):
 
 @subkernel
 def improve(index, nodes_inout):
-    """Swap a child with a grandchild on the other side where that shrinks the box between and keeps the balance.
-    Returns whether it did.
+    """Swap a child with a grandchild on the other side if that shrinks the box between and keeps the AVL balance.
 
-    Source: Catto, GDC 2019, after Kopta et al. 2012; the balance test is what keeps the tree an AVL tree.
+    Return whether nodes were swapped. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
     """
     n = nodes_inout[index]
     best = 0.0
@@ -166,7 +166,7 @@ def improve(index, nodes_inout):
 
 @subkernel
 def note_stale(index, nodes_inout, stale_inout, state_inout):
-    """Put a node on the list of those whose four is to be written, once."""
+    """Add a node to the list of those whose BVH4 node has to be written, once."""
     n = nodes_inout[index]
     if not n.stale:
         n.stale = True
@@ -176,7 +176,7 @@ def note_stale(index, nodes_inout, stale_inout, state_inout):
 
 @subkernel
 def repair_upward(index, root, nodes_inout, stale_inout, state_inout, work_inout):
-    """Balance and refit from a node up to the root; note whose fours are stale, where there are any. O(height)."""
+    """Balance and refit from a node up to the root; list the stale BVH4 nodes, if they are in use. O(height)."""
     while index >= 0:
         work_inout[NODES_VISITED] += 1
         refit(index, nodes_inout)
@@ -185,7 +185,7 @@ def repair_upward(index, root, nodes_inout, stale_inout, state_inout, work_inout
         if len(stale_inout) > 0:
             note_stale(top, nodes_inout, stale_inout, state_inout)
             if swapped or top != index:
-                # Whatever was turned or swapped here was this node or a child of it.
+                # A rotation or swap here changed this node or one of its children.
                 note_stale(nodes_inout[top].child_a, nodes_inout, stale_inout, state_inout)
                 note_stale(nodes_inout[top].child_b, nodes_inout, stale_inout, state_inout)
         index = top
@@ -194,7 +194,7 @@ def repair_upward(index, root, nodes_inout, stale_inout, state_inout, work_inout
 
 @subkernel
 def take_node(nodes_inout, state_inout):
-    """A free node's index; the caller has made sure that there is one."""
+    """Return the index of a free node. The caller ensures that there is one."""
     index = state_inout[FREE]
     if index >= 0:
         state_inout[FREE] = nodes_inout[index].parent
@@ -206,7 +206,7 @@ def take_node(nodes_inout, state_inout):
 
 @subkernel
 def insert_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout):
-    """Hang a leaf beside the sibling that costs the least outline. O(height)."""
+    """Insert a leaf beside the sibling that costs the least outline. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     at = state_inout[root]
     if at < 0:
@@ -217,14 +217,14 @@ def insert_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout):
         work_inout[NODES_VISITED] += 1
         n = nodes_inout[at]
         here = joined_outline(nodes_inout, at, leaf)
-        grown = here - joined_outline(nodes_inout, at, at)  # every node above the sibling grows by this
+        grown = here - joined_outline(nodes_inout, at, at)  # growth of every node above the sibling
         cost_a = joined_outline(nodes_inout, n.child_a, leaf) + grown
         if nodes_inout[n.child_a].height > 0:
             cost_a -= joined_outline(nodes_inout, n.child_a, n.child_a)
         cost_b = joined_outline(nodes_inout, n.child_b, leaf) + grown
         if nodes_inout[n.child_b].height > 0:
             cost_b -= joined_outline(nodes_inout, n.child_b, n.child_b)
-        # Stopping higher than a leaf's parent could unbalance by more than one rotation mends.
+        # A stop above the parent of a leaf could need more than one rotation to balance.
         if n.height == 1 and here < cost_a and here < cost_b:
             break
         at = n.child_a if cost_a <= cost_b else n.child_b
@@ -242,7 +242,7 @@ def insert_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout):
 
 @subkernel
 def remove_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout):
-    """Unhang a leaf: its sibling takes the parent's place. O(height)."""
+    """Remove a leaf: its sibling takes the parent's place. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     parent = nodes_inout[leaf].parent
     if parent < 0:
@@ -259,23 +259,23 @@ def remove_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout):
 
 
 # ---- tree fours ------------------------------------------------------------------------------------------------------
-# Four boxes a node: an inner node keeps those of its children's children side by side, to be tested at once.
+# BVH4 nodes: an inner node stores the boxes of its four grandchildren side by side, to be tested at once.
 #
-# A search passes over every other level, and compares four boxes without a branch. The tree stays one of two children;
-# what changes in it writes the fours anew on the way up. A child that is a leaf is one of the four itself. Source:
+# A search skips every other level, and compares four boxes without a branch. The tree stays binary; changes update the
+# BVH4 nodes on the way up. A child that is a leaf is one of the four itself. Source:
 # Wald, Benthin, Boulos: Getting Rid of Packets, 2008 (four boxes for one ray); Rapier's parry does so for collisions.
 
 WIDTH = 4
-# Where the numbers of a node's four begin, in units of four: lower x, lower y, upper x, upper y.
+# Where the coordinates of a BVH4 node begin: lower x, lower y, upper x, upper y, four of each.
 LOWER_X, LOWER_Y, UPPER_X, UPPER_Y = 0, WIDTH, 2 * WIDTH, 3 * WIDTH
 SIZE = 4 * WIDTH
-NONE = -1  # in place of a node; leaves are told by their slot, from FIRST_LEAF down
+NONE = -1  # no node; a leaf is encoded by its slot, from FIRST_LEAF down
 FIRST_LEAF = -2
 
 
 @subkernel
 def write_one(index, nodes, lane, at, fours_out, kin_out):
-    """Write a node into a lane of the four at `at`."""
+    """Write a node's box into one of the four places of the BVH4 node `at`."""
     n = nodes[index]
     base = at * SIZE + lane
     fours_out[base + LOWER_X] = n.lower_x
@@ -287,7 +287,7 @@ def write_one(index, nodes, lane, at, fours_out, kin_out):
 
 @subkernel
 def write_four(index, nodes, fours_out, kin_out):
-    """Write the four of an inner node."""
+    """Write the BVH4 node of an inner node."""
     lane = 0
     for side in range(2):
         child = nodes[index].child_a if side == 0 else nodes[index].child_b
@@ -301,7 +301,7 @@ def write_four(index, nodes, fours_out, kin_out):
             lane += 2
     while lane < WIDTH:
         base = index * SIZE + lane
-        fours_out[base + LOWER_X] = math.nan  # which meets nothing, not even what is infinite
+        fours_out[base + LOWER_X] = math.nan  # NaN overlaps nothing, not even an infinite box
         fours_out[base + LOWER_Y] = math.nan
         fours_out[base + UPPER_X] = math.nan
         fours_out[base + UPPER_Y] = math.nan
@@ -318,7 +318,7 @@ def write_stale(
     fours_out,
     kin_out,
 ):
-    """Write the fours of the nodes on the list, and empty it. O(stale)."""
+    """Write the BVH4 nodes in the stale list, and empty it. O(stale)."""
     for k in range(state_inout[STALE]):
         n = nodes_inout[stale_inout[k]]
         n.stale = False
@@ -336,7 +336,7 @@ def write_fours(
     fours_out,
     kin_out,
 ):
-    """Write the four of every inner node of the still tree (1) or the moving one (0). O(nodes)."""
+    """Write the BVH4 node of every inner node of the static tree (still 1) or the moving one (0). O(nodes)."""
     for index in range(len(nodes)):
         if nodes[index].height > 0 and nodes[index].still == (still == 1):
             write_four(index, nodes, fours_out, kin_out)
@@ -344,8 +344,10 @@ def write_fours(
 
 @inlined
 def push_met(fours, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_out):
-    """Put those of a node's four that meet a closed box [px] on a stack; its new depth. Without a branch: what does not
-    meet is written over."""
+    """Push those of a BVH4 node's children that overlap a closed box [px] on a stack. Return its new depth.
+
+    There is no branch: the next child overwrites one that does not overlap.
+    """
     for lane in range(WIDTH):
         k = at * SIZE + lane
         meets = (
@@ -360,12 +362,12 @@ def push_met(fours, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_ou
 
 
 # ---- tree rebuild ----------------------------------------------------------------------------------------------------
-# Builds one of the two trees anew by median splits: the least height there is, and tight boxes.
+# Rebuild of one of the two trees by median splits: least height, and tight boxes.
 
 
 @subkernel
 def select_median(along, first, last, middle, leaves_inout):
-    """Reorder leaves first..last so that none before `middle` lies beyond it in `along`. Source: Hoare 1961."""
+    """Reorder leaves first..last so that none before `middle` lies beyond it in `along` (quickselect, Hoare 1961)."""
     low = first
     high = last
     while low < high:
@@ -391,7 +393,7 @@ def select_median(along, first, last, middle, leaves_inout):
 
 @subkernel
 def spread(along, leaves, first, last):
-    """How far leaves first..last lie apart in `along`."""
+    """Return the extent of leaves first..last in `along`."""
     low = along[leaves[first]]
     high = low
     for k in range(first + 1, last + 1):
@@ -416,7 +418,7 @@ def rebuild(
     nodes_inout,
     state_inout,
 ):
-    """Build the tree of the still leaves (still 1) or of the moving ones (0) anew by median splits.
+    """Rebuild the tree of the static leaves (still 1) or of the moving ones (0) by median splits.
 
     leaf_of (slots): leaf or -1; scratch: leaves_out (slots), spans_out (slots, 4), twice_x_out, twice_y_out (nodes):
     twice the middle of each leaf's box [px]. The inner nodes of the old tree are freed first. O(n log n).
@@ -442,8 +444,8 @@ def rebuild(
         if count == 1:
             nodes_inout[leaves_out[0]].parent = -1
         return
-    # Each span: first leaf, last leaf, its node, the parent. A node stands before its children, so that refitting
-    # backwards meets children first.
+    # Each span: first leaf, last leaf, its node, the parent. A node precedes its children, so that a backward refit
+    # visits children first.
     made = 1
     spans_out[0, 0] = 0
     spans_out[0, 1] = count - 1
@@ -473,7 +475,7 @@ def rebuild(
             select_median(twice_x_out, first, last, middle, leaves_out)
         else:
             select_median(twice_y_out, first, last, middle, leaves_out)
-        # The larger half first; a half of one leaf hangs here itself.
+        # The larger half first; a half of one leaf is linked directly.
         for half in range(2):
             start = middle if half == 0 else first
             end = last if half == 0 else middle - 1
@@ -494,7 +496,7 @@ def rebuild(
 
 
 # ---- tree search -----------------------------------------------------------------------------------------------------
-# What meets a box in the two trees of a DynamicTree: by two boxes a node, or by four at once.
+# Search of the two trees of a DynamicTree: with two boxes a node, or with four at once.
 
 
 @kernel
@@ -509,9 +511,9 @@ def find_in_trees(
     pairs_out,
     work_inout,
 ):
-    """List the pairs of which a side changed, by descending both trees with each changed box.
+    """List the pairs with a changed side, by descending both trees with each changed box.
 
-    changed: slots; stack_inout: scratch. Returns the number of pairs. O(changed · log n + pairs).
+    changed: slots; stack_inout: scratch. Return the number of pairs. O(changed · log n + pairs).
     """
     found = 0
     for i in range(len(changed)):
@@ -557,7 +559,7 @@ def near_in_trees(
     slots_out,
     work_inout,
 ):
-    """List the slots whose leaf meets a closed box [px], from the roots down; their number. O(log n + found)."""
+    """List the slots whose leaf meets a closed box [px], from the roots down. Return their number. O(log n + found)."""
     found = 0
     depth = 0
     for k in range(len(roots)):
@@ -636,7 +638,7 @@ def near_in_fours(
     slots_out,
     work_inout,
 ):
-    """List the same slots as near_in_trees, four boxes at a time; their number. O(log n + found)."""
+    """List the same slots as near_in_trees, four boxes at a time. Return their number. O(log n + found)."""
     found = 0
     depth = 0
     for k in range(len(roots)):

@@ -36,7 +36,6 @@ from physics.tables.table import row_of
 
 # ---- ground ----------------------------------------------------------------------------------------------------------
 # The verdict on a place for a character: free, ground that it walks or slides down, or a wall.
-#
 # One rule holds for all grounds: the normal at the place is compared with the steepest ground that the character walks.
 
 FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # in the order of strength, for a place with several of them
@@ -64,9 +63,7 @@ def is_walkable(c, nx, ny):
 
 @subkernel
 def verdict(c, nx, ny):
-    """Return (the kind of ground for a character in it, rise per px to the right). (nx, ny): unit normal into the
-    ground.
-    """
+    """Return (kind of the ground for a character, rise per px to the right). (nx, ny): unit normal into it."""
     if ny <= SHEER:
         return BLOCKED, 0.0
     slope = nx / ny + 0.0
@@ -75,9 +72,7 @@ def verdict(c, nx, ny):
 
 @subkernel
 def allowed_depth(c, loose, nx, ny, give, slop):
-    """Return the depth [px] up to which a character may overlap a surface. give [px]: more of it in a loose shape, see
-    solids.is_loose.
-    """
+    """Return the allowed depth [px] in a surface. give [px]: more of it in a loose shape, see solids.is_loose."""
     if not loose:
         return slop
     return give + (FEET if is_walkable(c, nx, ny) else 0.1 * slop)
@@ -127,9 +122,7 @@ def box_corners(left, top, width, height, corners_out):
 
 @subkernel
 def place_outline(walk, me, left, top):
-    """Write the character's corners, with its box at a pixel, to scratch.mine. Return their number and their rounding
-    radius.
-    """
+    """Write the character's corners at a pixel to scratch.mine. Return their number and rounding radius."""
     c = walk.characters[me]
     if c.is_box:
         box_corners(left, top, c.width, c.height, walk.scratch.mine)
@@ -339,7 +332,6 @@ def deepest_link(walk, me, row, left, top):
 
 # ---- tiles -----------------------------------------------------------------------------------------------------------
 # Characters against tiles. A box meets them on the pixel grid; another outline meets each run of tiles as a polygon.
-#
 # On the pixel grid touching never blocks, and one shared pixel does. The strongest verdict of the tiles decides.
 
 
@@ -602,7 +594,6 @@ def settle(me, walk_inout):
 
 # ---- solids ----------------------------------------------------------------------------------------------------------
 # Solids in the way of a character: tiles, static and kinematic shapes, pushable characters, bodies.
-#
 # A character that is a box meets upright boxes and tiles on the pixel grid, as they are drawn: touching never blocks,
 # one shared pixel does. Other shapes are met exactly: a static one blocks an overlap deeper than the slop. A dynamic
 # shape, or a moving one that is no box, is loose: it may have moved into the character by itself, so it blocks only

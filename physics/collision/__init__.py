@@ -1,1 +1,1 @@
-"""From candidate pairs to contacts."""
+"""The narrow phase: contacts of candidate pairs."""

@@ -1,6 +1,6 @@
-"""The pixels that the masks of known contacts share with the other side.
+"""Pixel areas [px2] that masks of existing contacts share with the other shape.
 
-Masks push by their outlines, so nothing of a step needs their areas: they are counted when somebody looks at contacts.
+The solver does not use areas, so they are counted only when contacts are read.
 """
 
 import math
@@ -32,7 +32,7 @@ from physics.tables.table import rows_of
 
 @subkernel
 def outline_of_part(geometry, bodies, shapes, row, part, workspace):
-    """Write the corners [px] of a run of tiles, or of a link with its backing, to workspace.b. Returns their number."""
+    """Write the corners [px] of a run of tiles, or of a link with its backing, to workspace.b. Return their number."""
     s = shapes[row]
     b = bodies[s.body_row]
     if s.kind == CHAIN:
@@ -46,7 +46,7 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
     column = part - line * g.columns
     count, edges = tile_at(geometry, s.geometry, b.x, b.y, line, column, workspace.b)
     if cell.kind != SLOPE:
-        # A run: as far as its last tile.
+        # A run extends to its last tile.
         workspace.b[1, 0] += (cell.last - column) * g.tile_size
         workspace.b[2, 0] += (cell.last - column) * g.tile_size
     return count
@@ -54,7 +54,7 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
 
 @subkernel
 def area_in_hull(geometry, mask, count, radius, workspace):
-    """The pixels [px2] of a MASK, a row of SHAPE, in the hull of workspace.b, of so many corners and rounding [px]."""
+    """Return the area [px2] a MASK row of SHAPE shares with the hull in workspace.b: `count` corners, radius [px]."""
     rasters = geometry.rasters
     words = geometry.words
     if radius > 0.0:
@@ -68,7 +68,7 @@ def area_in_hull(geometry, mask, count, radius, workspace):
 
 @subkernel
 def area_in_part(geometry, body, mask, count, workspace):
-    """The area [px2] of a MASK, a row of SHAPE, in the polygon of workspace.b, of so many corners."""
+    """Return the area [px2] that a MASK row of SHAPE shares with the polygon in workspace.b, of `count` corners."""
     return meet_polygon(geometry, body, mask, workspace.b, count, ALL_EDGES, workspace.a, workspace.depths)[0]
 
 
@@ -82,7 +82,7 @@ def count_areas(
     workspace,
     manifolds_inout,
 ):
-    """Write the area [px2] of every manifold that had one, at the present poses and drawings. O(pixels shared)."""
+    """Write the area [px2] of every manifold with an area, at the present poses and rasters. O(pixels shared)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         if m.area_1 == 0.0:
@@ -123,11 +123,11 @@ def count_areas(
 
 
 def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
-    """MANIFOLD rows by owner, with the pixels [px2] that the shapes share, each where its body is now.
+    """Return MANIFOLD rows by owner, with the area [px2] that the shapes share at the present poses.
 
-    0 where neither is a mask, and where outlines meet and pixels do not. Each point tells all that its pair shares; of
-    tiles and chains what lies in the run or link it stands on. Where nothing is pushed a step asks of two masks only
-    whether they meet: then their point, normal and depth are told here too.
+    The area is 0 if neither shape is a mask, and where outlines meet but pixels do not. Each point reports the area of
+    the whole pair; against tiles and chains it reports the area in its own run or link. Without contact response a step
+    only tests whether two masks overlap. In that case their point, normal and depth are computed here too.
     """
     whole, _ = by_owner(manifolds)
     shapes = tables.shapes
@@ -159,13 +159,13 @@ def put_back(
     # write
     manifolds_out,
 ):
-    """Write manifolds over those of their pairs: places (pairs,) of these."""
+    """Copy each manifold over that of its pair; places (pairs,) are the rows of these."""
     for i in range(len(full)):
         copy_manifold(full, i, places[full[i].candidate], manifolds_out)
 
 
 def _told_in_full(tables, manifolds):
-    """With all that is to be told of two masks, where they still meet."""
+    """Return the manifolds with point, normal and depth of two masks filled in, where these still overlap."""
     shapes = tables.shapes
     row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")
     masks = (row_a >= 0) & (row_b >= 0) & (shapes["kind"][row_a] == MASK) & (shapes["kind"][row_b] == MASK)
@@ -179,6 +179,6 @@ def _told_in_full(tables, manifolds):
 
 
 def _rows(shapes, manifolds, side):
-    """SHAPE rows of one side: those of the step, unless shapes came or went since."""
+    """Return the SHAPE rows of one side: those of the step, unless shapes were added or removed since."""
     rows, ids = np.minimum(manifolds["row_" + side], len(shapes) - 1), manifolds["shape_" + side]
     return rows if np.array_equal(shapes["id"][rows], ids) else rows_of(shapes, ids)

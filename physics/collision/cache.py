@@ -1,4 +1,4 @@
-"""The contact cache: anchors, matching, recycling, and contacts at the final poses of a step."""
+"""The contact cache: local anchor points, matching, recycling, and contacts at the final poses of a step."""
 
 import math
 
@@ -17,39 +17,39 @@ from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 from physics.tables.step_state import StepState, stage
 
 # ---- anchors ---------------------------------------------------------------------------------------------------------
-# What a manifold is fastened to: places of its points in the body spaces of its sides, and what its normal turns with.
+# The cache row of a manifold: its points in the body spaces of both sides, and the frame its normal rotates with.
 #
-# From the anchors, points, normal and separations follow at any pose (follow_anchor), without detecting again. They are
-# right to second order in the motion: a normal turns with the side whose face it is, and a point stays with the corner
-# that it was, on whichever side that is.
+# Points, normal and separations at any pose follow from it (follow_anchor), without a new narrow phase. They are exact
+# to second order in the motion. The normal rotates with the side that has the reference face. A point stays with its
+# corner, on whichever side that is.
 
-FACES = 1024  # features below: points of a face, see hulls.py
-SAME = 2.0**-20  # of a body's extent: what is as near to a corner is that corner
+FACES = 1024  # features below are points of a face, see hulls.py
+SAME = 2.0**-20  # of a body's extent: a point this near to a corner is that corner
 
 
 @subkernel
 def core_radius(shape):
-    """Radius [px] from the core of a shape to its surface: of a circle its own, of a hull its rounding."""
+    """Return the radius [px] from the core of a shape to its surface: of a circle its own, of a hull its rounding."""
     return shape.radius if is_hull(shape.kind) and shape.kind != BOUNDS else 0.0
 
 
 @subkernel
 def is_ground(shape):
-    """Whether a shape is a grid or chain, whose runs and links come first in the features of its manifolds."""
+    """Return whether a shape is a grid or chain: the features of its manifolds begin with the run or link."""
     return shape.kind == TILES or shape.kind == CHAIN
 
 
 @subkernel
 def has_corners(shape):
-    """Whether a shape is a row of geometry.polygons."""
+    """Return whether a shape is a row of geometry.polygons."""
     return is_hull(shape.kind) and shape.kind != BOUNDS and shape.kind != CIRCLE
 
 
 @subkernel
 def frame_of(a, b, feature, radii):
-    """What the normal of a manifold turns with: WITH_A, WITH_B, CORES or UPRIGHT.
+    """Return the frame that the normal of a manifold rotates with: WITH_A, WITH_B, CORES or UPRIGHT.
 
-    a, b: SHAPE rows of its sides; feature: of its first point; radii [px]: of both sides' cores.
+    a, b: SHAPE rows of its sides; feature: of its first point; radii [px]: sum of both core radii.
     """
     frame = WITH_B if a.kind == CIRCLE else WITH_A
     if a.kind != MASK and b.kind != MASK:
@@ -58,7 +58,7 @@ def frame_of(a, b, feature, radii):
         if a.kind == CIRCLE and b.kind == CIRCLE:
             return CORES
         if disc and CIRCLE_CORNER <= part < 2 * CIRCLE_CORNER:
-            return CORES  # round a corner
+            return CORES  # around a corner
         if part >= CORNERS and part < CORNERS + 256 and radii > 0.0:
             return CORES
         if not disc and part < FACES:
@@ -71,7 +71,8 @@ def frame_of(a, b, feature, radii):
 
 @subkernel
 def is_corner(polygons, table, body, shape, corner, local_x, local_y):
-    """Whether a point [px] in a body's space is a corner, by its number, of a hull's core; after the last the first."""
+    """Return whether a point [px] in body space is the hull core's corner of this number; the number wraps to the
+    first."""
     span = polygons[shape.geometry]
     c = table[span.offset + (corner if corner < span.count else 0)]
     return length_of(c.x - local_x, c.y - local_y) <= SAME * body.extent
@@ -79,17 +80,17 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, cosine, sine, x, y, nx, ny, inside, behind):
-    """A point, moved by `inside` [px] along the normal and back by `behind` [px] along the tangent (-ny, nx), in a
-    body's space."""
+    """Return a point in body space, moved by `inside` [px] along the normal and `behind` [px] against the tangent
+    (-ny, nx)."""
     return turned(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, cosine, -sine)
 
 
 @subkernel
 def share_of(polygons, table, body_a, body_b, a, b, anchor, feature, second):
-    """Where between the cores, along the face, a point of a manifold stays: 0 with A's, 1 with B's, 0.5 between them.
+    """Return the position of a manifold point between the two cores, along the face: 0 at A's, 1 at B's, 0.5 midway.
 
-    A disc's middle stays over the face, and so does a corner; what a face's end cuts off stays with the face. feature:
-    the point's; anchor: its ANCHOR row, with the cores already in it; second: whether it is the second point.
+    The centre of a disc, or a corner, stays over the face. A point clipped by the end of a face stays with the face.
+    feature: the point's; anchor: its ANCHOR row, with the cores already written; second: it is the second point.
     """
     part = feature % PART
     if a.kind == MASK or b.kind == MASK:
@@ -125,10 +126,10 @@ def share_of(polygons, table, body_a, body_b, a, b, anchor, feature, second):
 
 @subkernel
 def anchor_manifold(polygons, table, bodies, shapes, manifold, anchor_out):
-    """Remember a manifold that was detected at the present poses in the body spaces of its sides. polygons, table:
-    geometry.polygons and geometry.corners, by themselves: see placement.polygon_at.
+    """Write the cache row of a manifold that was detected at the present poses.
 
-    A round side keeps its core, or the point would wander off with its spin.
+    polygons, table: geometry.polygons and geometry.corners, passed separately: see placement.polygon_at. A round side
+    keeps its core, because a surface point would rotate away with its spin.
     """
     m = manifold
     c = anchor_out
@@ -182,7 +183,7 @@ def anchor_manifold(polygons, table, bodies, shapes, manifold, anchor_out):
 
 @subkernel
 def rest_anchor(anchor_inout):
-    """An anchor without forces, and in no constraint."""
+    """Clear the forces of a cache row, and its constraint colour."""
     c = anchor_inout
     c.color = -1
     c.rolling_force = 0.0
@@ -202,7 +203,7 @@ def write_anchors(
     # write
     anchors_out,
 ):
-    """Write the anchor of every manifold that was detected at the present poses, without forces. O(manifolds)."""
+    """Write the cache row of every manifold that was detected at the present poses, without forces. O(manifolds)."""
     for i in range(len(manifolds)):
         rest_anchor(anchors_out[i])
         anchor_manifold(geometry.polygons, geometry.corners, bodies, shapes, manifolds[i], anchors_out[i])
@@ -253,22 +254,22 @@ def copy_anchor(source, anchor_out):
 
 
 def anchors_of(state: StepState, manifolds: np.ndarray) -> np.ndarray:
-    """ANCHOR rows, without forces, of manifolds that were detected at the present poses."""
+    """Return cache rows (ANCHOR), without forces, of manifolds that were detected at the present poses."""
     anchors = np.zeros(len(manifolds), ANCHOR)
     write_anchors(state.library.tables, state.bodies, state.shapes, manifolds, anchors)
     return anchors
 
 
 # ---- follow ----------------------------------------------------------------------------------------------------------
-# Contacts that follow their bodies: points, normal and separations of a manifold at any pose, from its anchor.
-#
-# An anchor keeps the surface points and the normal in the body spaces of its sides; nothing is detected again.
+# Update of contacts to moved bodies: points, normal and separations of a manifold at any pose, from its cache row.
 
 
 @inlined
 def cores_at(a, a_cosine, a_sine, b, b_cosine, b_sine, local_ax, local_ay, local_bx, local_by):
-    """The cores of a point at the present poses: A's [px], and B's seen from it. a, b: BODY rows, with their turns;
-    local [px]: the cores in the body spaces."""
+    """Return the cores of a point at the present poses: A's [px], and B's relative to it.
+
+    a, b: BODY rows, with cosine and sine of their angles; local [px]: the cores in the body spaces.
+    """
     ax, ay = turned(local_ax, local_ay, a_cosine, a_sine)
     bx, by = turned(local_bx, local_by, b_cosine, b_sine)
     ax += a.x
@@ -278,19 +279,19 @@ def cores_at(a, a_cosine, a_sine, b, b_cosine, b_sine, local_ax, local_ay, local
 
 @inlined
 def carried_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny, wander):
-    """(the gap [px] of cores at a point that the end of a face cuts from the edge over it, whether it is another one).
+    """Return (gap [px] of the cores at a point clipped by the end of a face, whether it differs from `gap`).
 
-    The edge runs through the other side's cores of both points: as they slide along the face, the cut wanders on it.
-    gap: from core to core of the point; dx, dy: B's core of the point seen from A's, other_dx, other_dy those of the
-    other point, apart_x, apart_y: the other point's core of A seen from this one's; with_a: the face is A's; wander
-    [px]: it stays as it is where the cut makes no more of a difference.
+    The incident edge runs through the other side's cores of both points. As the sides slide along the face, the clipped
+    point moves on that edge. gap: from core to core at the point; dx, dy: B's core relative to A's; other_dx, other_dy:
+    the same of the other point; apart_x, apart_y: A's core of the other point relative to this one's; with_a: the face
+    is A's; wander [px]: smaller corrections are omitted.
     """
     edge_x = apart_x + (other_dx - dx if with_a else 0.0)
     edge_y = apart_y + (other_dy - dy if with_a else 0.0)
     along = edge_y * nx - edge_x * ny
     across = edge_x * nx + edge_y * ny
     rise = (dy * nx - dx * ny) * across
-    # An edge that is too steep is not the one that lies along the face.
+    # An edge that is too steep is not the one along the face.
     if abs(across) >= abs(along) or along == 0.0 or abs(rise) <= wander * abs(along):
         return gap, False
     return gap - rise / along, True
@@ -298,14 +299,16 @@ def carried_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, n
 
 @inlined
 def is_cut(anchor, share):
-    """Whether a point of an anchor, with its share, is where a face's end cuts the edge over it."""
+    """Return whether a point of a cache row, with its share, is clipped by the end of a face."""
     return (anchor.frame == WITH_A and share == 0.0) or (anchor.frame == WITH_B and share == 1.0)
 
 
 @inlined
 def point_of(ax, ay, dx, dy, nx, ny, gap, share, radius_a, radius_b):
-    """A point of a manifold [px], x and y, and its separation. ax … dy: see cores_at; gap: from core to core along the
-    normal, as the point is told."""
+    """Return a point of a manifold [px], x and y, and its separation.
+
+    ax … dy: see cores_at; gap: from core to core along the normal, with the correction of carried_gap.
+    """
     apart = dx * nx + dy * ny
     middle = 0.5 * (radius_a + (gap - radius_b)) + share * (apart - gap)
     x = ax + share * (dx - apart * nx) + middle * nx
@@ -315,12 +318,11 @@ def point_of(ax, ay, dx, dy, nx, ny, gap, share, radius_a, radius_b):
 
 @inlined
 def follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, wander, manifold_inout):
-    """Write points, normal and separations [px] at the present poses. Returns (how far the points have moved on each
-    other since they were detected, along a face or across it [px], how far a core rolled round a corner [px], whether
-    what a face's end cuts off was carried along the edge).
+    """Write points, normal and separations [px] at the present poses. Return (relative motion of the points since
+    detection, along or across the face [px]; motion of a core around a corner [px]; whether a clipped point moved on).
 
-    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row; wander [px]: the end's
-    cut is carried where that makes more of a difference, which it does only where much has moved; infinite: never.
+    a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row; wander [px]: a clipped
+    point is corrected only where this makes more of a difference, that is after a large motion; infinite: never.
     """
     m = manifold_inout
     c = anchor
@@ -340,7 +342,7 @@ def follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, wander, mani
     rolled = 0.0
     if c.frame == CORES:
         nx, ny = unit(dx_1, dy_1, m.normal_x, m.normal_y)
-        # Against where it was detected: what rolls round a corner leaves it.
+        # Relative to the normal at detection: a body that rolls around a corner leaves it.
         rolled = length_of(nx - c.local_nx, ny - c.local_ny) * max(c.radius_a, c.radius_b)
     else:
         if c.frame == WITH_A:
@@ -380,7 +382,7 @@ def follow_bodies(
     # write
     manifolds_inout,
 ):
-    """Carry separations, points and normals of all manifolds to the final poses. O(manifolds)."""
+    """Update separations, points and normals of all manifolds to the final poses. O(manifolds)."""
     row_a = -1
     row_b = -1
     a_cosine = 1.0
@@ -391,7 +393,7 @@ def follow_bodies(
         m = manifolds_inout[i]
         a = bodies[m.body_row_a]
         b = bodies[m.body_row_b]
-        # The manifolds of a pair, and often those of a body, stand together.
+        # The manifolds of a pair, and often those of a body, are adjacent.
         if m.body_row_a != row_a:
             row_a = m.body_row_a
             a_cosine, a_sine = heading(a.angle)
@@ -402,15 +404,15 @@ def follow_bodies(
 
 
 # ---- recycle ---------------------------------------------------------------------------------------------------------
-# Whether a manifold of the step before will do again: asked where a step ends, for the next one, and where that begins
-# of what was moved by hand in between.
+# Contact recycling: whether a manifold of the last step can be used again. It is tested at the end of a step for the
+# next one, and at the beginning of a step for bodies that were moved in between.
 #
 # Source: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 
 
 @inlined
 def is_sound(manifold):
-    """Whether a manifold has numbers that are: what is finite is 0 less than itself."""
+    """Return whether all numbers of the manifold are finite (x - x == 0 only for finite x)."""
     m = manifold
     total = m.normal_x + m.normal_y + m.x_1 + m.y_1 + m.separation_1
     if m.count == 2:
@@ -420,10 +422,10 @@ def is_sound(manifold):
 
 @inlined
 def may_move(manifold, anchor, distance):
-    """How far [px] points may move on each other: the distance, or RECYCLE_MOVE times that on a face that bears another
-    and is not short itself: they follow it exactly.
+    """Return the largest relative motion [px] of a manifold's points with which it can be recycled.
 
-    What bears nothing has to find its own way out of an overlap.
+    This is the distance, or RECYCLE_MOVE times it on a loaded face that is not short itself: its points are updated
+    exactly. An unloaded contact must find its own way out of an overlap.
     """
     m = manifold
     c = anchor
@@ -438,62 +440,67 @@ def may_move(manifold, anchor, distance):
 
 @inlined
 def serves_again(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, anchor, distance, wander, manifold_inout):
-    """Carry a manifold to the present poses, and say whether that will do: no point moved on its partner by more than
-    may_move of `distance` [px], neither side turned on the other by more than that, and what a face's end cuts off is
-    right to within `wander` [px] without being carried along the edge.
+    """Update a manifold to the present poses, and return whether it can be recycled.
+
+    No point may have moved by more than may_move of `distance` [px], and neither side may have rotated relative to the
+    other by more than that. Clipped points must be right to within `wander` [px] without correction.
 
     a, b: BODY rows of the sides, with cosine and sine of their angles; anchor: the ANCHOR row.
     """
     m = manifold_inout
     c = anchor
     moved, rolled, wandered = follow_anchor(a, a_cosine, a_sine, b, b_cosine, b_sine, c, wander, m)
-    # The manifold lies within both: what a turn moves is no further out than the smaller side.
+    # The manifold lies within both sides: a rotation moves its points by at most the extent of the smaller one.
     reach = min(a.extent, b.extent) if min(a.extent, b.extent) > 0.0 else max(a.extent, b.extent)
     turn = abs((b.angle - c.angle_b) - (a.angle - c.angle_a)) * reach
     if turn > distance and (shapes[m.row_a].kind == CIRCLE or shapes[m.row_b].kind == CIRCLE):
-        turn = 0.0  # as it likes
+        turn = 0.0  # a disc may rotate freely
     near = max(rolled, turn) <= distance and moved <= may_move(m, c, distance) and not wandered
     return near and is_sound(m) and 0.0 <= c.share_1 <= 1.0 and 0.0 <= c.share_2 <= 1.0
 
 
 @inlined
 def is_settled(body):
-    """Whether a body, a BODY row, is where its centre of mass was written last."""
+    """Return whether a body, a BODY row, is at the pose where its centre of mass was last written."""
     return body.x == body.settled_x and body.y == body.settled_y and body.angle == body.settled_angle
 
 
 @inlined
 def stands(body):
-    """Whether a body, a BODY row, is where its contacts were carried to when the last step ended. Who moves it clears
-    the flag; what is written into the table is seen by the pose."""
+    """Return whether a body, a BODY row, is at the pose to which the last step updated its contacts.
+
+    Moving a body through the API clears the flag; a direct write to the table shows in the pose.
+    """
     return body.followed and is_settled(body)
 
 
 # ---- carry over ------------------------------------------------------------------------------------------------------
-# What contacts take over from the step before: forces, and their places among the others.
+# Matching of contacts with those of the last step: they take over its forces and their place in the table.
 #
-# While the same shapes touch as before, what was detected anew takes the place of what it was, and nothing else is
-# moved: of ten thousand contacts of a pile that settles a tenth. Only when a contact begins or ends is all copied.
+# While the same shapes touch, a new manifold overwrites the old one, and no other row moves: a tenth of ten thousand
+# contacts of a settling pile. Only when a contact begins or ends is the whole table copied.
 
-LARGEST_FORCE = 1e100  # beyond, and what is no number, is not what a contact bore: it begins at rest
+LARGEST_FORCE = 1e100  # a larger or non-finite cached force is reset to 0
 
 
 @subkernel
 def is_before(manifold, shape_a, shape_b):
-    """Whether a manifold stands before those of a pair, in the order of shape ids."""
+    """Return whether a manifold comes before those of a pair, in the order of shape ids."""
     return manifold.shape_a < shape_a or (manifold.shape_a == shape_a and manifold.shape_b < shape_b)
 
 
 @subkernel
 def is_of(manifold, shape_a, shape_b):
-    """Whether a manifold is one of a pair's."""
+    """Return whether a manifold belongs to a pair."""
     return manifold.shape_a == shape_a and manifold.shape_b == shape_b
 
 
 @subkernel
 def take_over(previous, anchors, first, manifold_inout, anchor_inout):
-    """Give the points of a new manifold the forces of the points with their features, among the previous manifolds of
-    its pair, which begin at `first`."""
+    """Copy to a new manifold's points the forces of the previous points with equal features.
+
+    The previous manifolds of its pair begin at row `first`.
+    """
     m = manifold_inout
     c = anchor_inout
     for point in range(m.count):
@@ -522,8 +529,10 @@ def take_over(previous, anchors, first, manifold_inout, anchor_inout):
 
 @inlined
 def renew(geometry, p, q, a, b, manifold_inout, anchor_inout):
-    """Write what is new in every step: what the materials are now, and how fast both sides approach. p, q: BODY rows of
-    the sides; a, b: their SHAPE rows."""
+    """Write the fields that are new in every step: mixed materials and closing speeds.
+
+    p, q: BODY rows of the sides; a, b: their SHAPE rows.
+    """
     m = manifold_inout
     c = anchor_inout
     m.normal_impulse_1 = 0.0
@@ -535,7 +544,7 @@ def renew(geometry, p, q, a, b, manifold_inout, anchor_inout):
     if not forces + abs(c.rolling_force) < LARGEST_FORCE:
         rest_anchor(c)
     c.friction, c.restitution, rolling_resistance, surface_speed = mixed(geometry, a, b, m)
-    # These stand in a line that nobody else writes: what stays as it is need not go back to memory.
+    # No other field of this cache line is written: unchanged values need not go back to memory.
     if c.rolling_resistance != rolling_resistance or c.surface_speed != surface_speed:
         c.rolling_resistance = rolling_resistance
         c.surface_speed = surface_speed
@@ -544,8 +553,10 @@ def renew(geometry, p, q, a, b, manifold_inout, anchor_inout):
 
 @inlined
 def begin_anchor(geometry, bodies, shapes, previous, previous_anchors, first, manifold_inout, anchor_out):
-    """Write the anchor of a manifold that was found anew, with the forces of the points of the same pair and feature in
-    the step before; first: the first of these."""
+    """Write the cache row of a newly detected manifold, with the forces of previous points of equal pair and feature.
+
+    first: row of the first previous manifold of the pair, or where it would be.
+    """
     rest_anchor(anchor_out)
     anchor_manifold(geometry.polygons, geometry.corners, bodies, shapes, manifold_inout, anchor_out)
     take_over(previous, previous_anchors, first, manifold_inout, anchor_out)
@@ -568,11 +579,11 @@ def carry_over(
     manifolds_out,
     anchors_out,
 ):
-    """Write the manifolds of a step and their anchors in the order of the candidates: those of the step before that are
-    used again, all but the stale ones, and those that were found. Returns how many there are. O(all).
+    """Write the manifolds of a step and their cache rows in the order of the candidates: those recycled from the last
+    step, without the stale ones, and the found ones. Return how many there are. O(all).
 
-    previous and found_inout MANIFOLD rows, each in that order; previous_anchors row by row beside them; stale (any)
-    int32 rows, ascending. Who is found with a row of the step before is used again too.
+    previous and found_inout: MANIFOLD rows, each in that order; previous_anchors: row by row beside previous; stale
+    (any) int32 rows, ascending. A found manifold with a row of the last step is a recycled one.
     """
     count = 0
     kept = 0
@@ -611,7 +622,7 @@ def copy_kept(
     # write
     manifolds_out,
 ):
-    """Copy the manifolds that are used again, all but the stale ones (any, int32, ascending). O(previous)."""
+    """Copy the recycled manifolds: all but the stale ones (any, int32, ascending). O(previous)."""
     count = 0
     passed = 0
     for k in range(len(previous)):
@@ -624,7 +635,7 @@ def copy_kept(
 
 @subkernel
 def are_of_same_pairs(previous, stale, found):
-    """Whether found manifolds are of the pairs of the stale ones, one for one."""
+    """Return whether the found manifolds belong to the pairs of the stale ones, one for one."""
     if len(found) != len(stale):
         return False
     for i in range(len(found)):
@@ -646,11 +657,10 @@ def take_places(
     previous_inout,
     anchors_inout,
 ):
-    """Put manifolds that were found where those of their pairs stood, with their anchors. Returns whether each pair has
-    as many as before; if not, nothing is changed. O(found).
+    """Overwrite the stale manifolds of each pair by the found ones, with their cache rows, and return True. O(found).
 
-    stale (found) int32 rows, ascending; found_inout MANIFOLD rows in the order of the candidates; fresh_out (found)
-    ANCHOR rows: scratch.
+    Return False, with nothing changed, if a pair has another number of manifolds than before. stale (found) int32 rows,
+    ascending; found_inout MANIFOLD rows in the order of the candidates; fresh_out (found) ANCHOR rows: scratch.
     """
     if not are_of_same_pairs(previous_inout, stale, found_inout):
         return False
@@ -660,7 +670,7 @@ def take_places(
         if i == 0 or not is_of(found_inout[i - 1], m.shape_a, m.shape_b):
             first = stale[i]
         begin_anchor(geometry, bodies, shapes, previous_inout, anchors_inout, first, m, fresh_out[i])
-    # Now that none is asked any more what it bore.
+    # All previous forces have been read; safe to overwrite.
     for i in range(len(found_inout)):
         copy_manifold(found_inout, i, stale[i], previous_inout)
         copy_anchor(fresh_out[i], anchors_inout[stale[i]])
@@ -668,10 +678,10 @@ def take_places(
 
 
 # ---- final poses -----------------------------------------------------------------------------------------------------
-# What a step ends with in a world that stacks: boxes, pixels and contacts where the bodies are now.
+# Final poses of a step in a world with stacking: boxes, rasters and contacts are updated to them.
 #
-# Solvers, sweeps and characters move bodies one after the other. What is told, sensed and put to sleep is what there is
-# after all of them; contacts are carried there by their anchors, nothing is detected twice.
+# Solvers, sweeps and characters move bodies one after the other. Reports, sensors and sleeping use the state after all
+# of them. Contacts are updated from the cache; nothing is detected twice.
 
 
 @subkernel
@@ -684,8 +694,8 @@ def carry_all(
     bodies_inout,
     manifolds_inout,
 ):
-    """Carry points, normals and separations of all manifolds to where their bodies are, and note which will do again
-    for the next step: see serves_again. O(manifolds)."""
+    """Update points, normals and separations of all manifolds to the present poses, and flag those that can be recycled
+    in the next step: see serves_again. O(manifolds)."""
     row_a = -1
     row_b = -1
     a_cosine = 1.0
@@ -696,7 +706,7 @@ def carry_all(
         m = manifolds_inout[i]
         a = bodies_inout[m.body_row_a]
         b = bodies_inout[m.body_row_b]
-        # The manifolds of a pair, and often those of a body, stand together.
+        # The manifolds of a pair, and often those of a body, are adjacent.
         if m.body_row_a != row_a:
             row_a = m.body_row_a
             a_cosine, a_sine = heading(a.angle)
@@ -724,8 +734,10 @@ def settle(
     shapes_inout,
     manifolds_inout,
 ):
-    """Write the boxes of these shapes, and carry all manifolds to where their bodies are; distance [px]: see
-    serves_again. O(rows + manifolds)."""
+    """Write the boxes of these shapes, and update all manifolds to the present poses. O(rows + manifolds).
+
+    distance [px]: see serves_again.
+    """
     refresh_boxes(shape_rows, geometry, bodies_inout, shapes_inout)
     carry_all(shapes_inout, anchors, distance, bodies_inout, manifolds_inout)
 
@@ -741,9 +753,9 @@ def settle(
     ),
 )
 def settle_contacts(state: StepState) -> None:
-    """Boxes, and the points, normals and separations of contacts, at the final poses."""
+    """Update boxes, and points, normals and separations of contacts, to the final poses."""
     rows, bodies, shapes = state.awake.shapes, state.bodies, state.shapes
-    # What was pushed round may stand at an angle that was not foreseen.
+    # A body rotated by the solver may be at an angle without a raster.
     add_missing_rasters(state.library, rows, bodies, shapes, 0.0)
     distance = state.tolerances.recycle
     settle(rows, state.library.tables, state.anchors, distance, bodies, shapes, state.manifolds)

@@ -29,7 +29,7 @@ from physics.tables.shape import BOUNDS, CHAIN, MASK, POLYGON
 from physics.tables.step_state import MASK_TESTS
 
 # ---- chains ----------------------------------------------------------------------------------------------------------
-# One link of a chain, met from its front, against a disc and a hull.
+# One link of a chain, touched from its front, against a disc and a hull.
 #
 #         before
 #            \
@@ -37,13 +37,13 @@ from physics.tables.step_state import MASK_TESTS
 #                              \
 #                               after    a convex corner: the solid side bends away
 #
-# What is pushed goes along the link's own normal, or, at a convex corner, along one between the normals of both links:
-# so a corner between two links is felt only as far as it sticks out. Of two links that share a corner, the earlier one
-# reports it, unless what meets it is behind that one. An open end may push up to a quarter turn around. Names as in
-# tables.LINK.
+# The contact normal is the link's own or, at a convex corner, one between the normals of both links: a corner between
+# two links is felt only as far as it sticks out. Of two links that share a corner, the earlier one reports it, unless
+# the other shape is behind that link. An open end may push in directions up to a quarter turn from the normal. Names as
+# in physics/tables/geometry.py, LINK.
 
-STRAIGHT = 1e-9  # sine of a bend between two links that counts as none
-ADMIT, SNAP, SKIP = 0, 1, 2  # a normal that a link may have; that of the link instead; a neighbour's
+STRAIGHT = 1e-9  # sine of a bend between two links that counts as straight
+ADMIT, SNAP, SKIP = 0, 1, 2  # verdict on a normal: valid for the link; replaced by the link's own; left to a neighbour
 
 
 @subkernel
@@ -60,7 +60,7 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
 
 @subkernel
 def along(points, i, j, x, y, origin):
-    """The component [px2] of (x, y), seen from point `origin`, along the line from point i to j."""
+    """Return the dot product [px2] of (x, y) relative to point `origin` with the vector from point i to j."""
     return (points[j, 0] - points[i, 0]) * (x - points[origin, 0]) + (points[j, 1] - points[i, 1]) * (
         y - points[origin, 1]
     )
@@ -68,14 +68,14 @@ def along(points, i, j, x, y, origin):
 
 @subkernel
 def in_front(points, i, j, x, y):
-    """Distance [px] of (x, y) in front of the line from point i to j."""
+    """Return the distance [px] of (x, y) in front of the line from point i to j."""
     nx, ny = unit(points[j, 1] - points[i, 1], points[i, 0] - points[j, 0], 0.0, -1.0)
     return nx * (x - points[i, 0]) + ny * (y - points[i, 1])
 
 
 @subkernel
 def is_convex(points, i, j, k):
-    """Whether the solid side bends away at point j, on the way from i to k."""
+    """Return whether the solid side bends away at point j, on the way from i to k."""
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -85,7 +85,7 @@ def is_convex(points, i, j, k):
 
 @subkernel
 def is_gentle_hollow(points, i, j, k):
-    """Whether the chain bends towards its front at point j, on the way from i to k, by less than about 30 degrees."""
+    """Return whether the chain bends towards its front at point j, on the way from i to k, by less than 30 degrees."""
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -96,10 +96,10 @@ def is_gentle_hollow(points, i, j, k):
 
 @subkernel
 def is_behind(link, points, x, y):
-    """Whether what has its centre at (x, y) is behind a link, and so does not meet it.
+    """Return whether a shape with its centre at (x, y) is behind a link, and so does not touch it.
 
-    In a hollow of many short links a centre that was pressed close to one slides past its end, behind the next: as long
-    as it is in front of the one it comes from it still meets that next one.
+    In a hollow of many short links a centre pressed close to one link slides past its end, behind the next one. While
+    it is in front of the link it comes from, it still touches the next one.
     """
     if in_front(points, 0, 1, x, y) >= 0.0:
         return False
@@ -122,13 +122,13 @@ def is_behind(link, points, x, y):
 
 @subkernel
 def owns_start(link, points, x, y):
-    """Whether the corner at a is this link's to report to what has its centre at (x, y)."""
+    """Return whether this link reports the corner at a to a shape with its centre at (x, y)."""
     return link.first_owned or in_front(points, 2, 0, x, y) < 0.0
 
 
 @subkernel
 def collide_link_circle(link, points, x, y, radius):
-    """A link against a disc [px]: (found, normal to the disc, point midway, separation, feature).
+    """Return (found, normal to the disc, point midway, separation, feature) of a link and a disc [px].
 
     link: its row of LINK; points: see link_at. Features as in hulls.collide_line_circle.
     """
@@ -139,7 +139,7 @@ def collide_link_circle(link, points, x, y, radius):
     corner = -1
     if along(points, 0, 1, x, y, 0) < 0.0:
         if link.has_before:
-            # The same product, to the bit, by which the link before decides that this is beyond its end.
+            # The same product, bit for bit, by which the previous link decides that this point is beyond its end.
             if along(points, 2, 0, x, y, 0) < 0.0:
                 return False, nx, ny, x, y, 0.0, 0
             if is_convex(points, 2, 0, 1):
@@ -167,7 +167,8 @@ def collide_link_circle(link, points, x, y, radius):
 
 @subkernel
 def judge_normal(link, points, nx, ny):
-    """What a link makes of a normal from it to a hull: ADMIT, SNAP to its own, SKIP: a neighbour's."""
+    """Return the verdict on a normal from a link to a hull: ADMIT, SNAP to the link's normal, or SKIP (a
+    neighbour's)."""
     towards_end = along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
     has_neighbour = link.has_after if towards_end else link.has_before
     own_x, own_y = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
@@ -184,7 +185,7 @@ def judge_normal(link, points, nx, ny):
         mx, my = unit(points[0, 1] - points[2, 1], points[2, 0] - points[0, 0], 0.0, -1.0)
         inside = mx * ny - my * nx
     ahead = nx * own_x + ny * own_y >= -STRAIGHT or nx * mx + ny * my >= -STRAIGHT
-    # What points back through both is nobody's.
+    # A normal that points backwards at both links belongs to neither.
     if not ahead:
         return SNAP
     return ADMIT if inside >= -STRAIGHT else SKIP
@@ -192,7 +193,10 @@ def judge_normal(link, points, nx, ny):
 
 @subkernel
 def neighbour_separates(points, nx, ny, hull, count, x, y, face):
-    """Whether the neighbour at a normal's side meets a hull with its centre at (x, y), less than `face` [px] deep."""
+    """Return whether the neighbour on the normal's side has the hull's centre (x, y) in front and overlaps it by less.
+
+    face [px]: the separation of this link's face.
+    """
     towards_end = along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
     i = 1 if towards_end else 2
     j = 3 if towards_end else 0
@@ -206,7 +210,8 @@ def neighbour_separates(points, nx, ny, hull, count, x, y, face):
 
 @subkernel
 def push_at_open_end(link, points, hull, count, radius, face, margin, manifold_out):
-    """One point on the face across an open end, where it separates more than the link's own [px]; the number."""
+    """Write one point on the plane across an open end if its separation exceeds `face` [px]. Return the number of
+    points."""
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
     best = face
@@ -236,7 +241,7 @@ def push_at_open_end(link, points, hull, count, radius, face, margin, manifold_o
 
 @subkernel
 def keep_owned(link, points, x, y, count, manifold_out):
-    """Drop the points of a manifold at a corner that is the link before's to report. Returns how many stay."""
+    """Drop the points at a corner that the previous link reports. Return how many are left."""
     nx = manifold_out[1]
     ny = manifold_out[2]
     if along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0 or owns_start(link, points, x, y):
@@ -257,9 +262,9 @@ def keep_owned(link, points, x, y, count, manifold_out):
 
 @subkernel
 def collide_link_hull(link, points, hull, count, radius, margin, bias, alone, manifold_out):
-    """A link against a hull of two or more corners: see hulls.collide_hulls. Returns the number of points.
+    """Write the manifold of a link and a hull of two or more corners; see hulls.collide_hulls. Return the points.
 
-    alone: nothing is left to neighbours, after none of them told.
+    alone: second pass, after every link left the hull to a neighbour; nothing is left to neighbours now.
     """
     x = 0.0
     y = 0.0
@@ -324,15 +329,14 @@ def collide_link_hull(link, points, hull, count, radius, margin, bias, alone, ma
 
 
 # ---- chain pairs -----------------------------------------------------------------------------------------------------
-# The pass over the candidate pairs with a chain, link by link;
-# links far from the other shape are skipped in blocks.
+# The pass over the candidate pairs with a chain, link by link. Links far from the other shape are skipped in blocks.
 
-BACKING = 2.0  # [px] how thick a link is for masks, behind its front: a line has no area to share
+BACKING = 2.0  # [px] thickness of a link for masks, behind its front: a line has no area to share
 
 
 @subkernel
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
-    """The AABB [px] in a body's space of a box in the world; the body stands at (x, y)."""
+    """Return the AABB [px], in the space of a body at (x, y), of a box in the world."""
     middle_x, middle_y = turned(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
     half_x = 0.5 * (max_x - min_x)
     half_y = 0.5 * (max_y - min_y)
@@ -343,7 +347,7 @@ def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
 
 @subkernel
 def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
-    """Whether the box of a and b lies beside another."""
+    """Return whether the box of a and b is disjoint from another box."""
     return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
 
 
@@ -357,7 +361,7 @@ def collide_chain_pairs(
     found,
     work_inout,
 ):
-    """Contacts of all pairs of a chain and a hull or mask, appended at `found`. Returns the new count.
+    """Append the contacts of all pairs of a chain and a hull or mask from `found` on. Return the new count.
 
     O(links near the other shape).
     """
@@ -399,7 +403,7 @@ def collide_chain_pairs(
             n = hull_at(geometry, shapes, other, q.x, q.y, q.angle, workspace.b)
         middle_x = 0.5 * (min_x + max_x)
         middle_y = 0.5 * (min_y + max_y)
-        # Some digits more than the margin: turning the box must not lose what touches.
+        # Slightly more than the margin: rounding of the rotated box must not lose a contact.
         rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
         min_x, min_y, max_x, max_y = box_in_body(
             min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine
@@ -412,7 +416,7 @@ def collide_chain_pairs(
         start = found
         near = 0
         for attempt in range(2):
-            # A hull that each link leaves to its neighbour: once more, and then only where it overlaps.
+            # Second pass, for a hull that every link left to its neighbour: only links that overlap it.
             if attempt == 1 and (near == 0 or found > start):
                 break
             reach = margin if attempt == 0 else 0.0
@@ -478,17 +482,17 @@ def collide_chain_pairs(
 
 
 # ---- surfaces --------------------------------------------------------------------------------------------------------
-# Who may stand on the upper side of a mask that is open from below: who stood on it, or was above it.
+# One-way surfaces: which pairs may touch the upper side of a mask that is open from below.
 #
-# Such a side is a chain, and chains are open from their backs for what has its centre behind them. That is not enough
-# for a platform: what jumps half through it and falls again would be lifted out once its centre is above. So a pair
-# counts only if it touched in the step before, or if before the last motion nothing of the body was across the line.
-# The line goes on level beyond both ends, so that what comes from a side passes as well (for tiles: tiles.py).
+# Such a side is a chain, and a chain is open from behind for shapes with their centre behind it. This is not enough for
+# a platform: a body that jumps half through it and falls would be lifted out once its centre is above. So a pair counts
+# only if it touched in the last step, or if no part of the body was across the line before the last motion. The line is
+# extended horizontally beyond both ends, so that bodies may also pass from the side. For tiles see tiles.py.
 
 
 @subkernel
 def line_gap(line, hull, count, radius):
-    """Separation [px] of a hull of so many corners and rounding from the line of two points: below 0 it lies across."""
+    """Return the separation [px] of a rounded hull from a line of two points; negative if it lies across the line."""
     if count > 1:
         _, _, own = best_edge(line, 2, ALL_EDGES, hull, count)
         _, _, other = best_edge(hull, count, ALL_EDGES, line, 2)
@@ -508,10 +512,10 @@ def line_gap(line, hull, count, radius):
 
 @subkernel
 def lies_across(geometry, chain, x, y, angle, hull, count, radius, most, line_out):
-    """Whether a hull reaches deeper than `most` [px] across a chain that goes on level beyond its ends.
+    """Return whether a hull reaches deeper than `most` [px] across a chain that is extended horizontally at both ends.
 
-    chain: its row; x, y, angle: where its body is; hull (count, 2) [px] as seen from there, grown by radius;
-    line_out (16, 2): room for a link. O(links near).
+    chain: its row; x, y, angle: pose of its body; hull (count, 2) [px], grown by radius; line_out (16, 2): scratch for
+    a link. O(links near).
     """
     span = geometry.chains[chain]
     cosine = math.cos(angle)
@@ -554,7 +558,7 @@ def lies_across(geometry, chain, x, y, angle, hull, count, radius, most, line_ou
 
 @subkernel
 def was_across(batch, surface, other, most, workspace):
-    """Whether a shape lay across a surface before the last motion of both; surface, other: rows of SHAPE."""
+    """Return whether a shape lay across a surface before the last motion of both; surface, other: rows of SHAPE."""
     s = batch.shapes[surface]
     o = batch.shapes[other]
     p = batch.bodies[s.body_row]
@@ -592,9 +596,9 @@ def admit_to_surfaces(
     kinds_inout,
     counts_inout,
 ):
-    """Let the pairs of a surface and a hull that may touch go on as pairs with a chain, and drop the others.
+    """Change the kind of the pairs of a surface and a hull that may touch to that of a chain, and drop the others.
 
-    known: whether workspace.memory tells of the step before; kinds_inout: the batch's. O(candidates + links near).
+    known: whether workspace.memory holds the last step; kinds_inout: the batch's. O(candidates + links near).
     """
     for i in range(batch.count):
         if kinds_inout[i] != SURFACE_ANY:

@@ -1,4 +1,4 @@
-"""Passes over the candidate pairs of circles and other hulls, with contacts that are expected within the step."""
+"""Passes over the candidate pairs of circles and other hulls, with speculative contacts."""
 
 import math
 
@@ -35,12 +35,12 @@ from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import BOUNDS, CIRCLE
 
 # ---- approach --------------------------------------------------------------------------------------------------------
-# How fast two bodies close in on each other at a contact: what hits report and bounces are made of.
+# Closing speed of two bodies at a contact: reported with hits and used by restitution.
 
 
 @subkernel
 def velocity_at(body, x, y):
-    """Velocity [px/s] of a point of a BODY row."""
+    """Return the velocity [px/s] of a world point of a BODY row."""
     return (
         body.vx - body.angular_velocity * (y - body.center_y),
         body.vy + body.angular_velocity * (x - body.center_x),
@@ -49,7 +49,7 @@ def velocity_at(body, x, y):
 
 @subkernel
 def closing(p, q, ax, ay, bx, by):
-    """Velocity [px/s] of the point b of body q, seen from the point a of body p."""
+    """Return the velocity [px/s] of point b of body q relative to point a of body p."""
     px, py = velocity_at(p, ax, ay)
     qx, qy = velocity_at(q, bx, by)
     return qx - px, qy - py
@@ -57,7 +57,7 @@ def closing(p, q, ax, ay, bx, by):
 
 @subkernel
 def nearing(a, b):
-    """Velocity [px/s] of B seen from A, BODY rows, at the centre of the smaller, and how fast that is."""
+    """Return the velocity [px/s] of B relative to A, BODY rows, at the centre of the smaller one, and its norm."""
     x = a.center_x if a.extent < b.extent else b.center_x
     y = a.center_y if a.extent < b.extent else b.center_y
     vx, vy = closing(a, b, x, y, x, y)
@@ -66,7 +66,7 @@ def nearing(a, b):
 
 @subkernel
 def most_nearing(a, b):
-    """What neither of two bodies, BODY rows, nor one as `nearing` sees it from the other, is faster than [px/s]."""
+    """Return an upper bound [px/s] of both bodies' speeds and of their relative speed (nearing), BODY rows."""
     way = abs(b.center_x - a.center_x) + abs(b.center_y - a.center_y)
     turning = abs(a.angular_velocity) + abs(b.angular_velocity)
     return abs(a.vx) + abs(a.vy) + abs(b.vx) + abs(b.vy) + turning * way
@@ -74,8 +74,10 @@ def most_nearing(a, b):
 
 @inlined
 def closing_speed(a, b, x, y, nx, ny, lead):
-    """Speed [px/s] at which B nears A at a point [px] along the normal; negative when they part. a, b: BODY rows;
-    lead [px]: see MANIFOLD."""
+    """Return the closing speed [px/s] of B and A at a point [px] along the normal; negative when they separate.
+
+    a, b: BODY rows; lead [px]: the tangential offset, see MANIFOLD.
+    """
     ax = x - a.center_x
     ay = y - a.center_y
     bx = x - b.center_x + lead * ny
@@ -103,35 +105,42 @@ def measure_approach(bodies, manifolds_inout):
 
 
 # ---- ahead -----------------------------------------------------------------------------------------------------------
-# Pairs that meet within the step: found where they will touch, not where the step begins.
+# Speculative contacts: pairs that meet within the step, evaluated at the predicted contact and not at the start pose.
 #
-# What nears by more than the margin in a step would be seen first when it overlaps, and be pushed along where it came
-# from. So B is moved against A, in a straight line, to where they touch or are nearest, and the manifold found there;
-# its gap is what they have to go along that normal. A margin that is fixed is Box2D's b2_speculativeDistance (Catto);
-# the search is conservative advancement (Mirtich, Impulse-based Dynamic Simulation, 1996).
+# A pair that closes by more than the margin in a step would first be seen overlapping, and be pushed back along its
+# path. So B is moved relative to A, in a straight line, to the pose of contact or of least distance. The manifold is
+# computed there; its gap is the distance left along that normal. The fixed margin is Box2D's b2_speculativeDistance
+# (Catto). The search is conservative advancement (Mirtich, Impulse-based Dynamic Simulation, 1996).
 
-ADVANCES = 16  # of one pair; what is still on its way then is found when it is nearer
+ADVANCES = 16  # most rounds for one pair; a pair that has not met by then is found when it is nearer
 NEVER = -1.0
 
 
 @subkernel
 def is_swept(body, way):
-    """Whether a body, BODY row, moves by more than half its size on a way [px]: that is left to the sweeps, or passes
-    where there are none."""
+    """Return whether a way [px] is longer than half the size of a body, BODY row.
+
+    Such a body is left to continuous collision detection, or passes through where there is none.
+    """
     return body.kind != STATIC and way > body.thin_half
 
 
 @subkernel
 def reach_of(a, b, speed, margin, ahead):
-    """How far apart [px] two bodies, BODY rows, that near each other at a speed [px/s] may be and still be told to
-    meet: the margin, or as far as that takes them in `ahead` [s], or would if one of them were stopped."""
+    """Return the largest gap [px] at which two bodies, BODY rows, that close at a speed [px/s] get a contact.
+
+    It is the margin, or the distance closed in `ahead` [s], also if one of the two is stopped.
+    """
     way = ahead * max(speed, length_of(a.vx, a.vy), length_of(b.vx, b.vy))
     return margin if is_swept(a, way) or is_swept(b, way) else max(margin, way)
 
 
 @subkernel
 def reach_turning(a, b, speed, margin, ahead):
-    """The same, as far as their corners get by turning: half the size of the smaller at most."""
+    """Return reach_of plus rotation: the largest gap [px] that corners may close by turning.
+
+    The share of the rotation is at most half the extent of the smaller body.
+    """
     way = ahead * speed
     if is_swept(a, way) or is_swept(b, way):
         return margin
@@ -141,7 +150,10 @@ def reach_turning(a, b, speed, margin, ahead):
 
 @subkernel
 def time_of_discs(dx, dy, radii, vx, vy):
-    """When [s] two discs touch whose centres lie dx, dy apart [px], the second moving at vx, vy [px/s]; NEVER."""
+    """Return the time [s] at which two discs touch, or NEVER.
+
+    dx, dy: offset of the centres [px]; vx, vy: velocity of the second disc [px/s].
+    """
     along = dx * vx + dy * vy
     square = vx * vx + vy * vy
     rest = dx * dx + dy * dy - radii * radii
@@ -154,7 +166,7 @@ def time_of_discs(dx, dy, radii, vx, vy):
 
 @subkernel
 def time_of_nearest(dx, dy, vx, vy):
-    """When [s] two centres that lie dx, dy apart [px] are nearest, the second moving at vx, vy [px/s]."""
+    """Return the time [s] at which two centres dx, dy apart [px] are nearest; the second moves at vx, vy [px/s]."""
     square = vx * vx + vy * vy
     return -(dx * vx + dy * vy) / square if square > 0.0 else 0.0
 
@@ -169,9 +181,10 @@ def move_corners(count, x, y, corners_inout):
 
 @subkernel
 def time_of_hulls(a, a_count, b_count, radii, vx, vy, target, most, b_inout):
-    """When [s] two hulls are within the target [px] of each other, B moving at vx, vy [px/s]; NEVER within `most` [s].
+    """Return the time [s] at which two hulls are within the target [px], B moving at vx, vy [px/s] (conservative
+    advancement); NEVER if not within `most` [s].
 
-    a, b_inout: world corners, grown by the radii together; B's are left where they are then. O(corners²) a round.
+    a, b_inout: world corners, grown by the radii together. B's are left at that pose. O(corners²) a round.
     """
     time = 0.0
     for _ in range(ADVANCES):
@@ -188,10 +201,10 @@ def time_of_hulls(a, a_count, b_count, radii, vx, vy, target, most, b_inout):
             ny = -ny
         speed = -(vx * nx + vy * ny)
         if speed <= 0.0:
-            return time  # nearest: what turns them aside must not drive them into each other
+            return time  # least distance: a deflection must not drive the bodies into each other
         if gap - target > speed * (most - time):
             return NEVER
-        # To the middle of what is left to the target, which no rounding can miss.
+        # Half the target is left, so that rounding cannot miss it.
         span = (gap - 0.5 * target) / speed
         move_corners(b_count, span * vx, span * vy, b_inout)
         time += span
@@ -200,10 +213,10 @@ def time_of_hulls(a, a_count, b_count, radii, vx, vy, target, most, b_inout):
 
 @subkernel
 def bring_together(margin, ahead, p, q, a, a_count, b_count, radii, b_inout):
-    """Move B's corners to where two hulls touch in this step, where they meet faster than the margin allows for.
+    """Move B's corners to the predicted contact of two hulls if they close by more than the margin in this step.
 
-    p, q: BODY rows of A and B; a, b_inout: world corners, grown by the radii together [px]. Returns (when [s], or
-    NEVER; B's velocity seen from A [px/s]; how far apart [px] their points may be then: who turns nears too).
+    p, q: BODY rows of A and B; a, b_inout: world corners, grown by the radii together [px]. Return (time [s] or NEVER;
+    velocity of B relative to A [px/s]; largest gap [px] of a contact point at that pose, for rotation closes gaps too).
     """
     if ahead == 0.0:
         return 0.0, 0.0, 0.0, margin
@@ -217,8 +230,11 @@ def bring_together(margin, ahead, p, q, a, a_count, b_count, radii, b_inout):
 
 @subkernel
 def time_of_disc(corners, count, rounding, x, y, radius, vx, vy, target, most):
-    """When [s] a disc at x, y [px] that moves at vx, vy [px/s] is within the target [px] of a hull, world corners grown
-    by the rounding [px]; NEVER within `most` [s]. O(corners) a round."""
+    """Return the time [s] at which a moving disc is within the target [px] of a hull; NEVER if not within `most` [s].
+
+    x, y, radius [px], vx, vy [px/s]: the disc; corners: world corners of the hull, grown by the rounding [px].
+    O(corners) a round.
+    """
     time = 0.0
     for _ in range(ADVANCES):
         hit, nx, ny, _, _, gap, _ = collide_hull_circle(
@@ -237,21 +253,23 @@ def time_of_disc(corners, count, rounding, x, y, radius, vx, vy, target, most):
 
 @subkernel
 def way_back(time, vx, vy, nx, ny):
-    """What B, found where it had moved for a time [s] at vx, vy [px/s], has to go along the normal until then, and
-    slides along the tangent (-ny, nx) [px]."""
+    """Return the distances [px] that B, moved for a time [s] at vx, vy [px/s], has covered: against the normal, and
+    along the tangent (-ny, nx)."""
     return -time * (vx * nx + vy * ny), time * (vy * nx - vx * ny)
 
 
 @subkernel
 def set_back(time, vx, vy, points_inout):
-    """Tell a manifold in flight, found where B had moved for a time [s] at vx, vy [px/s], for where B is. Returns how
-    far [px] B slides along the face until then."""
+    """Convert a manifold in flight, computed with B moved for a time [s] at vx, vy [px/s], to B's present position.
+
+    Return the tangential offset [px] of B until the contact.
+    """
     nx = points_inout[1]
     ny = points_inout[2]
     way, lead = way_back(time, vx, vy, nx, ny)
     for k in range(int(points_inout[0])):
         at = 3 + 4 * k
-        # Midway between the two surfaces, as they are now.
+        # Midway between the two surfaces at their present positions.
         points_inout[at] += 0.5 * way * nx
         points_inout[at + 1] += 0.5 * way * ny
         points_inout[at + 2] += way
@@ -261,12 +279,12 @@ def set_back(time, vx, vy, points_inout):
 # ---- hull pairs ------------------------------------------------------------------------------------------------------
 # Passes over the candidate pairs of circles and other hulls.
 #
-# Each runs through all candidates and takes those of its kind, so contacts come out in the candidates' order.
+# Each pass runs through all candidates and takes those of its kind, so contacts come in the order of the candidates.
 
 
 @subkernel
 def lead_on(before, found, lead, manifolds_out):
-    """Note how far [px] B slides before it touches, on what was added since there were `before`."""
+    """Write the tangential offset [px] to the manifold added since there were `before`, if one was added."""
     if before < found <= len(manifolds_out):
         manifolds_out[before].lead = lead
 
@@ -281,7 +299,7 @@ def collide_circle_pairs(
     found,
     work_inout,
 ):
-    """Contacts of all pairs of circles, appended at `found`. Returns the new count."""
+    """Append the contacts of all pairs of circles from `found` on. Return the new count."""
     bodies = batch.bodies
     shapes = batch.shapes
     candidates = batch.candidates
@@ -304,9 +322,9 @@ def collide_circle_pairs(
             vx, vy = closing(p, q, ax, ay, bx, by)
             time = time_of_discs(bx - ax, by - ay, a_radius + b_radius, vx, vy)
             if time < 0.0:
-                # Nearest: what turns them aside must not drive them into each other.
+                # Least distance: a deflection must not drive the bodies into each other.
                 time = time_of_nearest(bx - ax, by - ay, vx, vy)
-            # Those that touch in the next step too, or they would be turned aside in this one.
+            # Pairs that touch in the next step are included: their present normal would deflect them in this one.
             if 0.0 < time <= 2.0 * batch.ahead:
                 nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx + time * vx, by + time * vy, b_radius)
                 way, lead = way_back(time, vx, vy, nx, ny)
@@ -329,7 +347,7 @@ def collide_polygon_circle_pairs(
     found,
     work_inout,
 ):
-    """Contacts of all pairs of a hull of two or more corners and a circle, from `found` on; the new count."""
+    """Append the contacts of all pairs of a hull of two or more corners and a circle. Return the new count."""
     geometry = batch.geometry
     bodies = batch.bodies
     shapes = batch.shapes
@@ -379,11 +397,11 @@ def collide_polygon_circle_pairs(
                 continue
         if hit and separation <= reach:
             way, lead = way_back(time, vx, vy, nx, ny)
-            # Midway between the surfaces as they are now: on the polygon's side of its way.
+            # Midway between the present surfaces, measured on the polygon's side.
             px += 0.5 * way * nx
             py += 0.5 * way * ny
             if sign < 0.0:
-                # A is the disc, and its point is where the polygon's is now.
+                # A is the disc: move the point to where the polygon is now.
                 px += lead * ny
                 py -= lead * nx
             before = found
@@ -407,11 +425,11 @@ def collide_polygon_circle_pairs(
 
 @subkernel
 def slides_by(a, na, b, nb, rounding, graze, p, q, manifold):
-    """Whether two hulls with a manifold do not meet in this step: corners that fly past each other, and who comes to a
-    side that it would overlap by no more than `graze` [px] in passing.
+    """Return whether two hulls with a manifold do not meet in this step.
 
-    A side that ends a hair above the floor beside it stops nobody; what little it overlaps is pushed out upwards.
-    p, q: BODY rows of a and b.
+    Either corners pass each other, or a body passes a side that it would overlap by at most `graze` [px]. A side that
+    ends slightly above the floor beside it must not stop a body; the small overlap is pushed out upwards. p, q: BODY
+    rows of a and b.
     """
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
     corners = manifold[0] == 1.0 and manifold[6] >= CORNERS
@@ -421,7 +439,7 @@ def slides_by(a, na, b, nb, rounding, graze, p, q, manifold):
     if corners:
         return passes_by(a, na, b, nb, rounding - graze, vx, vy)
     along = vx * manifold[1] + vy * manifold[2]
-    # Only who comes along the normal passes a side: what it slides on is touched all the time.
+    # Only a motion along the normal passes a side: a surface that a body slides on is touched all the time.
     return 2.0 * along * along > vx * vx + vy * vy and passes_by(a, na, b, nb, rounding - graze, vx, vy)
 
 
@@ -435,7 +453,7 @@ def collide_polygon_pairs(
     found,
     work_inout,
 ):
-    """Contacts of all pairs of hulls of two or more corners, appended at `found`. Returns the new count."""
+    """Append the contacts of all pairs of hulls of two or more corners from `found` on. Return the new count."""
     geometry = batch.geometry
     bodies = batch.bodies
     shapes = batch.shapes
@@ -476,7 +494,7 @@ def collide_polygon_pairs(
         if s.inner != 0 or o.inner != 0:
             a_edges = (ALL_EDGES ^ s.inner) & faces_of(a, na, b, nb, ALL_EDGES ^ o.inner)
             b_edges = (ALL_EDGES ^ o.inner) & faces_of(b, nb, a, na, ALL_EDGES ^ s.inner)
-            # Who is never pushed is only told of: by whichever part is met.
+            # Without a dynamic body there is no response: the contact of any part will do.
             deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
         time, vx, vy, reach = bring_together(margin, batch.ahead, p, q, a, na, nb, a_radius + b_radius, b)
         if time < 0.0:

@@ -1,4 +1,4 @@
-"""Rounded convex hulls and circles against each other: separating axes, clipping, feature ids."""
+"""Rounded convex hulls and circles against each other: separating axis test, clipping, feature ids."""
 
 import math
 
@@ -8,11 +8,11 @@ from physics.math2d import length_of, unit
 from physics.tables.shape import TURNS
 
 # ---- features --------------------------------------------------------------------------------------------------------
-# Feature ids: by what a point of a manifold is known again in the next step.
+# Feature ids: they identify a manifold point in the next step.
 #
-# A feature is a whole number that says which edge, corner, tile, link or pixel met which. It is the same in the next
-# step as long as the same parts meet, whatever the poses; a point that finds its feature among those of the step before
-# goes on with its impulses. One layout for all colliders:
+# A feature is an integer that encodes which edge, corner, tile, link or pixel touch. It is the same in the next step as
+# long as the same parts touch, whatever the poses. A point whose feature is found in the last step takes over its
+# impulses (warm start). All colliders share one layout:
 #
 #     hulls, a face     ((edge * 16 + corner) * 2 + side) * 2 + flipped           0 .. 1023
 #     hulls, a support  (edge * 16 + corner) * 4 + flipped                        0 .. 1023
@@ -30,42 +30,42 @@ PART = 4096  # features of one tile run or one link
 
 @subkernel
 def clipped_feature(edge, corner, side, flipped):
-    """A point clipped against a face: reference edge, incident corner, which end, 1 where the face is B's."""
+    """Return the feature of a clipped point: reference edge, incident corner, side, 1 if the reference face is B's."""
     return ((edge * 16 + corner) * 2 + side) * 2 + flipped
 
 
 @subkernel
 def support_feature(edge, corner, flipped):
-    """The deepest corner under a face."""
+    """Return the feature of the deepest corner under a reference face."""
     return (edge * 16 + corner) * 4 + flipped
 
 
 @subkernel
 def corners_feature(i, j):
-    """A corner of A against a corner of B."""
+    """Return the feature of a corner of A against a corner of B."""
     return CORNERS + i * 16 + j
 
 
 @subkernel
 def part_feature(part, feature):
-    """A feature of one run of tiles, or of one link."""
+    """Return the feature of one run of tiles, or of one link."""
     return part * PART + feature
 
 
 @subkernel
 def part_of(feature):
-    """The run of tiles, or the link, that a feature belongs to."""
+    """Return the run of tiles, or the link, that a feature belongs to."""
     return feature // PART
 
 
 @subkernel
 def pixel_feature(row, column, width):
-    """A pixel of a mask."""
+    """Return the feature of a mask pixel."""
     return row * width + column
 
 
 # ---- clipping --------------------------------------------------------------------------------------------------------
-# Convex polygons by the separating axis theorem, with a manifold of at most two points clipped from the edges.
+# Separating axis test of convex polygons, with a manifold of at most two points by clipping.
 #
 # Corners go clockwise on the screen (y down), so the outward normal of the edge from p to q is (dy, -dx):
 #
@@ -79,13 +79,13 @@ def pixel_feature(row, column, width):
 
 TURN = 1.0 / TURNS  # [rad]
 # A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
-LEFT = -1.0  # in place of the count: they overlap, and a neighbour that covers the nearer edges is to tell it
-ALL_EDGES = 0xFFFFFFFF  # 16 bits: edges that may be touched; next 16: corners that may be; beyond: as SHAPE's inner
+LEFT = -1.0  # in place of the count: the hulls overlap, and a neighbour that covers the nearer edges has to report it
+ALL_EDGES = 0xFFFFFFFF  # low 16 bits: touchable edges; next 16: touchable corners; above: as SHAPE's inner
 
 
 @subkernel
 def edge_normal(corners, count, k):
-    """Outward unit normal of edge k."""
+    """Return the outward unit normal of edge k, (0, -1) if the edge has no length."""
     n = k + 1 if k + 1 < count else 0
     dx = corners[n, 0] - corners[k, 0]
     dy = corners[n, 1] - corners[k, 1]
@@ -97,10 +97,11 @@ def edge_normal(corners, count, k):
 
 @subkernel
 def meets_corner(corners, count, edges, corner, nx, ny):
-    """Whether what lies in the direction (nx, ny), unit, of a corner has it as the nearest point of the outline.
+    """Return whether a corner is the nearest point of the outline to a point in the unit direction (nx, ny) from it.
 
-    Of a corner that other parts cover a neighbour tells. At a blunt one the part seems sharper than the outline is: its
-    inner side is not the outline's, which turns there only so far from the side that may be touched.
+    A corner covered by another part is reported by that neighbour. At a blunt corner the part is sharper than the
+    outline: its inner side is not on the outline. There the direction may deviate from the touchable side's normal only
+    by the angle stored in `edges`.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -117,10 +118,10 @@ def meets_corner(corners, count, edges, corner, nx, ny):
 
 @subkernel
 def best_edge(corners, count, allowed, other, other_count):
-    """The edge of the first polygon that separates most, and its separation [px].
+    """Return the edge of the first polygon with the greatest separation (separating axis test).
 
-    allowed: bits of the edges that may serve as a reference face. Returns (edge, separation over the allowed edges,
-    separation over all edges). O(count · other_count).
+    allowed: bits of the edges that may serve as a reference face. Return (edge, separation over the allowed edges [px],
+    separation over all edges [px]). O(count · other_count).
     """
     best = -1
     best_separation = -math.inf
@@ -150,10 +151,11 @@ def clip_edges(
     flipped,
     manifold_out,
 ):
-    """Manifold of a reference face and the edge of the other polygon that faces it most, each grown by a radius [px].
+    """Write the manifold of a reference face and the incident edge of the other polygon, each grown by a radius [px].
 
-    limit [px]: points further apart are dropped; flipped: the reference belongs to B, so the normal is turned round.
-    manifold_out: see above. Feature: bits of reference edge, incident corner, side. Returns the number of points.
+    limit [px]: points with a larger separation are dropped; flipped: the reference belongs to B, so the normal is
+    inverted. manifold_out: see above. Feature: bits of reference edge, incident corner, side. Return the number of
+    points.
     """
     following = edge + 1 if edge + 1 < reference_count else 0
     nx, ny = edge_normal(reference, reference_count, edge)
@@ -169,7 +171,7 @@ def clip_edges(
     ty = nx
     start = tx * reference[edge, 0] + ty * reference[edge, 1]
     end = tx * reference[following, 0] + ty * reference[following, 1]
-    # The incident edge runs against the reference edge.
+    # The incident edge has the opposite direction of the reference edge.
     px = incident[far, 0]
     py = incident[far, 1]
     qx = incident[facing, 0]
@@ -212,7 +214,7 @@ def clip_edges(
 def support_manifold(
     reference, reference_count, reference_radius, edge, incident, incident_count, incident_radius, flipped, manifold_out
 ):
-    """One point: the corner of the other polygon deepest under the reference face, radii [px]. Always finds it."""
+    """Write one point: the corner of the other polygon deepest under the reference face, radii [px]. Return 1."""
     nx, ny = edge_normal(reference, reference_count, edge)
     deepest = 0
     least = math.inf
@@ -236,12 +238,12 @@ def support_manifold(
 # ---- circles ---------------------------------------------------------------------------------------------------------
 # Circles against circles and convex polygons, in closed form.
 
-COVERED = -1  # in place of a feature: the centre is inside, and no edge may be touched
+COVERED = -1  # in place of a feature: the centre is inside, and no edge is touchable
 
 
 @subkernel
 def collide_circles(ax, ay, a_radius, bx, by, b_radius):
-    """Two discs [px]: (normal from A to B, point midway, separation). Equal centres push along +x. O(1)."""
+    """Return (normal from A to B, point midway, separation) of two discs [px]. Equal centres push along +x. O(1)."""
     dx = bx - ax
     dy = by - ay
     nx, ny = unit(dx, dy, 1.0, 0.0)
@@ -253,12 +255,11 @@ def collide_circles(ax, ay, a_radius, bx, by, b_radius):
 
 @subkernel
 def collide_polygon_circle(corners, count, edges, x, y, radius):
-    """A convex polygon against a disc [px]: (found, normal to the disc, point midway, separation, feature).
+    """Return (found, normal to the disc, point midway, separation, feature) of a convex polygon and a disc [px].
 
-    edges: bits of the edges and corners that may be touched. What may not is covered by a neighbour, so nothing is
-    found where it is the nearest: the neighbour finds it. With the centre inside, the
-    nearest touchable edge decides; without any, which the feature COVERED says, a neighbour. A centre on the outline
-    takes the edge's normal. O(count).
+    edges: bits of the touchable edges and corners. The others are covered by a neighbour: where one of them is nearest
+    nothing is found here, and the neighbour reports it. If the centre is inside, the nearest touchable edge is taken;
+    without any, the feature is COVERED. A centre on the outline takes the edge's normal. O(count).
     """
     best = -1
     inner = -1
@@ -285,7 +286,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
         ey = corners[following, 1] - corners[best, 1]
         from_start = ex * (x - corners[best, 0]) + ey * (y - corners[best, 1])
         from_end = ex * (x - corners[following, 0]) + ey * (y - corners[following, 1])
-        # Right over a corner the face decides: of two tiles that share a covered corner one has to tell.
+        # Exactly over a corner the face decides: one of two tiles that share a covered corner has to report it.
         if from_start < 0.0 or from_end > 0.0:
             corner = best if from_start < 0.0 else following
             dx = x - corners[corner, 0]
@@ -313,14 +314,14 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
 
 
 # ---- upright ---------------------------------------------------------------------------------------------------------
-# Boxes along the axes, as their AABBs stand in the table of shapes: no corner is turned, no axis but theirs is tried.
+# Axis-aligned boxes, read from the AABBs in the shape table: nothing is rotated, and only their own axes are tested.
 #
-# The answer is that of hulls.collide_hulls for the same boxes: points, separations, features.
+# Points, separations and features are those of collide_hulls for the same boxes.
 
 
 @subkernel
 def upright_corners(shape, corners_out):
-    """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Returns their number."""
+    """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Return their number."""
     corners_out[0, 0] = shape.min_x
     corners_out[0, 1] = shape.min_y
     corners_out[1, 0] = shape.max_x
@@ -334,13 +335,14 @@ def upright_corners(shape, corners_out):
 
 @subkernel
 def between(value, low, high):
-    """The value, or the bound that it is beyond."""
+    """Return the value, clamped to low..high."""
     return max(low, min(high, value))
 
 
 @subkernel
 def corner_of_upright(a, b, margin, manifold_out):
-    """One point between the nearest corners of two boxes that lie apart along both axes. Returns the number."""
+    """Write one point between the nearest corners of two boxes separated along both axes. Return the number of
+    points."""
     right = b.min_x > a.max_x
     below = b.min_y > a.max_y
     ax = a.max_x if right else a.min_x
@@ -364,8 +366,10 @@ def corner_of_upright(a, b, margin, manifold_out):
 
 @subkernel
 def collide_upright(a, b, margin, manifold_out):
-    """Manifold of the AABBs of two SHAPE rows, normal from A to B. Returns the number of points, 0 when apart by more
-    than margin [px]. manifold_out: see "clipping" above."""
+    """Write the manifold of the AABBs of two SHAPE rows, normal from A to B.
+
+    Return the number of points, 0 if the separation exceeds the margin [px]. manifold_out: see "clipping" above.
+    """
     up = a.min_y - b.max_y
     right = b.min_x - a.max_x
     down = b.min_y - a.max_y
@@ -412,19 +416,21 @@ def collide_upright(a, b, margin, manifold_out):
 
 
 # ---- hulls -----------------------------------------------------------------------------------------------------------
-# Rounded convex hulls against each other: corners by separating axes and clipping, the radii added afterwards.
+# Rounded convex hulls against each other: separating axis test and clipping of the cores; the radii are added
+# afterwards.
 #
-# A hull of two corners (capsule, segment) is a polygon with two edges back to back. While the cores overlap, the least
-# way out leads across a face and both radii. While they are apart the nearest features decide: a face and what stands
-# over it, or, where nothing stands over the faces, two corners, whose distance less the radii is exact.
+# A hull of two corners (capsule, segment) is a polygon with two opposite edges. While the cores overlap, the axis of
+# least penetration is a face normal, and both radii are added. While they are apart, the nearest features decide: a
+# face and the part over it or, where nothing is over the faces, two corners. The distance of the corners less the radii
+# is exact.
 #
-# Degenerate cases have one answer each: among faces that push equally the first of A wins; cores that cross without
-# depth (a segment on a segment's line) push along that face's normal; coincident corners push along (0, -1).
+# Degenerate cases have one result each. Of faces with equal separation the first of A wins. Cores that cross without
+# depth (a segment on a segment's line) push along that face's normal. Coincident corners push along (0, -1).
 
 
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
-    """How far along from a to b, as a fraction 0..1, the point of the edge that is nearest to (x, y) lies."""
+    """Return the point of the edge from a to b that is nearest to (x, y), as a fraction 0..1 of the edge."""
     ex = bx - ax
     ey = by - ay
     along = ex * (x - ax) + ey * (y - ay)
@@ -436,14 +442,14 @@ def nearest_on_edge(ax, ay, bx, by, x, y):
 
 @subkernel
 def edge_gap(ax, ay, bx, by, x, y):
-    """Distance [px] of a point from an edge."""
+    """Return the distance [px] of a point from an edge."""
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     return length_of(x - ax - t * (bx - ax), y - ay - t * (by - ay))
 
 
 @subkernel
 def sides_of(a, b):
-    """On which sides of the line through b[0], b[1] the ends of a lie: negative when on opposite ones, 0 when on it."""
+    """Return -1.0 if the ends of a are on opposite sides of the line through b, 0.0 if one is on it, else 1.0."""
     ex = b[1, 0] - b[0, 0]
     ey = b[1, 1] - b[0, 1]
     first = ex * (a[0, 1] - b[0, 1]) - ey * (a[0, 0] - b[0, 0])
@@ -455,7 +461,10 @@ def sides_of(a, b):
 
 @subkernel
 def segments_gap(a, b):
-    """Distance [px] of two hulls of two corners, 0 when they cross: their normals do not part them along their line."""
+    """Return the distance [px] of two hulls of two corners, 0 when they cross.
+
+    The face normals do not separate two segments along their line.
+    """
     if sides_of(a, b) < 0.0 and sides_of(b, a) < 0.0:
         return 0.0
     gap = min(
@@ -473,7 +482,7 @@ def segments_gap(a, b):
 
 @subkernel
 def nearest_corners(a, a_count, b, b_count):
-    """(corner of A, corner of B, distance [px]) of the two nearest corners. O(a_count · b_count)."""
+    """Return (corner of A, corner of B, distance [px]) of the two nearest corners. O(a_count · b_count)."""
     best = math.inf
     best_i = 0
     best_j = 0
@@ -489,7 +498,7 @@ def nearest_corners(a, a_count, b, b_count):
 
 @subkernel
 def corner_manifold(a, i, a_radius, b, j, b_radius, limit, manifold_out):
-    """One point between rounded corners of A and B, when within the limit [px]. Returns the number."""
+    """Write one point between rounded corners of A and B, if within the limit [px]. Return the number of points."""
     dx = b[j, 0] - a[i, 0]
     dy = b[j, 1] - a[i, 1]
     nx, ny = unit(dx, dy, 0.0, -1.0)
@@ -510,9 +519,9 @@ def corner_manifold(a, i, a_radius, b, j, b_radius, limit, manifold_out):
 
 @subkernel
 def faces_of(a, count, b, b_count, b_edges):
-    """The edges of A that may push it out of B: those that meet a corner of B that sticks out.
+    """Return the edges of A that may push it out of B: those that face an exposed corner of B.
 
-    b_edges: bits as in collide_hulls. The others meet a corner behind which B's neighbour goes on: it has the surface.
+    b_edges: bits as in collide_hulls. The other edges face a corner behind which B's neighbour continues the surface.
     """
     if b_edges == ALL_EDGES:
         return ALL_EDGES
@@ -526,7 +535,7 @@ def faces_of(a, count, b, b_count, b_edges):
 
 @subkernel
 def lies_along(corners, count, edge, other, other_count):
-    """Whether another polygon lies over an edge: their extents along the edge share more than a point."""
+    """Return whether another polygon lies over an edge: their extents along the edge share more than a point."""
     following = edge + 1 if edge + 1 < count else 0
     x = corners[edge, 0]
     y = corners[edge, 1]
@@ -543,7 +552,7 @@ def lies_along(corners, count, edge, other, other_count):
 
 @subkernel
 def slack_of(corners, count, edge):
-    """By how much [px] rounding may move what is clipped against an edge."""
+    """Return the rounding error [px] allowed for a point that is clipped against an edge."""
     n = edge + 1 if edge + 1 < count else 0
     ex = abs(corners[n, 0] - corners[edge, 0]) + abs(corners[n, 1] - corners[edge, 1])
     return 1e-9 * ex + 1e-15 * (abs(corners[edge, 0]) + abs(corners[edge, 1]))
@@ -551,7 +560,7 @@ def slack_of(corners, count, edge):
 
 @subkernel
 def least_separation(count, manifold):
-    """Separation [px] of the deeper point of a manifold; infinite without any."""
+    """Return the separation [px] of the deeper point of a manifold; infinite without points."""
     if count == 0:
         return math.inf
     return min(manifold[5], manifold[9]) if count > 1 else manifold[5]
@@ -559,9 +568,9 @@ def least_separation(count, manifold):
 
 @subkernel
 def passes_by(a, a_count, b, b_count, rounding, vx, vy):
-    """Whether B, moved along a velocity, never meets A: across its way the two lie apart by more than the radii [px].
+    """Return whether B, moved along a velocity, never meets A: across its path the gap exceeds the radii [px].
 
-    A corner near a corner has one normal for the whole step; what flies past would be turned aside by it.
+    A corner against a corner keeps one normal for the whole step, which would deflect a body that only passes.
     """
     nx, ny = unit(-vy, vx, 0.0, 0.0)
     low = math.inf
@@ -579,13 +588,13 @@ def passes_by(a, a_count, b, b_count, rounding, vx, vy):
 
 @subkernel
 def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, margin, bias, deepest, manifold_out):
-    """Manifold of two hulls of two or more corners, normal from A to B.
-    Returns the number of points, 0 when apart by > margin.
+    """Write the manifold of two hulls of two or more corners, normal from A to B (separating axis test, clipping).
 
-    a, b: world corners (n, 2) [px], grown by the radii [px]; a_edges, b_edges: bits of the edges that may be touched;
-    bias [px]: how much better B's face must separate to be the reference, so that it does not flip between equal faces;
-    deepest [px]: what is deeper than that behind every edge that may be touched, and less deep behind one that may not,
-    is left to the neighbour that covers it: then manifold_out[0] is LEFT. O(a_count · b_count).
+    Return the number of points, 0 if the separation exceeds the margin [px]. a, b: world corners (n, 2) [px], grown by
+    the radii [px]; a_edges, b_edges: bits of the touchable edges. bias [px]: by how much B's separation must exceed A's
+    to make B the reference, so that the reference does not flip between equal faces. deepest [px]: limit for parts. A
+    deeper overlap, less deep behind an edge that is not touchable, is left to the neighbour that covers that edge; then
+    manifold_out[0] is LEFT. O(a_count · b_count).
     """
     rounding = a_radius + b_radius
     manifold_out[0] = 0.0
@@ -611,7 +620,7 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
         and max(a_all, b_all) > allowed
         and not (lies_along(b, b_count, b_edge, a, a_count) if from_b else lies_along(a, a_count, a_edge, b, b_count))
     ):
-        # A nearer face is a neighbour's, and this one is somewhere else.
+        # The nearer face belongs to a neighbour, and this one is not over the other hull.
         manifold_out[0] = LEFT if max(a_all, b_all) < 0.0 else 0.0
         return 0
     for attempt in range(2):
@@ -628,14 +637,14 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
             slack = slack_of(a, a_count, a_edge)
         least = least_separation(count, manifold_out)
         if apart and own < -slack:
-            continue  # parted by a face that may not be touched: nothing stands over this one
+            continue  # separated by an edge that is not touchable: nothing is over this face
         if not apart:
             if least > -rounding:
                 if flipped:
                     return support_manifold(b, b_count, b_radius, b_edge, a, a_count, a_radius, True, manifold_out)
                 return support_manifold(a, a_count, a_radius, a_edge, b, b_count, b_radius, False, manifold_out)
             return count
-        # Something stands over this face: nothing is nearer. Of sharp faces that lie along each other either does.
+        # If a point is over this face, no feature is nearer. Of sharp faces along each other either face will do.
         if rounding == 0.0 and abs(a_separation - b_separation) <= bias:
             slack = max(bias, slack)
         if count > 0 and least <= own - rounding + slack:
@@ -650,7 +659,7 @@ def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, 
 
 @subkernel
 def collide_line_circle(ax, ay, bx, by, x, y, radius):
-    """The line from a to b against a disc [px]: (normal to the disc, point of the line, separation, feature).
+    """Return (normal to the disc, point of the line, separation, feature) of the line from a to b and a disc [px].
 
     Feature: 0 or 1, the side; 32 or 33, the end. A centre on the line takes the normal of its first side.
     """
@@ -663,7 +672,7 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
     side_x, side_y = unit(by - ay, ax - bx, 0.0, -1.0)
     height = side_x * (x - ax) + side_y * (y - ay)
     if 0.0 < t < 1.0:
-        # Along the line's normal, so that rounding in the nearest point does not turn it.
+        # The line's own normal is used, so that rounding of the nearest point does not rotate it.
         sign = -1.0 if height < 0.0 else 1.0
         return (
             sign * side_x,
@@ -679,8 +688,11 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
 
 @subkernel
 def collide_hull_circle(corners, count, edges, hull_radius, x, y, radius):
-    """A hull of two or more corners against a disc [px]: (found, normal from the hull to the disc, point midway,
-    separation, feature). See circles.collide_polygon_circle for the edges and for what lies inside."""
+    """Return (found, normal from the hull to the disc, point midway, separation, feature) of a hull of two or more
+    corners and a disc [px].
+
+    See collide_polygon_circle for `edges` and for a centre inside.
+    """
     if count == 2:
         nx, ny, px, py, separation, feature = collide_line_circle(
             corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y, hull_radius + radius

@@ -1,7 +1,7 @@
-"""The forces of contacts whose shapes are replaced: where the new surface is the old one, they go on.
+"""Contact forces across a shape replacement: they are transferred where the new surface coincides with the old one.
 
-Features name edges and corners of one shape, so nothing that is remembered fits another. What touches is found anew on
-the spot, and each new point takes over from the old one that stood where it stands, pushed the same way.
+Feature ids are valid for one shape only, so no cached contact matches the new one. The new shape is tested at once.
+Each new point takes the forces of the old point at the same place with the same normal direction.
 """
 
 import numpy as np
@@ -15,11 +15,13 @@ from physics.tables.shape import CHAIN, PIXELS
 from physics.tables.step_state import WorldTables
 from physics.tables.table import joined, rows_of
 
-ALIKE = 0.9  # cosine between normals that push the same way: what an outline turns by where it is smoothed anew
+ALIKE = (
+    0.9  # smallest cosine between normals that count as equal: an outline that is smoothed again turns them a little
+)
 
 
 class KeptForces:
-    """The contacts of SHAPE rows that are about to go. In worlds that do not stack there are none to keep."""
+    """The contacts of SHAPE rows that are about to be removed; empty in worlds without stacking."""
 
     def __init__(self, tables: WorldTables, rows: np.ndarray) -> None:
         found = tables.manifolds
@@ -27,7 +29,7 @@ class KeptForces:
         if len(rows) and len(tables.anchors) == len(found) > 0:
             going = np.zeros(len(tables.shapes), bool)
             going[rows] = True
-            # Rows are those of the step before: what was added since stands behind them, what went took its contacts.
+            # Rows are those of the last step: shapes added since come after them; removed ones took their contacts.
             at_a = going[found["row_a"]]
             kept = np.flatnonzero(at_a | going[found["row_b"]])
             if len(kept):
@@ -35,7 +37,7 @@ class KeptForces:
                 self.others = np.unique(np.where(at_a, found["shape_b"], found["shape_a"])[kept])
 
     def hand_on(self, tables: WorldTables, new: np.ndarray) -> None:
-        """Give the contacts of new SHAPE rows what is kept; the old ones are gone by now. O(pairs)."""
+        """Transfer the kept forces to the contacts of new SHAPE rows, after the old rows are removed. O(pairs)."""
         if not len(self.manifolds):
             return
         shapes = tables.shapes
@@ -69,14 +71,14 @@ class KeptForces:
         tables.manifolds, tables.anchors = known[order], joined([tables.anchors, anchors])[order]
 
     def _stood_on(self, shapes, pairs):
-        """A manifold of each new surface and what touched the old one: who stood on it stands on, however deep."""
+        """Return a manifold for each new surface and each body on the old one: it stays on it, however deep."""
         some = shapes[pairs[(shapes["kind"][pairs] == CHAIN).any(axis=1)]]
         found = np.zeros(len(some), MANIFOLD)
         found["shape_a"], found["shape_b"] = some["id"].T
         return found
 
     def _take(self, manifold, anchor, k, reach):
-        """Give point k of a new manifold the forces of the old point nearest to it, within reach [px]."""
+        """Copy the forces of the nearest old point, within reach [px], to point k of a new manifold."""
         old = self.manifolds
         same = (old["body_a"] == manifold["body_a"]) & (old["body_b"] == manifold["body_b"])
         swapped = (old["body_a"] == manifold["body_b"]) & (old["body_b"] == manifold["body_a"])

@@ -14,14 +14,14 @@ from physics.tables.geometry import Geometry
 from physics.tables.shape import BOUNDS, CHAIN, MASK, TILES
 
 # ---- owners ----------------------------------------------------------------------------------------------------------
-# What is told of manifolds: the shapes that touch, whichever parts of them do.
+# Manifolds as reported: they name the shapes that touch, not their parts.
 
 SIDES = ("body_", "shape_", "owner_", "body_row_", "row_")
 
 
 @kernel
 def are_whole(manifolds):
-    """Whether no side of any manifold is a part of another shape. O(manifolds)."""
+    """Return whether no side of any manifold is a part of another shape. O(manifolds)."""
     for i in range(len(manifolds)):
         m = manifolds[i]
         if m.owner_a != m.shape_a or m.owner_b != m.shape_b:
@@ -30,10 +30,10 @@ def are_whole(manifolds):
 
 
 def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """(MANIFOLD rows that name the shapes whose parts touch, in the order of these; their rows before, None: the same).
+    """Return (MANIFOLD rows that name the owners of touching parts, in owner order; their original rows or None).
 
-    That a mask has parts is nobody's business, nor that they may have come later than what they touch: A is the shape
-    with the smaller id here too.
+    None means that the rows are unchanged. Parts are internal, and may have been created later than the other shape. A
+    is the owner with the smaller id here too.
     """
     if are_whole(manifolds):
         return manifolds, None
@@ -54,16 +54,16 @@ def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
 
 
 # ---- materials -------------------------------------------------------------------------------------------------------
-# What two materials are together: friction, restitution, rolling resistance, surface speed of a contact.
+# Mixed materials of a contact: friction, restitution, rolling resistance, surface speed.
 
 
 @inlined
 def mixed(geometry, a, b, manifold):
-    """(friction, restitution, rolling resistance [px], surface speed [px/s]) of a manifold of two shapes, SHAPE rows; a
-    chain's link has its own.
+    """Return (friction, restitution, rolling resistance [px], surface speed [px/s]) of a manifold of two SHAPE rows.
 
-    Friction is the geometric mean, restitution and rolling resistance the greater, surface speeds add up. Rolling
-    resistance is a length here: the coefficient times the greater radius (Catto, Box2D v3.1).
+    A chain's link has its own material. Friction is the geometric mean, restitution and rolling resistance the greater;
+    surface speeds add up. Rolling resistance is a length here: the coefficient times the greater radius (Catto, Box2D
+    v3.1).
     """
     friction = 1.0
     restitution = 0.0
@@ -93,18 +93,18 @@ def mixed(geometry, a, b, manifold):
 
 
 # ---- manifold --------------------------------------------------------------------------------------------------------
-# Rows of the manifold table: written by the passes over pairs, then put in the order of the candidates.
+# Rows of the manifold table: written by the passes over pairs, then sorted in the order of the candidates.
 
-# Kinds of pairs, by which the candidates are dealt to the passes.
+# Kinds of pairs; each pass takes the candidates of its kinds.
 CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON = range(6)
 MASKS_EXACT, MASK_HULL_EXACT, GRID_ANY, CHAIN_ANY = range(6, 10)  # exact: with a mask that is not snapped
 SURFACE_ANY, NOTHING = 10, 11  # surface: a chain that is the upper side of a mask open from below
-BLOCK = 64  # pairs of masks that are looked at together
+BLOCK = 64  # pairs of masks in one block
 POINTS = 11  # floats of a manifold in flight: see hulls.py
 
 
 class Batch(NamedTuple):
-    """What a pass over candidate pairs reads."""
+    """The input of a pass over candidate pairs."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -112,29 +112,27 @@ class Batch(NamedTuple):
     candidates: np.ndarray  # (capacity, 2) int64 shape rows
     kinds: np.ndarray  # (count) kind of each pair
     count: int  # candidates in use
-    margin: float  # [px] pairs apart by at most that are found too
+    margin: float  # [px] largest gap of a pair that gets a contact
     bias: float  # [px] see hulls.collide_hulls
-    graze: float = 0.0  # [px] who would overlap by no more in passing does not meet: see hull_pairs
-    ahead: float = 0.0  # [s] in which what meets is found: see hull_pairs.py
+    graze: float = 0.0  # [px] largest overlap of bodies that only pass each other: see hull_pairs.py
+    ahead: float = 0.0  # [s] pairs that meet within this time get a contact: see hull_pairs.py
 
 
 class Workspace(NamedTuple):
-    """Room for one pair in flight."""
+    """Scratch memory for one pair in flight."""
 
     a: np.ndarray  # (16, 2) corners [px]
     b: np.ndarray
     points: np.ndarray  # (POINTS,), see hulls.py
     depths: np.ndarray  # (16,)
-    previous: (
-        np.ndarray
-    )  # MANIFOLD rows of the step before, and where those of each candidate with ground open from below stand
-    memory: np.ndarray  # (candidates, 2) first row, number
-    near: np.ndarray  # (BLOCK, 6) masks in flight whose bounds meet, see mask_pairs.list_near
-    left: np.ndarray  # (candidates + 1,) how many candidates overlap and are left to a neighbour, then which
+    previous: np.ndarray  # MANIFOLD rows of the last step, for pairs with one-way ground
+    memory: np.ndarray  # (candidates, 2) first row in previous, number of rows
+    near: np.ndarray  # (BLOCK, 6) mask pairs whose bounds overlap, see masks.list_near
+    left: np.ndarray  # (candidates + 1,) number of overlapping candidates left to a neighbour, then their rows
 
 
 def new_workspace() -> Workspace:
-    """An empty workspace."""
+    """Return an empty workspace."""
     return Workspace(
         np.zeros((16, 2)),
         np.zeros((16, 2)),
@@ -149,14 +147,14 @@ def new_workspace() -> Workspace:
 
 @subkernel
 def leave(pair, left_inout):
-    """Note a candidate that is left to a neighbour."""
+    """Add a candidate to the list of those that are left to a neighbour."""
     left_inout[0] += 1
     left_inout[left_inout[0]] = pair
 
 
 @subkernel
 def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
-    """Begin a manifold of a candidate pair, without points."""
+    """Write a manifold of a candidate pair, without points."""
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]
     a = shapes[row_a]
@@ -191,10 +189,10 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
 
 @subkernel
 def add_manifold(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
-    """Add a manifold of one point; see add_point. Returns the number of manifolds, which goes on past the capacity."""
+    """Add a manifold of one point; see add_point. Return the number of manifolds, which may exceed the capacity."""
     if found < len(manifolds_out):
         m = manifolds_out[found]
-        # Plus 0.0: -0.0 would show in what is printed and compared.
+        # Plus 0.0 turns -0.0 into 0.0, for printing and comparison.
         open_manifold(shapes, candidates, pair, nx + 0.0, ny + 0.0, m)
         m.count = 1
         m.x_1 = x
@@ -207,10 +205,10 @@ def add_manifold(shapes, candidates, pair, found, nx, ny, x, y, separation, area
 
 @subkernel
 def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
-    """Add a point to the last manifold, if that is of this pair, with this normal and one point; else begin one.
+    """Add a point to the last manifold if it has this pair, this normal and one point; otherwise add a manifold.
 
-    Returns the number of manifolds, which goes on past the capacity. nx, ny: unit, from A to B; x, y, separation [px];
-    area [px2]. What depends on the bodies' motion is left to hull_pairs.py.
+    Return the number of manifolds, which may exceed the capacity. nx, ny: unit, from A to B; x, y, separation [px];
+    area [px2]. Fields that depend on the bodies' motion are written in hull_pairs.py.
     """
     if 0 < found <= len(manifolds_out):
         m = manifolds_out[found - 1]
@@ -227,8 +225,10 @@ def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, f
 
 @subkernel
 def add_points(shapes, candidates, pair, found, sign, points, count, part, manifolds_out):
-    """Add the points of a manifold in flight (see hulls.py). sign: -1.0 where it was asked the other way round;
-    part: what is added to its features. Returns the number of manifolds."""
+    """Add the points of a manifold in flight (see hulls.py). Return the number of manifolds.
+
+    sign: -1.0 where the sides were swapped for the test; part: offset that is added to the features.
+    """
     for k in range(count):
         at = 3 + 4 * k
         found = add_point(
@@ -250,7 +250,7 @@ def add_points(shapes, candidates, pair, found, sign, points, count, part, manif
 
 @subkernel
 def circle_at(bodies, shapes, row):
-    """Centre of a CIRCLE in the world [px], and its radius."""
+    """Return the world centre of a CIRCLE [px], and its radius [px]."""
     s = shapes[row]
     b = bodies[s.body_row]
     u, v = turned(s.local_x, s.local_y, *heading(b.angle))
@@ -259,7 +259,8 @@ def circle_at(bodies, shapes, row):
 
 @subkernel
 def corners_of(geometry, bodies, shapes, row, corners_out):
-    """World corners of a hull of two or more at its body's pose, of a BOUNDS from its AABB. Returns their number."""
+    """Write the world corners of a hull of two or more at its body's pose, of a BOUNDS from its AABB. Return their
+    number."""
     b = bodies[shapes[row].body_row]
     if shapes[row].kind == BOUNDS:
         return upright_corners(shapes[row], corners_out)
@@ -268,7 +269,7 @@ def corners_of(geometry, bodies, shapes, row, corners_out):
 
 @subkernel
 def copy_manifold(manifolds, source, target, manifolds_out):
-    """Copy one row field by field: a whole-row assignment is not the same thing compiled and plain."""
+    """Copy one row field by field: a whole-row assignment differs between compiled and plain code."""
     s = manifolds[source]
     d = manifolds_out[target]
     d.body_a = s.body_a
@@ -320,7 +321,7 @@ def place_in_order(
     starts_out,
     manifolds_out,
 ):
-    """Copy manifolds to the order of their candidates; those of one candidate keep theirs.
+    """Copy manifolds to the order of their candidates, stable within one candidate (counting sort).
 
     manifolds, manifolds_out MANIFOLD rows; starts_out (candidates + 1): scratch. O(manifolds + candidates).
     """
@@ -344,7 +345,7 @@ def write_contacts(
     # write
     contacts_out,
 ):
-    """Write a CONTACT row for every point of the manifolds. Returns their number. O(manifolds)."""
+    """Write a CONTACT row for every point of the manifolds. Return their number. O(manifolds)."""
     found = 0
     for i in range(len(manifolds)):
         m = manifolds[i]
@@ -368,7 +369,7 @@ def write_contacts(
 
 
 def contacts_of(manifolds: np.ndarray) -> np.ndarray:
-    """The points of MANIFOLD rows as CONTACT rows, in the order of the shapes that touch."""
+    """Return the points of MANIFOLD rows as CONTACT rows, in the order of the owners."""
     manifolds, _ = by_owner(manifolds)
     contacts = np.zeros(int(manifolds["count"].sum()), CONTACT)
     write_contacts(manifolds, contacts)

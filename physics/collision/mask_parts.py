@@ -1,4 +1,4 @@
-"""Deep overlaps with outlines made of many parts: the way out of all parts at once."""
+"""Deep-penetration fallback for outlines made of many parts: one separating direction for all parts at once."""
 
 import math
 
@@ -14,12 +14,12 @@ from physics.tables.shape import CIRCLE
 from physics.tables.table import rows_of
 
 # ---- ways out --------------------------------------------------------------------------------------------------------
-# The way out of all the parts that a body stands in at once.
+# Deep-penetration fallback: the shortest direction out of all overlapping parts at once.
 #
-# Along a direction a body has left a convex part as soon as one axis of the two parts them, and has left the whole when
-# it has left every part. What is nearest to one part's edge may lead into the next, all along a rim.
+# Along a direction a body has left a convex part as soon as one axis separates the two. It has left the whole outline
+# when it has left every part. The nearest edge of one part may lead into the next part, all along a rim.
 
-FACES = 32  # of a pair at most
+FACES = 32  # of a pair, at most
 DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH = range(
     4
 )  # of a face: unit, from A to B; how deep the other is behind it [px]
@@ -28,7 +28,7 @@ ALONG = 0.5  # cosine of directions that go the same way
 
 @subkernel
 def world_hull(batch, row, corners_out):
-    """World corners of a hull [px]; of a disc, its centre. Returns (their number, rounding radius [px])."""
+    """Write the world corners [px] of a hull, or the centre of a disc. Return (their number, rounding radius [px])."""
     if batch.shapes[row].kind == CIRCLE:
         x, y, radius = circle_at(batch.bodies, batch.shapes, row)
         corners_out[0, 0] = x
@@ -39,7 +39,7 @@ def world_hull(batch, row, corners_out):
 
 @subkernel
 def write_faces(corners, count, touchable, other, other_count, radii, sign, first, faces_out):
-    """Write the faces of a hull as rows from `first` on; a disc has none. Returns the row after them.
+    """Write the faces of a hull as rows from `first` on; a disc has none. Return the row after them.
 
     touchable: bits of the edges that may push; sign: 1.0 of A, -1.0 of B.
     """
@@ -59,7 +59,7 @@ def write_faces(corners, count, touchable, other, other_count, radii, sign, firs
 
 @subkernel
 def way_along(faces, starts, count, nx, ny):
-    """How far [px] B has to go along a direction until it has left all of A: O(faces)."""
+    """Return the distance [px] that B has to move along a direction to leave all parts of A. O(faces)."""
     longest = 0.0
     for part in range(count):
         shortest = math.inf
@@ -73,9 +73,9 @@ def way_along(faces, starts, count, nx, ny):
 
 @subkernel
 def shortest_way(faces, starts, count, way_x, way_y):
-    """(part, row) of the face that may push along whose direction B leaves all of A soonest; -1, -1 without any.
+    """Return (part, row) of the pushing face along whose direction B leaves all of A soonest; -1, -1 without any.
 
-    Directions that go along (way_x, way_y), a unit vector or 0, come before others. O(faces · faces).
+    Directions within acos(ALONG) of (way_x, way_y), a unit vector or 0, come before others. O(faces · faces).
     """
     best = -1
     best_part = -1
@@ -101,14 +101,14 @@ def shortest_way(faces, starts, count, way_x, way_y):
 
 @subkernel
 def push_by_face(a, a_count, a_radius, edge, b, b_count, b_radius, flipped, margin, manifold_out):
-    """Manifold of hulls that overlap, by edge `edge` of a, however deep. Returns the number of points."""
+    """Write the manifold of overlapping hulls with edge `edge` of a as reference, at any depth. Return its points."""
     count = 0
     if b_count > 1:
         count = clip_edges(a, a_count, a_radius, edge, b, b_count, b_radius, margin, flipped, manifold_out)
     if count == 0 or least_separation(count, manifold_out) > -a_radius - b_radius:
         count = support_manifold(a, a_count, a_radius, edge, b, b_count, b_radius, flipped, manifold_out)
     if b_count == 1:
-        manifold_out[6] = float(edge)  # a disc is known by the edge: see features
+        manifold_out[6] = float(edge)  # features of a disc are numbered by the edge alone: see hulls.py
     return count
 
 
@@ -125,10 +125,10 @@ def lead_out(
     faces_out,
     manifolds_out,
 ):
-    """Write the manifold that leads B out of A on the shortest way, of candidates `pairs` of parts of the same two.
+    """Write the manifold that moves B out of A in the shortest direction, for candidates `pairs` of parts of these two.
 
-    way_x, way_y: the way it has begun to take, or 0. starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch.
-    Returns the number of manifolds, 0 or 1. O(faces · faces).
+    way_x, way_y: the direction of the last step, or 0. starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch.
+    Return the number of manifolds, 0 or 1. O(faces · faces).
     """
     shapes = batch.shapes
     candidates = batch.candidates
@@ -161,19 +161,19 @@ def lead_out(
 
 
 # ---- left over -------------------------------------------------------------------------------------------------------
-# What each part of an outline has left to its neighbours, and none has told: a body deep among thin parts.
+# Pairs that every part of an outline has left to a neighbour: a body deep among thin parts.
 #
-# A part says nothing where a neighbour covers the nearer edge. Who jumps into a thin rim by a quick step may stand in
-# its parts so that each of them does so: then the pair is told by the edge that leads out of all of them soonest. The
-# same second look as at tiles, see tiles.py.
+# A part reports no contact where a neighbour covers the nearer edge. A body that jumps into a thin rim in one fast step
+# may overlap its parts so that each of them does this. Then the pair gets the edge that leads out of all of them
+# soonest. Tiles have the same second pass, see tiles.py.
 
-OPPOSED = -0.5  # cosine of normals that push against each other
-ALIKE = 0.99  # … of normals of two parts that are one face's
+OPPOSED = -0.5  # cosine of normals that oppose each other
+ALIKE = 0.99  # cosine of normals of two parts that belong to one face
 
 
 @subkernel
 def depth_of(manifold):
-    """How deep [px] the deeper point of a manifold is."""
+    """Return the depth [px] of the deeper point of a manifold."""
     if manifold.count == 2:
         return -min(manifold.separation_1, manifold.separation_2)
     return -manifold.separation_1
@@ -189,7 +189,7 @@ def find_deep(
     # write
     flags_out,
 ):
-    """Flag (count,) what parts push by more than `deep` [px], where that moves one of the two. Returns how many."""
+    """Flag (count,) the manifolds of parts deeper than `deep` [px] in which a side is dynamic. Return how many."""
     found = 0
     for i in range(count):
         m = manifolds[i]
@@ -210,9 +210,9 @@ def drop_against(
     # write
     manifolds_inout,
 ):
-    """Drop the deep ones (flags) that another manifold of the same pair opposes; order: sorted by owners.
+    """Drop deep manifolds (flags) that a shallower manifold of the same pair opposes; order: sorted by owners.
 
-    Returns how many are left, moved to the front. O(manifolds · those of a pair).
+    Return how many are left, moved to the front. O(manifolds · those of a pair).
     """
     first = 0
     count = len(order)
@@ -247,10 +247,10 @@ def drop_against(
 
 
 def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:
-    """Drop what parts push, deeper than `deep` [px], against a push of the same pair from the other side, less deep.
+    """Drop manifolds of parts deeper than `deep` [px] that a shallower manifold of the same pair opposes.
 
-    What was thrown into a notch narrower than itself would be squeezed there for good; so it is let out by the nearer
-    side, and rests against that. count: manifolds in use; flags (count,): scratch. Returns how many are left.
+    A body thrown into a notch narrower than itself would be squeezed there for good. It is pushed out by the nearer
+    side, and rests on that. count: manifolds in use; flags (count,): scratch. Return how many are left.
     """
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
@@ -259,11 +259,11 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 
 
 def settle_left(batch: Batch, told: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
-    """MANIFOLD rows, at most one for each pair of shapes whose parts were left to each other: of those that nobody
-    tells, and of those told deeper than the margin, which may lead along a wall and not out of it.
+    """Return at most one MANIFOLD row for each pair of shapes whose parts all left the contact to a neighbour.
 
-    told: the manifolds that there are; those that are apart tell nothing of it. previous: of the step before: who was
-    on the way out goes on that way, or what stands in the middle of an arm would be pushed to and fro.
+    This covers pairs without a manifold, and pairs deeper than the margin, whose manifold may lead along a wall and not
+    out of it. told: the present manifolds; those with a gap do not count. previous: the manifolds of the last step.
+    They keep the direction of a body on its way out, which would otherwise alternate in the middle of an arm.
     """
     shapes = batch.shapes
     left = np.sort(workspace.left[1 : 1 + workspace.left[0]])
@@ -297,13 +297,13 @@ def settle_left(batch: Batch, told: np.ndarray, previous: np.ndarray, workspace:
 
 
 def _pair_keys(shapes, pairs):
-    """One number for each pair of owners of two SHAPE rows each, in the order of the owners."""
+    """Return one number for each pair of owners of two SHAPE rows, increasing in the order of the owners."""
     owners = rows_of(shapes, shapes["owner"][pairs].ravel()).reshape(-1, 2)
     return owners[:, 0] * len(shapes) + owners[:, 1]
 
 
 def _is_told(manifold, told) -> bool:
-    """Whether a face pushes already: one that is used again has turned a little with its body since."""
+    """Return whether a manifold of the same face exists already; a recycled one has turned slightly with its body."""
     same = told["candidate"] == manifold["candidate"]
     along = told["normal_x"] * manifold["normal_x"] + told["normal_y"] * manifold["normal_y"]
     return bool((same & (along > ALIKE)).any())

@@ -1,4 +1,4 @@
-"""Snapped masks: AND of two masks, and a mask against discs, hulls and bounds."""
+"""Snapped masks: mask against mask by AND of their words, and mask against discs, hulls and bounds."""
 
 import math
 from collections.abc import Callable
@@ -24,21 +24,21 @@ from physics.tables.shape import MASK
 from physics.tables.step_state import MASK_TESTS
 
 # ---- mask depth ------------------------------------------------------------------------------------------------------
-# Contact of two masks: where, which way out, and how far.
+# Contact of two masks: point, normal and depth.
 #
-# The normal is the direction in which moving B shrinks the shared area fastest: the gradient of the area over the
-# offset, by central differences of one pixel (the recipe of pygame's Mask documentation). Where it vanishes, the
-# direction between the centres of the solid bounds decides, then the axis of least overlap. The way out is searched
-# pixel by pixel along the normal; where the bounds could be pulled apart along an axis in less, that axis is taken, so
-# the depth is never more than the least overlap of the bounds.
+# The normal is the direction in which moving B shrinks the shared area fastest. It is the gradient of the area over the
+# offset, by central differences of one pixel (the recipe of pygame's Mask documentation). Where the gradient vanishes,
+# the direction between the centres of the solid bounds is used, then their axis of least overlap. The depth is searched
+# pixel by pixel along the normal. If the bounds separate sooner along an axis, that axis is taken: the depth is
+# never more than the least overlap of the bounds.
 
 
 @subkernel
 def center_normal(a, b, dx, dy):
-    """Unit direction between the centres of two solid bounds; (1, 0) where they coincide."""
+    """Return the unit direction between the centres of two solid bounds, (1, 0) if they coincide."""
     x = float(b.set_left + b.set_right - a.set_left - a.set_right + 2 * dx)
     y = float(b.set_top + b.set_bottom - a.set_top - a.set_bottom + 2 * dy)
-    length = math.sqrt(x * x + y * y)  # of whole pixels: nothing under- or overflows
+    length = math.sqrt(x * x + y * y)  # of integers: no underflow or overflow
     if length == 0.0:
         return 1.0, 0.0
     return x / length, y / length
@@ -46,7 +46,7 @@ def center_normal(a, b, dx, dy):
 
 @subkernel
 def least_axis(a, b, dx, dy):
-    """(normal, depth [px]) of the shortest move of B along an axis that parts the solid bounds."""
+    """Return (normal, depth [px]) of the shortest move of B along an axis that separates the solid bounds."""
     right = float(a.set_right - (b.set_left + dx))
     left = float(b.set_right + dx - a.set_left)
     down = float(a.set_bottom - (b.set_top + dy))
@@ -63,10 +63,10 @@ def least_axis(a, b, dx, dy):
 
 @subkernel
 def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by, nx, ny, most):
-    """The shortest whole number of pixels along the normal after which nothing is shared; > most when none does.
+    """Return the least whole number of pixels along the normal that ends the overlap; > most if none up to it does.
 
-    rest_* [px] in 0..1: what snapping took from the positions, so that the move is rounded as it will be, whether B is
-    moved along the normal or A against it.
+    rest_* [px] in 0..1: the parts of the positions removed by snapping. They round the tested move as the real one will
+    be, whether B moves along the normal or A against it.
     """
     a = rasters[mask_a]
     b = rasters[mask_b]
@@ -77,7 +77,7 @@ def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, r
     row_b = b.offset
     depth = 0.0
     found = True
-    row = 0  # where a pixel was shared last: mostly one is there a pixel further too
+    row = 0  # row of the last shared pixel: a pixel further there usually is one too
     while found and depth <= most:
         depth += 1.0
         x = dx + math.floor(rest_bx + nx * depth)
@@ -101,10 +101,10 @@ def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, r
 
 @subkernel
 def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by):
-    """Contact of two masks that share pixels: (area, point x, point y in A's raster, normal from A to B, separation).
+    """Return (area, point x, point y in A's raster, normal from A to B, separation) of two masks that share pixels.
 
-    rest_*: see way_out. The point is the centroid of the shared pixels [px]; separation is negative, the move that ends
-    the overlap.
+    rest_*: see way_out. The point is the centroid of the shared pixels [px]. The separation is negative: minus the move
+    that ends the overlap.
     """
     a = rasters[mask_a]
     b = rasters[mask_b]
@@ -140,15 +140,16 @@ def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_
 # ---- mask hulls ------------------------------------------------------------------------------------------------------
 # A mask against a disc and a convex polygon: the union of its pixel squares, as drawn, against the exact shape.
 #
-# Masks are open: a hit shares area, touching is none. The normal points from the mask to the other shape: from the
-# centroid of the pixels that overlap to the disc's centre, or out of the polygon's face that lets them out soonest.
+# Masks are open sets: a hit shares area, and touching is not a hit. The normal points from the mask to the other shape.
+# Against a disc it runs from the centroid of the overlapping pixels to the centre. Against a polygon it is opposite to
+# the face of least depth.
 
 
 @subkernel
 def pixel_range(low, high, start, set_low, set_high):
-    """First and last + 1 of the pixels whose squares meet the open interval low..high, within the solid bounds.
+    """Return the first and last + 1 of the pixels whose squares meet the open interval low..high, within the bounds.
 
-    Taken into the bounds before they are rounded: an end may be infinite, and only a finite one can be rounded.
+    The ends are clamped to the bounds before rounding, because an end may be infinite.
     """
     first = math.floor(min(float(set_high), max(float(set_low), low - start)))
     last = math.floor(max(set_low - 1.0, min(set_high - 1.0, high - start))) + 1
@@ -157,7 +158,7 @@ def pixel_range(low, high, start, set_low, set_high):
 
 @subkernel
 def leave_square(x, y, nx, ny, radius):
-    """How far a disc at the origin moves along a unit normal until it leaves the unit square at (x, y) [px] behind.
+    """Return the distance [px] a disc at the origin moves along a unit normal to clear the unit square at (x, y).
 
     The disc's centre leaves the square grown by the radius through a rounded corner or a straight side.
     """
@@ -181,11 +182,11 @@ def leave_square(x, y, nx, ny, radius):
 
 @subkernel
 def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
-    """(area in whole pixels, normal from mask to disc, point, separation,
-    first pixel number) of a mask and a disc [px].
+    """Return (area in whole pixels, normal from mask to disc, point, separation, first pixel number) of a mask and a
+    disc.
 
-    left, top: where the raster is drawn. The point is the centroid of the pixels that overlap. The separation is the
-    move of the disc along the normal that clears them all. O(pixels under the disc's bounds).
+    left, top: raster position [px]. The point is the centroid of the overlapping pixels. The separation is minus the
+    move of the disc along the normal that clears all pixels. O(pixels under the disc's bounds).
     """
     r = rasters[mask]
     first_x, last_x = pixel_range(x - radius, x + radius, left, r.set_left, r.set_right)
@@ -221,7 +222,7 @@ def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
 
 @subkernel
 def thick_line(points, front, back, corners_out):
-    """Write the rectangle `front` and `back` [px] to both sides of the line from points[0] to points[1]."""
+    """Write the rectangle that extends `front` and `back` [px] to the sides of the line from points[0] to points[1]."""
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     for k in range(4):
         end = 0 if k == 0 or k == 3 else 1
@@ -232,7 +233,7 @@ def thick_line(points, front, back, corners_out):
 
 @subkernel
 def square_in_polygon(corners, count, x, y):
-    """Whether the pixel square at x, y and a convex polygon share area: no axis of either parts them."""
+    """Return whether the pixel square at x, y and a convex polygon share area (separating axis test)."""
     min_x = math.inf
     max_x = -math.inf
     min_y = math.inf
@@ -243,7 +244,7 @@ def square_in_polygon(corners, count, x, y):
         min_y = min(min_y, corners[k, 1])
         max_y = max(max_y, corners[k, 1])
         nx, ny = edge_normal(corners, count, k)
-        # The square's corner that lies deepest behind the edge.
+        # The corner of the square that lies deepest behind the edge.
         px = x if nx > 0.0 else x + 1.0
         py = y if ny > 0.0 else y + 1.0
         if nx * (px - corners[k, 0]) + ny * (py - corners[k, 1]) >= 0.0:
@@ -253,10 +254,10 @@ def square_in_polygon(corners, count, x, y):
 
 @subkernel
 def collide_mask_polygon(rasters, words, mask, left, top, corners, count, edges, depths_out):
-    """As collide_mask_circle, for a convex polygon with world corners (n, 2) [px] clockwise on the screen.
+    """Return the result of collide_mask_circle for a convex polygon, world corners (n, 2) [px] clockwise on the screen.
 
-    edges: bits of the edges that may be touched; depths_out (16,): scratch. The way out leads through the touchable
-    edge behind which the overlapping pixels lie least deep.
+    edges: bits of the edges that may be touched; depths_out (16,): scratch. The normal is that of the touchable edge
+    with the least depth of the overlapping pixels.
     """
     r = rasters[mask]
     min_x = math.inf
@@ -307,8 +308,8 @@ def collide_mask_polygon(rasters, words, mask, left, top, corners, count, edges,
 
 @subkernel
 def border_pixels(rasters, words, mask, line, low, high, level):
-    """(how many pairs of solid pixels on both sides of a border of the pixel grid an open interval of it runs between,
-    sum of their middles along it, first pixel number).
+    """Return (pairs of solid pixels on both sides of a grid border along an open interval, sum of their middles along
+    it, first pixel number).
 
     line: the border's column or row in the raster; low, high [px]: the interval in the raster; level: it is a row.
     """
@@ -337,10 +338,10 @@ def border_pixels(rasters, words, mask, line, low, high, level):
 
 @subkernel
 def collide_mask_line(rasters, words, mask, left, top, points, depths_out):
-    """As collide_mask_circle, for the line from points[0] to points[1] [px], solid from both sides.
+    """Return the result of collide_mask_circle for the line from points[0] to points[1] [px], solid from both sides.
 
-    It is met where it runs through the inside of the solid: across a pixel, or along the border of two solid ones, out
-    of which it leads on the side that is further from the middle of the mask. depths_out (16,): scratch.
+    The line is hit where it crosses a solid pixel, or runs along the border of two solid pixels. At a border the normal
+    points to the side further from the middle of the mask. depths_out (16,): scratch.
     """
     area, nx, ny, x, y, separation, first = collide_mask_polygon(
         rasters, words, mask, left, top, points, 2, 3, depths_out
@@ -367,13 +368,12 @@ def collide_mask_line(rasters, words, mask, left, top, points, depths_out):
 
 # ---- mask rounded ----------------------------------------------------------------------------------------------------
 # A mask, as the union of its pixel squares as drawn, against an exact rounded hull (capsule, rounded polygon).
-#
-# Masks are open: a hit shares area, touching is none. See "mask hulls" above for discs and sharp polygons.
+# See "mask hulls" above for discs and sharp polygons.
 
 
 @subkernel
 def square_gap(corners, count, x, y):
-    """Distance [px] between a core and the pixel square at x, y; 0 where they share area."""
+    """Return the distance [px] between a core and the pixel square at x, y; 0 where they share area."""
     if square_in_polygon(corners, count, x, y):
         return 0.0
     gap = math.inf
@@ -394,7 +394,7 @@ def square_gap(corners, count, x, y):
 
 @subkernel
 def way_to_core(corners, count, x, y):
-    """Unit direction from (x, y) to the nearest point of a core's outline; (0, -1) on it."""
+    """Return the unit direction from (x, y) to the nearest point of a core's outline, (0, -1) on it."""
     best = math.inf
     dx = 0.0
     dy = 0.0
@@ -412,7 +412,7 @@ def way_to_core(corners, count, x, y):
 
 @subkernel
 def depth_along(rasters, words, mask, left, top, corners, count, radius, first_x, last_x, first_y, last_y, nx, ny):
-    """How far [px] a rounded hull moves along a unit direction until a line parts it from the pixels in it."""
+    """Return the move [px] of a rounded hull along a unit direction after which a line separates it from its pixels."""
     r = rasters[mask]
     least = math.inf
     for k in range(count):
@@ -429,13 +429,12 @@ def depth_along(rasters, words, mask, left, top, corners, count, radius, first_x
 
 @subkernel
 def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius):
-    """(area in whole pixels, normal from mask to hull, point, separation,
-    first pixel number) of a mask and a rounded hull.
+    """Return (area in whole pixels, normal from mask to hull, point, separation, first pixel number) of a mask and a
+    rounded hull.
 
-    corners (n, 2) [px] world, clockwise on the screen; left, top: where the raster is drawn. The point is the centroid
-    of the pixels that overlap. The way out leads through the face, or away from the centroid where the rounding is met,
-    whichever is shorter; the separation is the move along it that clears them. O(pixels under the hull's bounds ·
-    count).
+    corners (n, 2) [px] world, clockwise on the screen; left, top: raster position [px]. The point is the centroid of
+    the overlapping pixels. The normal is against a face's, or from the centroid to the core, whichever has the least
+    depth. The separation is minus the move along it that clears the pixels. O(pixels under the hull's bounds · count).
     """
     r = rasters[mask]
     min_x = math.inf
@@ -489,16 +488,16 @@ def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius
 
 
 # ---- mask pairs ------------------------------------------------------------------------------------------------------
-# Passes over the candidate pairs with masks: mask against mask by AND, mask against circle, polygon and bounds.
+# Passes over the candidate pairs with snapped masks: mask against mask by AND; mask against circle, polygon and bounds.
 
 
 @subkernel
 def list_near(rasters, shapes, candidates, kinds, start, end, near_out):
-    """List the candidates from start up to end that are masks whose solid bounds meet as drawn. Returns their number.
+    """List the mask candidates from start up to end whose solid bounds overlap as drawn. Return their number.
 
-    near_out (BLOCK, 6) int64: the candidate; where in the words their shared rectangle begins, in A and in B, and in
-    which columns; its rows, -1 where a raster has several words per row. Without a branch, and apart from the search
-    for a shared pixel: what no processor predicts is waited for once, with all that it needs at hand. O(candidates).
+    near_out (BLOCK, 6) int64: candidate; first word of the shared rectangle in A and in B; its first column in A and in
+    B; its rows, -1 where a raster has several words per row. The loop has no branch and is separate from the search for
+    a shared pixel, so a mispredicted branch costs one wait with all operands at hand. O(candidates).
     """
     found = 0
     for i in range(start, end):
@@ -521,9 +520,9 @@ def list_near(rasters, shapes, candidates, kinds, start, end, near_out):
 
 
 def make_mask_pass(full: bool) -> Callable:
-    """The pass over pairs of masks: with area, centroid, normal and depth, or with the first shared pixel alone.
+    """Return the pass over mask pairs: with area, centroid, normal and depth, or with the first shared pixel alone.
 
-    Without them the normal is the direction between the centres and the separation -1: one shared pixel is known.
+    In the second form the normal is the direction between the centres and the separation is -1.
     """
 
     @kernel
@@ -536,7 +535,8 @@ def make_mask_pass(full: bool) -> Callable:
         found,
         work_inout,
     ):
-        """Contacts of all pairs of masks as drawn, by AND of words, appended at `found`. Returns the new count."""
+        """Append the contacts of all pairs of masks as drawn, by AND of words, from `found` on. Return the new
+        count."""
         geometry = batch.geometry
         bodies = batch.bodies
         shapes = batch.shapes
@@ -635,7 +635,7 @@ def collide_mask_shape_pairs(
     found,
     work_inout,
 ):
-    """Contacts of all pairs of a mask and a hull, appended at `found`. Returns the new count."""
+    """Append the contacts of all pairs of a snapped mask and a hull from `found` on. Return the new count."""
     geometry = batch.geometry
     bodies = batch.bodies
     shapes = batch.shapes

@@ -31,15 +31,15 @@ from physics.tables.shape import BOUNDS, CIRCLE, MASK
 from physics.tables.step_state import MASK_TESTS
 
 # ---- hull shares -----------------------------------------------------------------------------------------------------
-# The area that a mask's pixel squares share with a rounded hull, and its centroid, in closed form.
+# Area and centroid of the overlap of a mask's pixel squares and a rounded hull, in closed form.
 #
-# The hull's outline is its edges, moved out by the radius, and an arc round each corner; each run of solid pixels in a
-# row is a box in which both have their share: see raster/exact.py.
+# The hull's outline is its edges, moved out by the radius, and an arc round each corner. Each run of solid pixels in a
+# row is a box, and every edge and arc has a share in it: see raster/exact.py.
 
 
 @subkernel
 def arc_at(corners, count, k):
-    """(start, end) [rad] of the arc round corner k of a rounded hull: between its two edges' normals."""
+    """Return (start, end) [rad] of the arc round corner k of a rounded hull: between its two edges' normals."""
     if count == 1:
         return 0.0, math.tau
     ax, ay = edge_normal(corners, count, k - 1 if k > 0 else count - 1)
@@ -52,8 +52,10 @@ def arc_at(corners, count, k):
 
 @subkernel
 def hull_share(corners, count, radius, x, y, width, height):
-    """(area, moment of x, moment of y) of a rounded hull in a box with its top left corner at x, y [px],
-    about which the moments are. corners (n, 2) [px], clockwise on the screen; one is a disc's centre. O(count)."""
+    """Return (area, moment of x, moment of y) of a rounded hull within a box with its top left corner at x, y [px].
+
+    The moments are about that corner. corners (n, 2) [px], clockwise on the screen; one is a disc's centre. O(count).
+    """
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
@@ -83,7 +85,7 @@ def hull_share(corners, count, radius, x, y, width, height):
 
 @subkernel
 def shared_with_hull(rasters, words, mask, corners, count, radius):
-    """(area [px2], moment of x, moment of y) of what a mask shares with a rounded hull that is seen in its raster.
+    """Return (area [px2], moment of x, moment of y) of the overlap of a mask and a rounded hull in its raster's space.
 
     O(runs of solid pixels under the hull's bounds · count).
     """
@@ -118,25 +120,25 @@ def shared_with_hull(rasters, words, mask, corners, count, radius):
 
 
 # ---- mask exact ------------------------------------------------------------------------------------------------------
-# Masks that are not snapped, at their exact pose, against hulls and tiles: in the raster of the mask.
+# Masks that are not snapped, at their exact pose, against hulls and tiles.
 #
-# There the mask is drawn, and the other shape, turned back by the mask's angle, is met as masks.py has it: the
-# same verdict, normal and depth. The area and the point, its centroid, are those of what is shared, to rounding. A line
-# has no area: of it the pixels are counted, as of a mask that is snapped.
+# The test runs in the space of the mask's raster, with the other shape rotated by minus the mask's angle. Overlap,
+# normal and depth are those of masks.py. The area and the point, the centroid, are exact to rounding. A line has no
+# area: its pixels are counted, as against a snapped mask.
 
 
 @subkernel
 def least_area(raster):
-    """[px2] that a hit shares at least: rounding may leave less of a corner that is just in."""
+    """Return the least area [px2] of a hit: rounding may leave less of a corner that has just entered."""
     slack = ROUNDED * (raster.width + raster.height)
     return slack * slack
 
 
 @subkernel
 def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
-    """Write the corners [px] of a hull in the raster of a mask that is not snapped. Returns their number.
+    """Write the corners [px] of a hull in the raster space of a mask that is not snapped. Return their number.
 
-    mask, other: rows of SHAPE. Two angles are taken from each other first, so that both at quarter turns are exact.
+    mask, other: rows of SHAPE. The angles are subtracted first, so that two bodies at quarter turns stay exact.
     """
     s = shapes[mask]
     o = shapes[other]
@@ -163,9 +165,10 @@ def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
 
 @subkernel
 def meet_in_raster(rasters, words, mask, corners, count, radius, edges, depths_out):
-    """(area [px2], normal from the mask, point, separation, first pixel) of a mask and a rounded hull in its raster.
+    """Return (area [px2], normal from the mask, point, separation, first pixel) of a mask and a rounded hull in its
+    raster.
 
-    edges: bits of the edges that may be touched; depths_out (16,): scratch. The area is 0 when they share none.
+    edges: bits of the edges that may be touched; depths_out (16,): scratch. The area is 0 without overlap.
     """
     if count == 1:
         pixels, nx, ny, x, y, separation, first = collide_mask_circle(
@@ -194,7 +197,7 @@ def meet_in_raster(rasters, words, mask, corners, count, radius, edges, depths_o
 
 @subkernel
 def out_of_mask(geometry, body, shape, nx, ny, x, y):
-    """A normal and a point in the raster of a mask that is not snapped, in the world."""
+    """Return a normal and a point in the raster of a mask that is not snapped, transformed to the world."""
     cosine, sine = cosine_and_sine(body.angle, body.angle)
     wx, wy = turned(nx, ny, cosine, sine)
     px, py = out_of_raster(geometry.rasters[raster_of_shape(geometry, shape)], body, cosine, sine, x, y)
@@ -203,8 +206,10 @@ def out_of_mask(geometry, body, shape, nx, ny, x, y):
 
 @subkernel
 def meet_polygon(geometry, body, shape, corners, count, edges, scratch, depths_out):
-    """As meet_in_raster, of a MASK row, snapped or not, and a convex polygon with corners in the world [px], all told
-    in the world. scratch (16, 2): for the corners in its raster."""
+    """Return the result of meet_in_raster, in world space, for a MASK row, snapped or not, and a convex polygon.
+
+    corners: of the polygon, in the world [px]; scratch (16, 2): for the corners in the raster.
+    """
     mask = raster_of_shape(geometry, shape)
     rasters = geometry.rasters
     words = geometry.words
@@ -225,7 +230,8 @@ def meet_polygon(geometry, body, shape, corners, count, edges, scratch, depths_o
 
 @subkernel
 def exact_area(geometry, bodies, shapes, mask, other, radius, corners_out, depths_out):
-    """The area [px2] of a mask that is not snapped in a hull, rows of SHAPE, of that rounding [px]."""
+    """Return the area [px2] that a mask that is not snapped shares with a hull, rows of SHAPE, of this rounding
+    [px]."""
     count = hull_in_raster(geometry, bodies, shapes, mask, other, corners_out)
     return meet_in_raster(
         geometry.rasters,
@@ -240,21 +246,21 @@ def exact_area(geometry, bodies, shapes, mask, other, radius, corners_out, depth
 
 
 # ---- mask exact depth ------------------------------------------------------------------------------------------------
-# Contact of two masks of which one at least is not snapped: where, which way out, and how far.
+# Contact of two masks of which at least one is not snapped: point, normal and depth.
 #
-# As for masks as drawn (masks.py): the normal is the direction in which moving B shrinks the shared area fastest,
-# by differences of one pixel; where it vanishes, the direction between the centres of the boxes decides, then the axis
-# of least overlap of the boxes. The way out along it is exact, not in pixels. Where it is longer than the boxes' least
-# overlap, the way out along that axis is taken.
+# As for snapped masks (masks.py), the normal is the direction in which moving B shrinks the shared area fastest, by
+# differences of one pixel. Where it vanishes, the direction between the centres of the boxes is used, then their axis
+# of least overlap. The depth along the normal is exact, not in whole pixels. If it exceeds the least overlap of the
+# boxes, the normal and depth along that axis are taken.
 #
-# A is the mask in whose raster all is told; see raster/exact.py.
+# A is the mask whose raster is the frame of the test; see raster/exact.py.
 
-NOISE = 1e-9  # of the area: what differences of it may owe to rounding
+NOISE = 1e-9  # of the area: rounding error of area differences
 
 
 @subkernel
 def boxes_normal(a, b):
-    """(unit direction between the centres of the AABBs of two SHAPE rows, whether they are apart)."""
+    """Return (unit direction between the centres of the AABBs of two SHAPE rows, whether the centres differ)."""
     x = (b.min_x - a.min_x) + (b.max_x - a.max_x)
     y = (b.min_y - a.min_y) + (b.max_y - a.max_y)
     nx, ny = unit(x, y, 1.0, 0.0)
@@ -263,8 +269,7 @@ def boxes_normal(a, b):
 
 @subkernel
 def boxes_axis(a, b):
-    """(normal, depth [px]) of the shortest move of B along an axis of the world that parts the AABBs of two SHAPE
-    rows."""
+    """Return (normal, depth [px]) of the shortest move of B along a world axis that separates two SHAPE rows' AABBs."""
     up = b.max_y - a.min_y
     down = a.max_y - b.min_y
     right = a.max_x - b.min_x
@@ -281,7 +286,8 @@ def boxes_axis(a, b):
 
 @subkernel
 def area_normal(rasters, words, mask_a, mask_b, u, v, cosine, sine, area):
-    """(unit normal in A's raster, whether there is one): which way B's area in A shrinks fastest."""
+    """Return (unit normal in A's raster, whether there is one): the direction in which B's area in A shrinks
+    fastest."""
     before, _, _ = shared_squares(rasters, words, mask_a, mask_b, u - 1.0, v, cosine, sine)
     behind, _, _ = shared_squares(rasters, words, mask_a, mask_b, u + 1.0, v, cosine, sine)
     above, _, _ = shared_squares(rasters, words, mask_a, mask_b, u, v - 1.0, cosine, sine)
@@ -292,10 +298,10 @@ def area_normal(rasters, words, mask_a, mask_b, u, v, cosine, sine, area):
 
 @subkernel
 def exact_contact(rasters, words, mask_a, mask_b, u, v, cosine, sine, a, b, turn_cosine, turn_sine):
-    """(area [px2], point in A's raster, normal from A to B in the world, separation [px]) of masks that share area.
+    """Return (area [px2], point in A's raster, normal from A to B in the world, separation [px]) of overlapping masks.
 
-    a, b: their SHAPE rows; turn: cosine and sine of A's angle. The point is the centroid of what is shared; separation
-    is negative, the move along the normal that ends it.
+    a, b: their SHAPE rows; turn: cosine and sine of A's angle. The point is the centroid of the overlap. The separation
+    is negative: minus the move along the normal that ends the overlap.
     """
     area, x, y = shared_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine)
     slack = slack_of(rasters[mask_a], rasters[mask_b])
@@ -323,7 +329,7 @@ def exact_contact(rasters, words, mask_a, mask_b, u, v, cosine, sine, a, b, turn
 
 @subkernel
 def share_no_area(geometry, a, b):
-    """Whether the boxes of two MASK rows, as they are tested, at most touch."""
+    """Return whether the tested boxes of two MASK rows touch at most."""
     left, top, right, bottom = box_as_tested(geometry, a)
     min_x, min_y, max_x, max_y = box_as_tested(geometry, b)
     return left >= max_x or min_x >= right or top >= max_y or min_y >= bottom
@@ -331,7 +337,8 @@ def share_no_area(geometry, a, b):
 
 @subkernel
 def is_first_the_frame(geometry, a, b):
-    """In whose raster two MASK rows are tested: not in one that is only drawn; else in that of more pixels."""
+    """Return whether A's raster is the frame of the test of two MASK rows: the unsnapped one, else the one of more
+    area."""
     if a.snap or b.snap:
         return not a.snap
     rasters = geometry.rasters
@@ -340,7 +347,7 @@ def is_first_the_frame(geometry, a, b):
 
 @subkernel
 def exact_mask_area(geometry, bodies, a, b):
-    """The area [px2] that two MASK rows share, not both of them snapped."""
+    """Return the area [px2] that two MASK rows share, at least one of them not snapped."""
     if share_no_area(geometry, a, b):
         return 0.0
     first = is_first_the_frame(geometry, a, b)
@@ -354,9 +361,10 @@ def exact_mask_area(geometry, bodies, a, b):
 
 
 def make_exact_mask_pass(full: bool) -> Callable:
-    """The pass over pairs of masks: with area, centroid, normal and depth, or with two squares that meet alone.
+    """Return the pass over mask pairs: with area, centroid, normal and depth, or with two overlapping pixel squares
+    alone.
 
-    Without them the normal is the direction between the centres of the boxes and the separation -1.
+    In the second form the normal is the direction between the centres of the boxes and the separation is -1.
     """
 
     @kernel
@@ -369,7 +377,7 @@ def make_exact_mask_pass(full: bool) -> Callable:
         found,
         work_inout,
     ):
-        """Contacts of all pairs of masks at exact poses, appended at `found`. Returns the new count."""
+        """Append the contacts of all pairs of masks at exact poses from `found` on. Return the new count."""
         geometry = batch.geometry
         bodies = batch.bodies
         shapes = batch.shapes
@@ -434,7 +442,7 @@ def collide_exact_hull_pairs(
     found,
     work_inout,
 ):
-    """Contacts of all pairs of a mask that is not snapped and a hull, appended at `found`. Returns the new count."""
+    """Append the contacts of all pairs of a mask that is not snapped and a hull. Return the new count."""
     geometry = batch.geometry
     bodies = batch.bodies
     shapes = batch.shapes

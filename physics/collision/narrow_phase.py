@@ -65,28 +65,28 @@ from physics.tables.step_state import COUNTERS, NARROW_TESTS, SENSOR_TESTS, Step
 from physics.tables.table import joined, zeros_in_lines
 
 # ---- box pairs -------------------------------------------------------------------------------------------------------
-# Which candidates are looked at, and the pass over them that stops at AABBs.
+# Which candidates a pass reads, and the pass that compares AABBs only.
 
-# The candidates that a narrow phase looks at: ALL; those without a sensor; of these, SOLIDS, those that a step can
-# change; those with a sensor.
+# Candidates that a narrow phase reads: ALL; those without a sensor; of these, SOLIDS, those whose contact can change in
+# a step; those with a sensor.
 ALL, NO_SENSORS, SOLIDS, SENSORS = 0, 1, 2, 3
 
 
 @inlined
 def may_change(a, b):
-    """Whether a step can change the contact of two bodies."""
+    """Return whether a step can change the contact of two bodies."""
     return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
 @inlined
 def is_wanted(which, a, b):
-    """Whether two SHAPE rows are among those looked at, by which of them are sensors."""
+    """Return whether a pair of SHAPE rows is selected by `which`, judged by its sensors."""
     return which == ALL or (a.sensor or b.sensor) == (which == SENSORS)
 
 
 @subkernel
 def is_asked(which, bodies, a, b):
-    """Whether two SHAPE rows are looked at, see ALL, and of the SOLIDS whether something can change them."""
+    """Return whether a pair of SHAPE rows is selected, see ALL; of SOLIDS, also whether its contact can change."""
     if not is_wanted(which, a, b):
         return False
     return which != SOLIDS or may_change(bodies[a.body_row], bodies[b.body_row])
@@ -101,9 +101,9 @@ def collide_boxes(
     manifolds_out,
     work_inout,
 ):
-    """Contacts of candidates by their AABBs alone: normal along the axis of least overlap, point in its middle.
+    """Write contacts of candidates from their AABBs alone: normal along the axis of least overlap, point in its middle.
 
-    which: see is_asked. Returns the number of contacts. O(candidates).
+    which: see is_asked. Return the number of contacts. O(candidates).
     """
     shapes = batch.shapes
     candidates = batch.candidates
@@ -139,18 +139,18 @@ def collide_boxes(
 
 
 # ---- classify --------------------------------------------------------------------------------------------------------
-# Which kind of pair each candidate is, and which of them a pass looks at.
+# The kind of each candidate pair, and which pairs a pass reads.
 
-# Behind the kinds of pairs: where it is counted how many are of parts, and of masks that are drawn for the test.
+# Counters after the kinds of pairs: pairs with a part, and pairs with a mask whose raster is drawn for the test.
 PARTED, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
 
 
 @inlined
 def kind_of_pair(low, high):
-    """The kind of pair of two shape kinds, the lower first."""
+    """Return the kind of pair of two shape kinds, the lower first."""
     if low == CIRCLE and high == CIRCLE:
         return CIRCLES
-    # Grids and chains carry, and are never moved by what they meet.
+    # Grids and chains are never moved by contacts: no contact between two of them.
     if high == CHAIN:
         return CHAIN_ANY if low != TILES and low != CHAIN else NOTHING
     if high == TILES or low == TILES:
@@ -164,9 +164,11 @@ def kind_of_pair(low, high):
 
 @inlined
 def as_snapped(kind, a, b):
-    """The kind of pair of two SHAPE rows, when `kind` is that of their kinds: two snapped masks are met as drawn, and a
-    snapped mask by a hull; a mask that is not snapped is met at its exact pose. A chain that is a mask's part is its
-    surface."""
+    """Return the kind of pair of two SHAPE rows, where `kind` is that of their shape kinds.
+
+    Two snapped masks are tested as drawn, and so is a snapped mask against a hull. A mask that is not snapped is tested
+    at its exact pose. A chain that is part of a mask is its surface.
+    """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
         return SURFACE_ANY if chain.role == PART else kind
@@ -179,7 +181,7 @@ def as_snapped(kind, a, b):
 
 @inlined
 def boxes_apart(a, b, margin):
-    """Whether the boxes of two SHAPE rows are further apart than a margin [px]."""
+    """Return whether the boxes of two SHAPE rows are further apart than a margin [px]."""
     return (
         a.min_x - margin > b.max_x
         or b.min_x - margin > a.max_x
@@ -190,7 +192,7 @@ def boxes_apart(a, b, margin):
 
 @inlined
 def kind_asked(bodies, a, b, margin, ahead, which):
-    """The kind of a candidate pair of SHAPE rows, NOTHING if this pass does not look at it. which: see classify."""
+    """Return the kind of a candidate pair of SHAPE rows, NOTHING if this pass does not read it. which: see classify."""
     if not is_wanted(which, a, b):
         return NOTHING
     kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
@@ -215,7 +217,7 @@ def kind_asked(bodies, a, b, margin, ahead, which):
 
 @inlined
 def is_of_part(a, b):
-    """Whether a side of a pair of SHAPE rows is a part of another shape."""
+    """Return whether a side of a pair of SHAPE rows is a part of another shape."""
     return a.owner != a.id or b.owner != b.id
 
 
@@ -234,11 +236,11 @@ def classify(
     counts_out,
     work_inout,
 ):
-    """Write the kind of every candidate pair and how many there are of each. O(candidates).
+    """Write the kind of every candidate pair and the number of pairs of each kind. O(candidates).
 
-    counts_out[PARTED]: in how many a side is a part of another shape; counts_out[DRAWN_PAIRS]: in how many a side is
-    drawn for the test. which: ALL, or what has NO_SENSORS, or only the SOLIDS of pairs that something can change and
-    whose boxes are within `margin` [px], or meet within `ahead` [s], or only the SENSORS. The others are NOTHING.
+    counts_out[PARTED]: pairs with a part of another shape; counts_out[DRAWN_PAIRS]: pairs with a mask drawn for the
+    test. which: ALL, NO_SENSORS, SENSORS, or SOLIDS. SOLIDS are pairs whose contact can change, with boxes within
+    `margin` [px], or that meet within `ahead` [s]. All other pairs are NOTHING.
     """
     for i in range(len(counts_out)):
         counts_out[i] = 0
@@ -258,15 +260,17 @@ def classify(
 
 
 # ---- persist ---------------------------------------------------------------------------------------------------------
-# Manifolds that live from step to step, in their places: recognised by their pairs, used again while nothing moved.
+# Persistent manifolds: matched by their pairs, and recycled in place while nothing moved.
 #
 # Source of both: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 
 
 @inlined
 def take_as_it_is(a, b, row_a, row_b, candidate, place, manifold_inout):
-    """Write what may be new about a manifold that is used again: the rows of its sides, SHAPE rows a and b, its
-    candidate and its place among those of the step before."""
+    """Write the fields of a recycled manifold that may have changed: its rows, candidate and place in the last step.
+
+    a, b: its SHAPE rows.
+    """
     m = manifold_inout
     m.body_row_a = a.body_row
     m.body_row_b = b.body_row
@@ -291,13 +295,13 @@ def recycle_manifolds(
     stale_out,
     work_inout,
 ):
-    """Classify the pairs of what is solid, see classify, and use the manifolds of the last step again where they will
-    do: see serves_again, distance [px]. Where both bodies stand as that step left them it has been asked already.
+    """Classify the solid pairs, see classify, and recycle the manifolds of the last step; distance [px]: see
+    serves_again.
 
-    previous_inout MANIFOLD and ANCHOR rows, in the order of shape ids as the candidates, follow their bodies; a pair
-    that is served is NOTHING in kinds_out, and not counted; stale_out (previous) int32: the other rows, masks' always.
-    Returns how many these are, and how many pairs ask for more: those to be detected, those of parts.
-    O(candidates + manifolds).
+    Where both bodies are as the last step left them, that step has already decided. previous_inout MANIFOLD and
+    anchors_inout ANCHOR rows are updated to their bodies, in the order of shape ids like the candidates. A recycled
+    pair is NOTHING in kinds_out, and not counted. stale_out (previous) int32: the other rows, always including masks.
+    Return the number of stale rows, and the number of pairs left to test or with parts. O(candidates + manifolds).
     """
     bodies = batch.bodies
     shapes = batch.shapes
@@ -324,7 +328,7 @@ def recycle_manifolds(
             continue
         p = bodies[a.body_row]
         q = bodies[b.body_row]
-        # The pairs of a body stand together.
+        # The pairs of a body are adjacent.
         if a.body_row != row_a:
             row_a = a.body_row
             p_stands = stands(p)
@@ -343,7 +347,7 @@ def recycle_manifolds(
                 )
             last += 1
         if not fits:
-            continue  # the next candidate passes them by
+            continue  # the next candidate skips its rows
         for k in range(j, last):
             take_as_it_is(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
             renew(batch.geometry, p, q, a, b, previous_inout[k], anchors_inout[k])
@@ -368,10 +372,11 @@ def remember_ground(
     # write
     memory_out,
 ):
-    """Write where the previous manifolds of each candidate with a tile grid, or a surface, stand: memory_out (count, 2)
-    first, number.
+    """Write the previous manifolds of each candidate with a tile grid or a surface: memory_out (count, 2) first row,
+    number.
 
-    Both in the order of shape ids. What is open from below asks who stood on it. O(candidates + previous).
+    Both tables are in the order of shape ids. One-way ground needs to know which bodies stood on it.
+    O(candidates + previous).
     """
     j = 0
     for i in range(batch.count):
@@ -391,21 +396,20 @@ def remember_ground(
 
 
 # ---- dispatch --------------------------------------------------------------------------------------------------------
-# From candidate pairs to contacts: one pass per kind of pair, called only when such pairs are there.
+# From candidate pairs to contacts: one pass per kind of pair, called only when such pairs exist.
 
 
 class Found(NamedTuple):
-    """What became of the manifolds of the step before, and what was found beside those that are used again."""
+    """The manifolds found in a step, and the stale ones of the last step."""
 
-    rows: np.ndarray  # MANIFOLD, in the order of their candidates: until the next call
-    stale: np.ndarray  # int32 rows of those before that are not used again where they stand, ascending
+    rows: np.ndarray  # MANIFOLD, in the order of their candidates; valid until the next call
+    stale: np.ndarray  # int32 rows of the last step that are not recycled in place, ascending
 
 
 class NarrowPhase:
-    """Turns candidates into manifolds; keeps the workspace for them from step to step.
+    """The narrow phase: writes the manifolds of candidate pairs, and keeps its workspace between steps.
 
-    full_masks: area, normal and depth of mask pairs; one_way: what is open from below takes part; boxes_only: stop at
-    AABBs.
+    full_masks: area, normal and depth of mask pairs; one_way: with one-way ground; boxes_only: stop at AABBs.
     """
 
     def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
@@ -444,12 +448,13 @@ class NarrowPhase:
         graze: float = 0.0,
         ahead: float = 0.0,
     ) -> np.ndarray:
-        """Manifolds of the candidate pairs, in their order: a view that the call after the next one overwrites.
+        """Return the manifolds of the candidate pairs, in their order: a view that the call after the next one
+        overwrites.
 
-        The masks among them are drawn at the poses of their bodies, see rasters.py. candidates (n, 2) int64 shape rows;
-        margin [px]: pairs apart by at most that are found too; work: counters; which: see classify; bias [px]: see
-        hulls.collide_hulls. previous: manifolds of the step before, which tell who stood on what is open from below.
-        graze [px], ahead [s]: see Batch.
+        The masks among them are drawn at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2)
+        int64 shape rows; margin [px]: largest gap of a contact; work: counters; which: see classify; bias [px]: see
+        hulls.collide_hulls. previous: manifolds of the last step, which report the bodies on one-way ground. graze
+        [px], ahead [s]: see Batch.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
@@ -480,9 +485,11 @@ class NarrowPhase:
         anchors: np.ndarray,
         recycle: float,
     ) -> Found | None:
-        """As `collide` of what is solid, but manifolds of the step before whose points moved by no more than `recycle`
-        [px] follow their bodies where they stand: previous, with their anchors. What else is found stands beside them;
-        None: nothing else, and all of them follow.
+        """Return the manifolds of solid pairs, as `collide`, but recycle those whose points moved by at most `recycle`
+        [px].
+
+        previous, anchors: manifolds of the last step and their cache rows; recycled ones are updated in place. Return
+        the new manifolds and the stale rows, or None if there are no new ones and all are recycled.
         """
         count = len(candidates)
         self._make_room_for_pairs(count)
@@ -497,7 +504,7 @@ class NarrowPhase:
         stale = self.stale[:left]
         again = 0
         if left < len(previous) and self.counts[PARTED]:
-            # Parts are told by what the others of their shape tell: all stand together.
+            # The contact of a part depends on those of the other parts of its shape: all manifolds are sorted together.
             again = len(previous) - left
             self._make_room(again)
             copy_kept(previous, stale, self.raw)
@@ -512,8 +519,10 @@ class NarrowPhase:
         return self.stale[: len(previous)]
 
     def _complete(self, batch, previous, again, work) -> np.ndarray:
-        """The manifolds of all pairs whose kinds are counted, in the order of the candidates; `again`: how many there
-        are already."""
+        """Return the manifolds of all pairs whose kinds are counted, in the order of the candidates.
+
+        again: number of manifolds that are in self.raw already.
+        """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
             remembered = previous is not None and len(previous) > 0
@@ -534,8 +543,10 @@ class NarrowPhase:
         return self.ordered[:found]
 
     def _detect(self, batch, workspace, previous, counts, again, work) -> tuple[int, int]:
-        """Add the manifolds of the pairs whose kinds are counted to the first `again` that there are. Returns how many
-        there are then, and how many runs of them, each in the order of the candidates, were added."""
+        """Add the manifolds of the pairs whose kinds are counted after the first `again`.
+
+        Return their number, with the first ones, and the number of runs added, each in the order of the candidates.
+        """
         used = [run for kinds, run in self.passes if any(counts[kind] for kind in kinds)]
         if len(workspace.left) < batch.count + 1:
             workspace = workspace._replace(left=np.zeros(2 * batch.count + 1, np.int64))
@@ -558,7 +569,7 @@ class NarrowPhase:
         return found + len(rest), len(used) + (len(rest) > 0)
 
     def _remember(self, batch, previous):
-        """The workspace with the previous manifolds of every pair with ground that may be open from below."""
+        """Return the workspace with the previous manifolds of every pair with ground that may be one-way."""
         if len(self.workspace.memory) < batch.count:
             self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))
         workspace = self.workspace._replace(previous=previous)
@@ -579,7 +590,7 @@ class NarrowPhase:
             self.kinds = np.zeros(2 * count + 1, np.int64)
 
     def _deep_for(self, count) -> np.ndarray:
-        """Room for so many flags."""
+        """Return an array of at least `count` flags."""
         if len(self.deep) < count:
             self.deep = np.zeros(2 * count, bool)
         return self.deep
@@ -588,37 +599,37 @@ class NarrowPhase:
         if count > len(self.raw):
             kept = self.raw
             self.raw = zeros_in_lines(2 * count, MANIFOLD)
-            self.raw[: len(kept)] = kept  # what is used again may stand at the beginning
+            self.raw[: len(kept)] = kept  # recycled manifolds may be at the beginning
 
 
 def narrow_phase_for_queries() -> NarrowPhase:
-    """A narrow phase that tests shapes exactly and masks for hits alone."""
+    """Return a narrow phase for queries: exact shapes, masks for hits alone."""
     return NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
 
 
 def exact_narrow_phase() -> NarrowPhase:
-    """A narrow phase with all that a contact can tell."""
+    """Return a narrow phase with all contact data."""
     return NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
 
 
 def no_work() -> np.ndarray:
-    """Counters that nobody reads."""
+    """Return a new array of counters, to be discarded."""
     return np.zeros(len(COUNTERS), np.int64)
 
 
 # ---- detect ----------------------------------------------------------------------------------------------------------
-# The narrow phase as stages: where bodies stand before a solver pushes them, and what sensors see in the end.
+# The narrow phase as stages: before the solver at the start poses, and for sensors at the final poses.
 
 NO_PAIRS, UNANCHORED, NO_ROWS = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR), np.zeros(0, np.int64)
 PLACE = ("count", "normal_x", "normal_y", *(f"{name}_{k}" for k in (1, 2) for name in ("x", "y", "separation", "area")))
-BIAS = 0.1  # of the slop: how much nearer another face must be to take over from the last one
-GRAZE = 1.5  # slops that who slides by a side may overlap it: what rests on the floor beside it may be in it by one
+BIAS = 0.1  # of the slop: by how much another reference face must be better than the last one
+GRAZE = 1.5  # slops that a passing body may overlap a side: a body that rests on the floor may overlap it by one
 
 
 def detect(state: StepState) -> np.ndarray:
-    """Manifolds at the present poses, with how fast their sides approach; state.manifolds: those before.
+    """Return the manifolds at the present poses, with closing speeds; state.manifolds are those of the last step.
 
-    Where bodies are pushed sensors are left to `sense`, which sees them where they end.
+    With contact response, sensors are left to `sense`, which tests the final poses.
     """
     slop = state.tolerances.slop
     narrow = state.workspace.narrow
@@ -638,7 +649,7 @@ def detect(state: StepState) -> np.ndarray:
 
 
 def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
-    """Write points, normals and separations to manifolds that a sweep found, where it has put their bodies."""
+    """Write points, normals and separations of manifolds found by a sweep, at the poses it has set."""
     found = state.workspace.narrow.collide(
         state.library,
         state.bodies,
@@ -650,7 +661,7 @@ def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
     )
     pair = found["candidate"]
     alike = met["normal_x"][pair] * found["normal_x"] + met["normal_y"][pair] * found["normal_y"]
-    # Where a pair touches in several places, what the sweep met is that with its normal.
+    # Where a pair touches in several places, the sweep's contact is the one with its normal.
     best = np.lexsort((-alike, pair))
     best = best[np.unique(pair[best], return_index=True)[1]]
     best = best[alike[best] > 0.0]
@@ -664,7 +675,7 @@ def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
     writes=("manifolds", "work", "workspace"),
 )
 def detect_ended(state: StepState) -> None:
-    """Manifolds where the bodies ended."""
+    """Detect manifolds at the final poses."""
     state.manifolds = detect(state)
 
 
@@ -674,7 +685,7 @@ def detect_ended(state: StepState) -> None:
     writes=("manifolds", "anchors", "work", "workspace"),
 )
 def detect_piles(state: StepState) -> None:
-    """Manifolds where the step begins, up to the speculative distance, with the forces of the step before."""
+    """Detect manifolds at the start of the step, up to the speculative distance, with the forces of the last step."""
     tolerances, previous, anchors = state.tolerances, state.manifolds, state.anchors
     if not len(state.awake.bodies):
         state.manifolds, state.anchors = NO_PAIRS, UNANCHORED
@@ -713,7 +724,7 @@ def is_any_sensor(
     pairs,
     shapes,
 ):
-    """Whether a side of any of the pairs of shape rows is a sensor. O(pairs)."""
+    """Return whether a side of any of the pairs of shape rows is a sensor. O(pairs)."""
     for i in range(len(pairs)):
         if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:
             return True
@@ -729,7 +740,7 @@ def is_any_sensor(
         "library",
         "pairs",
         "broadphase",
-        *("effects", "stacks", "tolerances", "gravity", "dt"),  # of new motion rectangles
+        *("effects", "stacks", "tolerances", "gravity", "dt"),  # for new swept AABBs
         "swept_sensors",
         "workspace",
     ),
@@ -745,10 +756,10 @@ def is_any_sensor(
     ),
 )
 def sense(state: StepState) -> None:
-    """Sensors see the final poses, and what a sweep met on the way."""
+    """Detect sensor overlaps at the final poses, and add those of the sweeps."""
     bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
-    # Where the world has no sensor nothing is gone over; the kernels are those of every step, so that none is compiled
-    # when the first sensor comes.
+    # Without sensors the loops are empty. The kernels are those of every step, so none is compiled when the first
+    # sensor is added.
     asked = state.pairs.sensors > 0
     cover_final_poses(state, state.awake.shapes if asked else NO_ROWS)
     pairs = state.pairs.rows

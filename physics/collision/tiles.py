@@ -1,4 +1,4 @@
-"""Tile grids against other shapes: like cells next to each other are one rectangle."""
+"""Tile grids against other shapes: equal adjacent cells are one rectangle."""
 
 import math
 from collections.abc import Callable
@@ -13,15 +13,15 @@ from physics.tables.shape import BOUNDS, CIRCLE, MASK, TILES
 from physics.tables.step_state import MASK_TESTS
 
 # ---- tiles -----------------------------------------------------------------------------------------------------------
-# A slope, or a run of like tiles in a row, as a convex polygon, and which of its edges can be touched.
+# A slope, or a run of equal tiles in a row, as a convex polygon, and its touchable edges.
 #
-# An edge that a neighbouring tile covers belongs to the inside of the ground: nothing may be pushed out through it, or
-# things would catch on the seams between tiles.
+# An edge that a neighbouring tile covers is inside the ground. No contact may push through it, or bodies would catch on
+# the seams between tiles (ghost collisions).
 
 
 @subkernel
 def covered(grids, cells, grid, row, column, from_row, from_column):
-    """Whether the cell at (row, column) covers the whole edge that it shares with that at (from_row, from_column)."""
+    """Return whether the cell at (row, column) covers the whole edge shared with the one at (from_row, from_column)."""
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return False
@@ -31,7 +31,7 @@ def covered(grids, cells, grid, row, column, from_row, from_column):
     if cell.kind != SLOPE:
         return False
     if row < from_row:
-        return True  # a slope stands on its whole bottom
+        return True  # a slope covers its whole bottom edge
     mine = cells[g.offset + from_row * g.columns + from_column]
     if column < from_column:
         return cell.right >= (mine.left if mine.kind == SLOPE else 1.0)
@@ -42,7 +42,7 @@ def covered(grids, cells, grid, row, column, from_row, from_column):
 
 @subkernel
 def turns_away(grids, cells, grid, row, column, side):
-    """Whether the ground bends down where a tile meets its neighbour at side -1 or 1: a corner sticks out."""
+    """Return whether the ground bends down where a tile meets its neighbour at side -1 or 1: an exposed corner."""
     g = grids[grid]
     other = column + side
     if other < 0 or other >= g.columns:
@@ -57,17 +57,17 @@ def turns_away(grids, cells, grid, row, column, side):
 
 @subkernel
 def between(edges, count):
-    """The bits of the corners of which both edges are set."""
+    """Return the bits of the corners of which both edges are set."""
     return edges & ((edges << 1) | (edges >> (count - 1)))
 
 
 @subkernel
 def run_at(grids, cells, grid, x, y, row, column, low, high, corners_out):
-    """World corners [px] of the run of solid or one-way cells that a cell belongs to,
-    and the bits of its touchable edges.
+    """Write the world corners [px] of the run of solid or one-way cells that a cell belongs to. Return (corners,
+    edges).
 
-    As tile_at, as one rectangle, so that nothing is felt between its cells. low..high: columns under what may touch it;
-    its top and bottom can be touched where a cell among these is not covered. Returns (corners, edges).
+    The bits of `edges` are those of tile_at, for one rectangle, so that no seam between its cells is felt. low..high:
+    columns under the other shape; top and bottom are touchable where a cell among these is not covered.
     """
     g = grids[grid]
     cell = cells[g.offset + row * g.columns + column]
@@ -103,12 +103,12 @@ def run_at(grids, cells, grid, x, y, row, column, low, high, corners_out):
 
 @subkernel
 def tile_at(geometry, grid, x, y, row, column, corners_out):
-    """World corners [px] of a tile, clockwise on the screen from its top left, and the bits of its touchable edges
-    (and, 16 bits higher, of its corners: that of a covered side too where the ground bends down).
+    """Write the world corners [px] of a tile, clockwise on the screen from its top left. Return (corners, edges).
 
-    grid: row of GRID; x, y [px]: where the grid's origin is; corners_out (16, 2). A solid tile has four corners, a
-    slope three or four. A tile whose edges are all covered may be touched everywhere: what is inside has to get out.
-    Returns (corners, edges).
+    `edges`: bits of the touchable edges and, 16 bits higher, of the touchable corners; a corner of a covered side is
+    touchable where the ground bends down. grid: row of GRID; x, y [px]: the grid's origin; corners_out (16, 2). A solid
+    tile has four corners, a slope three or four. A tile with all edges covered is touchable everywhere, because a body
+    inside it must get out.
     """
     grids = geometry.grids
     cells = geometry.cells
@@ -174,16 +174,16 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
 
 @subkernel
 def edges_facing(corners, count, tile_edges):
-    """The edges of another polygon that may push it out of a tile: those that face no covered side of it.
+    """Return the edges of another polygon that may push it out of a tile: those that do not face a covered side.
 
-    tile_edges: bits as tile_at gives them for a tile of four corners (surface, right, bottom, left).
+    tile_edges: bits of tile_at for a tile of four corners (surface, right, bottom, left).
     """
     if (tile_edges & 15) == 15:
         return ALL_EDGES
-    edges = 0xFFFF0000  # its corners can touch whatever sticks out of the tile
+    edges = 0xFFFF0000  # the corners may touch whatever sticks out of the tile
     for k in range(count):
         nx, ny = edge_normal(corners, count, k)
-        # The edge's normal points into the tile; the tile is left on the opposite side.
+        # The edge's normal points into the tile; the polygon leaves the tile on the opposite side.
         free = True
         if nx < 0.0 and not (tile_edges >> 1) & 1:
             free = False
@@ -199,12 +199,12 @@ def edges_facing(corners, count, tile_edges):
 
 
 # ---- tile pairs ------------------------------------------------------------------------------------------------------
-# The pass over the candidate pairs with a tile grid, run by run: like cells next to each other are one rectangle.
+# The pass over the candidate pairs with a tile grid, run by run: equal adjacent cells are one rectangle.
 
 
 @subkernel
 def stood_on(workspace, pair, run):
-    """Whether the step before had a contact of this candidate with this run of tiles."""
+    """Return whether this candidate had a contact with this run of tiles in the last step."""
     if pair >= len(workspace.memory):
         return False
     first = workspace.memory[pair, 0]
@@ -218,7 +218,7 @@ def stood_on(workspace, pair, run):
 
 
 def make_grid_pass(one_way: bool) -> Callable:
-    """The pass over pairs of a tile grid and anything else; one-way tiles only where the effect is declared."""
+    """Return the pass over pairs of a tile grid and any other shape; one_way: with one-way tiles."""
 
     @kernel
     def collide_grid_pairs(
@@ -230,7 +230,7 @@ def make_grid_pass(one_way: bool) -> Callable:
         found,
         work_inout,
     ):
-        """Contacts of all pairs with a tile grid, run by run, appended at `found`. Returns the new count."""
+        """Append the contacts of all pairs with a tile grid, run by run, from `found` on. Return the new count."""
         geometry = batch.geometry
         bodies = batch.bodies
         shapes = batch.shapes
@@ -278,14 +278,14 @@ def make_grid_pass(one_way: bool) -> Callable:
                         polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b
                     )
                 radius = rounding(shapes, other)
-            # Columns that it overlaps, not only touches.
+            # Columns that the shape overlaps, not only touches.
             low = math.floor((min_x - p.x) / g.tile_size)
             high = math.ceil((max_x - p.x) / g.tile_size) - 1
             was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
             start = found
             seen = 0
             for attempt in range(2):
-                # What lies deep inside may be left to a neighbour by each of them: once more, by every edge.
+                # Second pass, for a deep overlap that every tile left to a neighbour: with every edge touchable.
                 if attempt == 1 and (seen == 0 or found > start):
                     break
                 deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
@@ -298,7 +298,7 @@ def make_grid_pass(one_way: bool) -> Callable:
                         next_column = cell.last + 1
                         if kind == EMPTY or (kind == ONE_WAY and not one_way):
                             continue
-                        # Open from below: only what came from above the tile, or stood on it, stands on it.
+                        # One-way: only a shape that came from above the tile, or was in contact with it, may touch it.
                         if kind == ONE_WAY and (
                             attempt == 1
                             or (

@@ -1,4 +1,4 @@
-"""Distance of convex hulls: GJK, EPA for the depth of hulls that overlap, and the nearest two of many parts."""
+"""Distance of convex hulls by GJK, penetration depth by EPA, and the nearest two of many parts."""
 
 import math
 from typing import NamedTuple
@@ -9,29 +9,29 @@ from physics.jit import kernel, subkernel
 from physics.math2d import length_of, unit
 
 # ---- gjk -------------------------------------------------------------------------------------------------------------
-# Distance of two convex hulls of points by Gilbert, Johnson and Keerthi's walk over their difference, in the plane.
+# Distance of two convex hulls by the algorithm of Gilbert, Johnson and Keerthi (GJK) in two dimensions.
 #
-# The difference A - B holds a point a - b for each pair of points; its point nearest to the origin is as far from it as
-# A is from B. The walk keeps up to three corners of it. It ends when the corner furthest towards the origin is one of
-# them already, or is no further by more than rounding: there is no tolerance that has a length. Source: Gilbert,
-# Johnson and Keerthi 1988; Catto, Computing Distance, GDC 2010.
+# The Minkowski difference A - B has a point a - b for each pair of points; its distance from the origin is that of A
+# and B. The simplex has up to three of its corners. The search ends when the support point towards the origin is in the
+# simplex already, or is further by no more than rounding: no tolerance is a length. Source: Gilbert, Johnson and
+# Keerthi 1988; Catto, Computing Distance, GDC 2010.
 #
 # A normal points from A to B: out of the difference, towards the origin.
 
 SEARCHING, APART, TOUCHING = 0, 1, 2
 GJK_CAP = 48  # rounds: a difference of two hulls of 16 corners has at most 32 corners
-ROUNDING = 2.0**-50  # four units in the last place: what a scalar product of differences may be off by
-COUNT, NORMAL_X, NORMAL_Y, ROUNDS, CAPPED = range(5)  # of a walk's state
-SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range(11)  # of a gap
+ROUNDING = 2.0**-50  # four units in the last place: the rounding error of a scalar product of differences
+COUNT, NORMAL_X, NORMAL_Y, ROUNDS, CAPPED = range(5)  # indices into the state of a search
+SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range(11)  # indices into a gap
 
 
 class GapWorkspace(NamedTuple):
-    """Room for one pair in flight."""
+    """Scratch memory for one pair in flight."""
 
-    state: np.ndarray  # (5,) corners kept, direction of the search, rounds, rounds that hit the cap
+    state: np.ndarray  # (5,) corners kept, direction of the search, rounds, times the cap was hit
     simplex: np.ndarray  # (3, 4) corner of A, corner of B, their difference [px]
     polytope: np.ndarray  # (64, 5) corner of A, corner of B; normal and depth of the edge that starts there
-    gap: np.ndarray  # (11,) separation, normal, nearest points, corners they lie between
+    gap: np.ndarray  # (11,) separation, normal, nearest points, and the corners these lie between
 
 
 def new_gap_workspace() -> GapWorkspace:
@@ -40,7 +40,7 @@ def new_gap_workspace() -> GapWorkspace:
 
 @subkernel
 def support(corners, count, x, y):
-    """The corner furthest along a direction; the first of equal ones. O(count)."""
+    """Return the support point: the corner furthest along a direction, the first of equal ones. O(count)."""
     best = 0
     most = 0.0
     for k in range(1, count):
@@ -53,13 +53,13 @@ def support(corners, count, x, y):
 
 @subkernel
 def difference_edge(a, b, i, j, k, m):
-    """From corner a[i] - b[j] of the difference to a[k] - b[m] [px]; free of rounding where one side stays."""
+    """Return the edge from corner a[i] - b[j] of the difference to a[k] - b[m] [px]; exact where one side stays."""
     return (a[k, 0] - a[i, 0]) - (b[m, 0] - b[j, 0]), (a[k, 1] - a[i, 1]) - (b[m, 1] - b[j, 1])
 
 
 @subkernel
 def write_corner(a, b, i, j, k, simplex_out):
-    """Put corner a[i] - b[j] of the difference in place k."""
+    """Write corner a[i] - b[j] of the difference to place k of the simplex."""
     simplex_out[k, 0] = float(i)
     simplex_out[k, 1] = float(j)
     simplex_out[k, 2] = a[i, 0] - b[j, 0]
@@ -68,22 +68,22 @@ def write_corner(a, b, i, j, k, simplex_out):
 
 @subkernel
 def copy_corner(source, target, simplex_inout):
-    """Copy a corner from one place to another."""
+    """Copy a corner of the simplex from one place to another."""
     for k in range(4):
         simplex_inout[target, k] = simplex_inout[source, k]
 
 
 @subkernel
 def edge_of(a, b, p, q, simplex):
-    """The edge between two places of the simplex [px]."""
+    """Return the edge between two places of the simplex [px]."""
     return difference_edge(a, b, int(simplex[p, 0]), int(simplex[p, 1]), int(simplex[q, 0]), int(simplex[q, 1]))
 
 
 @subkernel
 def region_of(x, y, ex, ey):
-    """Where the origin lies along an edge (ex, ey) that starts at (x, y): -1 before it, 0 beside it, 1 behind it.
+    """Return the region of the origin along an edge (ex, ey) that starts at (x, y): -1 before, 0 beside, 1 beyond it.
 
-    Past an end by no more than rounding is beside: parallel faces that end flush meet with the faces' normal.
+    Past an end by no more than rounding counts as beside: parallel faces with flush ends get the face normal.
     """
     along = -(x * ex + y * ey)
     length2 = ex * ex + ey * ey
@@ -96,7 +96,7 @@ def region_of(x, y, ex, ey):
 
 @subkernel
 def edge_distance(a, b, p, q, simplex):
-    """Distance [px] of the origin from an edge of the simplex."""
+    """Return the distance [px] of the origin from an edge of the simplex."""
     ex, ey = edge_of(a, b, p, q, simplex)
     x = simplex[p, 2]
     y = simplex[p, 3]
@@ -111,9 +111,9 @@ def edge_distance(a, b, p, q, simplex):
 
 @subkernel
 def drop_corner(a, b, simplex_inout):
-    """Of a triangle whose last corner is the newest, keep the edge at that corner which is nearest to the origin.
+    """Reduce a triangle, whose last corner is the newest, to the edge at that corner nearest to the origin.
 
-    Returns False when the origin lies in the triangle. The third edge is the one the search came across.
+    Return False when the origin lies in the triangle. The search came across the third edge, so it is not tested.
     """
     ex, ey = edge_of(a, b, 0, 1, simplex_inout)
     fx, fy = edge_of(a, b, 0, 2, simplex_inout)
@@ -135,9 +135,9 @@ def drop_corner(a, b, simplex_inout):
 
 @subkernel
 def reduce_simplex(a, b, state_inout, simplex_inout):
-    """Keep the corner or edge of the simplex that is nearest to the origin, and aim from it at the origin.
+    """Reduce the simplex to the feature nearest to the origin, and write the search direction from it to the origin.
 
-    Returns SEARCHING, or TOUCHING when the origin is not outside.
+    Return SEARCHING, or TOUCHING when the origin is not outside.
     """
     count = int(state_inout[COUNT])
     if count == 3:
@@ -172,7 +172,7 @@ def reduce_simplex(a, b, state_inout, simplex_inout):
 
 @subkernel
 def start_walk(a, b, i, j, state_out, simplex_out):
-    """Begin at corner a[i] - b[j]; any will do, one that was near before saves rounds."""
+    """Write the first corner a[i] - b[j] of a search. Any corner will do; one near the last result saves rounds."""
     write_corner(a, b, i, j, 0, simplex_out)
     state_out[COUNT] = 1.0
     state_out[NORMAL_X] = 1.0
@@ -183,9 +183,9 @@ def start_walk(a, b, i, j, state_out, simplex_out):
 
 @subkernel
 def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
-    """One round: the nearest feature, then the corner furthest from it towards the origin. O(corners).
+    """Run one round of GJK: the nearest feature of the simplex, then the support point towards the origin. O(corners).
 
-    Returns SEARCHING; APART when there is none further, so that the feature is the nearest of all; or TOUCHING.
+    Return SEARCHING; APART when the support point is no further, so that the feature is the nearest; or TOUCHING.
     """
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
@@ -208,7 +208,8 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 
 @subkernel
 def write_edge_gap(a, b, i, j, k, m, nx, ny, gap_out):
-    """Separation and nearest points for the edge of the difference from a[i] - b[j] to a[k] - b[m], with its normal."""
+    """Write separation and nearest points for the edge of the difference from a[i] - b[j] to a[k] - b[m], with its
+    normal."""
     ex, ey = difference_edge(a, b, i, j, k, m)
     length2 = ex * ex + ey * ey
     t = 0.0
@@ -229,7 +230,8 @@ def write_edge_gap(a, b, i, j, k, m, nx, ny, gap_out):
 
 @subkernel
 def write_nearest(a, b, state, simplex, gap_out):
-    """Separation, normal and nearest points of what the walk ended at: an edge's own normal, or between two corners."""
+    """Write separation, normal and nearest points of the final simplex: edge normal, or direction between two
+    corners."""
     i = int(simplex[0, 0])
     j = int(simplex[0, 1])
     if state[COUNT] == 2.0:
@@ -241,10 +243,10 @@ def write_nearest(a, b, state, simplex, gap_out):
 
 @subkernel
 def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
-    """Walk until A and B are known to be APART, with workspace.gap written, or TOUCHING. At most GJK_CAP rounds.
+    """Run GJK until A and B are APART, with workspace.gap written, or TOUCHING. At most GJK_CAP rounds.
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: corners to start from. When the cap is hit, what it had is
-    given and workspace.state counts it.
+    a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: first corners. When the cap is hit, the result so far is
+    returned and workspace.state[CAPPED] is increased.
     """
     start_walk(a, b, i, j, workspace.state, workspace.simplex)
     status = SEARCHING
@@ -262,27 +264,26 @@ def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
 
 
 # ---- epa -------------------------------------------------------------------------------------------------------------
-# Depth of two hulls that overlap: the edge of their difference A - B that is nearest to the origin.
+# Penetration depth of two overlapping hulls by the expanding polytope algorithm (EPA).
 #
-# A polygon inside the difference grows through its edge nearest to the origin until that edge is one of the difference
-# itself: no corner lies further out. In the plane that is exact and takes at most as many rounds as the difference has
-# corners. The polygon starts as two corners, so that nothing depends on how the origin lies in a thin triangle, and a
-# depth may be slightly negative: hulls that are a hair apart get their face's normal as well. Source: van den Bergen
-# 2001.
+# A polygon inside the Minkowski difference grows at its edge nearest to the origin until that edge is one of the
+# difference. In two dimensions this is exact, and takes at most as many rounds as the difference has corners. The
+# polygon starts as two corners, so that the result does not depend on the origin's place in a thin triangle. A depth
+# may be slightly negative: hulls that are barely apart get the face normal as well. Source: van den Bergen 2001.
 
-EPA_CAP = 60  # rounds, below the room of the polytope
+EPA_CAP = 60  # rounds; less than the capacity of the polytope
 
 
 @subkernel
 def write_polytope_corner(i, j, k, polytope_out):
-    """Put corner a[i] - b[j] in place k."""
+    """Write corner a[i] - b[j] to place k of the polytope."""
     polytope_out[k, 0] = float(i)
     polytope_out[k, 1] = float(j)
 
 
 @subkernel
 def measure_edge(a, b, k, count, polytope_inout):
-    """Write the outward normal of the edge that starts in place k, and how deep the origin lies behind it [px]."""
+    """Write the outward normal of the edge that starts at place k, and the depth of the origin behind it [px]."""
     n = k + 1 if k + 1 < count else 0
     i = int(polytope_inout[k, 0])
     j = int(polytope_inout[k, 1])
@@ -295,9 +296,10 @@ def measure_edge(a, b, k, count, polytope_inout):
 
 @subkernel
 def start_polytope(a, a_count, b, b_count, polytope_out):
-    """Two corners of the difference, furthest apart along x, or along y when it has no width. Returns their number.
+    """Write the two corners of the difference furthest apart along x, or along y if it has no width. Return their
+    number.
 
-    One corner alone: the difference is a point.
+    The number is 1 if the difference is a point.
     """
     for axis in range(2):
         x = 1.0 - axis
@@ -318,7 +320,7 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
 
 @subkernel
 def shallowest_edge(polytope, count):
-    """The edge nearest to the origin; the first of equal ones."""
+    """Return the edge nearest to the origin, the first of equal ones."""
     best = 0
     for k in range(1, count):
         if polytope[k, 4] < polytope[best, 4]:
@@ -328,9 +330,9 @@ def shallowest_edge(polytope, count):
 
 @subkernel
 def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
-    """Push the shallowest edge out to the corner of the difference beyond it. Returns the new number of corners.
+    """Expand the nearest edge to the support point beyond it. Return the new number of corners.
 
-    The same number: no corner lies beyond, the edge is the difference's own. O(corners).
+    The number is unchanged if no corner lies beyond: then the edge belongs to the difference. O(corners).
     """
     k = shallowest_edge(polytope_inout, count)
     n = k + 1 if k + 1 < count else 0
@@ -338,7 +340,7 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
     ny = polytope_inout[k, 3]
     i = support(a, a_count, nx, ny)
     j = support(b, b_count, -nx, -ny)
-    # Against both ends: a corner next to one of them in line with the edge is no progress.
+    # Tested at both ends: a corner collinear with the edge is no progress.
     for end in range(2):
         at = k if end == 0 else n
         p = int(polytope_inout[at, 0])
@@ -357,7 +359,7 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
 
 @subkernel
 def write_depth(a, b, count, polytope, gap_out):
-    """Separation (the negative depth), normal and points of the shallowest edge. A lone point: the normal is (1, 0)."""
+    """Write separation (minus the depth), normal and points of the nearest edge. For a single point: normal (1, 0)."""
     if count < 2:
         i = int(polytope[0, 0])
         j = int(polytope[0, 1])
@@ -380,9 +382,9 @@ def write_depth(a, b, count, polytope, gap_out):
 
 @subkernel
 def measure_depth(a, a_count, b, b_count, workspace):
-    """Write to workspace.gap how far, and along which normal, B has to move to touch A. O(corners squared).
+    """Write to workspace.gap the move of B, with its normal, that brings it to touch A (EPA). O(corners squared).
 
-    Rounds are added to workspace.state, and whether they hit EPA_CAP.
+    The rounds are added to workspace.state[ROUNDS], and 1 to workspace.state[CAPPED] if they reach EPA_CAP.
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:
@@ -400,16 +402,16 @@ def measure_depth(a, a_count, b, b_count, workspace):
 
 
 # ---- separation ------------------------------------------------------------------------------------------------------
-# Signed distance of rounded hulls: GJK where their cores are apart, EPA where they overlap; then the radii.
+# Signed distance of rounded hulls: GJK for cores that are apart, EPA for cores that overlap; then the radii.
 
 
 @subkernel
 def separate(a, a_count, a_radius, b, b_count, b_radius, i, j, workspace):
-    """Write separation, unit normal from A to B and nearest points to workspace.gap. Returns the separation.
+    """Write separation, unit normal from A to B and nearest points to workspace.gap. Return the separation [px].
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; i, j: corners to start from. Negative where they
-    overlap: -(the move of B along the normal that ends it). workspace.state holds the rounds and how many hit their
-    cap.
+    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; i, j: first corners. If the hulls overlap, the
+    separation is minus the move of B along the normal that ends the overlap. workspace.state has the rounds and the
+    caps hit.
     """
     if walk_to_nearest(a, a_count, b, b_count, i, j, workspace) == TOUCHING:
         measure_depth(a, a_count, b, b_count, workspace)
@@ -423,12 +425,12 @@ def separate(a, a_count, a_radius, b, b_count, b_radius, i, j, workspace):
 
 
 # ---- witness ---------------------------------------------------------------------------------------------------------
-# The nearest two of many convex parts: what the distance of concave shapes comes down to.
+# The nearest two of many convex parts: the distance of concave shapes.
 
 
 @subkernel
 def box_gap(boxes_a, i, boxes_b, j):
-    """Distance [px] of two boxes (min_x, min_y, max_x, max_y), 0 when they overlap."""
+    """Return the distance [px] of two boxes (min_x, min_y, max_x, max_y), 0 when they overlap."""
     across = max(0.0, max(boxes_a[i, 0] - boxes_b[j, 2], boxes_b[j, 0] - boxes_a[i, 2]))
     down = max(0.0, max(boxes_a[i, 1] - boxes_b[j, 3], boxes_b[j, 1] - boxes_a[i, 3]))
     return length_of(across, down)
@@ -453,11 +455,11 @@ def separate_parts(
     workspace,
     totals_out,
 ):
-    """Write separation, normal and points of the nearest two parts to workspace.gap. Returns the separation [px].
+    """Write separation, normal and points of the nearest two parts to workspace.gap. Return the separation [px].
 
     a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch; totals_out (2,): rounds of GJK and EPA, caps hit. Parts
-    whose boxes are further apart than the nearest so far are skipped. Infinite when one side has none. O(parts of A ·
-    parts of B).
+    whose boxes are further apart than the nearest so far are skipped. Infinite when one side has no parts. O(parts of A
+    · parts of B).
     """
     best = math.inf
     best_i = -1

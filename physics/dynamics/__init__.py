@@ -1,1 +1,1 @@
-"""How bodies move, what is awake, and what hangs together."""
+"""Integration of bodies, and the check for numbers that are not finite."""

@@ -1,7 +1,6 @@
-"""Velocities from forces, poses from velocities: semi-implicit Euler, velocities first.
+"""Semi-implicit Euler integration: velocities from forces, then poses from velocities.
 
-Source of the order and of the implicit drag v / (1 + c h), which is stable for any c: Catto, Numerical Methods, GDC
-2015.
+Implicit drag v / (1 + c h) is stable for any c. Source of both: Catto, Numerical Methods, GDC 2015.
 """
 
 import math
@@ -20,9 +19,9 @@ BOTH = (False, True)
 
 
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
-    """The pass over the dynamic bodies for a world with these effects.
+    """Return the velocity pass over the dynamic bodies for a world with these effects.
 
-    Wind pushes by drag_rate · wind; with drag too, bodies tend to the velocity of the wind.
+    Wind adds an acceleration drag_rate · wind; with drag too, bodies approach the velocity of the wind.
     """
 
     @kernel
@@ -38,7 +37,7 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
         # write
         bodies_inout,
     ):
-        """Add gravity [px/s2], collected forces and drag [1/s] towards the wind [px/s] to the velocities; O(rows)."""
+        """Add gravity [px/s2], collected forces and drag [1/s] towards the wind [px/s] to the velocities. O(rows)."""
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
             if b.kind != DYNAMIC or b.quarantined:
@@ -67,7 +66,7 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
 
 
 def make_position_pass(rotation: bool) -> Callable:
-    """The pass over the moving bodies; with rotation they turn about their centres of mass."""
+    """Return the position pass over the moving bodies; with rotation they rotate about their centres of mass."""
 
     @kernel
     def integrate_positions(
@@ -78,7 +77,7 @@ def make_position_pass(rotation: bool) -> Callable:
         bodies_inout,
         work_inout,
     ):
-        """Move bodies by the free fraction of their motion in dt [s], keeping the poses they came from; O(rows)."""
+        """Move bodies by the free fraction of their motion in dt [s], and keep their previous poses. O(rows)."""
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
             b.previous_x = b.x
@@ -105,7 +104,7 @@ def make_position_pass(rotation: bool) -> Callable:
 
 @subkernel
 def put_center(u, v, body_inout):
-    """Write the world centre of mass [px] of a BODY row that is u, v from its origin, and that its pose is finite."""
+    """Write the world centre of mass [px] of a BODY row, offset u, v from its origin, and its last finite pose."""
     b = body_inout
     b.center_x = b.x + u
     b.center_y = b.y + v
@@ -118,11 +117,11 @@ def put_center(u, v, body_inout):
 
 @subkernel
 def refresh_center(body_inout):
-    """Write the world centre of mass [px] of a BODY row at its present pose; NaN at an angle that is not finite."""
+    """Write the world centre of mass [px] of a BODY row at its present pose; NaN if the angle is not finite."""
     b = body_inout
     u = b.local_center_x
     v = b.local_center_y
-    if not abs(b.angle) < math.inf:  # a cosine of it is NaN when compiled, and an error when plain
+    if not abs(b.angle) < math.inf:  # its cosine would be NaN in compiled code, and an error in plain code
         u = math.nan
         v = math.nan
     elif b.angle != 0.0:
@@ -137,7 +136,7 @@ def refresh_centers(rows, bodies_inout):
         refresh_center(bodies_inout[rows[k]])
 
 
-# One compiled pass per combination of effects that it depends on; made here, compiled when first run.
+# One pass per combination of the effects it depends on; made here, compiled on first use.
 VELOCITIES = {
     (g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotation=r)
     for g in BOTH
@@ -154,7 +153,7 @@ POSITIONS = {r: make_position_pass(rotation=r) for r in BOTH}
     writes=tuple(f"bodies.{name}" for name in ("vx", "vy", "angular_velocity", "force_x", "force_y", "torque")),
 )
 def integrate_velocities(state: StepState) -> None:
-    """Velocities from forces."""
+    """Integrate velocities from forces."""
     e = state.effects
     integrate = VELOCITIES[e.gravity, e.drag, e.wind, e.rotation]
     integrate(state.awake.bodies, *state.gravity, state.drag, *state.wind, state.dt, state.bodies)
@@ -173,7 +172,7 @@ def integrate_velocities(state: StepState) -> None:
     ),
 )
 def integrate_positions(state: StepState) -> None:
-    """Poses from velocities, as far as the way is free; boxes and pixels where the bodies are now."""
+    """Integrate poses from velocities, up to the free fraction; update boxes and rasters."""
     rows, bodies = state.awake.bodies, state.bodies
     POSITIONS[state.effects.rotation](rows, state.dt, bodies, state.work)
     refresh_centers(rows, bodies)
@@ -181,14 +180,14 @@ def integrate_positions(state: StepState) -> None:
 
 
 def place_shapes(state: StepState) -> None:
-    """Boxes, and the pixels of masks, at the present poses of what is awake."""
-    # What was stopped on its way, or pushed round, may stand at an angle that was not foreseen.
+    """Update boxes, and rasters of masks, to the present poses of awake bodies."""
+    # A body that was stopped by a sweep, or rotated by the solver, may be at an angle without a raster.
     add_missing_rasters(state.library, state.awake.shapes, state.bodies, state.shapes, 0.0)
     refresh_aabbs(state.awake.shapes, state.library.tables, state.bodies, state.shapes)
 
 
 def shift_bodies(bodies: np.ndarray, rows: np.ndarray, moves: np.ndarray) -> None:
-    """Move the bodies of these rows by (n, 2) [px]; they do not turn, and their shapes are not placed."""
+    """Move the bodies of these rows by (n, 2) [px], without rotation and without an update of their shapes."""
     for column, axis in enumerate("xy"):
         bodies[axis][rows] += moves[:, column]
         bodies[f"center_{axis}"][rows] += moves[:, column]

@@ -1,7 +1,7 @@
-"""What no step can use is taken out of the simulation before it reaches anything else, and told by name.
+"""The quarantine stage: bodies that a step cannot use are disabled before they affect others, and reported by id.
 
-A number that is not finite spreads: through a contact to a neighbour, from there to a heap. So every number that a step
-reads of a body, a shape or a character is looked at before the first stage that reads it.
+A number that is not finite spreads through a contact to a neighbour, and from there to a whole heap. So every number
+that a step reads of a body, a shape or a character is checked before the first stage that reads it.
 """
 
 from typing import NamedTuple
@@ -20,9 +20,9 @@ NOT_FINITE = "a number of the body is not finite, beyond what a double resolves,
 BAD_SHAPE = "a number of one of its shapes is not finite, too large, or below 0 where it may not be"
 BAD_WALK = "a number of its character is not finite"
 TURNED = "a TileGrid cannot turn: its angle and angular velocity must be 0"
-REASONS = (NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK)  # in the order in which they are looked for
+REASONS = (NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK)  # in the order of the checks
 NO_ROWS = np.zeros(0, np.int64)
-LARGEST = 1e100  # of inverse masses and of a surface: beyond, products of two are no doubles
+LARGEST = 1e100  # of inverse masses and of surface values: products of two larger ones overflow a double
 REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
 READS = (
     "bodies",
@@ -62,7 +62,7 @@ WRITES = (
 
 @subkernel
 def put_aside(body_inout):
-    """Quarantine a body where it is: at rest, pulled by nothing."""
+    """Quarantine a body at its present pose: at rest and without forces."""
     b = body_inout
     b.previous_x = b.x
     b.previous_y = b.y
@@ -79,19 +79,22 @@ def put_aside(body_inout):
 
 @subkernel
 def is_somewhere(body):
-    """Whether the pose of a body is one that a double resolves."""
+    """Return whether the pose of a body is one that a double resolves."""
     return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
 
 
 @subkernel
 def is_sound(body, gravity_x, gravity_y, speed_limit, dt):
-    """Whether a step of dt [s] can use a body: a number that it reads and that is not finite, or an end of its motion
-    that a double does not resolve, would be its neighbours' too. gravity [px/s2], speed_limit [px/s]."""
+    """Return whether a step of dt [s] can use a body.
+
+    All numbers read must be finite, and a double must resolve the pose at the end of its motion; otherwise the fault
+    would spread to neighbours. gravity [px/s2], speed_limit [px/s].
+    """
     b = body
     vx = b.vx + dt * (b.inverse_mass * b.force_x + b.gravity_scale * gravity_x)
     vy = b.vy + dt * (b.inverse_mass * b.force_y + b.gravity_scale * gravity_y)
     spin = b.angular_velocity + dt * b.inverse_inertia * b.torque
-    # What is finite is 0 less than itself; what is not is not.
+    # x - x == 0 only for finite x.
     sizes = b.mass + b.inertia + b.smallest_half + b.thin_half + b.fraction
     return (
         abs(b.vx) < speed_limit
@@ -122,8 +125,10 @@ def take_broken_bodies(
     bodies_inout,
     broken_out,
 ):
-    """List the rows of bodies that a step cannot use, and put them to rest: back at the last finite pose, quarantined.
-    Returns the number. O(rows)."""
+    """List the rows of bodies that a step cannot use, and quarantine them at their last finite pose.
+
+    Return their number. O(rows).
+    """
     found = 0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
@@ -143,7 +148,8 @@ def take_broken_bodies(
 
 @subkernel
 def is_sound_walk(character):
-    """Whether every number of a character is finite: what is finite is 0 less than itself."""
+    """Return whether all numbers of a character are finite (x - x == 0 only for finite x) and within the position
+    limit."""
     c = character
     total = c.offset_x + c.offset_y + c.climb + c.remainder_x + c.remainder_y + c.slope + c.mass + c.push
     total += c.foot_x + c.foot_y + c.carry_x + c.carry_y + c.belt + c.belt_x + c.push_vx + c.push_vy + c.deep
@@ -160,8 +166,10 @@ def take_broken_shapes(
     bodies_inout,
     broken_out,
 ):
-    """List, from `first` on, the rows of bodies one of whose shapes, of these rows, has a number that no step can use;
-    put them to rest, quarantined. Returns where the list ends. O(rows)."""
+    """List, from `first` on, the body rows of shapes with a number that a step cannot use, and quarantine the bodies.
+
+    Return the end of the list. O(rows).
+    """
     found = first
     for k in range(len(rows)):
         s = shapes[rows[k]]
@@ -187,8 +195,11 @@ def take_turned_grids(
     bodies_inout,
     broken_out,
 ):
-    """List, from `first` on, the rows of bodies with TILES among these shape rows that turn or are turned, which only a
-    table can make them; set them upright and at rest, quarantined. Returns where the list ends. O(rows)."""
+    """List, from `first` on, the body rows of rotated or rotating TILES among these shape rows, and quarantine them at
+    angle 0.
+
+    Only a direct write to the table can rotate a grid. Return the end of the list. O(rows).
+    """
     found = first
     for k in range(len(rows)):
         s = shapes[rows[k]]
@@ -213,8 +224,10 @@ def take_broken_characters(
     bodies_inout,
     broken_out,
 ):
-    """List, from `first` on, the body rows of characters with a number that is not finite, at rest and quarantined.
-    Returns where the list ends."""
+    """List, from `first` on, the body rows of characters with a number that is not finite, and quarantine the bodies.
+
+    Return the end of the list.
+    """
     found = first
     for k in range(len(characters)):
         b = bodies_inout[characters[k].body_row]
@@ -226,7 +239,7 @@ def take_broken_characters(
 
 
 class Course(NamedTuple):
-    """Where a step takes a body that nothing stops."""
+    """The parameters of the free motion of a body in a step."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
@@ -248,9 +261,11 @@ def take_broken(
     broken_out,
     ends_out,
 ):
-    """List the rows of bodies that no step can use, at rest and quarantined, and where in the list each of REASONS
-    ends: ends_out. Returns their number. grid_rows: shape rows that may be grids; broken_out (bodies): each is listed
-    once. O(rows + shape_rows)."""
+    """List the rows of bodies that a step cannot use, and quarantine them. Return their number. O(rows + shape_rows).
+
+    ends_out: the end of each of REASONS in the list; grid_rows: shape rows that may be grids; broken_out (bodies): each
+    body is listed once.
+    """
     ends_out[0] = take_broken_bodies(rows, course, bodies_inout, broken_out)
     ends_out[1] = take_broken_shapes(shape_rows, shapes, ends_out[0], bodies_inout, broken_out)
     ends_out[2] = take_turned_grids(grid_rows, shapes, ends_out[1], bodies_inout, broken_out)
@@ -267,13 +282,13 @@ def take_broken_by_solver(
     bodies_inout,
     broken_out,
 ):
-    """As take_broken, of bodies alone: where a solver has put them."""
+    """List and quarantine bodies as take_broken does, by their body rows alone: used after a solver."""
     return take_broken_bodies(rows, course, bodies_inout, broken_out)
 
 
 @stage("quarantine", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
 def quarantine(state: StepState) -> None:
-    """Take what no step can use out of the simulation, and tell it; its neighbours go on as if it had been removed."""
+    """Disable the bodies that a step cannot use, and report them; their neighbours go on as after a removal."""
     awake, bodies, workspace = state.awake, state.bodies, state.workspace
     gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
     course = Course(*gravity, state.tolerances.speed_limit, state.dt)
@@ -286,7 +301,7 @@ def quarantine(state: StepState) -> None:
 
 @stage("quarantine_solved", reads=(*READS, "unsound", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
-    """Take out what a solver could not keep finite, and what that touched, before it is swept and told of."""
+    """Disable the bodies that a solver did not keep finite, with their contacts, before sweeps and reports."""
     if not state.unsound:
         return
     broken, course = state.workspace.rows_for(len(state.bodies)), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
@@ -297,7 +312,7 @@ def quarantine_solved(state: StepState) -> None:
 
 
 def _take_out(state, told):
-    """Out of the broad phase and of what is awake; told: {body row: reason}. Returns the ids."""
+    """Remove bodies from the broad phase and from the awake rows; told: {body row: reason}. Return their ids."""
     bodies, shapes = state.bodies, state.shapes
     broken = np.array(sorted(told), np.int64)
     ids = bodies["id"][broken]

@@ -1,1 +1,1 @@
-"""Islands: the graph of bodies and constraints, what is awake, sleep."""
+"""Islands: the constraint graph, the lists of awake rows, sleeping and waking."""

@@ -1,8 +1,8 @@
-"""What is awake: the rows that the passes of a step go over.
+"""The awake rows of a world, which the passes of a step process.
 
-In a world without sleeping these are all rows. With it they are the dynamic bodies that are awake, the kinematic ones
-that move, characters, and for one step what was added or touched by hand; so what sleeps, and what stands, costs
-nothing. The lists are kept as things wake and fall asleep, not searched for.
+Without sleeping these are all rows. With sleeping they are the awake dynamic bodies, moving kinematic bodies,
+characters, and for one step added or edited bodies. Sleeping bodies and bodies at rest cost nothing. The lists are
+updated as bodies wake and fall asleep, not searched for.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ NONE = np.zeros(0, np.int64)
 
 @inlined
 def is_active(body):
-    """Whether a body can change a contact: awake and dynamic, or moved by hand, or about to move."""
+    """Return whether a body can change a contact: awake and dynamic, or else edited or moving."""
     if body.kind == DYNAMIC:
         return body.awake
     return (
@@ -32,13 +32,13 @@ def is_active(body):
 
 @subkernel
 def wakes(body, other):
-    """Whether a body wakes another that sleeps, when they touch: it may move, or what it is has changed by hand."""
+    """Return whether a body wakes a sleeping one on contact: it may move, or was edited."""
     return other.kind == DYNAMIC and not other.awake and (body.stirred or is_active(body))
 
 
 @kernel
 def list_active(bodies, rows, rows_out):
-    """List those of the rows whose body is active and not quarantined. Returns their number. O(rows)."""
+    """List those of the rows whose body is active and not quarantined. Return their number. O(rows)."""
     found = 0
     for k in range(len(rows)):
         b = bodies[rows[k]]
@@ -50,7 +50,7 @@ def list_active(bodies, rows, rows_out):
 
 @kernel
 def gather_shapes(rows, order, starts, rows_out):
-    """List the shape rows of different body rows; order, starts: shape rows by body row. Returns their number.
+    """List the shape rows of distinct body rows; order, starts: shape rows by body row. Return their number.
 
     O(shapes of these bodies).
     """
@@ -68,26 +68,26 @@ class Awake:
     def __init__(self, sleeping: bool) -> None:
         self.sleeping = sleeping
         self.bodies = self.shapes = NONE
-        self.dynamic = NONE  # rows of the dynamic bodies that are awake
+        self.dynamic = NONE  # rows of the awake dynamic bodies
         self.kinematic = NONE  # rows of all kinematic bodies
-        self.stirred = []  # ids of what was added or touched since the last step
-        self.fresh = NONE  # rows of these, in the step
+        self.stirred = []  # ids of bodies that were added or edited since the last step
+        self.fresh = NONE  # rows of these in the step
         self.numbers = NONE  # 0, 1, 2 …
         self.order, self.starts = NONE, np.zeros(1, np.int64)  # shape rows by body row
-        self.known = (0, 0)  # bodies and shapes that the lists have taken in
-        self.stale = True  # rows have moved: everything is looked for again
+        self.known = (0, 0)  # number of bodies and shapes that the lists cover
+        self.stale = True  # rows have moved: the lists are built again
 
     def start_over(self) -> None:
-        """The tables were replaced, or rows dropped or changed in kind: everything is looked for again."""
+        """Mark the lists to be built again: tables were replaced, rows dropped, or kinds of bodies changed."""
         self.stale = True
 
     def stir(self, ids: list[int]) -> None:
-        """Have what was added or written by hand looked at in the next step."""
+        """Add bodies, by id, to the rows of the next step, because they were added or edited."""
         if self.sleeping:
             self.stirred += ids
 
     def all_rows(self, bodies: np.ndarray, shapes: np.ndarray) -> None:
-        """Every row: for worlds without sleeping."""
+        """Set the lists to all rows: for worlds without sleeping."""
         if len(self.bodies) != len(bodies) or len(self.shapes) != len(shapes):
             most = max(len(bodies), len(shapes))
             if len(self.numbers) < most:
@@ -95,7 +95,7 @@ class Awake:
             self.bodies, self.shapes = self.numbers[: len(bodies)], self.numbers[: len(shapes)]
 
     def keep_rows(self, kept_bodies: np.ndarray) -> None:
-        """Bodies were dropped: the others have new rows. kept_bodies bool."""
+        """Update the rows in the lists after bodies were dropped. kept_bodies: bool, of the former rows."""
         if self.sleeping and not self.stale:
             new = np.cumsum(kept_bodies) - 1
             for name in ("bodies", "dynamic", "kinematic"):
@@ -104,14 +104,14 @@ class Awake:
             self.known = (int(np.count_nonzero(kept_bodies[: self.known[0]])), -1)
 
     def forget_shapes(self) -> None:
-        """Shape rows came or went: which shapes are whose is looked for again."""
+        """Mark the shapes of the bodies to be looked up again, after shape rows were added or dropped."""
         self.known = (self.known[0], -1)
 
     def take_in(self, tables: WorldTables) -> None:
-        """Bring the lists up to date with what was added, or with everything.
+        """Update the lists with the added rows, or build them again.
 
-        Then what took part in the last step, by the column `active`, goes on: the next step compares with it, and puts
-        the pairs aside that touch among what comes to a stand.
+        In the second case the bodies of the last step, by the column `active`, stay in the lists. The next step
+        compares with these, and stores the touching pairs of bodies that have come to rest.
         """
         bodies, shapes = tables.bodies, tables.shapes
         count, shape_count = len(bodies), len(shapes)
@@ -146,21 +146,22 @@ class Awake:
         self.starts = np.searchsorted(owners[self.order], np.arange(len(bodies) + 1))
 
     def is_known(self, bodies: np.ndarray, shapes: np.ndarray) -> bool:
-        """Whether the lists are those of these tables."""
+        """Return whether the lists cover these tables."""
         return not self.stale and self.known == (len(bodies), len(shapes))
 
     def may_move(self, bodies: np.ndarray, before: np.ndarray) -> np.ndarray:
-        """Body rows that may stand elsewhere than where those of `before` were awake, a step ago or since."""
+        """Return the body rows whose pose may differ from when the rows of `before` were awake, at most one step
+        ago."""
         stirred = rows_of(bodies, np.array(self.stirred, np.int64))
         return np.unique(np.concatenate([before, self.bodies, self.dynamic, self.kinematic, stirred[stirred >= 0]]))
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
-        """Shape rows of these body rows, ascending."""
+        """Return the shape rows of these body rows, ascending."""
         gathered = np.empty(len(self.order), np.int64)
         return np.sort(gathered[: gather_shapes(rows, self.order, self.starts, gathered)])
 
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
-        """Take body rows into the lists, also in the middle of a step; their pairs are found again."""
+        """Add body rows to the lists, also in the middle of a step; their pairs are searched again."""
         self.take_in(tables)
         self.bodies = np.union1d(self.bodies, rows)
         new = rows[tables.bodies["kind"][rows] == DYNAMIC]
@@ -170,7 +171,7 @@ class Awake:
         self.shapes = self.shapes_of(self.bodies)
 
     def exclude(self, tables: WorldTables, rows: np.ndarray) -> None:
-        """Drop body rows from the lists: nothing about them changes until they are included again."""
+        """Drop body rows from the lists; they do not change until they are included again."""
         self.take_in(tables)
         self._set_active(tables, rows, False)
         flags = tables.bodies["active"]
@@ -189,14 +190,14 @@ class Awake:
     writes=("awake", "sleepers", "pairs", "touching", "sensing", "bodies.active", "bodies.stirred"),
 )
 def list_awake(state: StepState) -> None:
-    """The rows that this step goes over; who begins to move, and who has come to a stand, among what is not dynamic."""
+    """List the rows of this step, and update non-dynamic bodies that begin or cease to move."""
     awake, bodies = state.awake, state.bodies
     awake.take_in(state)
     moving = np.empty(len(awake.kinematic), np.int64)
     moving = moving[: list_active(bodies, awake.kinematic, moving)]
     wanted = [awake.dynamic, moving]
     if len(awake.fresh):
-        bodies["stirred"] = False  # left by a step that failed
+        bodies["stirred"] = False  # left by a step that raised an error
         awake.fresh = NONE
     if awake.stirred:
         stirred = rows_of(bodies, np.array(awake.stirred, np.int64))

@@ -1,10 +1,10 @@
-"""The graph of bodies and constraints: islands, their classes, colours.
-A constraint of any kind is an edge (a, b) of two nodes.
+"""The constraint graph: islands, substep classes and graph colours. A constraint is an edge (a, b) of two nodes.
 
-Union-find over the edges in their canonical order, the lower node as the root, so islands are the same whatever found
-the edges (Catto, Box2D v3, Simulation Islands, 2023). Within one colour no two constraints share a node that can be
-pushed, so their order, and any number of lanes or threads that take them at once, gives the same bits (Catto, SIMD
-Matters, 2024). Edges with what cannot be pushed get the last colours: they are solved last and win.
+Islands are found by union-find over the edges in their canonical order, with the lowest node as the root. They are the
+same whichever broad phase found the edges (Catto, Box2D v3, Simulation Islands, 2023). Within one colour no two
+constraints share a dynamic node. So their order, and the number of lanes or threads that process them at once, does not
+change a bit of the result (Catto, SIMD Matters, 2024). Edges with a node of infinite mass get the last colours: they
+are solved last and prevail.
 """
 
 from physics.jit import kernel, subkernel
@@ -13,7 +13,7 @@ from physics.settings import COLORS
 
 @subkernel
 def root_of(node, parents_inout):
-    """The root of a node's island, halving the path to it."""
+    """Return the root of a node's island, with path halving."""
     while parents_inout[node] != node:
         parents_inout[node] = parents_inout[parents_inout[node]]
         node = parents_inout[node]
@@ -22,7 +22,7 @@ def root_of(node, parents_inout):
 
 @subkernel
 def join_nodes(a, b, parents_inout):
-    """Make one island of those of two nodes; the lower root stays."""
+    """Join the islands of two nodes; the lower root stays."""
     first = root_of(a, parents_inout)
     second = root_of(b, parents_inout)
     if first < second:
@@ -39,7 +39,7 @@ def join(
     # write
     parents_inout,
 ):
-    """Join the islands of each edge's nodes. edges (count, 2) int32; parents_inout: root, or way to it. O(count)."""
+    """Join the islands of each edge's nodes. edges (count, 2) int32; parents_inout: union-find parents. O(count)."""
     for i in range(count):
         join_nodes(edges[i, 0], edges[i, 1], parents_inout)
 
@@ -53,9 +53,9 @@ def find_roots(
     # write
     parents_out,
 ):
-    """Give every node the root of its island, its lowest node, as parent. O(nodes + count).
+    """Write the root of its island, its lowest node, as parent of every node. O(nodes + count).
 
-    edges (count, 2) int32; joins (nodes) bool: what does not join belongs to no island; parents_out (nodes) int32.
+    edges (count, 2) int32; joins (nodes) bool: other nodes belong to no island; parents_out (nodes) int32.
     """
     for i in range(len(parents_out)):
         parents_out[i] = i
@@ -68,7 +68,8 @@ def find_roots(
 
 @subkernel
 def share_classes(parents, classes_inout):
-    """Give every node the greatest class of its island. parents, classes_inout (nodes) int32, see find_roots."""
+    """Raise the class of every node to the greatest of its island. parents, classes_inout (nodes) int32: see
+    find_roots."""
     for i in range(len(parents)):
         root = parents[i]
         classes_inout[root] = max(classes_inout[root], classes_inout[i])
@@ -78,7 +79,7 @@ def share_classes(parents, classes_inout):
 
 @subkernel
 def free_color(taken, last_first):
-    """The first colour whose bit is not set, from the end with last_first 1; -1 when all are taken."""
+    """Return the first colour whose bit is not set, from the end with last_first 1; -1 when all are taken."""
     for k in range(COLORS):
         color = COLORS - 1 - k if last_first == 1 else k
         if (taken >> color) & 1 == 0:
@@ -97,10 +98,11 @@ def color_edges(
     degrees_out,
     colors_out,
 ):
-    """Give every edge, in order, the first colour that neither of its pushable nodes has yet.
+    """Assign to every edge, in order, the first colour that neither of its dynamic nodes has yet.
 
-    edges (count, 2) int32 nodes; pushable (nodes) bool; taken_out (nodes) int64 bits of the colours that a node has,
-    degrees_out (nodes) int64 how many edges; colors_out (count) int32, -1 where none was free. O(nodes + count).
+    edges (count, 2) int32 nodes; pushable (nodes) bool: has finite mass; taken_out (nodes) int64 bits of the colours of
+    a node, degrees_out (nodes) int64 its number of edges; colors_out (count) int32, -1 where no colour was free.
+    O(nodes + count).
     """
     for i in range(len(taken_out)):
         taken_out[i] = 0
@@ -130,7 +132,7 @@ def color_edges(
 
 @subkernel
 def slot_of(edge, edges, colors, classes):
-    """Where an edge stands among the slots: one for each colour of each class, the colourless first."""
+    """Return the slot of an edge: one for each colour of each class, edges without a colour first."""
     slot = colors[edge] + 1
     if len(classes) > 0:
         slot += max(classes[edges[edge, 0]], classes[edges[edge, 1]]) * (COLORS + 1)
@@ -139,7 +141,7 @@ def slot_of(edge, edges, colors, classes):
 
 @subkernel
 def add_up(starts_inout, cursors_out):
-    """Turn how many each slot has, each counted one further on, into where it starts; cursors_out: the same."""
+    """Turn counts, each stored one slot further on, into the starts of the slots; cursors_out: a copy."""
     for i in range(1, len(starts_inout)):
         starts_inout[i] += starts_inout[i - 1]
     for i in range(len(starts_inout)):
@@ -158,10 +160,10 @@ def order_edges(
     cursors_out,
     places_out,
 ):
-    """Sort the edges by class and colour, keeping their order within one: places_out (count) int32 where each comes.
+    """Sort the edges by class and colour, stable within one: places_out (count) int32, the new place of each. O(count).
 
-    classes (nodes) int32, 0 for what joins no island; none where all are of one class. starts_out: where each slot
-    starts, and where the last ends; cursors_out: scratch as long. O(count).
+    classes (nodes) int32, 0 for a node in no island; empty if there is only one class. starts_out: start of each slot,
+    and end of the last; cursors_out: scratch of the same length.
     """
     for i in range(len(starts_out)):
         starts_out[i] = 0
@@ -184,9 +186,9 @@ def order_nodes(
     cursors_out,
     ordered_out,
 ):
-    """Sort some nodes by class, keeping their order within one: ordered_out (nodes) int32. O(nodes).
+    """Sort nodes by class, stable within one: ordered_out (nodes) int32. O(nodes).
 
-    starts_out: where each class starts, and where the last ends; cursors_out: scratch as long.
+    starts_out: start of each class, and end of the last; cursors_out: scratch of the same length.
     """
     for i in range(len(starts_out)):
         starts_out[i] = 0

@@ -1,4 +1,4 @@
-"""Sleeping and waking of islands, and the contacts of what sleeps."""
+"""Sleeping and waking of islands, and the sleeping set with its contacts."""
 
 import math
 from collections.abc import Iterable
@@ -17,35 +17,37 @@ from physics.tables.step_state import ISLANDS, StepState, WorldTables, stage
 from physics.tables.table import joined, row_of, rows_of
 
 # ---- sleepers --------------------------------------------------------------------------------------------------------
-# What sleeps: islands with the contacts that they keep, and the pairs that touch among what stands.
+# The sleeping set: sleeping islands with their contacts, and the touching pairs of bodies at rest.
 
 
 class Island(NamedTuple):
-    """What sleeps together, and what it keeps."""
+    """A sleeping island: its bodies, contacts and touching pairs."""
 
     bodies: np.ndarray  # ids
     manifolds: np.ndarray
     anchors: np.ndarray
-    touching: np.ndarray  # EVENT rows: its pairs that touch
+    touching: np.ndarray  # EVENT rows: its touching pairs
 
 
 class Sleepers:
-    """The sleeping islands of a world, by the lowest id of their bodies; and the pairs that touch among what stands."""
+    """The sleeping set of a world: islands by the lowest id of their bodies, and touching pairs of bodies at rest."""
 
     def __init__(self) -> None:
         self.islands = {}
-        self.links = {}  # id of a body that is in none of them, or in another -> islands with a manifold that names it
-        self.touching = np.zeros(0, EVENT)  # pairs of which neither side is awake, nor asleep in an island
+        self.links = {}  # id of a body outside -> islands with a manifold that refers to it
+        self.touching = np.zeros(0, EVENT)  # pairs with no side awake or in a sleeping island
         self.sensing = np.zeros(0, EVENT)
 
     def put(self, key: int, island: Island) -> None:
-        """Keep an island."""
+        """Store an island."""
         self.islands[key] = island
         self._link(self._named(island), [key])
 
     def put_many(self, keys: list[int], islands: list[Island], named: list[int], owners: list[int]) -> None:
-        """Keep many islands; named, owners: ids that manifolds name and that are none of their island's bodies, and the
-        island of each."""
+        """Store many islands.
+
+        named, owners: ids of bodies outside that manifolds refer to, and the island of each reference.
+        """
         self.islands.update(zip(keys, islands, strict=True))
         for identity, key in set(zip(named, owners, strict=True)):
             self._link([identity], [key])
@@ -55,7 +57,7 @@ class Sleepers:
             self.links.setdefault(identity, set()).update(keys)
 
     def take(self, key: int) -> Island:
-        """Give an island back."""
+        """Remove an island and return it."""
         island = self.islands.pop(key)
         for identity in self._named(island):
             keys = self.links[identity]
@@ -66,12 +68,12 @@ class Sleepers:
 
     @staticmethod
     def _named(island) -> list:
-        """Ids that the manifolds of an island name, and that are none of its bodies."""
+        """Return the ids of bodies outside an island that its manifolds refer to."""
         named = np.union1d(island.manifolds["body_a"], island.manifolds["body_b"])
         return np.setdiff1d(named, island.bodies).tolist()
 
     def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """The (manifolds, anchors, touching) of other islands that name a body, taken out of them."""
+        """Remove the contacts with a body from other islands, and return the (manifolds, anchors, touching) of each."""
         found = []
         for key in sorted(self.links.get(identity, ())):
             island = self.take(key)
@@ -83,7 +85,7 @@ class Sleepers:
         return found
 
     def keep_touching(self, rows: np.ndarray, parked: np.ndarray, keys: np.ndarray) -> None:
-        """Give islands that have just been put aside the pairs of theirs that touch, EVENT rows."""
+        """Store the touching pairs, EVENT rows, of islands that have just fallen asleep."""
         place = np.searchsorted(parked["shape_a"] << 32 | parked["shape_b"], rows["shape_a"] << 32 | rows["shape_b"])
         owners = keys[place]
         order = np.argsort(owners, kind="stable")
@@ -92,7 +94,7 @@ class Sleepers:
             self.islands[key] = self.islands[key]._replace(touching=part)
 
     def naming(self, identity: int, own: int) -> np.ndarray:
-        """MANIFOLD rows that sleep and name a body; own: its island, if it sleeps in one."""
+        """Return the sleeping MANIFOLD rows that refer to a body; own: its island, if it sleeps in one."""
         parts = [np.zeros(0, MANIFOLD)]
         for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
             m = self.islands[key].manifolds
@@ -100,22 +102,22 @@ class Sleepers:
         return in_order(joined(parts))
 
     def manifolds(self) -> np.ndarray:
-        """MANIFOLD rows of all islands in the order of shape ids."""
+        """Return the MANIFOLD rows of all islands in the order of shape ids."""
         return in_order(joined([np.zeros(0, MANIFOLD), *(each.manifolds for each in self.islands.values())]))
 
     def keep_told(self, tables: WorldTables) -> None:
-        """Put the pairs aside that touch, or are sensed, and of which neither side is in the step any longer."""
+        """Store the touching and sensed pairs that have no side in the step any longer."""
         self.touching = np.concatenate([self.touching, tables.touching.take_resting(tables.bodies)])
         self.sensing = np.concatenate([self.sensing, tables.sensing.take_resting(tables.bodies)])
 
     def return_all(self, tables: WorldTables) -> None:
-        """Bring all pairs that stand aside back into the step."""
+        """Return all stored pairs to the step."""
         for name in ("touching", "sensing"):
             getattr(tables, name).give_back(getattr(self, name))
             setattr(self, name, np.zeros(0, EVENT))
 
     def return_told(self, tables: WorldTables, ids: np.ndarray) -> None:
-        """Bring the pairs that name one of these bodies back into the step."""
+        """Return the stored pairs that refer to one of these bodies to the step."""
         for name in ("touching", "sensing"):
             kept = getattr(self, name)
             if len(kept):
@@ -125,28 +127,30 @@ class Sleepers:
 
 
 def order_of(manifolds: np.ndarray) -> np.ndarray:
-    """The order of shape ids; the manifolds of a pair keep theirs."""
+    """Return the order by shape ids, stable for the manifolds of a pair."""
     return np.lexsort((np.arange(len(manifolds)), manifolds["shape_b"], manifolds["shape_a"]))
 
 
 def in_order(manifolds: np.ndarray) -> np.ndarray:
-    """Manifolds in the order of shape ids."""
+    """Return manifolds in the order of shape ids."""
     return manifolds[order_of(manifolds)]
 
 
 # ---- sleep -----------------------------------------------------------------------------------------------------------
-# Sleeping and waking: an island keeps its contacts aside while it sleeps, and comes back with their forces.
+# Sleeping and waking: an island keeps its contacts while it sleeps, and wakes with their forces.
 #
-# An island sleeps as one and wakes as one. What is kept aside is neither tested, nor solved, nor reported, and its
-# pairs have not ended. See "rest" below for what falls asleep.
+# An island sleeps and wakes as a whole. Its contacts are not tested, solved or reported while it sleeps, and its pairs
+# have not ended. See "rest" below for the condition of sleep.
 #
-# These functions take a world, between steps, or the StepState of a step: both have the tables, `manifolds`, `anchors`,
+# These functions take a world, between steps, or the StepState of a step. Both have the tables, `manifolds`, `anchors`,
 # `awake`, `sleepers`, `pairs`, `touching` and `sensing`.
 
 
 def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
-    """Wake the islands of bodies by id, and of what touches them: what is moved, changed or taken away; have these
-    bodies looked at in the next step, and the time begin again after which they fall asleep."""
+    """Wake the islands of bodies, by id, and those that touch them, because the bodies are moved, edited or removed.
+
+    The bodies take part in the next step, and their sleep time begins at 0.
+    """
     awake, sleepers = tables.awake, tables.sleepers
     if not awake.sleeping:
         return
@@ -166,9 +170,9 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
 
 def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bool:
-    """Wake the islands that rest on some shapes, by id, of a body that stands: the rest of it is as it was.
+    """Wake the islands that rest on some shapes, by id, of a body at rest whose other shapes are unchanged.
 
-    Returns False, and wakes nothing, where more than its islands may have to be told: then see disturb.
+    Return False, with nothing changed, if other pairs of the body may be affected: then call disturb.
     """
     sleepers = tables.sleepers
     row = rows_of(tables.bodies, [identity])[0]
@@ -187,7 +191,7 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
 
 
 def _islands_beside(tables, manifolds, identity):
-    """Other islands that manifolds with a body lead to."""
+    """Return the keys of other islands connected to a body by manifolds."""
     own = manifolds[(manifolds["body_a"] == identity) | (manifolds["body_b"] == identity)]
     others = np.union1d(own["body_a"], own["body_b"])
     rows = rows_of(tables.bodies, others)
@@ -196,12 +200,12 @@ def _islands_beside(tables, manifolds, identity):
 
 
 def wake_all(tables: WorldTables) -> None:
-    """Wake everything: gravity, or the solver, changed."""
+    """Wake all islands, after a change of gravity or of the solver."""
     wake(tables, list(tables.sleepers.islands))
 
 
 def wake(tables: WorldTables, keys: Iterable[int]) -> None:
-    """Wake islands: their bodies, and the contacts that name these, come back into the step."""
+    """Wake islands: return their bodies, and the contacts that refer to these, to the step."""
     sleepers = tables.sleepers
     keys = [key for key in sorted(keys) if key in sleepers.islands]
     if not keys:
@@ -228,7 +232,7 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
 
 
 def _bring_back(tables, manifolds, anchors):
-    """Add manifolds whose pairs are not known to those of the step, with their rows of today."""
+    """Add manifolds of pairs that are not in the step yet, with their present rows."""
     found = tables.manifolds
     known = found["shape_a"] << 32 | found["shape_b"]
     new = ~np.isin(manifolds["shape_a"] << 32 | manifolds["shape_b"], known)
@@ -241,14 +245,14 @@ def _bring_back(tables, manifolds, anchors):
 
 
 def with_rows(tables: WorldTables, manifolds: np.ndarray, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Manifolds and anchors with the rows that bodies and shapes have now; without those whose sides are gone."""
+    """Return manifolds and anchors with the present rows of bodies and shapes, without those of removed ones."""
     there = np.empty(len(manifolds), bool)
     refresh_rows(tables.bodies, tables.shapes, manifolds, there)
     return (manifolds, anchors) if there.all() else (manifolds[there], anchors[there])
 
 
 def forget(tables: WorldTables) -> None:
-    """Drop the manifolds of bodies and shapes that are gone; refresh the rows of the others."""
+    """Drop the manifolds of removed bodies and shapes, and update the rows of the others."""
     if len(tables.manifolds):
         anchors = tables.anchors if len(tables.anchors) else np.zeros(len(tables.manifolds), ANCHOR)
         found, kept = with_rows(tables, joined([tables.manifolds]), anchors)
@@ -258,8 +262,10 @@ def forget(tables: WorldTables) -> None:
 
 @kernel
 def refresh_rows(bodies, shapes, manifolds_inout, there_out):
-    """Write the rows that the bodies and shapes of manifolds have, and which manifolds have all of theirs.
-    O(manifolds log shapes)."""
+    """Write the present rows of the bodies and shapes of manifolds, and whether all of them exist.
+
+    O(manifolds log shapes).
+    """
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         m.body_row_a = row_of(bodies, m.body_a)
@@ -278,10 +284,9 @@ def find_disturbed(
     # write
     rows_out,
 ):
-    """List the sleeping bodies that something on its way, or changed by hand, touches or will within dt [s]. Returns
-    their number. O(manifolds).
+    """List the sleeping bodies that a moving or edited body touches, or will touch within dt [s]. Return their number.
 
-    rows_out (2 · manifolds) int64; one may be named twice.
+    O(manifolds). rows_out (2 · manifolds) int64; a row may be listed twice.
     """
     found = 0
     for i in range(len(manifolds)):
@@ -314,9 +319,9 @@ def find_run_over(
     # write
     rows_out,
 ):
-    """List the sleeping bodies that a kinematic one may jump over within dt [s]. Returns their number. O(pairs).
+    """List the sleeping bodies that a kinematic one may tunnel through within dt [s]. Return their number. O(pairs).
 
-    pairs (n, 2) int64: shape rows whose motion rectangles meet; rows_out (n,) int64; one may be named twice.
+    pairs (n, 2) int64: shape rows whose swept AABBs overlap; rows_out (n,) int64; a row may be listed twice.
     """
     found = 0
     for i in range(len(pairs)):
@@ -350,7 +355,7 @@ def find_run_over(
     ),
 )
 def wake_disturbed(state: StepState) -> None:
-    """Wake the islands that something touches, or on which something that stood has begun to move."""
+    """Wake the islands that a moving body touches, and those on a body at rest that has begun to move."""
     sleepers, bodies = state.sleepers, state.bodies
     if not sleepers.islands:
         return
@@ -374,13 +379,13 @@ def wake_disturbed(state: StepState) -> None:
 
 
 # ---- rest ------------------------------------------------------------------------------------------------------------
-# Falling asleep: which islands have got nowhere for long enough, and what is put aside with them.
+# Falling asleep: which islands have stayed in place for long enough, and which contacts go with them.
 #
-# What counts is how far a body got, not how fast it is: in a heap of ragged things some tremble, and get nowhere.
-# Source: Jolt Physics, Body::UpdateSleepStateInternal, which asks whether three points of a body stay within spheres;
-# here it is the way of the furthest point from where the clock began. Speed and time: Box2D v3.2, solver.c.
+# The criterion is the distance a body has moved, not its speed: in a heap some bodies tremble without moving away.
+# Source: Jolt Physics, Body::UpdateSleepStateInternal, tests whether three points of a body stay within spheres. Here
+# the displacement of the furthest point since the start of the clock is bounded. Speed and time: Box2D v3.2, solver.c.
 
-COUNTED = 2.0**62  # times that patience may have passed: more are no whole number of a kernel
+COUNTED = 2.0**62  # more sleep periods than this are not an exact integer in a kernel
 
 
 @kernel
@@ -392,8 +397,10 @@ def list_edges(
     # write
     edges_out,
 ):
-    """List the rows (a, b) of awake dynamic bodies that touch. edges_out (manifolds, 2) int32. Returns their number.
-    O(manifolds)."""
+    """List the rows (a, b) of awake dynamic bodies that touch. Return their number. O(manifolds).
+
+    edges_out (manifolds, 2) int32.
+    """
     found = 0
     for i in range(len(manifolds)):
         m = manifolds[i]
@@ -413,7 +420,7 @@ def list_edges(
 
 @subkernel
 def is_pressed(manifold):
-    """Whether two sides touch or push each other: near ones have not met yet."""
+    """Return whether two sides touch or have a normal impulse; a speculative contact may have neither."""
     m = manifold
     if m.separation_1 <= 0.0 or m.normal_impulse_1 > 0.0:
         return True
@@ -422,7 +429,7 @@ def is_pressed(manifold):
 
 @kernel
 def start_islands(rows, parents_out):
-    """Each of the rows an island of its own. O(rows)."""
+    """Make each of the rows an island of its own. O(rows)."""
     for k in range(len(rows)):
         parents_out[rows[k]] = rows[k]
 
@@ -443,12 +450,12 @@ def fall_asleep(
     excess_out,
     bodies_inout,
 ):
-    """Put the islands to sleep of which nobody got further for `patience` [s] than with the speed `slow` [px/s], and
-    which as a whole are slower now. Returns (islands of dynamic bodies that were awake, bodies that fell asleep).
+    """Put islands to sleep. Return (islands of awake dynamic bodies, bodies that fell asleep). O(rows + manifolds).
 
-    So few may tremble, and what has only just begun to fall, or was shoved, stays awake. What touches a kinematic body
-    on its way does too, and so does what is on a surface that runs, with conveyor 1, however slowly. rows: the awake
-    ones; parents_inout: see graph.join; least_out, excess_out (bodies): scratch. O(rows + manifolds).
+    No body of the island may have moved further in `patience` [s] than at speed `slow` [px/s], and the mean square
+    speed of the island must not exceed that of `slow` now. So a few bodies may tremble, and an island that has just
+    begun to fall, or was pushed, stays awake. Bodies that touch a moving kinematic body or, with conveyor 1, a moving
+    surface stay awake. rows: the awake ones; parents_inout: see graph.join; least_out, excess_out (bodies): scratch.
     """
     distance = slow * patience
     islands = 0
@@ -465,7 +472,7 @@ def fall_asleep(
         before = b.sleep_time
         far = length_of(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
         b.sleep_time = 0.0 if far else before + dt
-        # What creeps along, slower than this, stays near a pose that follows it.
+        # A body that creeps more slowly than this stays near a reference pose that follows it.
         times = b.sleep_time / patience
         if far or (abs(times) < COUNTED and math.floor(times) > math.floor(before / patience)):
             b.still_x = b.x
@@ -502,7 +509,7 @@ def fall_asleep(
             b.vx = 0.0
             b.vy = 0.0
             b.angular_velocity = 0.0
-            b.previous_x = b.x  # or it would seem to have been moved, and wake
+            b.previous_x = b.x  # else the body would count as moved, and wake
             b.previous_y = b.y
             b.previous_angle = b.angle
             slept += 1
@@ -510,14 +517,14 @@ def fall_asleep(
 
 
 class IslandWorkspace:
-    """Scratch for the search for islands."""
+    """Scratch arrays of the search for islands."""
 
     def __init__(self) -> None:
         self.parents, self.least, self.excess = np.zeros(16, np.int32), np.zeros(16), np.zeros(16)
         self.edges = np.zeros((16, 2), np.int32)
 
     def grow(self, bodies: int, manifolds: int) -> None:
-        """Make room; nothing is kept."""
+        """Enlarge the arrays; their contents are lost."""
         if len(self.parents) < bodies:
             self.parents = np.zeros(2 * bodies, np.int32)
             self.least, self.excess = np.zeros(2 * bodies), np.zeros(2 * bodies)
@@ -565,7 +572,7 @@ class IslandWorkspace:
     ),
 )
 def rest(state: StepState) -> None:
-    """Let islands fall asleep that have been slow for long enough; their contacts go with them."""
+    """Put islands to sleep that have stayed in place for long enough; their contacts go with them."""
     awake, bodies, manifolds, search = state.awake, state.bodies, state.manifolds, state.workspace.islands
     if not len(awake.dynamic):
         return
@@ -594,8 +601,10 @@ def rest(state: StepState) -> None:
 
 
 def _park(state, slept):
-    """Put the islands of these rows aside with their manifolds; what only nearly touched is dropped. Returns the
-    manifolds that went with them, in order, and the island of each."""
+    """Move the islands of these rows to the sleeping set with their manifolds, and drop speculative contacts.
+
+    Return the manifolds that were moved, in order, and the island of each.
+    """
     bodies, m, anchors = state.bodies, state.manifolds, state.anchors
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]
     still &= (bodies["kind"][m["body_row_b"]] != DYNAMIC) | ~bodies["awake"][m["body_row_b"]]
@@ -606,8 +615,8 @@ def _park(state, slept):
     touching |= (m["count"] == 2) & ((m["separation_2"] <= slop) | (m["normal_impulse_2"] > 0.0))
     kept = parking & touching
     parked, parked_anchors, new = m[kept], anchors[kept], new[kept]
-    parked["again"] = False  # the other side may be carried elsewhere meanwhile
-    # What is not dynamic is in no island, whatever it was in before it changed its kind.
+    parked["again"] = False  # the other side may move meanwhile
+    # A body that is not dynamic is in no island, even if it was in one before its kind changed.
     sides = [
         np.where(bodies["kind"][parked[side]] == DYNAMIC, bodies["island"][parked[side]], -1)
         for side in ("body_row_a", "body_row_b")

@@ -1,12 +1,13 @@
-"""Compiles kernels, or runs them as they are; numba is imported nowhere else, and only when a kernel is called.
+"""Kernels: plain functions over tables and scalars, compiled or run as they are. Only this folder imports numba, on
+demand.
 
-A kernel is a plain function over tables and scalars. With numba it is compiled at its first call and kept on disk.
-Without numba the same source runs, over views of the tables and arrays (plain.py). In a program that opted in
-(tiers.py) it runs as plain Python until its compiled form is there; both give the same bits.
+With numba a kernel is compiled at its first call and stored on disk. Without numba the same source runs over views of
+the tables and arrays (plain.py). In a program that opted in (tiers.py) a kernel runs as plain Python until its compiled
+form has arrived. Both forms give the same bits.
 
-Five decorators: `kernel` for functions that a stage calls with arrays, `generic` for those among them that are called
-with arrays of several types; `subkernel` for functions that only kernels call, of these `inlined` for those that are
-inlined at every call, `separate` for those whose arrays never overlap. Only the first two get an entry from Python.
+Five decorators: `kernel` for functions that a stage calls with arrays; `generic` for those that are called with arrays
+of several types; `subkernel` for functions that only kernels call; `inlined` for subkernels that are inlined at every
+call; `separate` for subkernels whose arrays never overlap (noalias). Only the first two have an entry from Python.
 """
 
 from collections.abc import Callable
@@ -41,13 +42,14 @@ def subkernel(function: Callable) -> Any:
 
 
 def inlined(function: Callable) -> Any:
-    """Return a subkernel that is inlined at every call: a loop with a call in it is not vectorised."""
+    """Return a subkernel that is inlined at every call, because a loop that contains a call is not vectorised."""
     return Part(function, is_inlined=True) if JIT else function
 
 
 def separate(function: Callable) -> Any:
-    """Return a subkernel none of whose arrays overlap: else a loop that reads one and writes another is not
-    vectorised."""
+    """Return a subkernel whose arrays never overlap (noalias); otherwise a loop that reads one and writes another is
+    not vectorised.
+    """
     return Part(function, noalias=True) if JIT else function
 
 

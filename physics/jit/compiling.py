@@ -1,6 +1,7 @@
-"""Compiled forms of kernels and of the parts that they call: loaded from the store, or compiled and kept there.
+"""Compiled forms of kernels and of the parts that they call: loaded from the store, or compiled and stored.
 
-Imported only where numba is."""
+Imported only where numba is.
+"""
 
 import hashlib
 import importlib
@@ -27,18 +28,19 @@ from physics.jit.plain import Builtin, compiler, rebound
 from physics.jit.store import store
 
 # ---- parts -----------------------------------------------------------------------------------------------------------
-# Kernels that only kernels call are parts: kept as code for linking, never made into machine code by themselves.
+# Kernels that only kernels call are parts: they are stored as LLVM bitcode, and never become machine code by
+# themselves.
 #
-# Whatever calls one links its code, and all that it calls, into its own and optimizes the whole. Numba optimizes and
-# generates machine code for every part as well, which nobody runs. Measured without: the kernels of the platformer take
-# 81 s of processor time to compile, with 141, in one run.
+# A caller links their code, and all that they call, into its own and optimises the whole. Numba also optimises and
+# generates machine code for every part, which is never run. Without that the kernels of the platformer compile in 81 s
+# of processor time instead of 141 s (one run).
 #
-# Numba's ways to do so: a pipeline of the dispatcher's own (numba.core.compiler.CompilerBase) whose last pass lowers
-# into a library of its own (numba.core.codegen.CodeLibrary). Imported only where there is a compiler.
+# Numba's interfaces for this: a pipeline of the dispatcher (numba.core.compiler.CompilerBase) whose last pass lowers
+# into another library (numba.core.codegen.CodeLibrary).
 
 
 class PartLibrary(codegen.JITCodeLibrary):
-    """Code that is linked into others: the calls in it are resolved, but nothing is optimized or can be run."""
+    """Code that is linked into other code: its calls are resolved, but it is neither optimised nor executable."""
 
     def _optimize_final_module(self):
         pass
@@ -48,12 +50,12 @@ class PartLibrary(codegen.JITCodeLibrary):
         self._finalized = True
 
     def bitcode(self) -> bytes:
-        """What a cache keeps."""
+        """The LLVM bitcode, as the store keeps it."""
         return self._get_module_for_linking().as_bitcode()
 
     @classmethod
     def from_bitcode(cls, generator: Any, name: str, code: bytes) -> "PartLibrary":
-        """The library that was kept; generator: a numba CPUCodegen."""
+        """Return the library of stored bitcode. generator: a numba CPUCodegen."""
         library = cls(generator, name)
         library._final_module = library._shared_module = llvm.parse_bitcode(code)
         library._finalized = True
@@ -62,12 +64,12 @@ class PartLibrary(codegen.JITCodeLibrary):
 
 @register_pass(mutates_CFG=True, analysis_only=False)
 class PartLowering(typed_passes.NativeLowering):
-    """Lowers a part into a library of its own kind."""
+    """Numba's lowering pass, into a PartLibrary."""
 
     _name = "part_lowering"
 
     def run_pass(self, state: Any) -> bool:
-        """As numba's, which would go on to ask for the address of the machine code."""
+        """Lower the function as numba does, without the address of machine code."""
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         state.flags.noalias = getattr(state.func_id.func, "noalias", False)
@@ -81,10 +83,10 @@ class PartLowering(typed_passes.NativeLowering):
 
 
 class PartCompiler(CompilerBase):
-    """Numba's pipeline for compiled functions, but for its last pass."""
+    """Numba's pipeline for compiled functions, except for its last pass."""
 
     def define_pipelines(self) -> list:
-        """One pipeline."""
+        """Return one pipeline."""
         manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
         manager.add_pass_after(PartLowering, typed_passes.NativeLowering)
         manager.passes = [each for each in manager.passes if each[0] is not typed_passes.NativeLowering]
@@ -93,20 +95,20 @@ class PartCompiler(CompilerBase):
 
 
 def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
-    """What numba knows a compiled function by: a function of no address, as nobody calls it."""
+    """Return the object by which numba identifies a compiled function, without an address."""
     name = descriptor.qualname.split(".")[-1]
     return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
 
 
 def reduce(result: Any) -> tuple:
-    """What is kept of a CompileResult."""
+    """Return the stored data of a CompileResult."""
     descriptor = result.fndesc
     descriptor.typemap = descriptor.calltypes = None  # may not be pickled
     return result.library.name, result.library.bitcode(), descriptor, result.environment, result.signature
 
 
 def rebuild(target_context: Any, kept: tuple) -> Any:
-    """A CompileResult of what reduce() kept."""
+    """Return a CompileResult from the data of reduce()."""
     name, code, descriptor, environment, signature = kept
     library = PartLibrary.from_bitcode(target_context.codegen(), name, code)
     return compile_result(
@@ -124,17 +126,17 @@ def rebuild(target_context: Any, kept: tuple) -> Any:
 
 
 # ---- compiling -------------------------------------------------------------------------------------------------------
-# Compiled forms of kernels: loaded from the store, or compiled and kept there. Imported only where numba is.
+# Compiled forms of kernels: loaded from the store, or compiled and stored.
 #
-# A stage's kernel is kept as machine code, and linked straight into numba's engine when it is loaded: that takes no
-# types and none of numba's tables (measured: 1 to 3 ms, where numba's own way takes 9 to 53). A part is kept as code
-# for linking (parts.py). Both are named by content (content.py), and so are their symbols: numba's own hold a counter
-# of the process, with which parts of two processes can be linked to the wrong code.
+# A kernel of a stage is stored as machine code, and linked into numba's engine when it is loaded, without types and
+# without numba's tables: 1 to 3 ms, against 9 to 53 ms with numba's cache. A part is stored as bitcode. Both, and their
+# symbols, are named by content (content.py): numba's own symbols contain a counter of the process, with which parts of
+# two processes can be linked to the wrong code.
 
 # Of numba's modules in C, which declare no types.
 _dynfunc, _nrt_python = map(importlib.import_module, ("numba._dynfunc", "numba.core.runtime._nrt_python"))
-# No kernel makes an array, so none counts references; and only stages' kernels need an entry from Python. Measured:
-# compiling what the platformer needs takes 145 s of processor time, with both 190, on one busy machine.
+# No kernel allocates an array, so none counts references; and only kernels of stages need an entry from Python. The
+# kernels of the platformer compile in 145 s of processor time instead of 190 s (one busy machine).
 LEANER = {"_nrt": False, "no_cfunc_wrapper": True}
 READABLE = 48  # characters of a kernel's name in the name of its file
 
@@ -182,7 +184,7 @@ def _compile(kernel, keys):
 
 
 def _kept(result):
-    """Return what is kept of a stage's kernel: names, constants that its entry uses, machine code."""
+    """Return the stored data of a kernel of a stage: names, constants of its entry, machine code."""
     descriptor = result.fndesc
     constants = [
         (each.env_name, each.globals["__name__"], list(each.consts)) for each in result._find_referenced_environments()
@@ -205,7 +207,7 @@ def prepare() -> None:
 
 
 def _generator() -> Any:
-    """Return what makes machine code: a numba CPUCodegen."""
+    """Return numba's code generator, a CPUCodegen."""
     context: Any = cpu_target.target_context
     return context.codegen()
 
@@ -232,7 +234,7 @@ def _link(kept):
 
 
 def _environment(name, module, values):
-    """Return what compiled code knows of its module: its globals and constants."""
+    """Return the environment of compiled code: the globals and constants of its module."""
     known = lookup_environment(name)
     if known is not None:
         return known
@@ -247,7 +249,7 @@ _runtime: list[bool] = []
 
 
 def _add_runtime_symbols():
-    """Tell LLVM where numba's runtime is, which numba itself does when it compiles for the first time."""
+    """Register the address of numba's runtime with LLVM, as numba does at its first compilation."""
     if not _runtime:
         for name, address in _nrt_python.c_helpers.items():
             llvm.add_symbol(name if name.startswith("_") else f"NRT_{name}", address)
@@ -288,9 +290,9 @@ def _compiled_form_of(value):
 
 
 def _take_literals_as_values(dispatcher):
-    """Compile one version for all calls of the same types: numba makes another for every literal among the arguments.
+    """Compile one version for all calls of the same types; numba compiles another one for every literal argument.
 
-    Measured: compiling what the platformer needs takes 136 s of processor time with them, 80 s without.
+    The kernels of the platformer compile in 80 s of processor time instead of 136 s.
     """
     general = dispatcher.get_call_template
 
@@ -302,12 +304,12 @@ def _take_literals_as_values(dispatcher):
     dispatcher.get_call_template = get_call_template
 
 
-_claimed: dict[str, ExitStack] = {}  # file name -> what lets it go, of all parts that are being compiled here
+_claimed: dict[str, ExitStack] = {}  # file name -> release of the claim, of all parts that are being compiled here
 
 
 @contextmanager
 def _claims():
-    """Let go at the end what an error has left claimed."""
+    """Release all claims that an error has left."""
     try:
         yield
     finally:
@@ -317,22 +319,22 @@ def _claims():
 
 
 class PartCache(caching._Cache):
-    """The store, as numba's dispatcher of a part asks it."""
+    """The store, as numba's dispatcher of a part calls it."""
 
     def __init__(self, kernel: Kernel) -> None:
         self.kernel = kernel
 
     @property
     def cache_path(self) -> str:
-        """The folder."""
+        """The path of the folder."""
         return str(store().folder)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return a kept part; if it is not there, claim it, so that other processes wait for it."""
+        """Return a stored part. Claim it if it is absent, so that other processes wait for it."""
         name = self._name(sig)
         content = store().read(name)
         if content is None and name not in _claimed:
-            _claimed[name] = ExitStack()  # of what is called, never of what calls: no ring of waiting
+            _claimed[name] = ExitStack()  # of callees, never of callers, so that processes do not wait in a circle
             _claimed[name].enter_context(store().claim(name))
             content = store().read(name)
         if content is None:
@@ -344,7 +346,7 @@ class PartCache(caching._Cache):
         return rebuild(target_context, pickle.loads(zlib.decompress(content)))
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep a part."""
+        """Store a part."""
         name = self._name(sig)
         store().write(name, zlib.compress(pickle.dumps(reduce(data)), 1))
         if name in _claimed:
@@ -380,7 +382,7 @@ def _tuple_types() -> Any:  # whose members numba does not declare
 
 @contextmanager
 def stable_symbols() -> Iterator[None]:
-    """While this lasts, numba names what it compiles by content, in place of a counter of the process."""
+    """Let numba name compiled functions by content, not by a counter of the process, while the context is open."""
     identity: Any = bytecode.FunctionIdentity
     counted = identity.__dict__["from_function"]
 
@@ -398,7 +400,7 @@ def stable_symbols() -> Iterator[None]:
 
 
 def _symbol(function):
-    """Return text that differs for different functions in every process: a hash of the content, else a random one."""
+    """Return text that differs for different functions in every process: a hash of the content, or a random one."""
     content = getattr(function, "content", None)
     if content is not None:
         return content

@@ -1,8 +1,9 @@
-"""Fingerprints of kernels: hashes of all that their machine code follows from, the same in every process.
+"""Fingerprints of kernels: hashes of everything that their machine code follows from, equal in every process.
 
-What counts: the code of the kernel and of all it calls or closes over, whatever the depth; closed-over values and the
-module globals it reads; flags; the name of its module; the sources of this folder; the versions of Python, NumPy, numba
-and llvmlite; the processor and its features; bounds checks and SVML. Comments and line numbers do not count.
+They cover the code of the kernel and of all functions that it calls or closes over, at any depth; closed-over values
+and module globals that it reads; flags; the name of its module; the sources of this folder; the versions of Python,
+NumPy, numba and llvmlite; the processor and its features; bounds checks and SVML. Comments of kernels and line numbers
+are left out, docstrings are not.
 """
 
 import hashlib
@@ -20,14 +21,14 @@ from physics.jit.kernels import Kernel
 from physics.jit.plain import Builtin, compiler, globals_of, names_in
 
 DIGEST = 20  # bytes
-OUTSIDE = ("math", "numpy")  # modules whose contents their version stands for
+OUTSIDE = ("math", "numpy")  # modules that their version identifies
 
 
 _describing = threading.RLock()
 
 
 class NotHashable(TypeError):
-    """A value from which no fingerprint can be made that is the same in another process."""
+    """A value without a fingerprint that is equal in another process."""
 
 
 def fingerprint(kernel: Kernel) -> str:
@@ -36,10 +37,10 @@ def fingerprint(kernel: Kernel) -> str:
 
 
 def content_of(kernel: Kernel) -> str:
-    """Return the hash of a kernel's code and of all that it refers to. Raises NotHashable naming what has none."""
+    """Return the hash of a kernel's code and of all that it refers to. Raises NotHashable naming a value."""
     with _describing:
         if kernel.content is None:
-            kernel.content = "recursive"  # what calls itself is described by where the call is
+            kernel.content = "recursive"  # a recursive function is described by the place of the call
             try:
                 parts = [kernel.flags_text, *_describe_function(kernel.py_func)]
             except NotHashable as error:
@@ -58,9 +59,9 @@ def _digest(*parts):
 
 
 def content_of_library(function: FunctionType) -> str:
-    """Return the hash of a function of numba's own, which it compiles into kernels: its code and what it closes over.
+    """Return the hash of a function of numba that is compiled into kernels: its code and its closure.
 
-    Its module's globals are those of the version of numba. Raises NotHashable for another package's function.
+    The globals of its module are those of the version of numba. Raises NotHashable for a function of another package.
     """
     return _digest(*_describe_library(function, ()))
 
@@ -105,7 +106,9 @@ def _describe_code(code):
 
 
 def _describe(value, names=()):
-    """Yield texts that tell this value from any other; names: attributes that are read of a module of this package."""
+    """Yield texts that distinguish this value from all others. names: attributes that are read of a module of this
+    package.
+    """
     kind = type(value)
     if value is None or kind in (bool, int, float, complex, str, bytes):
         yield f"{kind.__name__} {value!r}"
@@ -164,7 +167,7 @@ def _described_type(value):
 
 @cache
 def environment() -> str:
-    """Return all beside the kernel that its machine code follows from, as text. Imports numba."""
+    """Return everything besides the kernel that its machine code follows from, as text. Imports numba."""
     import llvmlite.binding as llvm
 
     numba = compiler()

@@ -15,7 +15,7 @@ import numpy as np
 from physics.jit.plain import Builtin, plain_math, rebound, view_of
 
 # ---- totals ----------------------------------------------------------------------------------------------------------
-# What this process has compiled and loaded, and the time that took: it belongs to no measurement of anything else.
+# Compiled and loaded kernels of this process, and the time they took, which belongs to no other measurement.
 
 compiled = 0  # stages' kernels
 loaded = 0
@@ -27,7 +27,7 @@ _depth = 0
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Count what goes on as compiling; an inner one counts with the outer."""
+    """Count the time of the context as compiling; nested contexts count once."""
     global compiled, seconds, _depth
     started = perf_counter()
     _depth += 1
@@ -42,7 +42,9 @@ def compiling() -> Iterator[None]:
 
 @contextmanager
 def measured() -> Iterator[Callable[[], float]]:
-    """Give a function that returns the seconds of compiling and loading since; 0 where nothing is compiled."""
+    """Yield a function that returns the seconds of compiling and loading so far in the context; 0 if nothing was
+    compiled.
+    """
     before = seconds + loading
     yield lambda: seconds + loading - before
 
@@ -54,7 +56,7 @@ def measured() -> Iterator[Callable[[], float]]:
 # ("tuple", class, keys). It is made without numba, which takes 0.6 ms to type a table of fifty columns.
 
 Key = tuple[Any, ...]
-# Types are looked at in each call: a kernel that is called with others than in its first call is refused.
+# Types are checked in each call: a kernel refuses other types than those of its first call.
 CHECKING = os.environ.get("HITBOX_CHECK_CALLS", "") == "1"
 SCALARS = {bool: ("scalar", "bool"), int: ("scalar", "int64"), float: ("scalar", "float64")}
 
@@ -117,7 +119,7 @@ def is_whole(key: Key) -> bool:
 
 
 # ---- kernels ---------------------------------------------------------------------------------------------------------
-# Kernels as objects: a function, its plain twin, and its compiled forms; numba is not imported for them.
+# Kernels as objects: a function, its plain twin, and its compiled forms.
 
 Keys = tuple[Key, ...]  # types of the arguments of one call
 Form = Callable[..., Any]
@@ -126,7 +128,7 @@ registry: "list[Kernel]" = []  # every kernel, in the order of definition; empty
 
 
 class Kernel:
-    """A function over tables that can be compiled. Calling it calls `run`, whichever form that is now."""
+    """A function over tables that can be compiled. Calling it calls `run`, its present form."""
 
     is_part = False
     __call__: Any = property(attrgetter("run"))
@@ -160,7 +162,7 @@ class Kernel:
 
     @property
     def signatures(self) -> list[Keys]:
-        """Types that it has compiled forms for."""
+        """The types of its compiled forms."""
         return list(self.forms)
 
     @property
@@ -178,7 +180,7 @@ class Kernel:
         return f"<kernel {self.name}>"
 
     def reset(self) -> None:
-        """Forget which form runs."""
+        """Reset the form that runs."""
         self.run = self.call_plain
 
     def call_plain(self, *arguments: Any) -> Any:
@@ -186,18 +188,18 @@ class Kernel:
         return self.plain(*[view_of(each) for each in arguments])
 
     def install(self, keys: Keys, form: Form) -> None:
-        """Keep a compiled form."""
+        """Store a compiled form for these types."""
         self.forms[keys] = form
 
 
 class Part(Kernel):
-    """A kernel that kernels call: it has no entry from Python, where its plain twin runs, with the same result."""
+    """A kernel that kernels call. It has no entry from Python, where its plain twin runs, with the same result."""
 
     is_part = True
 
 
 def plain_form_of(value: Any) -> Any:
-    """Return what stands for a global or closed-over value in a plain twin."""
+    """Return the value of a global or closed-over name in a plain twin."""
     if value is math:
         return plain_math
     return value.plain if isinstance(value, (Kernel, Builtin)) else value

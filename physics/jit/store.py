@@ -1,7 +1,9 @@
-"""Compiled kernels on disk, in a folder of the user's own: its files are code, so it is checked before any is loaded.
+"""The store: compiled kernels on disk, in a private folder. Its files are code, so the folder is checked before any is
+loaded.
 
-One file per kernel and types, named by all that its contents follow from, with a checksum in front. A file appears
-whole (written beside, renamed) and is removed when it was not used for KEPT, or first when the folder outgrows LIMIT.
+There is one file per kernel and types, named by the hash of everything that its contents follow from, and starting with
+a checksum. Files are written by atomic replace. A file that was not used for KEPT is removed, and the least recently
+used ones when the folder exceeds LIMIT.
 """
 
 import atexit
@@ -25,9 +27,9 @@ except ImportError:  # Windows
     fcntl = None
 
 LIMIT = 240 << 20  # bytes: two checkouts and a bounds-checked run, at most 80 MB each
-KEPT = 14 * 86_400.0  # [s] that a file stays without being used
-DAY = 86_400.0  # [s] between two sweeps of a folder, and between two notes that a file was used
-ABANDONED = 3_600.0  # [s] after which an unfinished file is nobody's any more
+KEPT = 14 * 86_400.0  # [s] after which an unused file is removed
+DAY = 86_400.0  # [s] between two sweeps of a folder, and between two records of the use of a file
+ABANDONED = 3_600.0  # [s] after which an unfinished file counts as abandoned
 PATIENCE = 120.0  # [s] to wait for another process that compiles the same kernel
 POLL = 0.02  # [s]
 CHECKSUM = 16  # bytes
@@ -50,13 +52,13 @@ def cache_home() -> Path:
 
 
 def make_private(folder: Path) -> str:
-    """Make a folder that only this user can read and write; return "" or why it is not one.
+    """Make a folder that only this user can read and write. Return "" or the reason why it is not one.
 
-    An existing folder is never changed, but for the permission of others to read it where it holds nothing else.
+    An existing folder is unchanged, except that read permission of others is removed if it holds only kernels.
     """
     try:
         for each in (*reversed(folder.parents), folder):
-            if not os.path.lexists(each):  # whatever the umask: others write to none of them
+            if not os.path.lexists(each):  # whatever the umask: other users write to none of them
                 with contextlib.suppress(FileExistsError):
                     each.mkdir(mode=0o700)
         if folder.is_symlink():
@@ -73,7 +75,7 @@ def make_private(folder: Path) -> str:
 
 
 def _exposed(folder):
-    """Return how somebody else could put code into the folder, or read it; "" if nobody can."""
+    """Return how another user could read or write code in the folder; "" if none can."""
     info = folder.stat()
     if info.st_uid != os.getuid():
         return f"{folder} belongs to another user"
@@ -91,8 +93,10 @@ def _exposed(folder):
 
 
 def store() -> "Store":
-    """Return the store of this process: the user's folder, or one beside it, or where neither is private or can be
-    written a new temporary one for this run. Any but the first is reported."""
+    """Return the store of this process: the user's folder, one beside it, or a temporary one for this run.
+
+    The second and third are used if the first is not private or not writable, and are reported.
+    """
     with _opening:
         return _open_store()
 
@@ -119,7 +123,7 @@ def _tell(where):
 
 
 def _remove_at_exit(folder):
-    """Remove a temporary folder at exit; a lock on a file in it says until then that it is in use."""
+    """Remove a temporary folder at exit. Until then a lock on a file in it marks it as in use."""
     lock = _locked(folder / "in-use", wait=False)
 
     def remove():
@@ -133,9 +137,9 @@ def _remove_at_exit(folder):
 def _locked(path, wait):
     """Return an open file with an exclusive lock, which ends with the process; None if another process has it.
 
-    Where a system has no such locks, everybody gets one: at worst work is done twice.
+    On a system without such locks every process gets one: at worst work is done twice.
     """
-    file = open(path, "ab")  # noqa: SIM115, closed by whoever holds the lock
+    file = open(path, "ab")  # noqa: SIM115, closed by the owner of the lock
     if fcntl is None:
         return file
     try:
@@ -157,7 +161,7 @@ class Store:
         self._swept = False
 
     def read(self, name: str) -> bytes | None:
-        """Return the contents of a file, and note that it was used; None if it is not there or damaged."""
+        """Return the contents of a file, and record its use; None if it is absent or damaged."""
         path = self.folder / (name + SUFFIX)
         try:
             with open(path, "rb", opener=_no_link) as file:
@@ -180,16 +184,16 @@ class Store:
         return content[CHECKSUM:]
 
     def has(self, name: str) -> bool:
-        """Return whether a file of that name is there."""
+        """Return whether a file of that name exists."""
         return (self.folder / (name + SUFFIX)).exists()
 
     @property
     def empty(self) -> bool:
-        """Whether no compiled kernel is there at all."""
+        """True if the folder holds no compiled kernel."""
         return next(self.folder.glob("*" + SUFFIX), None) is None
 
     def write(self, name: str, content: bytes) -> None:
-        """Keep contents under a name; where that fails, say so once and go on without."""
+        """Store contents under a name. A failure is reported once and otherwise ignored."""
         path = self.folder / (name + SUFFIX)
         beside = self.folder / f"{name}.{os.getpid()}{UNFINISHED}"
         try:
@@ -208,8 +212,9 @@ class Store:
             warnings.warn(line, stacklevel=3)
 
     def sweep(self) -> None:
-        """Remove what was not used for KEPT, then what was not used for longest until the rest fits into LIMIT, and
-        what killed processes have left behind."""
+        """Remove the files that were not used for KEPT, the least recently used ones beyond LIMIT, and leftovers of
+        killed processes.
+        """
         self._swept = True
         now = time.time()
         found = []
@@ -247,7 +252,7 @@ class Store:
 
 
 def checksum(name: str, content: bytes) -> bytes:
-    """Return the checksum that stands in front of a file's contents; another name has another."""
+    """Return the checksum at the start of a file; it depends on the name, too."""
     return hashlib.blake2b(content, digest_size=CHECKSUM, key=hashlib.blake2b(name.encode()).digest()).digest()
 
 
@@ -256,7 +261,7 @@ def _no_link(path, flags):
 
 
 def _sweep_temporary():
-    """Remove the temporary folders of runs that were killed: those of this user whose lock nobody holds."""
+    """Remove the temporary folders of killed runs of this user, whose locks are free."""
     if fcntl is None:
         return
     for folder in Path(tempfile.gettempdir()).glob(f"{TEMPORARY}*"):

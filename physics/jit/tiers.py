@@ -1,4 +1,4 @@
-"""Calls of kernels from Python: which form runs, what it took, and how another process finds the same kernel."""
+"""Calls of kernels from Python: the form that runs, its time, and references to kernels for other processes."""
 
 import importlib
 from collections import deque
@@ -14,24 +14,24 @@ from physics.jit.kernels import CHECKING, Form, Kernel, Keys, Part, is_whole, ke
 from physics.jit.plain import compiler, globals_of, view_of
 
 # ---- tiers -----------------------------------------------------------------------------------------------------------
-# Which form of a kernel runs where its compiled form is not at hand: compile now, run plain, or run plain and note it.
+# Which form of a kernel runs if its compiled form is not at hand: compile now, run plain, or run plain and record it.
 #
-# Left alone, a kernel is loaded or compiled at its first call. `collecting()` notes what a run calls that is not on
-# disk, so that several processes can compile it. `start()` opts in to tiers for the rest of the program: kernels run
-# plain, a thread loads what is on disk and has the rest compiled by worker processes (workers.py), the kernels with the
-# largest share of the time for their length first; take_over() lets what has arrived run from the next step on.
+# By default a kernel is loaded or compiled at its first call. `collecting()` records the kernels of a run that are not
+# on disk, so that several processes can compile them. `start()` opts in to tiers for the rest of the program: kernels
+# run plain, a thread loads those on disk and has the others compiled by worker processes (workers.py), the largest
+# share of the time per length of code first. take_over() installs compiled forms between two steps.
 
 background = False  # this program has opted in to tiers
-wanted: dict[tuple[Kernel, Keys], None] = {}  # what has run plain, in the order of the first calls
-arrived: deque[tuple[Kernel, Keys, Form]] = deque()  # compiled forms that wait for the end of a step
-asked: Callable[[], object] | None = None  # called when something is wanted
+wanted: dict[tuple[Kernel, Keys], None] = {}  # kernels that have run plain, in the order of their first calls
+arrived: deque[tuple[Kernel, Keys, Form]] = deque()  # compiled forms to be installed after the step
+asked: Callable[[], object] | None = None  # called when a kernel is wanted
 load: Callable[[Kernel, Keys], Form | None] | None = None  # compiling.load, once the compiler is imported
 _collected: dict[tuple[Kernel, Keys], None] | None = None
 _recording = False
 
 
 def form_of(kernel: "Kernel", keys: "Keys") -> Form | None:
-    """Return the compiled form that a first call with these types runs; None where its plain twin runs instead."""
+    """Return the compiled form for a first call with these types; None if its plain twin runs instead."""
     if _collected is not None:
         return _note(kernel, keys, _collected)
     if background:
@@ -61,9 +61,10 @@ def _note(kernel, keys, collected):
 
 @contextmanager
 def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], None]]:
-    """Run plain what is not on disk, compile nothing, and give its (kernel, types) in the order of the calls.
+    """Run kernels plain that are not on disk, and yield their (kernel, types) in the order of the calls; compile
+    nothing.
 
-    all_calls: of every kernel that has not run here yet, on disk or not.
+    all_calls: include kernels on disk that have not run here yet.
     """
     global _collected, _recording
     before = _collected, _recording
@@ -75,13 +76,13 @@ def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], No
 
 
 def start(when_asked: Callable[[], object]) -> None:
-    """Run kernels plain from now on where their compiled form is not at hand; when_asked() is called for each."""
+    """Run kernels plain from now on if their compiled form is not at hand. when_asked() is called for each of them."""
     global background, asked
     background, asked = True, when_asked
 
 
 def stop() -> None:
-    """Compile kernels at their first call again, those too that have run plain."""
+    """Compile kernels at their first call again, including those that ran plain."""
     global background, asked, load
     background, asked, load = False, None, None
     take_over()
@@ -91,7 +92,7 @@ def stop() -> None:
 
 
 def take_over() -> None:
-    """Let compiled forms that have arrived run from now on. World.step calls it before it begins."""
+    """Install the compiled forms that have arrived. World.step calls it before it begins."""
     while arrived:
         kernel, keys, form = arrived.popleft()
         wanted.pop((kernel, keys), None)
@@ -100,7 +101,7 @@ def take_over() -> None:
 
 
 def share_taken_over() -> float:
-    """Return how many of the kernels that were called run compiled, 0..1; 1 before any was called."""
+    """Return the share of the called kernels that run compiled, 0..1; 1 before any was called."""
     if not wanted:
         return 1.0
     compiled = sum(len(each.forms) for each in registry)
@@ -108,7 +109,7 @@ def share_taken_over() -> float:
 
 
 def forget() -> None:
-    """Let every kernel begin anew, plain or not: for tests."""
+    """Reset all kernels, for tests."""
     wanted.clear()
     arrived.clear()
     for each in registry:
@@ -117,27 +118,27 @@ def forget() -> None:
 
 
 # ---- calls -----------------------------------------------------------------------------------------------------------
-# Kernels that Python calls: which form runs at a call.
+# Kernels that Python calls, and the form that runs at a call.
 #
 # At its first call a kernel is loaded from disk or compiled. In a program that opted in to tiers it runs as its plain
-# twin, is queued, and its compiled form takes over between two steps; while kernels are collected it runs plain too,
-# and what is not on disk is noted (tiers.py).
+# twin and is queued, and its compiled form takes over between two steps. While kernels are collected it runs plain,
+# too, and is recorded if it is not on disk.
 
 
 class StageKernel(Kernel):
-    """A kernel that a stage calls. Once its compiled form is there, calling it calls that, with nothing between.
+    """A kernel that a stage calls. With a compiled form, calling it calls that form directly.
 
-    Measured: numba takes 1.07 us to look at the types of six tables, and 0.1 for the call; a step of 55 boxes makes 15.
+    Numba takes 1.07 us to inspect the types of six tables, and 0.1 us for the call; a step of 55 boxes makes 15 calls.
     A kernel that is not `generic` is called with the same types each time: a fraction for a whole number is refused,
-    another element size too (by the compiled form), other types under HITBOX_CHECK_CALLS=1.
+    and so is another element size (by the compiled form); other types are refused under HITBOX_CHECK_CALLS=1.
     """
 
     def reset(self) -> None:
-        """Forget which form runs: the next call looks for one."""
+        """Reset the form that runs: the next call looks for one."""
         self.run = self._generic_call if self.is_generic else self._first_call
 
     def install(self, keys: Keys, form: Form) -> None:
-        """Let a compiled form run from the next call with these types on."""
+        """Run a compiled form from the next call with these types on."""
         self.forms[keys] = form
         if self.is_generic:
             return
@@ -150,7 +151,7 @@ class StageKernel(Kernel):
         if form is not None:
             self.install(keys, form)
             return form(*arguments)
-        if (self, keys) in wanted:  # its types are known, and somebody is at it
+        if (self, keys) in wanted:  # its types are known, and a worker compiles it
             self.run = self._timed_plain_call
         return self._timed_plain_call(*arguments)
 
@@ -173,7 +174,7 @@ class StageKernel(Kernel):
 
 
 def _checked(kernel, keys, whole, form):
-    """Return a call of a compiled form that refuses a fraction for a whole number; other types too, if asked for."""
+    """Return a call of a compiled form that refuses a fraction for a whole number, and on demand other types."""
 
     def call(*arguments):
         for place in whole:
@@ -195,14 +196,14 @@ def _refuse_other_types(kernel, keys, arguments):
 
 
 # ---- specs -----------------------------------------------------------------------------------------------------------
-# Kernels by reference, so that another process can find or make the same ones: where the code stands, what it closes
-# over, and the content that must come out.
+# References to kernels by which another process finds or makes the same ones: the place of the code, its closure, and
+# the content that must result.
 
 Spec = tuple[str, str, str, tuple[tuple[bool, Any], ...], dict[str, bool]]
 
 
 def spec_of(kernel: Kernel) -> Spec:
-    """Return what another process needs to find a kernel or to make it: picklable."""
+    """Return a picklable reference by which another process finds or makes a kernel."""
     function = kernel.py_func
     closed = tuple(
         (True, spec_of(cell.cell_contents)) if isinstance(cell.cell_contents, Kernel) else (False, cell.cell_contents)
@@ -219,7 +220,7 @@ def spec_of(kernel: Kernel) -> Spec:
 
 
 def kernel_of(spec: Spec) -> Kernel:
-    """Return the kernel that a spec describes. Raises LookupError where the sources here are others."""
+    """Return the kernel of a spec. Raises LookupError if the sources here differ."""
     module, qualname, content, closed, flags = spec
     importlib.import_module(module)
     for each in registry:
@@ -242,7 +243,7 @@ def _make(module, code, cells, flags):
 
 
 def _codes_of(module, qualname):
-    """Yield the code objects of a qualified name within a module, from the function that holds them inwards."""
+    """Yield the code objects of a qualified name within a module, outermost function first."""
     outer: Any = getattr(importlib.import_module(module), qualname.partition(".")[0], None)
     while hasattr(outer, "__wrapped__"):
         outer = outer.__wrapped__
@@ -255,13 +256,13 @@ def _codes_of(module, qualname):
 
 
 def code_of(kernel: Kernel, known: Container[Kernel]) -> int:
-    """Return how many bytes of code a kernel has with all that it calls, but for those that are known."""
+    """Return the bytes of code of a kernel and of all that it calls, without those that are known."""
     return sum(size for part, size in parts_of(kernel).items() if part not in known)
 
 
 @cache
 def parts_of(kernel: Kernel) -> dict[Kernel, int]:
-    """Return a kernel and all that it calls, whatever the depth, each with the length of its code."""
+    """Return a kernel and all that it calls, at any depth, each with the length of its code."""
     found: dict[Any, int] = {}
     todo = [kernel]
     while todo:

@@ -19,18 +19,18 @@ from physics.jit import tiers
 from physics.jit.store import store
 
 # ---- turns -----------------------------------------------------------------------------------------------------------
-# How a thread beside the program shares the interpreter with it.
+# How a background thread shares the interpreter with the program.
 
-SHARE = 0.2  # of a thread's time in which it imports what nobody waits for
-TURN = 0.0005  # [s] after which a thread of this process lets others go on while kernels are looked for
+SHARE = 0.2  # share of a thread's time in which it imports while kernels run plain
+TURN = 0.0005  # [s] switch interval of the threads of this process while kernels are loaded
 
 
 @contextmanager
 def short_turns() -> Iterator[None]:
-    """While this lasts, the interpreter goes from thread to thread after TURN.
+    """Let the interpreter switch threads after TURN while the context is open.
 
-    The program lets go of it in every call of NumPy's, and would wait for 5 ms each time. Measured: while the compiler
-    is imported, frames of the platformer take 80 ms with that, 55 ms with TURN.
+    The program releases the interpreter in every call of NumPy, and would wait for 5 ms each time. While the compiler
+    is imported, frames of the platformer take 55 ms instead of 80 ms.
     """
     before = sys.getswitchinterval()
     sys.setswitchinterval(TURN)
@@ -41,8 +41,7 @@ def short_turns() -> Iterator[None]:
 
 
 class _Pauses:
-    """A finder of modules that finds none. Before each import in the thread that made it, it sleeps while kernels run
-    plain."""
+    """A module finder that finds no module. It sleeps before each import of its thread while kernels run plain."""
 
     def __init__(self):
         self.thread, self.since = threading.get_ident(), thread_time()
@@ -55,9 +54,9 @@ class _Pauses:
 
 @contextmanager
 def unhurried_imports() -> Iterator[None]:
-    """While this lasts, imports take SHARE of this thread's time, so that a game goes on that runs plain meanwhile.
+    """Let imports take SHARE of the time of this thread while the context is open, so that a plain game goes on.
 
-    Measured: importing the compiler takes 0.7 s of processor time, and a game showed 20 pictures in that second.
+    Importing the compiler takes 0.7 s of processor time; without pauses a game showed 20 frames in that second.
     """
     pauses: Any = _Pauses()
     sys.meta_path.insert(0, pauses)
@@ -68,20 +67,20 @@ def unhurried_imports() -> Iterator[None]:
 
 
 # ---- processes -------------------------------------------------------------------------------------------------------
-# Processes of our own that work beside the program: modules that are told lines, and answer with lines.
+# Worker processes of the program: modules that read orders as lines, and answer with lines.
 
-IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the folder that this module's name begins in
+IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the folder from which this package is imported
 
 
 def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
-    """Start `python -m module` with pipes for lines, of low priority, deaf to Ctrl-C in the terminal.
+    """Start `python -m module` with pipes for lines, at low priority, ignoring Ctrl-C in the terminal.
 
-    module: its full name, as in f"{__package__}.worker". The child imports what this program does, and nothing from the
-    current folder: a `physics.py` or `numpy.py` there is the user's own. environment: more for its own. Raises OSError,
-    ValueError where none can be started.
+    module: its full name, as in f"{__package__}.worker". The child imports from the same places as this program, and
+    not from the current folder, where a `physics.py` or `numpy.py` belongs to the user. environment: additional
+    variables. Raises OSError, ValueError if no process can be started.
     """
-    # A group, not a session: Linux weighs sessions against each other whatever the priority of their processes
-    # (autogroups, man 7 sched), so that one of its own would take as much as the program.
+    # A process group, not a session: Linux weighs sessions against each other whatever the priority of their processes
+    # (autogroups, man 7 sched), so that an own session would take as much time as the program.
     options: dict[str, Any] = {"process_group": 0}
     if sys.platform == "win32":
         options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
@@ -97,14 +96,14 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 
 
 def search_path() -> dict[str, str]:
-    """Return PYTHONPATH for a process that is to find this program where this one does; {} where it does by itself."""
+    """Return PYTHONPATH for a process that imports this program from the same place; {} if it does so by itself."""
     if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
-        return {}  # named again, site-packages would stand before the standard library
+        return {}  # named again, site-packages would come before the standard library
     return {"PYTHONPATH": os.pathsep.join(filter(None, (str(IMPORTED_FROM), os.environ.get("PYTHONPATH"))))}
 
 
 def end_all(processes: Iterable["subprocess.Popen[str]"]) -> None:
-    """Kill them, all before the first is waited for."""
+    """Kill the processes, all of them before the first is waited for."""
     processes = list(processes)
     for process in processes:
         process.kill()
@@ -119,19 +118,19 @@ def end_all(processes: Iterable["subprocess.Popen[str]"]) -> None:
 # ---- workers ---------------------------------------------------------------------------------------------------------
 # Worker processes that compile kernels, and the order in which they do.
 #
-# A worker is told one task at a time, as a line, and answers with a line. It ends with its standard input, so that it
-# never outlives the program. A worker that dies or hangs is replaced; a task on which that happens twice fails. Where
-# one after the other dies without an answer, no more is started, and all tasks fail at once.
+# A worker gets one task at a time, as a line, and answers with a line. It ends with its standard input, so it never
+# outlives the program. A worker that dies or hangs is replaced; a task on which that happens twice fails. If workers
+# die one after the other without an answer, no more are started, and all tasks fail at once.
 
 MOST = 8  # processes: each takes 150 MB
 HUNG = 300.0  # [s] without an answer
 ATTEMPTS = 2
-MARK = "hitbox "  # begins a line that is meant: libraries greet
-DEATHS = 4  # processes that die one after the other without an answer, before no more is started
+MARK = "hitbox "  # first word of an answer: libraries may print other lines
+DEATHS = 4  # processes that may die one after the other without an answer before no more are started
 
 
 def cores_here() -> int:
-    """Return how many cores this program may use."""
+    """Return the number of cores that this program may use."""
     affinity = getattr(os, "sched_getaffinity", None)
     return max(1, len(affinity(0)) if affinity else os.cpu_count() or 1)
 
@@ -147,8 +146,9 @@ def decoded(line: str) -> Any:
 
 
 class Task:
-    """Work for one process. urgency(): the largest goes first; done(answer) is called with it in the worker's thread,
-    None where it failed."""
+    """Work for one process. urgency(): the largest goes first. done(answer) is called in the worker's thread, with None
+    after a failure.
+    """
 
     def __init__(self, order: Any, urgency: Callable[[], float], done: Callable[[Any], object]) -> None:
         self.order, self.urgency, self.done = order, urgency, done
@@ -156,7 +156,7 @@ class Task:
 
 
 class Workers:
-    """A pool of processes of one module. `limit`: how many of them may work now."""
+    """A pool of processes of one module. `limit`: number of them that may work now."""
 
     def __init__(self, module: str, count: int | None = None) -> None:
         self.module = module
@@ -173,7 +173,7 @@ class Workers:
 
     @property
     def limit(self) -> int:
-        """How many processes may work now; one that is at a task finishes it."""
+        """The number of processes that may work now; a process with a task finishes it."""
         return self._limit
 
     @limit.setter
@@ -184,16 +184,16 @@ class Workers:
 
     @property
     def left(self) -> int:
-        """How many tasks are waiting or under way."""
+        """The number of tasks that wait or run."""
         return len(self._tasks) + self._under_way
 
     @property
     def alive(self) -> bool:
-        """Whether there are, or can be, processes."""
+        """True if there are processes, or they can be started."""
         return self.count > 0 and not self._stopped and self._deaths < DEATHS
 
     def add(self, tasks: list[Task]) -> None:
-        """Give tasks; the first ones start the processes."""
+        """Add tasks. The first ones start the processes."""
         with self._changed:
             self._tasks += tasks
             while len(self._threads) < min(self.count, len(self._tasks) + self._under_way):
@@ -203,12 +203,12 @@ class Workers:
             self._changed.notify_all()
 
     def wait(self, seconds: float | None = None) -> bool:
-        """Wait until nothing is left to do; return whether that is so."""
+        """Wait until all tasks are done. Return whether they are."""
         with self._changed:
             return self._changed.wait_for(lambda: not self.left or self._stopped, seconds) and not self.left
 
     def stop(self) -> None:
-        """End all processes. What they have compiled stays."""
+        """End all processes. Compiled kernels stay."""
         with self._changed:
             self._stopped = True
             processes = list(self._processes.values())
@@ -217,7 +217,7 @@ class Workers:
         atexit.unregister(self.stop)
 
     def _serve(self, number):
-        """Hand one task after the other to process `number`, in a thread of its own."""
+        """Pass one task after the other to process `number`, in its own thread."""
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._stopped or (self._tasks and number < self._limit))
@@ -228,7 +228,7 @@ class Workers:
                 self._under_way += 1
             answered, answer = False, None
             if self.alive:
-                with contextlib.suppress(OSError, ValueError):  # no process can be started, or its pipe broke
+                with contextlib.suppress(OSError, ValueError):  # no process can be started, or its pipe is broken
                     answered, answer = self._ask(number, task.order)
                 self._deaths = 0 if answered else self._deaths + 1
             if not answered and not self._stopped:
@@ -238,14 +238,15 @@ class Workers:
                         self._tasks.append(task)
                         self._under_way -= 1
                     continue
-            task.done(answer)  # may add tasks, so before it counts as done
+            task.done(answer)  # may add tasks, so it is called before the task counts as done
             with self._changed:
                 self._under_way -= 1
                 self._changed.notify_all()
 
     def _ask(self, number, order):
-        """Return (whether it answered, its answer); a process that has died or hangs is ended, and the next one started
-        with the next task."""
+        """Return (whether it answered, its answer). A process that has died or hangs is ended, and replaced at the next
+        task.
+        """
         process = self._processes.get(number)
         if process is None or process.poll() is not None:
             process = start_module(self.module, HITBOX_CACHE_DIR=str(store().folder))

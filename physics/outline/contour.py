@@ -8,13 +8,13 @@ import numpy as np
 from physics.jit import kernel, subkernel
 
 # ---- contour ---------------------------------------------------------------------------------------------------------
-# Crack contours: the closed loops between solid and clear pixels of a raster.
+# Crack contours: the closed loops between solid and clear pixels of a raster (crack following).
 #
-# A crack is the side of length 1 between a solid and a clear pixel; a run is a straight row of them. Runs are found for
-# the whole raster at once, chained by the corner where one ends and the next starts, and told in loops. Source:
-# Rosenfeld and Kak 1982, section 11.1 (crack following), here without a scan per step.
+# A crack is the side of length 1 between a solid and a clear pixel. A run is a straight row of cracks. Runs are found
+# for the whole raster at once, linked at the corners where one ends and the next starts, and returned as loops. Source:
+# Rosenfeld and Kak 1982, section 11.1, here without a scan per step.
 #
-# Where two solid pixels touch only diagonally (a pinch) four runs meet and there are two ways to go on:
+# At a pinch two solid pixels touch only diagonally. Four runs meet there, and there are two ways to continue:
 #
 #     joined: the loop passes on both sides      apart: it stays with the pixel
 #       # |                                        # |
@@ -37,12 +37,12 @@ class Contour(NamedTuple):
 
 
 def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
-    """The pieces of solid[row, col] bool, ordered by their topmost (then leftmost) corner.
+    """Return the pieces of solid[row, col] bool, ordered by their topmost (then leftmost) corner.
 
-    Corners are only where the direction changes. joined [px]: 0: pinches are apart: pieces are 4-connected, no loop
-    visits a corner twice, and loops meet at most in pinches. Otherwise a pinch is joined unless two of its runs, one
-    of either direction, are both that long: the pieces are 8-connected through it and a loop may pass it twice.
-    Linear in pixels (vectorised) and corners.
+    Corners are only where the direction changes. joined [px] 0: pinches are apart. Then pieces are 4-connected, no loop
+    visits a corner twice, and loops touch at most in pinches. Otherwise a pinch is joined unless two of its runs, one
+    of either direction, have at least this length. Then the pieces are 8-connected through it and a loop may pass it
+    twice. Linear in pixels (vectorised) and corners.
     """
     runs = _Runs(np.ascontiguousarray(solid, dtype=bool), joined)
     outers, holes = [], []
@@ -54,7 +54,7 @@ def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
     for loop, points in outers:
         piece_of[loop] = len(pieces)
         pieces.append(Contour(Loop(points, runs.joined[loop]), []))
-    # What bounds the solid left of a hole belongs to the hole's piece: the outer loop, or a hole further left.
+    # The solid left of a hole is bounded on its left by the piece's outer loop, or by a hole further left.
     holes.sort(key=lambda each: each[1][:, 0].min())
     for loop, points in holes:
         piece = piece_of[runs.left_of(points)]
@@ -66,7 +66,7 @@ def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
 
 
 def doubled_area(points: np.ndarray) -> float:
-    """Twice the signed area of a loop (n, 2): positive when it is clockwise on the screen."""
+    """Return twice the signed area of a loop (n, 2): positive for a loop that is clockwise on the screen."""
     x, y = points[:, 0], points[:, 1]
     return (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
 
@@ -76,13 +76,13 @@ def _first(points):
 
 
 class _Runs:
-    """All runs of a raster: the horizontal ones first, then the vertical; corner k is where run k starts."""
+    """All runs of a raster: the horizontal ones first, then the vertical; corner k is the start of run k."""
 
     def __init__(self, solid, joined):
         height, width = solid.shape
         padded = np.zeros((height + 2, width + 2), np.int8)
         padded[1:-1, 1:-1] = solid
-        # +1: solid below, goes right. -1: solid above, goes left. One column more, so that no run leaves its row.
+        # +1: solid below, goes right. -1: solid above, goes left. One extra column, so that no run leaves its row.
         lines, starts, ends, signs = _runs_of(padded[1:, 1:] - padded[:-1, 1:])
         first = np.where(signs > 0, starts, ends)
         last = np.where(signs > 0, ends, starts)
@@ -100,7 +100,7 @@ class _Runs:
         self._follow(stops, np.concatenate([signs, falls]), np.concatenate([ends - starts, bottoms - tops]), joined)
 
     def _follow(self, stops, signs, lengths, joined):
-        """Which run goes on where each ends. Each corner has one horizontal and one vertical run, a pinch two."""
+        """Link each run to the run that follows. Each corner has one horizontal and one vertical run, a pinch two."""
         count = self.horizontal
         wide = max(int(self.corners[:, 0].max(initial=0)), 0) + 1
         start, stop = self.corners[:, 1] * wide + self.corners[:, 0], stops[:, 1] * wide + stops[:, 0]
@@ -118,7 +118,7 @@ class _Runs:
         apart = pinches if joined == 0 else pinches[longest.min(axis=0) >= joined]
         self.apart = np.isin(start, apart)
         self.joined = np.isin(start, pinches) & ~self.apart
-        # Clockwise on the screen: right goes on down, down left; apart at a pinch, so turned to the right.
+        # Clockwise on the screen: right is followed by down, down by left. At a pinch that is apart, turn right.
         for rows, others, turn in ((slice(0, count), slice(count, None), 1), (slice(count, None), slice(0, count), -1)):
             keys = start[others] * 2 + (signs[others] > 0)
             order = np.argsort(keys, kind="stable")
@@ -131,7 +131,7 @@ class _Runs:
             self.next[rows] = (order[at] if len(keys) else at) + (others.start or 0)
 
     def loops(self):
-        """Rows of runs, loop by loop; cut where a loop visits a pinch that is apart twice."""
+        """Yield the rows of runs, loop by loop. A loop that visits an apart pinch twice is split there."""
         following, apart, unseen = self.next.tolist(), self.apart.tolist(), bytearray(b"\1") * len(self.next)
         places = self.corners
         for begin in range(self.horizontal):
@@ -152,7 +152,7 @@ class _Runs:
                 yield np.array(loop)
 
     def left_of(self, points):
-        """The run on the other side of the solid pixels left of a hole."""
+        """Return the run on the other side of the solid pixels left of a hole."""
         k = int(points[:, 0].argmin())
         # At the hole's leftmost column one of the two runs at that corner is vertical.
         x, y = points[k].tolist()
@@ -163,7 +163,7 @@ class _Runs:
 
 
 def _runs_of(cracks):
-    """(line, start, end, sign) of each straight row of equal cracks (-1, 1) in cracks[line, place]."""
+    """Return (line, start, end, sign) of each straight row of equal cracks (-1, 1) in cracks[line, place]."""
     before = np.zeros((cracks.shape[0], cracks.shape[1] + 1), np.int8)
     before[:, 1:] = cracks
     after = np.zeros_like(before)
@@ -175,11 +175,11 @@ def _runs_of(cracks):
 
 
 # ---- cracks ----------------------------------------------------------------------------------------------------------
-# Following cracks, the sides between solid and clear pixels, from any place on and back.
+# Crack following from any place, forwards and backwards.
 #
-# A corner (x, y) of the pixel grid has four pixels around it, its quadrants, counted clockwise on the screen from the
-# one right below it; a crack leaves it to the right, down, left or up, in the same order. Paths have the solid to their
-# right hand: of a crack that leaves in direction d, quadrant d is solid and quadrant d - 1 is clear.
+# A corner (x, y) of the pixel grid has four pixels around it, its quadrants, numbered clockwise on the screen from the
+# lower right one. A crack leaves it to the right, down, left or up, in the same order. Paths have the solid on their
+# right: for a crack that leaves in direction d, quadrant d is solid and quadrant d - 1 is clear.
 #
 #         2 | 3        3
 #        ---+---     2 + 0
@@ -188,16 +188,16 @@ def _runs_of(cracks):
 #
 # Source: Rosenfeld and Kak 1982, section 11.1.
 
-SHARP = 3  # [px] a corner between two runs of at least this length stays
+SHARP = 3  # [px] a corner between two runs of at least this length is fixed
 
 RUN = np.dtype(
     [  # a straight row of cracks
-        ("x", np.int64),  # where it starts
+        ("x", np.int64),  # its start
         ("y", np.int64),
         ("direction", np.int64),
         ("length", np.int64),  # [cracks]
-        ("at", np.int64),  # cracks of the path before it
-        ("joined", np.bool_),  # it starts at a pinch, on whose other side the path passes again
+        ("at", np.int64),  # number of cracks of the path before it
+        ("joined", np.bool_),  # starts at a joined pinch, which the path passes twice
     ],
     align=True,
 )
@@ -207,34 +207,34 @@ class Window(NamedTuple):
     """The pixels of a tile and of its surroundings."""
 
     pixels: np.ndarray  # [row, col] uint8, not 0: solid
-    low: int  # row and column where the tile begins, and …
-    high: int  # … where it ends
-    reach: float  # [px] how far lines may leave cracks
-    joins: bool  # whether a path may pass between pixels that touch diagonally
+    low: int  # first row and column of the tile, and …
+    high: int  # … the end of them, exclusive
+    reach: float  # [px] largest distance of lines from cracks
+    joins: bool  # whether a path may pass between diagonal pixels
 
 
 @subkernel
 def right_of(direction):
-    """How far a crack goes to the right: -1, 0 or 1."""
+    """Return the x component of a direction: -1, 0 or 1."""
     return (1 if direction == 0 else 0) - (1 if direction == 2 else 0)
 
 
 @subkernel
 def down_of(direction):
-    """How far a crack goes down: -1, 0 or 1."""
+    """Return the y component of a direction: -1, 0 or 1."""
     return (1 if direction == 1 else 0) - (1 if direction == 3 else 0)
 
 
 @subkernel
 def is_solid(pixels, x, y, quadrant):
-    """Whether the pixel in a quadrant of a corner is solid."""
+    """Return whether the pixel in a quadrant of a corner is solid."""
     q = quadrant & 3
     return pixels[y - (1 if q >= 2 else 0), x - (1 if q == 1 or q == 2 else 0)] != 0
 
 
 @subkernel
 def is_own(window, x, y, quadrant):
-    """Whether the pixel in a quadrant of a corner belongs to the tile."""
+    """Return whether the pixel in a quadrant of a corner belongs to the tile."""
     q = quadrant & 3
     column = x - (1 if q == 1 or q == 2 else 0)
     row = y - (1 if q >= 2 else 0)
@@ -243,7 +243,7 @@ def is_own(window, x, y, quadrant):
 
 @subkernel
 def length_from(pixels, x, y, direction):
-    """Cracks in a straight row from a corner, counted up to SHARP; the first one is known to be there."""
+    """Return the number of cracks in a straight row from a corner, up to SHARP; the first one must exist."""
     right = is_solid(pixels, x, y, direction)
     count = 1
     while count < SHARP:
@@ -257,8 +257,11 @@ def length_from(pixels, x, y, direction):
 
 @subkernel
 def is_joined(window, x, y):
-    """Whether paths pass between the two solid pixels of a pinch: not where a corner between long runs stays, and not
-    on a border of tiles, where each side would see another one."""
+    """Return whether paths pass between the two solid pixels of a pinch.
+
+    They do not where a corner between long runs is fixed. They do not on a border of tiles either, where the two tiles
+    would see different paths.
+    """
     if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
         return False
     level = max(length_from(window.pixels, x, y, 0), length_from(window.pixels, x, y, 2))
@@ -268,7 +271,7 @@ def is_joined(window, x, y):
 
 @subkernel
 def onward(window, x, y, direction):
-    """The direction in which a path goes on that arrives at a corner in a direction."""
+    """Return the direction in which a path leaves a corner at which it arrives in a direction."""
     if not is_solid(window.pixels, x, y, direction):
         if is_solid(window.pixels, x, y, direction + 3) and is_joined(window, x, y):
             return (direction + 3) & 3
@@ -278,7 +281,7 @@ def onward(window, x, y, direction):
 
 @subkernel
 def backward(window, x, y, direction):
-    """The direction in which a path arrives at a corner that leaves it in a direction."""
+    """Return the direction in which a path arrives at a corner that it leaves in a direction."""
     if not is_solid(window.pixels, x, y, direction + 1):
         if is_solid(window.pixels, x, y, direction + 2) and is_joined(window, x, y):
             return (direction + 1) & 3
@@ -288,7 +291,7 @@ def backward(window, x, y, direction):
 
 @subkernel
 def walked_back(window, x, y, direction, cracks):
-    """(x, y, direction) of the path so many cracks before the one that leaves a corner in a direction."""
+    """Return (x, y, direction) of the path `cracks` cracks before the one that leaves a corner in a direction."""
     for _ in range(cracks):
         direction = backward(window, x, y, direction)
         x -= right_of(direction)
@@ -298,9 +301,9 @@ def walked_back(window, x, y, direction, cracks):
 
 @subkernel
 def follow(window, x, y, direction, marks_inout):
-    """Cracks of the path that belong to the tile's pixels, from one on; all of a loop.
+    """Return the number of cracks of the path within the tile, from one on; of a loop the number of all.
 
-    marks_inout: [row, col] uint8: set for each whose solid pixel lies below it.
+    marks_inout: [row, col] uint8, set for each crack whose solid pixel lies below it.
     """
     first_x = x
     first_y = y
@@ -320,7 +323,7 @@ def follow(window, x, y, direction, marks_inout):
 
 @subkernel
 def record(window, x, y, direction, cracks, runs_out):
-    """Write the runs (RUN) of so many cracks of a path. Returns how many runs."""
+    """Write the runs (RUN) of the next `cracks` cracks of a path. Returns the number of runs."""
     count = -1
     turned = True
     joined = False
@@ -345,19 +348,19 @@ def record(window, x, y, direction, cracks, runs_out):
 
 
 # ---- straight lines --------------------------------------------------------------------------------------------------
-# The cheapest straight lines along a path of cracks: what fitting.outline tells, for kernels.
+# Least-cost straight lines along a path of cracks: the kernels of `outline`.
 
-AREA_PRICE = 0.25  # [corners / px2] what area a line adds or takes counts beside a corner
+AREA_PRICE = 0.25  # [corners / px2] weight of the area that a line adds or removes, relative to a corner
 
 PLACE = np.dtype(
-    [  # where an outline may have corners along a path
+    [  # a candidate for a corner of the outline along a path
         ("x", np.float64),
         ("y", np.float64),
-        ("right", np.int64),  # where the path goes on from it
+        ("right", np.int64),  # direction of the path from it
         ("down", np.int64),
         ("corner", np.bool_),  # the path turns here
         ("allowed", np.bool_),  # a line may end here
-        ("anchor", np.bool_),  # none may pass
+        ("anchor", np.bool_),  # no line may pass it
         ("swept", np.float64),  # [px2] twice the area between the path so far and the origin
         ("cost", np.float64),
         ("previous", np.int64),
@@ -368,13 +371,13 @@ PLACE = np.dtype(
 
 @subkernel
 def try_lines(start, last, reach, places_inout):
-    """Lower the costs of places up to a last one that a line from the start may end at (O'Rourke 1981)."""
+    """Lower the costs of the places up to `last` that a line from `start` can reach (O'Rourke 1981)."""
     begin = places_inout[start]
     x = begin.x
     y = begin.y
     along_x = begin.right
     along_y = begin.down
-    least = 0.0  # of dy / (dx + dy), both along the path
+    least = 0.0  # bounds of dy / (dx + dy), both along the path
     most = 1.0
     bent = False
     for at in range(start, last):
@@ -407,9 +410,9 @@ def try_lines(start, last, reach, places_inout):
 
 @subkernel
 def cheapest(first, last, reach, places_inout, chain_out):
-    """Places (rows of PLACE, backward: last to first) that the cheapest lines from first to last have their ends at.
+    """Write the places (rows of PLACE, last to first) where the least-cost lines from first to last end.
 
-    reach [px]: as in fitting.outline. Returns how many; 0: no lines lead there. O(places * places of a line).
+    reach [px]: as in outline. Returns their number; 0: no lines reach the last place. O(places * places of a line).
     """
     for k in range(first, last + 1):
         places_inout[k].cost = math.inf
@@ -429,14 +432,15 @@ def cheapest(first, last, reach, places_inout, chain_out):
 
 @subkernel
 def cheapest_loop(around, anchor, reach, places_inout, chain_out):
-    """The same round a loop, whose places stand there twice: so many, and so many again, and the first one.
+    """Write the same for a loop, whose places are listed twice, followed by the first one again.
 
-    anchor: the first of those that none may pass, -1: there is none. Returns (how many, where the loop starts).
+    around: number of places of the loop; anchor: the first that no line may pass, -1: none. Returns (number, start of
+    the loop).
     """
     begin = anchor
     if anchor < 0:
-        # A best polygon may not pass through the first start, but then misses it by one corner at most; the next
-        # start is a corner far from it.
+        # The best polygon may not pass through the first start, but then the result has at most one corner more. The
+        # next start is a corner far from it.
         begin = 1
         for _ in range(2):
             found = cheapest(begin, begin + around, reach, places_inout, chain_out)
@@ -447,27 +451,29 @@ def cheapest_loop(around, anchor, reach, places_inout, chain_out):
 
 @kernel
 def lines_of_loop(around, anchor, reach, places_inout, chain_out):
-    """cheapest_loop, for whoever makes the places (PLACE) elsewhere. Returns how many."""
+    """Write cheapest_loop for places (PLACE) made outside a kernel. Returns the number of places."""
     count, _ = cheapest_loop(around, anchor, reach, places_inout, chain_out)
     return count
 
 
 # ---- outline ---------------------------------------------------------------------------------------------------------
-# A smooth outline of pixels: staircases become straight lines, everything else stays where it is.
+# Smooth outline of pixels: staircases become straight lines, all else is unchanged.
 #
-# A line may replace a stretch of a crack loop that goes in at most one horizontal and one vertical direction, a
-# staircase, when for each corner c within it
+# A line may replace a stretch of a crack loop with at most one horizontal and one vertical direction, a staircase, if
+# for each corner c within it
 #
 #     |cross(d, c - start)| <= reach * (|dx| + |dy|)        with reach = min(smooth, just under 0.5)
 #
-# This one inequality is all of the contract. Between two legs that meet at c the line is at most `reach` from the
-# nearer leg, and c at most sqrt(2) * reach <= smooth + 0.21 from the line; a pixel's centre lies (0.5, 0.5) from a
-# corner, so at less than 0.5 every solid centre stays inside and every clear one outside. A line that parts the same
-# centres as its cracks never crosses another one that does: outlines are simple and pieces never meet but in pinches.
-# For a fixed start the inequality bounds the direction to an interval, so lines are found in one walk (as in O'Rourke
-# 1981, "An on-line algorithm for fitting straight lines between data ranges"), and the fewest by dynamic programming.
+# This inequality is the whole contract. Between two legs that meet at c, the line is at most `reach` from the nearer
+# leg, and c at most sqrt(2) * reach <= smooth + 0.21 from the line. A pixel's centre lies (0.5, 0.5) from a corner, so
+# below 0.5 every solid centre stays inside and every clear one outside. Lines that separate the same centres as their
+# cracks never cross each other: outlines are simple, and pieces touch only in pinches.
+#
+# For a fixed start the inequality bounds the direction to an interval, so lines are found in one pass (as in O'Rourke
+# 1981, "An on-line algorithm for fitting straight lines between data ranges"). The fewest lines are found by dynamic
+# programming.
 
-LARGEST_REACH = 0.5 - 2.0**-20  # [px] less than from a crack to a pixel's centre: that one is never reached
+LARGEST_REACH = 0.5 - 2.0**-20  # [px] less than the distance from a crack to a pixel's centre
 JOINING = 0.25  # [px] from this smoothing on a line can pass a pinch, so that pieces are 8-connected
 
 
@@ -479,54 +485,58 @@ class Outline(NamedTuple):
 
 
 def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
-    """The pieces of solid[row, col] bool, in straight lines; in the order of fitting.contour.
+    """Return the outlines of the pieces of solid[row, col] bool in straight lines, in the order of contours.
 
-    smooth [px] >= 0: each point of an outline is within it of the pixels' edges, each point of those within
-    smooth + 0.21 of the outline; 0: the edges themselves. Solid pixels' centres are inside, clear ones' outside.
-    A corner between straight runs of 3 px and more stays, so do all of a rectangle. Pieces are 8-connected where the
-    outline can pass between two pixels that touch diagonally: not at such a corner, nor when smooth < 0.25.
-    Near the fewest corners that can be had on corners and middles of runs. O(corners * corners per line).
+    smooth [px] >= 0: each point of an outline is within it of the pixels' edges, and each point of those within smooth
+    + 0.21 of the outline; 0: the edges themselves. Solid pixels' centres are inside, clear ones' outside. A corner
+    between straight runs of 3 px and more is kept, as are all corners of a rectangle. Pieces are 8-connected where the
+    outline can pass between two diagonal pixels: not at such a corner, nor for smooth < 0.25. The number of corners is
+    near the least possible on corners and middles of runs. O(corners * corners per line).
     """
     return [smoothed_piece(piece, smooth) for piece in pieces_of(solid, smooth)]
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """The crack loops that outlines are made from, with their pinches joined where a line can pass."""
+    """Return the crack loops of outlines, with pinches joined where a line can pass."""
     return contours(solid, SHARP if smooth >= JOINING else 0)
 
 
 def smoothed_piece(piece: Contour, smooth: float) -> Outline:
-    """The outline of one piece."""
+    """Return the outline of one piece."""
     reach = min(smooth, LARGEST_REACH)
     return Outline(smoothed(piece.outer, reach), [smoothed(hole, reach) for hole in piece.holes])
 
 
 def smoothed(loop: Loop, reach: float) -> np.ndarray:
-    """Corners (n, 2) float64 of a crack loop in straight lines; reach [px] as above."""
+    """Return the corners (n, 2) float64 of a crack loop in straight lines; reach [px] as above."""
     if reach <= 0.0:
         return loop.corners.astype(float)
     places, anchor = _places(loop)
     chain = np.empty(len(places), np.int64)
     count = lines_of_loop(len(places) // 2, anchor, reach, places, chain)
-    around = np.sort(chain[1:count] % (len(places) // 2))  # the first and the last are one
+    around = np.sort(chain[1:count] % (len(places) // 2))  # the first and the last are the same place
     points = np.stack([places["x"][around], places["y"][around]], axis=1)
     before, after = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
     return points[before[:, 0] * after[:, 1] != before[:, 1] * after[:, 0]]
 
 
 def sharp(loop: Loop) -> np.ndarray:
-    """(n,) bool: which corners of a crack loop stay: those between runs of 3 px and more, and those of rectangles."""
+    """Return the fixed corners of a crack loop, (n,) bool: those between runs of 3 px and more, and of rectangles."""
     runs = np.roll(loop.corners, -1, axis=0) - loop.corners
     lengths, signs = np.abs(runs).sum(axis=1), np.sign(runs)
     before = np.roll(signs, 1, axis=0)
     turns = before[:, 0] * signs[:, 1] - before[:, 1] * signs[:, 0]
-    cap = turns == np.roll(turns, -1)  # a run whose ends turn to the same side is no part of a staircase
+    cap = turns == np.roll(turns, -1)  # a run whose ends turn to the same side does not belong to a staircase
     return ((np.minimum(lengths, np.roll(lengths, 1)) >= SHARP) | (cap & np.roll(cap, 1))) & ~loop.joined
 
 
 def _places(loop):
-    """Where an outline may have corners along a crack loop: at its own but joined pinches, in the middle of each run
-    and half a pixel from its ends. Twice round and the first again (PLACE), and the first that stays; -1: none does."""
+    """Return the candidate corners (PLACE) of an outline along a crack loop, and the index of the first fixed one or
+    -1.
+
+    Candidates are the loop's corners other than joined pinches, the middle of each run, and half a pixel from its ends.
+    They are listed twice, followed by the first one again.
+    """
     corners = loop.corners
     runs = np.roll(corners, -1, axis=0) - corners
     lengths = np.abs(runs).sum(axis=1)

@@ -12,37 +12,39 @@ from physics.outline.contour import doubled_area
 from physics.settings import MAX_CORNERS
 
 # ---- sight -----------------------------------------------------------------------------------------------------------
-# Which corners of a ring see each other: between them a ring can be cut.
+# Visibility of the corners of a ring: a ring can be cut between corners that see each other.
 #
-# Rings go clockwise on the screen, the inside to the right. Along a bridge to a hole they pass the same points twice,
-# once on either side; the two copies see to different sides, which the cones at the corners tell apart.
+# Rings are clockwise on the screen, with the inside to the right. Along a bridge to a hole a ring passes the same
+# points twice, once on either side. The two copies see different sides, which the cones at the corners distinguish.
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Of vectors (..., 2): positive when b is clockwise of a on the screen."""
+    """Return the cross product of vectors (..., 2): positive if b is clockwise of a on the screen."""
     return a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0]
 
 
 class Walls:
-    """Sides from corners (n, 2) to following (n, 2) [px]; flat [px2]: doubled triangle areas that count as none."""
+    """Sides from corners (n, 2) to following (n, 2) [px]; flat [px2]: largest doubled triangle area taken as zero."""
 
     def __init__(self, corners: np.ndarray, following: np.ndarray, flat: float) -> None:
         self.corners, self.following, self.flat = corners, following, flat
         self.after = following - corners
 
     def near(self, low: np.ndarray, high: np.ndarray) -> "Walls":
-        """Those whose bounds meet a box."""
+        """Return the sides whose bounds meet a box."""
         meet = (np.minimum(self.corners, self.following) <= high) & (np.maximum(self.corners, self.following) >= low)
         meet = meet.all(axis=1)
         return Walls(self.corners[meet], self.following[meet], self.flat)
 
     def free(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Whether the lines from points a (m, 2) to b (m, 2) cross no side and pass no corner between their ends."""
+        """Return whether the lines from points a (m, 2) to b (m, 2) cross no side and pass no corner between their
+        ends.
+        """
         crossed, passed = self.obstacles(a, b)
         return ~crossed & ~passed.any(axis=1)
 
     def obstacles(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Of lines as in free: (m,) whether they cross a side, and (m, n) which corners they pass."""
+        """Return for lines as in free: (m,) whether they cross a side, and (m, n) which corners they pass."""
         along = (b - a)[:, None]
         to = self.corners - a[:, None]
         side, side_after = cross(along, to), cross(along, self.following - a[:, None])
@@ -56,7 +58,7 @@ class Walls:
 
 
 class Ring(Walls):
-    """A closed ring of corners (n, 2) [px], and to which sides of each the inside is."""
+    """A closed ring of corners (n, 2) [px], with the direction of its inside at each corner."""
 
     def __init__(self, corners: np.ndarray, flat: float) -> None:
         super().__init__(corners, np.roll(corners, -1, axis=0), flat)
@@ -66,15 +68,19 @@ class Ring(Walls):
         self.convex = turn > flat
 
     def faces(self, k: np.ndarray, toward: np.ndarray, closed: bool) -> np.ndarray:
-        """Whether corners k (m,) have the inside of the ring in the direction toward (m, 2); closed: or a side."""
+        """Return whether corners k (m,) have the inside of the ring in the direction toward (m, 2); closed: or
+        a side.
+        """
         low = self.flat if not closed else -self.flat
         from_after, to_back = cross(self.after[k], toward), cross(toward, self.back[k])
         within = np.where(self.reflex[k], (from_after > low) | (to_back > low), (from_after > low) & (to_back > low))
         return np.where(~self.reflex[k] & ~self.convex[k], from_after > low, within)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """(n, n) bool twice: which corners can be joined by a cut; and which by a line inside that may also run
-        along sides and pass corners. O(n^3), vectorised."""
+        """Return two (n, n) bool matrices: pairs of corners that a cut can join, and pairs that a line inside can join.
+
+        Such a line may also run along sides and pass corners. O(n^3), vectorised.
+        """
         count = len(self.corners)
         i, j = np.triu_indices(count, 2)
         toward = self.corners[j] - self.corners[i]
@@ -98,18 +104,18 @@ class Ring(Walls):
 
 
 # ---- bridges ---------------------------------------------------------------------------------------------------------
-# Holes joined to the outer loop: bridges there and back, and the rings around what is left.
+# Holes joined to the outer loop by bridges, which are passed there and back, and the resulting rings.
 
-TRIED_LINES = 16  # lines that are tested at once, shortest first
+TRIED_LINES = 16  # number of lines tested at once, shortest first
 
 
 def bridged(points: np.ndarray, loops: Sequence[np.ndarray], flat: float) -> list[np.ndarray]:
-    """Rings without holes (numbers of points, clockwise on the screen) of an outer loop and its holes.
+    """Return rings without holes (indices of points, clockwise on the screen) for an outer loop and its holes.
 
-    points (n, 2) [px], no two alike; loops: numbers of points, the outer one clockwise on the screen, holes the other
-    way; they may touch in common points. Each hole, or group of holes that touch, is joined to what is left of it by
-    the shortest line inside, which becomes a side of the rings twice, there and back. flat [px2]: doubled areas that
-    count as none.
+    points (n, 2) [px], all distinct; loops: indices of points, the outer one clockwise on the screen, holes
+    counter-clockwise; they may touch in common points. Each hole, or group of touching holes, is joined by the shortest
+    line inside, which becomes a side of the rings twice, there and back. flat [px2]: largest doubled area taken as
+    zero.
     """
     if len(loops) == 1:
         return [loops[0]]
@@ -126,7 +132,7 @@ class _Bridges:
         self.walls = [Ring(points[loop], flat) for loop in loops]
         self.sides = [np.concatenate([wall.corners for wall in self.walls])]
         self.sides.append(np.concatenate([wall.following for wall in self.walls]))
-        self.corners = defaultdict(list)  # number of a point -> (loop, place in it)
+        self.corners = defaultdict(list)  # index of a point -> (loop, place in it)
         for number, loop in enumerate(loops):
             for place, point in enumerate(loop.tolist()):
                 self.corners[point].append((number, place))
@@ -134,7 +140,7 @@ class _Bridges:
         for at in self.corners.values():
             for number, _ in at[1:]:
                 self._join(at[0][0], number)
-        self.lines = []  # bridges: pairs of numbers of points
+        self.lines = []  # bridges: pairs of point indices
 
     def _join(self, a, b):
         a, b = sorted((self.group[a], self.group[b]))
@@ -144,7 +150,7 @@ class _Bridges:
         return any(self.group)
 
     def bridge(self):
-        """Joins the leftmost group of holes to the outer loop's: nothing can stand between them."""
+        """Join the leftmost group of holes to the outer loop's group: no other hole can lie between them."""
         apart = [k for k, group in enumerate(self.group) if group]
         first = self.group[min(apart, key=lambda k: self.walls[k].corners[:, 0].min())]
         these = np.unique(np.concatenate([self.loops[k] for k in apart if self.group[k] == first]))
@@ -192,7 +198,7 @@ class _Bridges:
         return found
 
     def _onward(self, a, b, ways):
-        """Of the sides that leave b the next around the inside, for who comes from a."""
+        """Return the next side around the inside, of those that leave b, after the side from a."""
         if len(ways) == 1:
             return ways[0]
         x, y = (self.points[a] - self.points[b]).tolist()
@@ -205,19 +211,19 @@ class _Bridges:
 
 
 # ---- simple polygon --------------------------------------------------------------------------------------------------
-# What a polygon with holes must be before it is cut: simple, its holes inside, no two edges that meet.
+# Validation of a polygon with holes: it must be simple, with holes inside, and no two edges may meet.
 
-FLAT = 1e-14  # of the polygon's size squared: a doubled triangle area that is nothing but rounding
-ROWS = 256  # edges that are compared with all others at a time: bounds the memory
+FLAT = 1e-14  # of the polygon's size squared: doubled triangle areas up to this are rounding errors
+ROWS = 256  # edges compared with all others at a time: bounds the memory
 
 
 def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """The outer ring (n, 2), clockwise on the screen, and the holes, the other way, without repeated corners in a row
-    and without corners in a straight line.
+    """Return the outer ring (n, 2), clockwise on the screen, and the holes, counter-clockwise, without redundant
+    corners.
 
-    Rings may come in either winding. Holes may touch the outer ring and each other in common corners. Raises
-    ValueError for fewer than three corners or no area, for edges that meet (naming both), and for a hole that is not
-    inside.
+    Repeated and collinear corners are removed. Rings may be given in either winding. Holes may touch the outer ring and
+    each other in common corners. Raises ValueError for fewer than three corners or no area, for edges that meet (naming
+    both), and for a hole that is not inside.
     """
     rings = [np.asarray(each, float) for each in (outer, *holes)]
     for number, ring in enumerate(rings):
@@ -245,13 +251,13 @@ def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndar
 
 
 def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
-    """A ring (n, 2) without repeated corners in a row and without corners in a straight line [flat: px2, doubled]."""
+    """Return a ring (n, 2) without repeated and collinear corners [flat: px2, doubled]."""
     while len(ring) > 2:
         before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
         straight = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]) <= flat
         if not straight.any():
             break
-        # Of neighbours only every second goes at a time: of two that repeat each other one stays.
+        # Of adjacent corners only every second is removed at a time: of two equal ones one stays.
         straight[1:] &= ~straight[:-1]
         straight[-1] &= ~straight[0]
         ring = ring[~straight]
@@ -259,7 +265,7 @@ def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
 
 
 def crossings(points: np.ndarray, ring: np.ndarray) -> np.ndarray:
-    """How often a ray to the right from each point (m, 2) crosses a ring (n, 2): odd inside."""
+    """Return how often a ray to the right from each point (m, 2) crosses a ring (n, 2): odd inside."""
     following = np.roll(ring, -1, axis=0)
     x, y = points[:, :1], points[:, 1:]
     spans = (ring[:, 1] > y) != (following[:, 1] > y)
@@ -273,7 +279,7 @@ def _name(number):
 
 
 class _Edges:
-    """All edges of some rings, those without length left out."""
+    """All edges of some rings, except those without length."""
 
     def __init__(self, rings):
         self.size = max(float(np.ptp(np.concatenate(rings), axis=0).max()), 1e-300)
@@ -285,7 +291,7 @@ class _Edges:
         self.ring, self.number, self.start, self.end = (
             each[long] for each in (self.ring, self.number, self.start, self.end)
         )
-        self.before = np.empty(len(self.ring), np.int64)  # the edge that ends where this one begins
+        self.before = np.empty(len(self.ring), np.int64)  # the edge that ends at the start of this one
         for ring in range(len(rings)):
             rows = np.flatnonzero(self.ring == ring)
             self.before[rows] = np.roll(rows, 1)
@@ -314,7 +320,7 @@ class _Edges:
         return f"{tuple(self.start[edge].tolist())} to {tuple(self.end[edge].tolist())}"
 
     def _meet(self, a, b):
-        """Whether edges a and b have a point in common that they may not: rows of edges, a < b."""
+        """Return whether edges a and b (rows of edges, a < b) meet in a point that is no allowed common corner."""
         flat = FLAT * self.size**2
         p, q, r, s = self.start[a], self.end[a], self.start[b], self.end[b]
         sides = [_cross(q - p, r - p), _cross(q - p, s - p), _cross(s - r, p - r), _cross(s - r, q - r)]
@@ -339,21 +345,21 @@ def _cross(a, b):
 
 
 # ---- fewest convex ---------------------------------------------------------------------------------------------------
-# The fewest convex pieces of a small ring, cut between its corners.
+# Minimum convex decomposition of a small ring, cut between its corners.
 #
-# Source: Keil 1985, in the form of Keil and Snoeyink 2002 ("narrowest pairs"), over all corners that see each other in
-# place of the reflex ones only.
+# Source: Keil 1985, in the form of Keil and Snoeyink 2002 ("narrowest pairs"), over all pairs of corners that see each
+# other instead of the pairs with a reflex corner.
 #
-# For each line (i, k) inside, the part of the ring from i to k beyond it needs a number of cuts. The piece that lies
-# against the line begins with a side i -> a and ends with b -> k:
+# For each line (i, k) inside, the minimum number of cuts is computed for the part of the ring from i to k beyond it.
+# The piece adjacent to the line begins with a side i -> a and ends with b -> k:
 #
 #         b--- ...          Pieces grow in a fan from i: the last triangle is (i, j, k). The line (j, k) is a side of
-# the        / \                ring or a cut, the line (i, j) is crossed when the piece beyond it is convex at j and i,
-# and       k---i --- a         else a cut. Of pieces with as few cuts the narrower are better: a late, b early.
+#        / \                the ring or a cut. The line (i, j) is crossed if the piece beyond it is convex at j and i,
+#       k---i --- a         else it is a cut. Of pieces with as few cuts the narrower are better: a late, b early.
 
 
 class _End(NamedTuple):
-    """A best piece against a line: first corner after i, last before k, and the piece it grew from (None: a cut)."""
+    """A best piece at a line: first corner after i, last before k, and the piece it grew from (None: a cut)."""
 
     first: int
     last: int
@@ -361,9 +367,9 @@ class _End(NamedTuple):
 
 
 def fewest_convex(corners: np.ndarray, flat: float) -> list[list[int]]:
-    """Rows of the corners of each piece, clockwise on the screen, of a ring (n, 2) [px].
+    """Return the corner indices of each piece, clockwise on the screen, of a ring (n, 2) [px].
 
-    flat [px2]: doubled triangle areas that count as none. Pieces may have corners in a straight line. O(n^3).
+    flat [px2]: largest doubled triangle area taken as zero. Pieces may have collinear corners. O(n^3).
     """
     return _Search(Ring(corners, flat)).pieces()
 
@@ -388,7 +394,7 @@ class _Search:
                     self._best(i, i + gap, [j for j in after[i] if j < i + gap])
 
     def _turn(self, a, b, c):
-        """Whether the way a -> b -> c turns clockwise on the screen or goes straight on."""
+        """Return whether the path a -> b -> c turns clockwise on the screen or is straight."""
         x, y = self.x, self.y
         return (x[b] - x[a]) * (y[c] - y[b]) - (y[b] - y[a]) * (x[c] - x[b]) >= -self.flat
 
@@ -438,13 +444,15 @@ class _Search:
 
 
 # ---- shave -----------------------------------------------------------------------------------------------------------
-# Rings with fewer corners: bumps and notches that are shallower than a tolerance go, shallowest first.
+# Simplification of rings: bumps and notches below a tolerance are removed, shallowest first.
 
 
 def shaved(rings: Sequence[np.ndarray], tolerance: float) -> list[np.ndarray]:
-    """Simple rings (n, 2) [px] again, of corners of the given ones; each corner left out is within tolerance [px] of
-    the side that stands for it. A ring keeps three corners, and no side comes to cross or touch another.
-    Source: Visvalingam and Whyatt 1993, by distance in place of area."""
+    """Return simple rings (n, 2) [px] with some corners removed (Visvalingam and Whyatt 1993, by distance, not area).
+
+    Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps three corners, and no sides
+    come to cross or touch.
+    """
     work = _Work(rings, tolerance)
     return work.shave()
 
@@ -464,7 +472,7 @@ class _Work:
             self.ring[rows], self.left[number] = number, len(ring)
             first += len(ring)
         self.kept = np.ones(count, bool)
-        self.gone = {k: [] for k in range(count)}  # corners left out between k and the next
+        self.gone = {k: [] for k in range(count)}  # corners removed between k and the next
 
     def shave(self):
         waiting = [(self._depth(k), k) for k in range(len(self.points))]
@@ -486,7 +494,7 @@ class _Work:
         return found
 
     def _depth(self, k):
-        """How far what would be left out lies from the side that would replace it [px]."""
+        """Return the largest distance [px] of the corners to be removed from the side that would replace them."""
         a, b = int(self.before[k]), int(self.after[k])
         (ax, ay), (bx, by) = self.points[a].tolist(), self.points[b].tolist()
         dx, dy = bx - ax, by - ay
@@ -499,7 +507,7 @@ class _Work:
         return worst
 
     def _free(self, k):
-        """Whether the triangle that goes or comes holds no other corner, its sides included."""
+        """Return whether the triangle removed or added holds no other corner, its sides included."""
         a, b = self.points[self.before[k]], self.points[self.after[k]]
         c = self.points[k]
         x, y = self.points[self.kept].T
@@ -513,41 +521,44 @@ class _Work:
 
 
 # ---- convex parts ----------------------------------------------------------------------------------------------------
-# A polygon with holes in few convex parts, cut between its corners.
+# Convex decomposition of a polygon with holes, cut between its corners.
 #
-# Holes are bridged, rings of more than LARGEST corners halved by short cuts, what is left cut into the fewest pieces
-# (fewest_convex), and pieces that are convex together joined over the bridges and halvings (Hertel and Mehlhorn 1983).
-# With no holes and few corners the count is the least that cuts between corners can reach; else near it.
+# Holes are bridged. Rings of more than LARGEST corners are halved by short cuts. The rest is cut into the fewest pieces
+# (fewest_convex), and adjacent pieces with a convex union are merged over the bridges and halvings (Hertel and Mehlhorn
+# 1983). Without holes and with few corners the number of parts is the least possible for cuts between corners; else it
+# is near it.
 
-LARGEST = 40  # corners of a ring that is cut the best way: that takes the cube of them, 20 ms for 40
-TRIED_CUTS = 256  # halvings looked at together, shortest first
-STARTS = 128  # reflex corners that a halving may begin at: bounds the memory of large rings
+LARGEST = 40  # corners of a ring that is cut optimally, in cubic time: 20 ms for 40
+TRIED_CUTS = 256  # halvings tested together, shortest first
+STARTS = 128  # reflex corners at which a halving may begin: bounds the memory of large rings
 
 ConvexPart = tuple[np.ndarray, np.ndarray]  # corners (k, 2) clockwise on the screen [px], inner (k,) bool
 
 
 def convex_parts(outer: np.ndarray, holes: Sequence[np.ndarray] = (), tolerance: float = 0.0) -> list[ConvexPart]:
-    """Convex parts of at most 16 corners of a simple polygon, outer (n, 2) [px] and holes [(m, 2)], in either winding.
+    """Return convex parts of at most 16 corners of a simple polygon, outer (n, 2) [px] and holes [(m, 2)], any winding.
 
     Each part is (corners (k, 2) clockwise on the screen, inner (k,) bool): side k -> k + 1 is shared with another part.
-    A corner in a straight line is kept only where an inner side meets one of the boundary. Corners are of those given:
-    none is new. A part begins with its topmost, then leftmost corner.
+    A collinear corner is kept only where an inner side meets one of the boundary. All corners are corners of the
+    polygon. A part begins with its topmost, then leftmost corner.
 
-    tolerance [px] >= 0: corners are left out before, bumps and notches alike, as long as each stays within it of the
-    side that replaces it and nothing crosses; 0: the parts are exactly the polygon. Repeated corners and corners in a
-    line are left out. Holes may touch the outer ring and each other in common corners only. Raises ValueError for
-    edges that meet or cross (naming both), for rings without area, for holes that are not inside.
+    tolerance [px] >= 0: corners are removed first, of bumps and notches alike, as long as each stays within it of the
+    side that replaces it and nothing crosses; 0: the parts are exactly the polygon. Repeated and collinear corners are
+    removed. Holes may touch the outer ring and each other in common corners only. Raises ValueError for edges that meet
+    or cross (naming both), for rings without area, for holes that are not inside.
     """
     rings = simple_rings(outer, holes)
     return partition(shaved(rings, tolerance) if tolerance > 0.0 else rings)
 
 
 def partition(rings: Sequence[np.ndarray]) -> list[ConvexPart]:
-    """convex_parts of rings that are known to be simple: the outer one clockwise on the screen, holes the other way."""
+    """Return convex_parts of simple rings: the outer one clockwise on the screen, holes counter-clockwise; not
+    checked.
+    """
     together = np.concatenate(rings)
     base = together.min(axis=0)
     flat = FLAT * float(np.ptp(together, axis=0).max()) ** 2
-    # Equal corners have one number, so that a cut is the same pair of numbers on both its sides.
+    # Equal corners have one index, so that a cut is the same pair of indices on both its sides.
     points, numbers = np.unique(together - base, axis=0, return_inverse=True)
     ends = np.cumsum([len(ring) for ring in rings])
     loops = np.split(numbers.ravel(), ends[:-1])
@@ -571,7 +582,7 @@ def _sides(piece):
 
 
 def _tidy(corners, inner, flat):
-    """Without corners in a line between two sides of a kind; from the topmost, leftmost corner on."""
+    """Return a part without collinear corners between two sides of a kind, from the topmost, leftmost corner on."""
     before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
     keep = (np.abs(cross(before, after)) > flat) | (inner != np.roll(inner, 1))
     corners, inner = corners[keep], inner[keep]
@@ -582,7 +593,7 @@ def _tidy(corners, inner, flat):
 
 
 def _halved(points, rings, flat):
-    """Rings of at most LARGEST corners, or convex ones."""
+    """Return rings of at most LARGEST corners, or convex ones."""
     todo, found = list(rings), []
     while todo:
         ring = todo.pop()
@@ -597,7 +608,7 @@ def _halved(points, rings, flat):
 
 
 def _halving(sides):
-    """A short cut from a reflex corner that leaves about as many corners on either side."""
+    """Return a short cut from a reflex corner that leaves about as many corners on either side."""
     count = len(sides.corners)
     starts = np.flatnonzero(sides.reflex)
     for share in (4, 8, 16, 64, count):
@@ -621,7 +632,7 @@ def _halving(sides):
 
 
 def _joined(points, pieces, flat):
-    """Pieces joined over their longest common sides, where they stay convex and have 16 corners at most."""
+    """Return the pieces merged over their longest common sides, where they stay convex and have at most 16 corners."""
     owner = {side: number for number, piece in enumerate(pieces) for side in _sides(piece)}
     common = [side for side in owner if side[0] < side[1] and side[::-1] in owner]
     common.sort(key=lambda side: (-float(((points[side[0]] - points[side[1]]) ** 2).sum()), side))
@@ -646,7 +657,7 @@ def _joined(points, pieces, flat):
 
 
 def _at_most(piece, most):
-    """A convex piece in halves, until each has few enough corners."""
+    """Return a convex piece split in halves until each has at most `most` corners."""
     if len(piece) <= most:
         return [piece]
     half = len(piece) // 2

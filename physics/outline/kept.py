@@ -1,7 +1,7 @@
-"""Outlines of masks that were fitted before: convex parts by the pixels, the settings and the code they follow from.
+"""Stored outlines of masks: convex parts, keyed by a hash of the pixels, the settings and the code that computes them.
 
-A game ships them beside its art (`use`), so that a start without compiled kernels does not fit them again. What is not
-there is fitted as ever; what other code or other pixels made has another key.
+A game ships them beside its art (`use`), so that a start without compiled kernels does not recompute them. Missing
+outlines are computed as usual. Other code or other pixels have another key.
 """
 
 import hashlib
@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-DIGEST = 16  # bytes of a key
-FOLDERS = ("outline", "raster")  # of this package: their code, math2d.py and settings.py decide what is fitted
+DIGEST = 16  # bytes per key
+FOLDERS = ("outline", "raster")  # subpackages whose code, with math2d.py and settings.py, determines the parts
 
 
 class Parts(NamedTuple):
@@ -29,24 +29,24 @@ class Parts(NamedTuple):
 
 _files: list[Path] = []
 _kept: dict[bytes, Parts] = {}
-recorded: dict[bytes, Parts] | None = None  # what was asked for, while that is noted
+recorded: dict[bytes, Parts] | None = None  # all parts requested, while recording is on
 
 
 def use(path: Path) -> None:
-    """Take what a file of `write` holds from the first mask on; a file that is missing or damaged holds nothing."""
+    """Use the contents of a file of `write` from the next mask on. A missing or damaged file counts as empty."""
     _files.append(path)
 
 
 def forget() -> None:
-    """Take nothing from any file any more, until the next `use`."""
+    """Stop using all files, until the next `use`."""
     _files.clear()
     _kept.clear()
 
 
 def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
-    """Return the kept parts of these pixels, or what fit() returns.
+    """Return the stored parts of these pixels, or the result of fit().
 
-    name: of the method; pixels[row, col] bool; smooth [px]: as in fitting.outline.
+    name: of the method; pixels[row, col] bool; smooth [px]: as in contour.outline.
     """
     key = _key(name, pixels, smooth)
     while _files:
@@ -67,7 +67,7 @@ def _key(name, pixels, smooth):
 
 @cache
 def code_stamp() -> bytes:
-    """Return a hash of the sources that the parts follow from."""
+    """Return a hash of the sources that determine the parts."""
     digest, home = hashlib.blake2b(digest_size=DIGEST), Path(__file__).resolve().parents[1]
     paths = [path for folder in FOLDERS for path in (home / folder).glob("*.py") if path != Path(__file__).resolve()]
     for path in sorted((home / "settings.py", home / "math2d.py", *paths)):
@@ -76,7 +76,7 @@ def code_stamp() -> bytes:
 
 
 def write(path: Path, found: Mapping[bytes, Parts]) -> None:
-    """Keep parts in a file: the same bytes for the same parts."""
+    """Write parts to a file; equal parts give equal bytes."""
     order = sorted(found)
     np.savez_compressed(
         path,
@@ -94,7 +94,7 @@ def _joined(arrays, dtype):
 
 
 def _read(path):
-    """Return what a file holds; {} where it cannot be read, is damaged or of another form."""
+    """Return the contents of a file; {} if it is unreadable, damaged or of another format."""
     try:
         with np.load(path, allow_pickle=False) as file:
             held = {name: file[name] for name in ("keys", "parts", "counts", "radii", "corners", "inner")}

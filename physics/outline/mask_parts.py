@@ -1,4 +1,4 @@
-"""The convex parts of a mask's outline, with known inner sides."""
+"""Convex decomposition of a mask's outline, with flags of the inner sides."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -14,26 +14,26 @@ from physics.outline.tiled import put_parts
 from physics.settings import MAX_CORNERS
 
 # ---- few parts -------------------------------------------------------------------------------------------------------
-# A polygon in few convex parts, at once: for the outlines of masks, which are made while a game runs.
+# Convex decomposition into few parts by kernels, for outlines of masks that are made while a game runs.
 #
-# fitting.convex_parts finds the fewest parts in milliseconds; this takes a hundredth of the time by kernels, for about
-# as many (fitting.few_cuts).
+# decompose.convex_parts finds the fewest parts in milliseconds. This takes a hundredth of the time for about as many
+# parts (few cuts, see rings.py).
 
 
 def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Parts as fitting.convex_parts.partition has them: (corners (k, 2) clockwise on the screen, inner (k,)).
+    """Return parts as decompose.partition does: (corners (k, 2) clockwise on the screen, inner (k,)).
 
-    rings: known to be simple, of coordinates whose products are exact; the outer one (n, 2) [px] clockwise on the
-    screen, holes the other way.
+    rings: simple, of coordinates whose products are exact; the outer one (n, 2) [px] clockwise on the screen, holes
+    counter-clockwise. Not checked.
     """
     points = np.concatenate(rings)
     counts = np.array([len(ring) for ring in rings])
-    room = 5 * len(points) + 4 * len(rings)  # each corner is cut off once or twice, each hole bridged
+    room = 5 * len(points) + 4 * len(rings)  # each corner is cut once or twice, each hole is bridged
     sides = np.zeros(room, SIDE)
     corners, inner, found = np.empty((room, 2)), np.empty(room, bool), np.empty(room, np.int64)
     parts = cut_rings(points, counts, MAX_CORNERS, sides, corners, inner, found)
     if parts < 0:
-        raise RuntimeError("the outline of a mask is no polygon: a defect of fitting.outline")
+        raise RuntimeError("the outline of a mask is no polygon: a defect of outline.contour")
     ends = np.cumsum(found[:parts])
     return [
         (corners[last - count : last].copy(), inner[last - count : last].copy())
@@ -43,8 +43,10 @@ def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]
 
 @subkernel
 def join_touching(n, sides_inout):
-    """Make one of rings that touch in a corner: there each goes on along the other one, so that the corner between
-    them is the inside's. O(sides squared)."""
+    """Join rings that touch in a corner: there each continues along the other, and the corner between is inside.
+
+    O(sides squared).
+    """
     for a in range(n):
         p = sides_inout[a]
         for b in range(a + 1, n):
@@ -65,8 +67,11 @@ def join_touching(n, sides_inout):
 
 @kernel
 def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_out):
-    """The convex parts of rings: points (n, 2) [px], counts (rings,), most corners of a part; sides_inout: SIDE, room
-    to work in; corners (n, 2), inner (n,), counts (parts,). Returns how many; -1: they are of no polygon."""
+    """Write the convex parts of rings. Returns their number, or -1 if the rings are no polygon.
+
+    points (n, 2) [px]; counts (rings,); most: largest number of corners of a part; sides_inout: SIDE, scratch;
+    corners_out (n, 2), inner_out (n,), counts_out (parts,).
+    """
     n = 0
     start = 0
     for ring in range(len(counts)):
@@ -91,23 +96,23 @@ def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_
 
 
 # ---- mask parts ------------------------------------------------------------------------------------------------------
-# What a mask's outline is made of: rounded convex parts with known inner sides.
+# The outline of a mask as rounded convex parts with flags of the inner sides.
 
 
 class Part(NamedTuple):
-    """A convex polygon in raster pixels, grown by a radius."""
+    """A convex polygon in raster pixels, rounded by a radius."""
 
     corners: np.ndarray  # (k, 2) float64: 1 to 16, clockwise on the screen; 1: a disc, 2: a capsule
-    inner: np.ndarray  # (k,) bool: side k -> k + 1 is shared with another part, no boundary
+    inner: np.ndarray  # (k,) bool: side k -> k + 1 is shared with another part
     radius: float  # [px]
 
 
 def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
-    """Convex parts of the outline of solid[row, col] bool; none of no pixels.
+    """Return the convex parts of the outline of solid[row, col] bool; [] without pixels.
 
-    Each piece in turn: its rounded core if it is round (fitting.rounding), else the convex parts of its outline with
-    radius 0 (fitting.few_parts), each from its topmost, then leftmost corner on. smooth [px] as in fitting.outline,
-    whose contract holds for the parts together. A full rectangle is one part: its four corners from the upper left on.
+    A round piece is its rounded core (rounding.py). Any other piece is the convex parts of its outline with radius 0
+    (few_parts), each from its topmost, then leftmost corner on. smooth [px] as in contour.outline, whose contract holds
+    for the parts together. A full rectangle is one part: its four corners from the upper left on.
     """
     parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))
     ends = np.cumsum(parts.counts)[:-1]

@@ -1,4 +1,6 @@
-"""How well hulls stand for pixels: the union of rounded hulls, its area and moments, and the Hausdorff distance."""
+"""Accuracy of hulls in place of pixels: the union of rounded hulls, its area and moments, and the Hausdorff
+distance.
+"""
 
 import math
 from collections.abc import Sequence
@@ -9,36 +11,36 @@ import numpy as np
 from physics.outline.contour import contours
 
 # ---- union -----------------------------------------------------------------------------------------------------------
-# The boundary of the union of rounded convex hulls: lines and arcs, exactly, however the hulls overlap.
+# Boundary of the union of rounded convex hulls: exact lines and arcs, for any overlaps.
 #
-# Each hull's own boundary is cut wherever something of another hull's may begin or end on it; then of every stretch its
-# middle tells whether it is on the boundary of all: not inside another hull, not along one that lies on the other side,
-# and of stretches that lie on each other, the first hull's only.
+# Each hull's own boundary is cut wherever it meets the boundary of another hull. A stretch belongs to the union's
+# boundary if its middle is not inside another hull and not along a hull that lies on the other side. Of coincident
+# stretches only the first hull's is kept.
 
-ROUNDING = 1e-9  # of the hulls' size: nearer than this to a boundary is on it
+ROUNDING = 1e-9  # relative to the hulls' size: a nearer point counts as on the boundary
 
 Hull = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen, 1: a disc, 2: a capsule; and radius [px]
 
 
 class Stretch(NamedTuple):
-    """A line, or an arc that is walked clockwise on the screen, the inside to the right."""
+    """A line, or an arc that is clockwise on the screen, with the inside to the right."""
 
     start: np.ndarray  # (2,) [px]
     end: np.ndarray  # (2,)
-    center: np.ndarray  # (2,) of an arc
+    center: np.ndarray  # (2,) centre of an arc
     radius: float  # 0: a line
-    first: float  # [rad] angle at which the arc starts
+    first: float  # [rad] angle at the start of the arc
     turn: float  # [rad] > 0
 
     def at(self, shares: np.ndarray) -> np.ndarray:
-        """Points (m, 2) at shares (m,) of the way."""
+        """Return the points (m, 2) at shares (m,) of the length."""
         if self.radius == 0.0:
             return self.start + shares[:, None] * (self.end - self.start)
         angles = self.first + shares * self.turn
         return self.center + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
     def between(self, a: float, b: float) -> "Stretch":
-        """From one share of the way to another."""
+        """Return the stretch from one share of the length to another."""
         start, end = self.at(np.array([a, b]))
         return Stretch(start, end, self.center, self.radius, self.first + a * self.turn, (b - a) * self.turn)
 
@@ -48,9 +50,9 @@ class Stretch(NamedTuple):
 
 
 def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
-    """The stretches of the boundary of a union of hulls, the inside to the right of each; [] of no hulls.
+    """Return the stretches of the boundary of a union of hulls, the inside to the right of each; [] for no hulls.
 
-    Where hulls share a side it is none of it. O(sides squared) at worst; only those with common bounds are compared.
+    A side shared by two hulls is not part of it. O(sides squared) at worst; only hulls with common bounds are compared.
     """
     if not hulls:
         return []
@@ -73,12 +75,12 @@ def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def line(start: np.ndarray, end: np.ndarray) -> Stretch:
-    """A straight stretch between two points."""
+    """Return a straight stretch between two points."""
     return Stretch(np.asarray(start, float), np.asarray(end, float), np.zeros(2), 0.0, 0.0, 0.0)
 
 
 def _around(corners, radius):
-    """A hull's own boundary: its sides moved outward, and arcs of a quarter turn at most about its corners."""
+    """Return a hull's own boundary: its sides moved outward, and arcs of at most a quarter turn about its corners."""
     if len(corners) == 1:
         bounds = [(k * math.pi / 2.0, math.pi / 2.0) for k in range(4)]
         return [_arc(corners[0], radius, first, turn) for first, turn in bounds]
@@ -105,7 +107,7 @@ def _arc(center, radius, first, turn):
 
 
 def _cuts(side, others, near):
-    """Shares of the way, from 0 to 1, between which nothing of the others begins, ends or crosses."""
+    """Return the shares of the length, from 0 to 1, at which other stretches begin, end or cross."""
     shares = [0.0, 1.0]
     for other in others:
         points = [other.start, other.end]
@@ -119,7 +121,7 @@ def _cuts(side, others, near):
 
 
 def _share(side, point, near):
-    """How far along the way a point of it is; less than 0: it is not on it."""
+    """Return the share of the length at a point of a stretch; less than 0 if the point is not on it."""
     if side.radius == 0.0:
         along = side.end - side.start
         share = float((point - side.start) @ along / (along @ along))
@@ -132,7 +134,7 @@ def _share(side, point, near):
 
 
 def _line_meets(side, other):
-    """Points where the line of a straight side meets another stretch's line or circle."""
+    """Return the points where the line of a straight side meets another stretch's line or circle."""
     along = side.end - side.start
     if other.radius > 0.0:
         return _on_circle(side.start, along, other.center, other.radius)
@@ -145,21 +147,21 @@ def _line_meets(side, other):
 
 
 def _arc_meets(side, other):
-    """Points where the circle of an arc meets another stretch's line or circle."""
+    """Return the points where the circle of an arc meets another stretch's line or circle."""
     if other.radius == 0.0:
         return _on_circle(other.start, other.end - other.start, side.center, side.radius)
     apart = other.center - side.center
     distance = math.hypot(*apart)
     if distance == 0.0:
         return []
-    # The line through both meeting points stands square on the line of the centres.
+    # The line through both intersections is perpendicular to the line of the centres.
     ahead = (distance * distance + side.radius * side.radius - other.radius * other.radius) / (2.0 * distance)
     foot = side.center + ahead / distance * apart
     return _on_circle(foot, np.array([-apart[1], apart[0]]), side.center, side.radius)
 
 
 def _on_circle(start, along, center, radius):
-    """Where an endless line meets a circle; the nearest point twice where it only touches, or does not reach."""
+    """Return the points where an infinite line meets a circle; the nearest point twice if it only touches or misses."""
     length = math.hypot(*along)
     along = along / length
     ahead = float((center - start) @ along)
@@ -169,7 +171,10 @@ def _on_circle(start, along, center, radius):
 
 
 def _covered(stretch, hull, earlier, near):
-    """Whether a hull takes a stretch off the boundary: that lies in it, against it, or on an earlier one's."""
+    """Return whether a hull removes a stretch from the boundary.
+
+    It does if the stretch is inside it, lies against its other side, or coincides with the boundary of an earlier hull.
+    """
     point = stretch.at(np.array([0.5]))[0]
     gap, normal = gap_and_normal(hull, point)
     if abs(gap) > near:
@@ -183,7 +188,7 @@ def _covered(stretch, hull, earlier, near):
 
 
 def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
-    """How far a point lies outside of a hull (negative: how deep inside) [px], and its outward normal there."""
+    """Return the distance [px] of a point from a hull (negative: depth inside) and the hull's outward normal there."""
     corners, radius = hull
     if len(corners) == 1:
         away = point - corners[0]
@@ -199,33 +204,33 @@ def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
     away = to - share[:, None] * sides
     distance = np.hypot(*away.T)
     k = int(distance.argmin())
-    # So near to a sharp side that rounding would say where it points.
+    # Too near to a sharp side: rounding would determine the direction.
     flat = distance[k] <= ROUNDING * float(np.abs(sides).max())
     return float(distance[k]) - radius, normals[k] if flat else away[k] / distance[k]
 
 
 # ---- moments ---------------------------------------------------------------------------------------------------------
-# Area, centre and inertia of what lies inside a boundary of lines and arcs: integrals round it (Green's theorem), by
-# Gauss's rule, exact but for rounding.
+# Area, centre and inertia of the inside of a boundary of lines and arcs: integrals along it (Green's theorem) by
+# Gaussian quadrature, exact up to rounding.
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; of a quarter turn the error is far below rounding
+NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; the error for a quarter turn is far below rounding
 
 
 class Moments(NamedTuple):
-    """Of a figure of density 1."""
+    """Area, centre and inertia of a figure of density 1."""
 
     area: float  # [px2]
-    x: float  # centre of area [px]; nan of no area
+    x: float  # centre of area [px]; nan without area
     y: float
-    inertia: float  # about that [px4]
+    inertia: float  # about the centre [px4]
 
 
 def moments(around: Sequence[Stretch]) -> Moments:
-    """Of the figure inside a boundary."""
+    """Return the moments of the figure inside a boundary."""
     if not around:
         return Moments(0.0, math.nan, math.nan, 0.0)
-    base = around[0].start  # integrals about a point nearby: no digits are lost far from the raster's corner
+    base = around[0].start  # integrals about a nearby point, for precision far from the raster's corner
     place, step = nodes(around)
     x, y, dx, dy = *(place - base).transpose(2, 0, 1), *step.transpose(2, 0, 1)
     area = float((((x * dy - y * dx) / 2.0) @ WEIGHTS).sum())
@@ -238,7 +243,7 @@ def moments(around: Sequence[Stretch]) -> Moments:
 
 
 def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
-    """Places (n, 16, 2) on each stretch where Gauss's rule looks, and how fast they move with the share of the way."""
+    """Return the quadrature nodes (n, 16, 2) of each stretch, and their derivatives by the share of the length."""
     place = np.array([each.at(NODES) for each in around])
     step = np.empty_like(place)
     for k, each in enumerate(around):
@@ -251,21 +256,20 @@ def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
 
 
 # ---- hausdorff -------------------------------------------------------------------------------------------------------
-# Hausdorff distance of two boundaries of lines and arcs, by halving: exact to NEAR.
+# Hausdorff distance of two boundaries of lines and arcs, by branch and bound: exact to NEAR.
 #
-# The farthest point of one boundary from the other is closed in on. How far the points of a stretch can be at most is
-# known from its middle (nobody is farther from the other boundary than by the way there) and from its ends: along a
-# line the distance from one and the same line is convex, so it is greatest at an end, and an arc is no farther than its
-# chord and its height above it. What cannot beat the best found so far is left out.
+# A stretch is halved as long as it may contain a point farther from the other boundary than the best found. There are
+# two upper bounds. The first is the distance of its middle plus half its length. The second is from its ends: along a
+# line the distance from one other line is convex, so it is largest at an end. An arc adds its height above its chord.
 
 NEAR = 1e-6  # [px]
-ROWS = 1 << 20  # distances that are kept at a time: bounds the memory
+ROWS = 1 << 20  # distances kept at a time: bounds the memory
 
 
 def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
-    """The largest distance of a point of either boundary from the other one [px]; at most 1e-6 less than that.
+    """Return the largest distance of a point of either boundary from the other one [px]; at most 1e-6 too small.
 
-    0 where both are none, inf where one is.
+    0 if both are empty, inf if one is.
     """
     if not a or not b:
         return 0.0 if not a and not b else math.inf
@@ -287,13 +291,13 @@ class _Figure:
         self.ends = np.array([[each.start, each.end] for each in arcs]).reshape(-1, 2, 2)
 
     def from_lines(self, points):
-        """(m, lines) distances [px]."""
+        """Return the distances (m, lines) of points from the lines [px]."""
         to = points[:, None] - self.start
         share = np.clip((to * self.along).sum(axis=2) / (self.along * self.along).sum(axis=1), 0.0, 1.0)
         return np.hypot(*(to - share[:, :, None] * self.along).transpose(2, 0, 1))
 
     def from_arcs(self, points):
-        """(m,) distances from the nearest arc [px]; inf: there is none."""
+        """Return the distances (m,) of points from the nearest arc [px]; inf without arcs."""
         if not len(self.center):
             return np.full(len(points), math.inf)
         to = points[:, None] - self.center
@@ -323,7 +327,7 @@ def _farthest(a, b, best):
 
 
 def _looked_at(some, other, best):
-    """The greatest distance at ends and middles, and (bound, stretch) of those that may hold a greater one."""
+    """Return the largest distance at ends and middles, and (bound, stretch) of the stretches that may exceed it."""
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
     nearest = np.minimum(lines.min(axis=2, initial=math.inf), other.from_arcs(points.reshape(-1, 2)).reshape(-1, 3))
@@ -337,10 +341,10 @@ def _looked_at(some, other, best):
 
 # ---- cells -----------------------------------------------------------------------------------------------------------
 # Pixels of several masks on a common grid of unequal columns and rows, and their sums: area and first and second
-# moments, alone or shared with what lies inside a boundary of lines and arcs. Exact but for rounding.
+# moments, alone or shared with the inside of a boundary. Exact up to rounding.
 #
-# What cells and a boundary share are integrals round the boundary (Green's theorem), cut where it crosses a line of the
-# grid, of functions that say what is solid left of a point in its row.
+# The sums shared by cells and a boundary are integrals along the boundary (Green's theorem), cut at the lines of the
+# grid. The integrands describe the solid left of a point in its row.
 
 Placed = tuple[np.ndarray, float, float]  # solid[row, col] bool; left, top [px] of its corner
 Box = tuple[float, float, float, float]  # left, top, right, bottom [px]
@@ -349,13 +353,13 @@ Box = tuple[float, float, float, float]  # left, top, right, bottom [px]
 class Cells(NamedTuple):
     """A grid whose lines are those of all masks in it."""
 
-    x: np.ndarray  # (w + 1,) lines between columns [px], rising
+    x: np.ndarray  # (w + 1,) lines between columns [px], ascending
     y: np.ndarray  # (h + 1,) lines between rows
-    count: np.ndarray  # (h, w) masks that are solid there
+    count: np.ndarray  # (h, w) number of masks that are solid there
 
 
 class Sums(NamedTuple):
-    """Integrals over a figure, about a base."""
+    """Integrals over a figure, about a base point."""
 
     area: float  # [px2]
     x: float  # [px3]
@@ -363,11 +367,11 @@ class Sums(NamedTuple):
     second: float  # of the squared distance [px4]
 
     def plus(self, other: "Sums", share: float = 1.0) -> "Sums":
-        """With so many times another's."""
+        """Return these sums plus `share` times another's."""
         return Sums(*(a + share * b for a, b in zip(self, other, strict=True)))
 
     def moments(self, base: tuple[float, float]) -> Moments:
-        """Of these sums about a base; without an area there is no centre."""
+        """Return the moments of these sums about a base; without an area the centre is nan."""
         if self.area <= 0.0:
             return Moments(0.0, math.nan, math.nan, 0.0)
         x, y = self.x / self.area, self.y / self.area
@@ -378,7 +382,7 @@ NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0)
 
 
 def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
-    """What moments are about a base."""
+    """Return the sums, about a base, of moments."""
     if found.area == 0.0:
         return NO_SUMS
     x, y = found.x - base[0], found.y - base[1]
@@ -386,7 +390,7 @@ def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
 
 
 def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
-    """What several masks have in a window, on a common grid."""
+    """Return the pixels of several masks in a window, on a common grid."""
     lines = []
     for axis in (0, 1):
         low, high = window[axis], window[axis + 2]
@@ -401,13 +405,13 @@ def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
 
 
 def _places(lines, first, size):
-    """In which row or column of a mask the stretches between lines lie; -1: in none."""
+    """Return the row or column of a mask between each two lines; -1: none."""
     place = np.floor((lines[:-1] + lines[1:]) / 2.0 - first).astype(np.int64)
     return np.where((place >= 0) & (place < size), place, -1)
 
 
 def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> Sums:
-    """Of cells (h, w) that weigh so much a px2."""
+    """Return the sums of cells (h, w) with weights per px2."""
     width, height = np.diff(cells.x), np.diff(cells.y)
     x, y = (cells.x[:-1] + cells.x[1:]) / 2.0 - base[0], (cells.y[:-1] + cells.y[1:]) / 2.0 - base[1]
     in_rows = [(weights * each).sum(axis=1) for each in (width, width * x, width * (x * x + width * width / 12.0))]
@@ -421,7 +425,7 @@ def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> S
 
 
 def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
-    """Of what lies inside a boundary and in cells that any mask fills."""
+    """Return the sums of the area inside a boundary and in cells that any mask fills."""
     parts = [part for each in around for part in _cut_by_lines(each, cells)]
     if not parts or not cells.count.any():
         return NO_SUMS
@@ -442,9 +446,9 @@ def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, floa
 
 
 def _left_of(cells, power, base, row, column, x):
-    """Integrals (n, 16) of x to a power over what is solid in a row left of points (n, 16)."""
+    """Return integrals (n, 16) of x to a power over the solid cells in a row left of points (n, 16)."""
     lines = cells.x - base
-    filled = np.pad(cells.count > 0, ((0, 0), (0, 1)))  # right of the last line there is nothing
+    filled = np.pad(cells.count > 0, ((0, 0), (0, 1)))  # no cell is right of the last line
     whole = lines ** (power + 1) / (power + 1)
     left = np.zeros((len(filled), len(lines)))
     left[:, 1:] = np.cumsum(np.where(filled[:, :-1], np.diff(whole), 0.0), axis=1)
@@ -453,7 +457,7 @@ def _left_of(cells, power, base, row, column, x):
 
 
 def _cut_by_lines(stretch, cells):
-    """A stretch in parts that each lie in one column and one row."""
+    """Return a stretch cut into parts that each lie in one column and one row."""
     shares = [np.array([0.0, 1.0])]
     for axis, lines in enumerate((cells.x, cells.y)):
         if stretch.radius == 0.0:
@@ -471,24 +475,27 @@ def _cut_by_lines(stretch, cells):
 
 
 # ---- measure ---------------------------------------------------------------------------------------------------------
-# How well hulls stand for pixels: what they cover too much and too little, and how their mass lies.
+# Accuracy of hulls in place of pixels: excess and missing area, and moments.
 #
-# The hulls are taken as their union, the pixels as the union of their squares. All areas and moments are integrals
-# round the boundary of the union by Gauss's rule, exact but for rounding, and so is what both share ("cells" above).
+# The hulls count as their union, the pixels as the union of their squares. All areas and moments are integrals along
+# the boundary of the union by Gaussian quadrature, exact up to rounding, including the shared area (see "cells" above).
 
 
 class Measured(NamedTuple):
-    """Hulls beside pixels."""
+    """Accuracy of hulls in place of pixels."""
 
     over: float  # area of the hulls outside the pixels [px2]
     missed: float  # area of the pixels outside the hulls [px2]
     hulls: Moments
     pixels: Moments
-    hausdorff: float  # of the two boundaries [px]: 0 where both are none, inf where one is
+    hausdorff: float  # of the two boundaries [px]: 0 if both are empty, inf if one is
 
 
 def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
-    """Hulls [(corners (k, 2) clockwise on the screen, radius)] in raster pixels beside solid[row, col] bool."""
+    """Return the accuracy of hulls [(corners (k, 2) clockwise on the screen, radius)] in place of solid[row, col] bool.
+
+    The hulls are in raster pixels.
+    """
     around = boundary(hulls)
     cracks = edges(solid)
     ours, theirs = moments(around), _of_pixels(solid)
@@ -499,7 +506,7 @@ def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
 
 
 def edges(solid: np.ndarray) -> list[Stretch]:
-    """The pixels' edges as straight stretches, the solid to the right."""
+    """Return the pixels' edges as straight stretches, the solid to the right."""
     loops = [loop.corners for piece in contours(solid) for loop in (piece.outer, *piece.holes)]
     return [line(a, b) for loop in loops for a, b in zip(loop, np.roll(loop, -1, axis=0), strict=True)]
 

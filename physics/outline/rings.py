@@ -1,4 +1,4 @@
-"""Rings of sides in one table, and their convex decomposition inside a kernel."""
+"""Rings of sides in one table, and their convex decomposition in kernels."""
 
 import math
 
@@ -7,11 +7,11 @@ import numpy as np
 from physics.jit import subkernel
 
 # ---- rings -----------------------------------------------------------------------------------------------------------
-# Rings of sides around the inside of a polygon, in one table: to be joined, cut and merged.
+# Rings of sides around the inside of a polygon, in one table, which can be joined, cut and merged.
 #
-# A side starts at (x, y) and ends where the next one starts; the inside lies to its right. A cut is two sides, one
-# there and one back, each other's twin: between corners of one ring it parts this in two, between two rings it makes
-# them one.
+# A side starts at (x, y) and ends at the start of the next one; the inside lies to its right. A cut is two sides, one
+# there and one back, each the twin of the other. Between corners of one ring it splits the ring; between two rings it
+# joins them.
 
 SIDE = np.dtype(
     [
@@ -19,10 +19,10 @@ SIDE = np.dtype(
         ("y", np.float64),
         ("next", np.int64),
         ("previous", np.int64),
-        ("twin", np.int64),  # -1: no cut
-        ("inner", np.bool_),  # more of the inside lies beyond it
+        ("twin", np.int64),  # -1: not a cut
+        ("inner", np.bool_),  # the inside continues beyond it
         ("alive", np.bool_),
-        ("apart", np.int64),  # 0: its ring is joined to what is around it; else a hole's number
+        ("apart", np.int64),  # 0: its ring is joined to the surrounding one; else the number of a hole
         ("seen", np.bool_),
     ],
     align=True,
@@ -31,7 +31,9 @@ SIDE = np.dtype(
 
 @subkernel
 def put_side(n, first, x, y, inner, sides_inout):
-    """Append a side to the ring that starts at a row; none without length. Returns how many sides there are."""
+    """Append a side to the ring that starts at row `first`; sides without length are skipped. Returns the number of
+    sides.
+    """
     if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
         sides_inout[n - 1].inner = inner
         return n
@@ -50,8 +52,10 @@ def put_side(n, first, x, y, inner, sides_inout):
 
 @subkernel
 def close_ring(n, first, sides_inout):
-    """Join the last side of a ring to its first one; corners in a line between sides of a kind go.
-    Returns how many sides there are: as many as before the ring when nothing is left of it."""
+    """Join the last side of a ring to its first one, and remove collinear corners between sides of a kind.
+
+    Returns the number of sides: that before the ring if nothing is left of it.
+    """
     if n - 1 > first and sides_inout[n - 1].x == sides_inout[first].x and sides_inout[n - 1].y == sides_inout[first].y:
         n -= 1
     if n - first < 3:
@@ -72,8 +76,7 @@ def close_ring(n, first, sides_inout):
 
 @subkernel
 def turn_at(sides, a, b, c):
-    """How the way over three corners turns at the second one: > 0 clockwise on the screen, the way of a convex corner
-    [px2]."""
+    """Return the turn of the path over three corners at the second one [px2]: > 0 clockwise on the screen, convex."""
     p = sides[a]
     q = sides[b]
     r = sides[c]
@@ -82,8 +85,11 @@ def turn_at(sides, a, b, c):
 
 @subkernel
 def is_reflex(sides, k):
-    """Whether the inside is more than half a turn at a corner; or just that, where a side that is inner goes on in one
-    that is not: no part may have both in one edge."""
+    """Return whether the interior angle at a corner is more than half a turn.
+
+    Also true for exactly half a turn between an inner and an outer side, because an edge of a part must not contain
+    both.
+    """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
     return turn < 0.0 or (turn == 0.0 and side.inner != sides[side.previous].inner)
@@ -91,7 +97,7 @@ def is_reflex(sides, k):
 
 @subkernel
 def faces(sides, k, m):
-    """Whether the line from corner k to corner m starts into the inside, along no side."""
+    """Return whether the line from corner k to corner m starts into the inside, along no side."""
     side = sides[k]
     to = sides[m]
     after = sides[side.next]
@@ -108,7 +114,7 @@ def faces(sides, k, m):
 
 @subkernel
 def blocks(sides, k, a, b):
-    """Whether side k crosses the line between corners a and b, or starts on it between its ends."""
+    """Return whether side k crosses the line between corners a and b, or starts on it between its ends."""
     p = sides[a]
     q = sides[b]
     r = sides[k]
@@ -131,7 +137,9 @@ def blocks(sides, k, a, b):
 
 @subkernel
 def sees(sides, a, b):
-    """Whether the line between two corners of a ring lies inside it and meets no other side of it. O(corners)."""
+    """Return whether the line between two corners of a ring lies inside it and meets no other side of it.
+    O(corners).
+    """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
     k = sides[a].next
@@ -144,7 +152,7 @@ def sees(sides, a, b):
 
 @subkernel
 def sees_through(sides, count, a, b):
-    """The same between corners of two rings, past the sides of all. O(sides)."""
+    """Return the same for corners of two rings, tested against the sides of all rings. O(sides)."""
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
     for k in range(count):
@@ -155,7 +163,7 @@ def sees_through(sides, count, a, b):
 
 @subkernel
 def put_cut(n, a, b, sides_inout):
-    """Append a cut between corners a and b. Returns how many sides there are."""
+    """Append a cut between corners a and b. Returns the number of sides."""
     there = sides_inout[n]
     back = sides_inout[n + 1]
     start = sides_inout[a]
@@ -184,7 +192,7 @@ def put_cut(n, a, b, sides_inout):
 
 @subkernel
 def take_out(k, sides_inout):
-    """Take a cut out again: the pieces on its two sides become one."""
+    """Remove a cut: the pieces on its two sides become one."""
     m = sides_inout[k].twin
     for a, b in ((k, m), (m, k)):
         before = sides_inout[a].previous
@@ -196,7 +204,7 @@ def take_out(k, sides_inout):
 
 @subkernel
 def corners_of(sides, first):
-    """How many corners the ring of a side has."""
+    """Return the number of corners of the ring of a side."""
     count = 1
     k = sides[first].next
     while k != first:
@@ -206,17 +214,19 @@ def corners_of(sides, first):
 
 
 # ---- few cuts --------------------------------------------------------------------------------------------------------
-# Rings with holes in few convex pieces, for kernels: holes bridged, reflex corners cut away, needless cuts taken out.
+# Convex decomposition of rings with holes into few pieces: bridge holes, cut reflex corners, remove needless cuts.
 #
-# A reflex corner takes one cut, if that leaves less than half a turn on either side of it; a cut between two of them
-# can do for both, so such cuts come first, the shortest of each corner. The cuts left that no corner needs go, longest
-# first: so there are never more pieces than Hertel and Mehlhorn 1983 leave, and mostly as many as there must be.
+# A reflex corner needs one cut, if that leaves at most half a turn on either side. A cut between two reflex corners can
+# resolve both, so such cuts come first, the shortest of each corner. Cuts that no corner needs are removed, longest
+# first. So there are never more pieces than by Hertel and Mehlhorn 1983, and mostly as few as possible.
 
 
 @subkernel
 def bridge(n, sides_inout):
-    """Join each hole to the ring around it by its shortest free line. Returns how many sides there are; -1: a hole
-    sees nothing, so the rings were none of a polygon."""
+    """Join each hole to the ring around it by its shortest free line. Returns the number of sides.
+
+    Returns -1 if a hole sees no other ring: then the rings are no polygon.
+    """
     while True:
         waiting = 0
         joined = 0
@@ -239,8 +249,11 @@ def bridge(n, sides_inout):
 
 @subkernel
 def shortest_bridge(n, start, sides):
-    """(corner of the hole that a side is of, corner of what is joined already) with the shortest free line between
-    them; -1, -1: there is none."""
+    """Return (corner of a hole, corner of a joined ring) with the shortest free line between them; (-1, -1) without
+    one.
+
+    start: a side of the hole.
+    """
     best = math.inf
     best_a = -1
     best_b = -1
@@ -262,16 +275,16 @@ def shortest_bridge(n, start, sides):
 
 @subkernel
 def is_resolved(sides, a, b):
-    """Whether a cut from corner a to corner b leaves no reflex corner at a."""
+    """Return whether a cut from corner a to corner b leaves no reflex corner at a."""
     side = sides[a]
     return turn_at(sides, side.previous, a, b) >= 0.0 and turn_at(sides, b, a, side.next) >= 0.0
 
 
 @subkernel
 def best_partner(sides, a, both):
-    """The corner of its ring that reflex corner a is cut to: what resolves most reflex corners, of those the nearest.
+    """Return the corner to which reflex corner a is cut: the one that resolves most reflex corners, then the nearest.
 
-    both: only one that resolves two. -1: there is none.
+    both: accept only a corner that resolves two. -1: none.
     """
     best = -1
     best_score = 1 if both else -1
@@ -295,7 +308,7 @@ def best_partner(sides, a, both):
 
 @subkernel
 def cut_reflex(n, sides_inout):
-    """Cut all reflex corners away. Returns how many sides there are; -1: a corner sees no other."""
+    """Cut all reflex corners. Returns the number of sides, or -1 if a corner sees no other."""
     for both in (True, False):
         k = 0
         while k < n:
@@ -303,7 +316,7 @@ def cut_reflex(n, sides_inout):
                 partner = best_partner(sides_inout, k, both)
                 if partner >= 0:
                     n = put_cut(n, k, partner, sides_inout)
-                    continue  # it may be reflex still
+                    continue  # it may still be reflex
                 if not both:
                     return -1
             k += 1
@@ -312,7 +325,7 @@ def cut_reflex(n, sides_inout):
 
 @subkernel
 def cut_large(n, most, sides_inout):
-    """Halve convex pieces until they have at most so many corners. Returns how many sides there are."""
+    """Halve convex pieces until they have at most `most` corners. Returns the number of sides."""
     k = 0
     while k < n:
         if sides_inout[k].alive:
@@ -322,7 +335,7 @@ def cut_large(n, most, sides_inout):
                 for _ in range(count // 2):
                     far = sides_inout[far].next
                 if not faces(sides_inout, k, far):
-                    break  # all in one line with it: another corner's turn
+                    break  # collinear corners: another corner is tried
                 n = put_cut(n, k, far, sides_inout)
                 count = corners_of(sides_inout, k)
         k += 1
@@ -331,7 +344,7 @@ def cut_large(n, most, sides_inout):
 
 @subkernel
 def is_needed(sides, k, m):
-    """Whether the corner where a cut starts (side k, its twin m) would be reflex without it."""
+    """Return whether the corner at the start of a cut (side k, its twin m) would be reflex without it."""
     p = sides[sides[k].previous]
     q = sides[k]
     after = sides[sides[m].next]
@@ -342,7 +355,7 @@ def is_needed(sides, k, m):
 
 @subkernel
 def is_needless(sides, k, most):
-    """Whether the pieces on both sides of a cut are convex together and have few enough corners."""
+    """Return whether the union of the pieces on both sides of a cut is convex and has at most `most` corners."""
     m = sides[k].twin
     if is_needed(sides, k, m) or is_needed(sides, m, k):
         return False
@@ -358,7 +371,7 @@ def is_needless(sides, k, most):
 
 @subkernel
 def merge(n, most, sides_inout):
-    """Take out the cuts that no corner needs, longest first."""
+    """Remove the cuts that no corner needs, longest first."""
     while True:
         best = -1
         longest = 0.0

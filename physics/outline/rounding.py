@@ -1,8 +1,8 @@
 """Round pieces as few corners and a radius: a disc is one corner, a pill two, a rounded box four.
 
 A body that rolls on a polygon loses speed at every corner; on a rounded one it does not. Candidates are made from the
-symmetry of the piece (disc, pill) and by moving the sides of its outline inward (others); each is measured against the
-cracks, and the first with the fewest corners that keeps to the contract of fitting.outline is taken.
+symmetry of the piece (disc, pill) and by moving the sides of its outline inward (others). Each is measured against the
+cracks. The first with the fewest corners that meets the contract of contour.outline is used.
 """
 
 import math
@@ -13,40 +13,39 @@ from physics.outline.contour import LARGEST_REACH, Loop, doubled_area, sharp
 from physics.outline.simple_shapes import convex_hull, fewer_sides
 from physics.settings import MAX_CORNERS
 
-# What pygame.draw.circle draws misses the contract by a hair: from a radius of 24 px on no disc keeps to it, and those
-# of 6, 16 and 20 only touch it. A polygon in its place would lose speed at every corner.
-DISC_CLEAR = 0.2  # [px] how deep in a disc a clear pixel's centre may lie, and …
-DISC_SPARE = 0.13  # [px] … by how much a disc may be farther from the cracks, and they from it
+# The discs of pygame.draw.circle miss the contract by little: none from a radius of 24 px on meets it, and those of 6,
+# 16 and 20 px only just do. A polygon in their place would lose speed at every corner.
+DISC_CLEAR = 0.2  # [px] largest depth of a clear pixel's centre in a disc, and …
+DISC_SPARE = 0.13  # [px] … additional distance allowed between a disc and the cracks
 REACHED = 0.21  # [px] as FARTHEST, of the contract
-INSIDE = 0.001  # [px] how far inside solid pixels' centres lie at least
-LEAST_RADIUS = 1.0  # [px] a smaller rounding is not seen in pixels
-FARTHEST = 0.2  # [px] by how much a crack may be farther from the outline than an outline from the cracks
-SPACING = 0.01  # [px] between the points of a boundary that are measured
-SLACK = 0.005  # [px] what may lie between two of them
-RADII = 12  # radii that are tried for a core of several corners
-TRIES = (400, 24)  # moves of a core that are tried: of a disc or capsule; of others, for each corner
-ROOM = 0.04  # [px] between the least and the greatest radius: enough, no need to move corners on
-STEPS = (0.5, 0.25, 0.12, 0.06, 0.03)  # [px] by which the corners of a core are moved to make it fit
+INSIDE = 0.001  # [px] least depth of solid pixels' centres
+LEAST_RADIUS = 1.0  # [px] smaller roundings are invisible in pixels
+FARTHEST = 0.2  # [px] additional distance allowed of a crack from the outline
+SPACING = 0.01  # [px] between the measured points of a boundary
+SLACK = 0.005  # [px] possible error between two of them
+RADII = 12  # number of radii tried for a core of several corners
+TRIES = (400, 24)  # number of moves tried: for a disc or capsule; for others, per corner
+ROOM = 0.04  # [px] range of radii that is sufficient to stop moving corners
+STEPS = (0.5, 0.25, 0.12, 0.06, 0.03)  # [px] by which the corners of a core are moved
 
 Core = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen [px], radius [px]
 
 
 def rounded_core(outer: np.ndarray, cracks: Loop, smooth: float) -> Core | None:
-    """A convex core of 1 to 16 corners and the radius that it is grown by, for one piece without holes; or None.
+    """Return a convex core of 1 to 16 corners and its radius for one piece without holes; or None.
 
-    outer (n, 2): its outline; cracks: the crack loop that this came from; smooth [px], all as in fitting.outline. One
-    corner is a disc, two are a capsule. The boundary keeps to the same contract: within smooth of the cracks and they
-    within smooth + 0.21 of it, pixels' centres on their sides. Of a disc a clear centre may be 0.2 px inside, and the
-    boundary and the cracks 0.13 px farther from each other. None for a piece with a corner that must stay sharp,
-    and where rounding does not save corners. Fewest corners first; of several,
-    those that keep the outline's sides.
+    outer (n, 2): its outline; cracks: the crack loop of the outline; smooth [px], all as in contour.outline. One corner
+    is a disc, two are a capsule. The boundary meets the same contract: within smooth of the cracks, these within smooth
+    + 0.21 of it, pixels' centres on their sides. For a disc a clear centre may be 0.2 px inside, and both distances
+    0.13 px larger. None for a piece with a fixed corner, and where rounding does not save corners. Fewest corners
+    first; of several results those that keep the outline's sides.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None
     judge = _Judge(cracks.corners, min(smooth, LARGEST_REACH))
     hull = convex_hull(judge.inside)
     if len(hull) > 2 and _beyond(hull, judge.outside).min() <= 0.0:
-        return None  # no convex figure parts the centres
+        return None  # no convex figure separates the centres
     for core in _round_ones(outer, judge.corners):
         if len(core) == 1 and (found := judge.disc(core)) is not None:
             return found
@@ -57,7 +56,7 @@ def rounded_core(outer: np.ndarray, cracks: Loop, smooth: float) -> Core | None:
 
 
 def _round_ones(outer, corners):
-    """Discs and capsules about the middle of the bounds and the centre of area."""
+    """Yield discs and capsules about the middle of the bounds and the centre of area."""
     area, center, axis = _moments(corners.astype(float))
     yield (corners.min(axis=0) + corners.max(axis=0))[None] / 2.0
     yield center[None]
@@ -65,7 +64,7 @@ def _round_ones(outer, corners):
     along, aside = outer @ axis, outer @ across
     middle = axis * (along.min() + along.max()) / 2.0 + across * (aside.min() + aside.max()) / 2.0
     radius = np.ptp(aside) / 2.0
-    # The line between the ends that has the piece's length, or its area.
+    # The line between the ends that gives the piece's length, or its area.
     for half in (np.ptp(along) / 2.0 - radius, (area - math.pi * radius * radius) / (4.0 * radius)):
         if half > 0.0:
             ends = np.stack([middle - half * axis, middle + half * axis])
@@ -73,11 +72,11 @@ def _round_ones(outer, corners):
 
 
 def _several(outer, judge):
-    """The sides of the outline moved inward by a radius, as few as do.
+    """Return the sides of the outline moved inward by a radius, with the fewest corners; or None.
 
-    Those that grow back to where they were come first, the least radius before others: faces that stand out a little
-    let stacks rise, and round corners tip early. Sides that must move to suit the cracks are taken where they save
-    corners; of those the largest radius.
+    Cores that grow back to the outline's sides come first, the smallest radius first: faces that stand out a little
+    make stacks rise, and round corners tip early. Cores with moved sides are used where they save corners; of those the
+    largest radius comes first.
     """
     hull = convex_hull(outer)
     radii = np.linspace(1.0, 0.0, RADII, endpoint=False) * _widest(hull)
@@ -96,7 +95,7 @@ def _several(outer, judge):
 
 
 def _moments(corners):
-    """Area, centre and the direction of the longer axis of a loop."""
+    """Return area, centre and direction of the longer axis of a loop."""
     area = doubled_area(corners) / 2.0
     base = corners.mean(axis=0)
     p = corners - base
@@ -107,7 +106,7 @@ def _moments(corners):
     weight = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
     xx, yy = ((p * p + p * q + q * q) * weight[:, None]).sum(axis=0)
     xy = ((p[:, 0] * q[:, 1] + q[:, 0] * p[:, 1]) / 2.0 + p[:, 0] * p[:, 1] + q[:, 0] * q[:, 1]) @ weight
-    # Of a loop that is symmetrical the axis is exact: xy is 0, or xx equals yy.
+    # For a symmetrical loop the axis is exact: xy is 0, or xx equals yy.
     angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
     return area, base + center, np.array([math.cos(angle), math.sin(angle)])
 
@@ -118,7 +117,7 @@ def _normals(corners):
 
 
 def _widest(hull):
-    """About the radius of the largest disc inside, by halving."""
+    """Return about the radius of the largest disc inside, by bisection."""
     low, high = 0.0, float(np.ptp(hull, axis=0).min()) / 2.0
     for _ in range(12):
         middle = (low + high) / 2.0
@@ -127,7 +126,7 @@ def _widest(hull):
 
 
 def _inset(hull, radius):
-    """What is left of a convex polygon when each side moves inward by a radius: clipped side by side."""
+    """Return a convex polygon with each side moved inward by a radius: clipped side by side."""
     left = hull
     for corner, normal in zip(hull, _normals(hull), strict=True):
         over = (left - corner) @ normal + radius
@@ -145,7 +144,7 @@ def _inset(hull, radius):
 
 
 class _Judge:
-    """The contract of one crack loop: what a rounded core has to keep to."""
+    """The contract of one crack loop, against which rounded cores are measured."""
 
     def __init__(self, corners, reach):
         self.corners, self.reach = corners, reach
@@ -158,7 +157,7 @@ class _Judge:
         self.inside, self.outside = (starts + signs / 2.0 + side * inward / 2.0 for side in (1, -1))
         shares = np.arange(0.0, 1.0, 0.125)[:, None, None]
         self.points = (starts + shares * signs).reshape(-1, 2)
-        # Which cracks there are, by their left or upper end: to be found from any place near.
+        # Cracks by their left or upper end, for a search from nearby points.
         self.low = corners.min(axis=0) - 2
         size = corners.max(axis=0) - self.low + 3
         self.across, self.down = np.zeros(size, bool), np.zeros(size, bool)
@@ -168,7 +167,7 @@ class _Judge:
         self.down[tuple(ends[~level].T)] = True
 
     def fitted(self, core):
-        """A core, its corners moved a little where they must be, with the radius that suits it best; or None."""
+        """Return a core, its corners moved where necessary, with the best radius for it; or None."""
         room = self._room(core)
         found = self._measured(core) if room > 0.0 else None
         if found is not None or room < (-1.0 if len(core) < 3 else -0.1):
@@ -188,7 +187,7 @@ class _Judge:
         return self._measured(core) if room > 0.0 else None
 
     def grown(self, core, radius):
-        """A core with this very radius, where it keeps to the contract; or None."""
+        """Return a core with this very radius if it meets the contract; or None."""
         points = _beyond(core, self.points)
         low = max(_beyond(core, self.inside).max(), points.max() - self.reach - FARTHEST)
         high = min(_beyond(core, self.outside).min(), points.min() + self.reach + FARTHEST)
@@ -200,7 +199,9 @@ class _Judge:
         return core, float(radius)
 
     def disc(self, core):
-        """The least disc about a centre that holds all solid centres, where it is near enough; or None."""
+        """Return the smallest disc about a centre that contains all solid centres, if it is accurate enough; or
+        None.
+        """
         if self._room(core) > 0.0:
             return self._measured(core)
         radius = _beyond(core, self.inside).max() + INSIDE
@@ -213,11 +214,11 @@ class _Judge:
         return (core, float(radius)) if off <= self.reach + DISC_SPARE - SLACK else None
 
     def _room(self, core):
-        """Between how far radii a core has all centres on their sides; negative: there are none."""
+        """Return the range of radii for which a core has all centres on their sides; negative: there is none."""
         return _beyond(core, self.outside).min() - _beyond(core, self.inside).max()
 
     def _measured(self, core):
-        """A core and the radius that gives it the pixels' area, as far as the contract lets; or None."""
+        """Return a core with the radius that gives it the pixels' area, as far as the contract allows; or None."""
         if not _convex(core):
             return None
         points = _beyond(core, self.points)
@@ -235,7 +236,7 @@ class _Judge:
         return core, float(radius)
 
     def _from_cracks(self, points):
-        """Distance of points (m, 2) from the nearest crack, if that is less than 1 px."""
+        """Return the distance of points (m, 2) from the nearest crack, exact below 1 px."""
         cells = np.floor(points).astype(np.int64)
         least = np.full(len(points), math.inf)
         for axis, cracks in enumerate((self.across, self.down)):
@@ -251,7 +252,7 @@ class _Judge:
 
 
 def _beyond(core, points):
-    """How far points (m, 2) lie outside of a core; negative: how deep inside [px]."""
+    """Return how far points (m, 2) lie outside of a core; negative: depth inside [px]."""
     if len(core) == 1:
         return np.hypot(*(points - core[0]).T)
     sides = np.roll(core, -1, axis=0) - core
@@ -265,7 +266,7 @@ def _beyond(core, points):
 
 
 def _moves(core):
-    """Ways to move a core (m, k, 2): each corner right and down; a line also longer and turned."""
+    """Return moves of a core (m, k, 2): each corner right and down; for a line also lengthening and rotation."""
     moves = np.eye(core.size).reshape(-1, *core.shape)
     if len(core) != 2 or (core[0] == core[1]).all():
         return moves
@@ -275,7 +276,7 @@ def _moves(core):
 
 
 def _convex(core):
-    """Whether three corners or more turn clockwise on the screen at each, and no two are one."""
+    """Return whether all corners turn clockwise on the screen (three and more), and no two coincide."""
     sides = np.roll(core, -1, axis=0) - core
     after = np.roll(sides, -1, axis=0)
     if np.hypot(*sides.T).min() < SLACK and len(core) > 1:
@@ -284,7 +285,7 @@ def _convex(core):
 
 
 def _boundary(core, radius, spacing):
-    """Points around a core grown by a radius, at most spacing apart [px]."""
+    """Return points around a core with a radius, at most `spacing` apart [px]."""
     if len(core) == 1:
         angles = np.arange(0.0, math.tau, spacing / radius)
         return core + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -1,4 +1,4 @@
-"""The least hull, box, capsule and circle around pixels or points."""
+"""The smallest hull, box, capsule and circle around pixels or points."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -7,18 +7,18 @@ from typing import Protocol
 import numpy as np
 
 # ---- hull ------------------------------------------------------------------------------------------------------------
-# Convex hulls of pixels and points, and hulls of fewer sides around them. Source: Andrew's monotone chain, 1979.
+# Convex hulls of pixels and points, and enclosing polygons of fewer sides. Source: Andrew's monotone chain, 1979.
 
 
 class Sprite(Protocol):
-    """What a hull is taken of: shapes.mask.PixelMask has it."""
+    """Interface of the source of a hull, implemented by shapes.mask.PixelMask."""
 
     solid: np.ndarray  # bool [row, col]
     origin: tuple[float, float]
 
 
 def mask_hull(mask: Sprite) -> np.ndarray:
-    """Hull corners (n, 2) [px] of the union of pixel squares in body space, clockwise on the screen."""
+    """Return the hull corners (n, 2) [px] of the union of pixel squares in body space, clockwise on the screen."""
     rows = np.flatnonzero(mask.solid.any(axis=1))
     left = mask.solid[rows].argmax(axis=1)
     right = mask.solid.shape[1] - mask.solid[rows, ::-1].argmax(axis=1)
@@ -27,9 +27,10 @@ def mask_hull(mask: Sprite) -> np.ndarray:
 
 
 def convex_hull(points: np.ndarray, flat: float = 0.0) -> np.ndarray:
-    """Hull corners (n, 2) [px] of points (m, 2), clockwise on the screen; fewer than three when all lie on a line.
+    """Return the hull corners (n, 2) [px] of points (m, 2), clockwise on the screen (monotone chain).
 
-    flat [px2]: a corner goes when the triangle with its neighbours has at most that area, doubled.
+    Fewer than three corners if all points are collinear. flat [px2]: a corner is removed if the triangle with its
+    neighbours has at most that area, doubled.
     """
     ordered = sorted(set(map(tuple, points.tolist())))
     if len(ordered) < 3:
@@ -38,17 +39,17 @@ def convex_hull(points: np.ndarray, flat: float = 0.0) -> np.ndarray:
 
 
 def fewer_sides(corners: np.ndarray, most: int) -> np.ndarray:
-    """A convex polygon of at most `most` sides around one, (n, 2) [px] clockwise on the screen.
+    """Return a convex polygon of at most `most` sides around a convex polygon (n, 2) [px], clockwise on the screen.
 
-    Sides go one by one, by extending their neighbours until these meet: that side first whose going adds least area.
-    It never does for a side whose neighbours do not meet beyond it; so a triangle is always left as it is.
+    Sides are removed one by one by extending their neighbours until these meet, the side that adds least area first. A
+    side whose neighbours do not meet beyond it is kept, so a triangle never changes.
     """
     corners = np.array(corners, float)
     while len(corners) > max(most, 3):
         k, tip = _cheapest(corners)
         if tip is None:
             break
-        # Side k from corner k to k + 1 shrinks to one corner where its neighbours meet.
+        # Side k from corner k to k + 1 shrinks to the corner where its neighbours meet.
         corners[k] = tip
         corners = np.delete(corners, (k + 1) % len(corners), axis=0)
     return corners
@@ -81,12 +82,14 @@ def _half(points, flat):
 
 
 # ---- box -------------------------------------------------------------------------------------------------------------
-# Least turned box around a convex hull: one side lies on an edge of the hull. Source: Freeman and Shapira 1975.
+# Smallest oriented box around a convex hull: one side lies on an edge of the hull. Source: Freeman and Shapira 1975.
 
 
 def least_box(hull: np.ndarray) -> tuple[float, float, tuple[float, float], float]:
-    """(width, height, center, angle) of the box of least area around hull corners (n, 2) [px];
-    of equal ones the first."""
+    """Return (width, height, center, angle) of the box of least area around hull corners (n, 2) [px].
+
+    Of equal areas the first edge is used.
+    """
     best, found = math.inf, (0.0, 0.0, (0.0, 0.0), 0.0)
     for edge in np.roll(hull, -1, axis=0) - hull:
         angle = math.atan2(edge[1], edge[0])
@@ -102,16 +105,18 @@ def least_box(hull: np.ndarray) -> tuple[float, float, tuple[float, float], floa
 
 
 # ---- capsule ---------------------------------------------------------------------------------------------------------
-# Capsule of little area around a convex hull: the best of all axis directions, by sampling and closing in.
+# Capsule of small area around a convex hull: the best of all axis directions, by sampling and refinement.
 
-DIRECTIONS = 90  # axes that are tried, over half a turn
-SHORT = 1e-6  # of its radius: a capsule whose line is shorter is told as a circle
-CLOSER = 40  # halvings of the step around the best
+DIRECTIONS = 90  # axes tried, over half a turn
+SHORT = 1e-6  # relative to its radius: a capsule with a shorter line becomes a circle
+CLOSER = 40  # bisections of the step around the best
 
 
 def least_capsule(hull: np.ndarray) -> tuple[tuple[float, float], tuple[float, float], float]:
-    """(a, b, radius) of a capsule that holds hull corners (n, 2) [px], its radius half of the hull's width across its
-    axis; of such the one of least area; a equals b where that is a circle."""
+    """Return (a, b, radius) of a capsule around hull corners (n, 2) [px]; a equals b for a circle.
+
+    Its radius is half of the hull's width across its axis. Of all axes the one of least area is used.
+    """
     step = math.pi / DIRECTIONS
     best = min(range(DIRECTIONS), key=lambda k: _capsule(hull, k * step)[0])
     angle, area = best * step, _capsule(hull, best * step)[0]
@@ -129,10 +134,10 @@ def _capsule(hull, angle):
     across = np.array([-axis[1], axis[0]])
     along, aside = hull @ axis, hull @ across
     middle, radius = (aside.min() + aside.max()) / 2.0, np.ptp(aside) / 2.0
-    # Each corner lets the line end so far before it that the round end still holds it.
+    # Distance by which the line may end before each corner, so that the cap still contains it.
     reach = np.sqrt(np.maximum(radius * radius - (aside - middle) ** 2, 0.0))
     first, last = (along + reach).min(), (along - reach).max()
-    if first + SHORT * radius >= last:  # all in a circle about any point between
+    if first + SHORT * radius >= last:  # all within a circle about any point between
         radius += max(last - first, 0.0) / 2.0
         first = last = (first + last) / 2.0
     a, b = axis * first + across * middle, axis * last + across * middle
@@ -141,11 +146,11 @@ def _capsule(hull, angle):
 
 
 # ---- circle ----------------------------------------------------------------------------------------------------------
-# Least circle that holds a set of points. Source: Welzl 1991, in the incremental form.
+# Smallest enclosing circle of points. Source: Welzl 1991, in the incremental form.
 
 
 def least_circle(points: Iterable[Sequence[float]] | np.ndarray) -> tuple[float, float, float]:
-    """(x, y, radius) [px] of the least circle around points (n, 2), n >= 1."""
+    """Return (x, y, radius) [px] of the smallest circle around points (n, 2), n >= 1."""
     points = [(float(x), float(y)) for x, y in points]
     x, y, radius = (*points[0], 0.0)
     for i, p in enumerate(points):

@@ -1,9 +1,9 @@
-"""Which corners of a tile's parts are covered by others, of its own or of the tiles around, and what sides are left.
+"""Corners of a tile's parts that other parts cover, of the tile or of its neighbours, and the remaining outer corners.
 
-Parts that meet in a point and together take half a turn or more there leave no corner that sticks out. Of those that
-leave one the first that has a side of the outline there has it: tiles count row by row, parts in their order. Of a
-corner that hardly sticks out it is told, as its part seems sharper than the outline is there: the inner side beside it
-is none of the outline's.
+Parts that meet in a point and together take half a turn or more there leave no convex corner. Otherwise the corner
+belongs to the first of them with a side of the outline there: tiles in the order of rows, then parts in their order. A
+corner at which the outline hardly turns is marked as blunt, because its part is sharper than the outline there. The
+inner side beside it does not belong to the outline.
 """
 
 import math
@@ -15,28 +15,28 @@ from physics.jit import kernel, subkernel
 from physics.outline.tiled import TileParts
 from physics.tables.shape import SHARPEST, TURNS
 
-STRAIGHT = 1e-9  # of half a turn: corners that are no sharper lie within a side
+STRAIGHT = 1e-9  # of half a turn: a corner with a smaller turn lies within a side
 HALF_TURN = math.pi * (1.0 - STRAIGHT)  # [rad]
-COVERED = 0.0  # [rad] the turn of the outline where none of its corners sticks out
+COVERED = 0.0  # [rad] turn of the outline at a covered corner
 
 NOBODY = np.zeros((0, 5))  # no corner on a border
 
 
 class Survey(NamedTuple):
-    """What is known of a tile's parts, whatever lies around it."""
+    """Data of a tile's parts that is independent of the neighbouring tiles."""
 
-    angles: np.ndarray  # (n,) float64 [rad] inside each corner
-    seams: np.ndarray  # (n,) bool: whether one of the two sides at it is inner, and the other not
-    meetings: np.ndarray  # (m, 5) its corners on the border: x, y [px], angle, whether a seam, number of the tile
-    corners: np.ndarray  # (k, 2) float64 [px] as a world takes them: in body space, those in a line left out
-    counts: np.ndarray  # (parts,) int64: how many of these each part has
+    angles: np.ndarray  # (n,) float64 [rad] interior angle of each corner
+    seams: np.ndarray  # (n,) bool: one of the two sides at it is inner, the other is not
+    meetings: np.ndarray  # (m, 5) its corners on the border: x, y [px], angle, is a seam, tile number
+    corners: np.ndarray  # (k, 2) float64 [px] for a world: in body space, without collinear corners
+    counts: np.ndarray  # (parts,) int64: number of these per part
 
 
 def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin: tuple[float, float]) -> Survey:
-    """What is known of a tile's parts.
+    """Return the survey of a tile's parts.
 
-    parts in raster pixels; at: the tile's top left corner there; size: its pixels a side; number: in which order it
-    counts; origin [px] of body space in the raster.
+    parts in raster pixels; at: the tile's top left corner there; size: its pixels per side; number: its rank among the
+    tiles; origin [px] of body space in the raster.
     """
     n, (left, top) = len(parts.corners), at
     found = Survey(
@@ -47,18 +47,20 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 
 
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
-    """(row, column) of the tiles that have a corner which only one of two lists of meetings of a tile, at a row and
-    column of tiles of so many pixels a side, has."""
+    """Return (row, column) of the tiles with a border corner that is in only one of two lists of meetings of a tile.
+
+    row, column: of the tile; size: its pixels per side.
+    """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
     return [(row + k // 3 - 1, column + k % 3 - 1) for k, moved in enumerate(found.tolist()) if moved]
 
 
 def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int, columns: int) -> np.ndarray:
-    """(k,) int64, see SHAPE: which edges and corners of parts, without those in a line, are inner.
+    """Return (k,) int64 flags of inner edges and corners of parts, without collinear corners; see SHAPE.
 
-    around: meetings of its tile, of all around, and of others, in the order of their numbers; number: of its tile;
-    columns: tiles in a row.
+    around: meetings of the tile, of its neighbours, and possibly of others, in the order of their numbers; number: of
+    the tile; columns: tiles per row.
     """
     inner = np.empty(len(parts.counts), np.int64)
     tell_inner(parts, known, around, (number, columns), np.empty(len(parts.corners)), inner)
@@ -67,7 +69,9 @@ def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int,
 
 @subkernel
 def find_seams(parts, angles_out, seams_out):
-    """The angle inside each corner (n,) of a tile's parts [rad], and whether one of the sides at it is inner."""
+    """Write the interior angle [rad] of each corner (n,) of a tile's parts, and whether exactly one side at it is
+    inner.
+    """
     corners = parts.corners
     inner = parts.inner
     first = 0
@@ -88,8 +92,10 @@ def find_seams(parts, angles_out, seams_out):
 
 @subkernel
 def gather(corners, known, box, number, found_out):
-    """Write the corners (n, 2) [px] that lie on the border of a box (left, top, right, bottom), as the meetings of a
-    Survey, known but for these. Returns how many."""
+    """Write the corners (n, 2) [px] on the border of a box (left, top, right, bottom) as meetings of a Survey.
+
+    known: a Survey with angles and seams. Returns the number of meetings.
+    """
     left, top, right, bottom = box
     count = 0
     for k in range(len(corners)):
@@ -107,8 +113,11 @@ def gather(corners, known, box, number, found_out):
 
 @subkernel
 def mark_alone(mine, others, place, moved_out):
-    """Flag which of 9 tiles, row by row, around one have a corner of its meetings `mine` (n, 5) that is none of
-    the others (m, 5); place: left, top, size [px] of the tile. O(n m)."""
+    """Flag which of 9 tiles, row by row, around a tile share a corner that is in `mine` (n, 5) but not in `others` (m,
+    5).
+
+    place: left, top, size [px] of the tile. O(n m).
+    """
     left, top, size = place
     for i in range(len(mine)):
         known = False
@@ -130,21 +139,23 @@ def mark_alone(mine, others, place, moved_out):
 
 @kernel
 def mark_moved(before, after, place, moved_out):
-    """Flag which of 9 tiles have a corner that only one of two lists of meetings has; place: left, top, size [px].
-    O(n m)."""
+    """Flag which of 9 tiles share a corner that is in only one of two lists of meetings; place: left, top, size [px].
+
+    O(n m).
+    """
     mark_alone(before, after, place, moved_out)
     mark_alone(after, before, place, moved_out)
 
 
 @subkernel
 def seam_turn(angle):
-    """By how much [rad] the outline turns where parts meet that take so much of a turn together, or COVERED."""
+    """Return the turn [rad] of the outline at a point where the parts take `angle` [rad] in total, or COVERED."""
     return COVERED if angle >= HALF_TURN else math.pi - angle
 
 
 @subkernel
 def corner_bits(k, turn):
-    """The bits of SHAPE's inner for corner k of a part, at which the outline turns by so much [rad]."""
+    """Return the bits of SHAPE's inner for corner k of a part, at which the outline turns by `turn` [rad]."""
     if turn == COVERED:
         return 1 << (k + 16)
     return 1 << (k + 32) if turn <= SHARPEST else 0
@@ -152,13 +163,13 @@ def corner_bits(k, turn):
 
 @subkernel
 def turn_bits(turn):
-    """The bits of SHAPE's inner for a part at whose blunt corners the outline turns by so much [rad] at most."""
+    """Return the bits of SHAPE's inner for a part with `turn` [rad] as the largest turn at its blunt corners."""
     return (math.floor(turn * TURNS) + 1) << 48
 
 
 @subkernel
 def first_of(around, number):
-    """The first of meetings, in the order of their tiles' numbers, of a tile from this number on. O(log meetings)."""
+    """Return the index of the first meeting of a tile numbered `number` or higher. O(log meetings)."""
     low = 0
     high = len(around)
     while low < high:
@@ -172,9 +183,11 @@ def first_of(around, number):
 
 @subkernel
 def cover_corners(corners, known, around, place, turns_out):
-    """By how much [rad] the outline turns at each corner (n,), by the parts that meet there: pi where none does,
-    COVERED where they or another of them has it; around (m, 5): as in inner_bits; place: number of the tile, and how
-    many there are in a row. O(n²) but for the meetings of the tiles around."""
+    """Write the turn [rad] of the outline at each corner (n,), by the parts that meet there.
+
+    pi where no other part meets it, COVERED where the parts cover it or another part owns it. around (m, 5): as in
+    inner_bits; place: number of the tile, and tiles per row. O(n²), plus the meetings of the tiles around.
+    """
     there = known.seams
     number, columns = place
     left = number - (1 if number % columns > 0 else 0)
@@ -203,7 +216,7 @@ def cover_corners(corners, known, around, place, turns_out):
 
 @subkernel
 def first_turn(angles, first):
-    """The first corner of a part, from `first` on, that is not within a side."""
+    """Return the first corner of a part, from `first` on, that does not lie within a side."""
     while angles[first] >= HALF_TURN:
         first += 1
     return first
@@ -211,8 +224,10 @@ def first_turn(angles, first):
 
 @subkernel
 def leave_straight(parts, angles, origin, corners_out, counts_out):
-    """Write the corners (n, 2) of TileParts that turn, less the origin, and how many each part has. Returns how many
-    there are."""
+    """Write the corners (n, 2) of TileParts at which they turn, minus the origin, and their number per part.
+
+    Returns the total number of corners.
+    """
     left, top = origin
     n = 0
     first = 0
@@ -223,7 +238,8 @@ def leave_straight(parts, angles, origin, corners_out, counts_out):
         for step in range(count):
             at = start + step if start + step < first + count else start + step - count
             if angles[at] < HALF_TURN:
-                # Differences of whole grains: exact wherever the origin is, so the same in each tile with the corner.
+                # Differences of whole grains are exact for any origin, so they are the same in each tile with the
+                # corner.
                 corners_out[n, 0] = parts.corners[at, 0] - left
                 corners_out[n, 1] = parts.corners[at, 1] - top
                 n += 1
@@ -234,8 +250,9 @@ def leave_straight(parts, angles, origin, corners_out, counts_out):
 
 @kernel
 def survey_tile(parts, box, number, origin, survey_out):
-    """Write what is known of TileParts, as in survey; box: left, top, right, bottom of the tile. Returns how many
-    meetings and corners there are."""
+    """Write the survey of TileParts; box: left, top, right, bottom of the tile. Returns the numbers of meetings and
+    corners.
+    """
     find_seams(parts, survey_out.angles, survey_out.seams)
     met = gather(parts.corners, survey_out, box, number, survey_out.meetings)
     return met, leave_straight(parts, survey_out.angles, origin, survey_out.corners, survey_out.counts)
@@ -243,10 +260,10 @@ def survey_tile(parts, box, number, origin, survey_out):
 
 @kernel
 def tell_inner(parts, known, around, place, turns_out, inner_out):
-    """Write which edges and corners of each part, as leave_straight writes them, are inner; as in inner_bits.
+    """Write the flags of inner edges and corners of each part, as inner_bits, for the corners of leave_straight.
 
-    An edge of several sides is inner where all of them are. place: number of the tile, and how many there are in a row;
-    turns_out (n,): by how much the outline turns at each corner.
+    An edge of several sides is inner if all of them are. place: number of the tile, and tiles per row; turns_out (n,):
+    turn [rad] of the outline at each corner.
     """
     cover_corners(parts.corners, known, around, place, turns_out)
     first = 0

@@ -30,29 +30,30 @@ from physics.outline.rings import SIDE, bridge, close_ring, cut_large, cut_refle
 from physics.settings import MAX_CORNERS
 
 # ---- crossings -------------------------------------------------------------------------------------------------------
-# Where an outline crosses the border of two tiles: one point, found in the same way from both sides.
+# Crossings of the outline and the border of two tiles: one point, computed identically from both sides.
 #
-# Only cracks within SEEN of where the path of cracks changes from one tile's pixels to another's are looked at: the
-# line along the longest stretch of them that is straight crosses the border there, on the run of a path that turns at
-# it, or a little beside a path that goes straight on. A corner between long runs is crossed in itself.
+# A crossing depends only on cracks within SEEN of the place where the crack path changes from one tile's pixels to
+# another's. A line is fitted to the longest stretch of them that is straight. If the path turns at the border, the
+# crossing is on a run of the path. If the path goes straight on, the crossing may be a little beside it. A corner
+# between long runs is its own crossing.
 
-SEEN = 12  # [px] of the path on either side. More: a wider halo; fewer: gentle slopes are less straight at borders
-STRAIGHT = 0.6  # [px] from a line that the middles of a straight path's cracks lie at most: of slight slopes 0.5
-KNOWN = SEEN - SHARP - 1  # [px] a run of at most this length is seen whole, with its neighbours
-BESIDE = 0.25  # [px] crossings are off a run's ends
+SEEN = 12  # [px] of the path on either side. More: a wider halo; less: gentle slopes are less straight at borders
+STRAIGHT = 0.6  # [px] largest distance of a straight path's crack middles from its line: 0.5 for slight slopes
+KNOWN = SEEN - SHARP - 1  # [px] longest run that is fully within SEEN, with its neighbours
+BESIDE = 0.25  # [px] least distance of a crossing from a run's ends
 GRAINS = 1024.0  # [1/px]
-GRAIN = 1.0 / GRAINS  # [px] crossings are multiples of it: sums with whole pixels are exact in every tile
+GRAIN = 1.0 / GRAINS  # [px] grid of crossings: sums with whole pixels are exact in every tile
 
 
 @subkernel
 def whole_grains(length):
-    """The length, not longer, in whole grains [px]."""
+    """Return a length rounded down to whole grains [px]."""
     return math.floor(length * GRAINS) * GRAIN
 
 
 @subkernel
 def to_border(window, x, y, direction):
-    """Distance [px] from a corner on the tile's border to its next border line ahead, or more than KNOWN."""
+    """Return the distance [px] from a corner on the tile's border to the next border line ahead, or more than KNOWN."""
     at = y if direction & 1 else x
     ahead = window.high - at if direction < 2 else at - window.low
     return ahead if ahead > 0 else KNOWN + 1
@@ -60,10 +61,10 @@ def to_border(window, x, y, direction):
 
 @subkernel
 def stretch(runs, count, at, seen, x, y):
-    """The line through the middles of the cracks within a way of the corner (x, y) after so many cracks of a path.
+    """Fit a line (least squares) to the crack middles of a path within `seen` cracks of its corner (x, y).
 
-    Least squares. Returns (x, y [px] of a point of it, off the corner; its slope; whether that is dx / dy, not
-    dy / dx; whether all middles lie near it).
+    at: cracks of the path before the corner. Returns (x, y [px] of a point on the line, relative to the corner; its
+    slope; whether the slope is dx / dy instead of dy / dx; whether all middles are near the line).
     """
     n = 0
     sum_x = sum_y = sum_xx = sum_yy = sum_xy = 0.0
@@ -110,7 +111,7 @@ def stretch(runs, count, at, seen, x, y):
 
 @subkernel
 def line_at(runs, count, at, x, y):
-    """The line along the longest stretch of a path that is straight about a corner; as stretch."""
+    """Return the line along the longest straight stretch of a path about a corner; as stretch."""
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
         if straight:
@@ -121,7 +122,9 @@ def line_at(runs, count, at, x, y):
 
 @subkernel
 def meets(runs, count, at, x, y, level):
-    """How far [px] from a corner of a path the line along it meets the row (level) or column of the corner."""
+    """Return the distance [px] from a corner of a path to where its line meets the row (level) or column of the
+    corner.
+    """
     line_x, line_y, slope, steep = line_at(runs, count, at, x, y)
     if level == steep:
         return line_x - slope * line_y if level else line_y - slope * line_x
@@ -132,7 +135,9 @@ def meets(runs, count, at, x, y, level):
 
 @subkernel
 def room_in(window, runs, count, k, x, y, after):
-    """How far [px] a crossing moves from a corner (x, y) into run k, which starts there (after) or ends there."""
+    """Return how far [px] a crossing moves from a corner (x, y) into run k, which starts there (after) or ends
+    there.
+    """
     run = runs[k]
     direction = run.direction if after else (run.direction + 2) & 3
     ahead = to_border(window, x, y, direction)
@@ -141,14 +146,14 @@ def room_in(window, runs, count, k, x, y, after):
         length = min(ahead, KNOWN)
     elif run.length <= KNOWN:
         length = run.length
-        # A run whose ends turn to the same side is no part of a staircase.
+        # A run whose ends turn to the same side does not belong to a staircase.
         other = k + 1 if after else k
         if other == 0 or other >= count or runs[other].direction != (runs[other - 1].direction + 1) & 3:
             return 0.0
     level = direction & 1 == 0
     room = meets(runs, count, run.at if after else run.at + run.length, x, y, level)
     room = min(max(room * (right_of(direction) if level else down_of(direction)), BESIDE), length - BESIDE)
-    # Not so far from the corner that a line past it finds no place to end half a pixel behind it.
+    # Limit: a line past the corner needs a place to end half a pixel behind it.
     if room * (0.5 - window.reach) > 0.5 * window.reach:
         room = 0.5 * window.reach / max(0.5 - window.reach, GRAIN * GRAIN)
     return whole_grains(room)
@@ -156,9 +161,9 @@ def room_in(window, runs, count, k, x, y, after):
 
 @subkernel
 def aside(window, runs, count, k, distance):
-    """How far [px] beside run k, a distance after its start, the line along the path passes.
+    """Return how far [px] beside run k, a distance after its start, the line along the path passes.
 
-    Positive in the direction in which the path came to the run.
+    Positive in the direction of the path before the run.
     """
     run = runs[k]
     if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
@@ -177,10 +182,10 @@ def aside(window, runs, count, k, distance):
 
 @subkernel
 def crossing(window, runs, count, at, after):
-    """Where the outline crosses the border at the corner after so many cracks of a path.
+    """Return the crossing of the outline and the border at the corner `at` cracks along a path.
 
-    runs: RUN of the path, SEEN cracks on either side; after: at a corner of the tile, on the run that follows, not
-    the one before. Returns (cracks along the path, x, y [px] off the path there).
+    runs: RUN of the path, SEEN cracks on either side; after: at a corner of the tile, use the run that follows instead
+    of the one before. Returns (cracks along the path, x, y [px] relative to the path there).
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -203,7 +208,7 @@ def crossing(window, runs, count, at, after):
         after = at_side == (run.direction & 1 == 1)
     room = room_in(window, runs, count, k if after else k - 1, x, y, after)
     if at_side and at_end:
-        # A line leads from one border to the other there: past the corner, and along neither of them.
+        # The line leads from one border to the other there: past the corner, and along neither border.
         other = room_in(window, runs, count, k - 1 if after else k, x, y, not after)
         if other == 0.0:
             return float(at), 0.0, 0.0
@@ -213,16 +218,16 @@ def crossing(window, runs, count, at, after):
 
 
 # ---- tile paths ------------------------------------------------------------------------------------------------------
-# The outline in one tile: its paths of cracks, from border to border or closed, in straight lines.
+# The outline in one tile: its crack paths, from border to border or closed, simplified to straight lines.
 
-NEAREST = 0.24  # [px] places nearer to a crossing are left out: they would make slivers
+NEAREST = 0.24  # [px] places nearer to a crossing are dropped, because they would make slivers
 
 POINT = np.dtype([("x", np.float64), ("y", np.float64)], align=True)
 PIECE = np.dtype(
-    [  # a stretch of the outline: lines from point to point
+    [  # a piece of the outline: lines from point to point
         ("first", np.int64),
         ("count", np.int64),
-        ("closed", np.bool_),  # from the last point back to the first one; else from border to border
+        ("closed", np.bool_),  # the last point is joined to the first; else the piece leads from border to border
         ("start", np.float64),  # [px] along the tile's border, clockwise from its top left corner
         ("end", np.float64),
         ("used", np.bool_),
@@ -232,7 +237,7 @@ PIECE = np.dtype(
 
 
 class Paths(NamedTuple):
-    """Room to work in, as large as a tile can need, and what is found."""
+    """Scratch arrays for the largest possible tile, and the result of find_paths."""
 
     marks: np.ndarray  # [row, col] uint8 of the window
     runs: np.ndarray  # RUN
@@ -244,8 +249,8 @@ class Paths(NamedTuple):
 
 
 def room_for_paths(size: int, halo: int) -> Paths:
-    """For tiles of so many pixels a side."""
-    cracks = 2 * size * size + 4 * SEEN + 8  # of a checkerboard: no tile has more
+    """Return scratch arrays for tiles of `size` pixels per side."""
+    cracks = 2 * size * size + 4 * SEEN + 8  # of a checkerboard, the largest possible number
     wide = size + 2 * halo
     return Paths(
         np.zeros((wide, wide), np.uint8),
@@ -260,7 +265,7 @@ def room_for_paths(size: int, halo: int) -> Paths:
 
 @subkernel
 def along_border(window, x, y):
-    """Distance [px] of a point on the tile's border from its top left corner, clockwise."""
+    """Return the distance [px] along the border, clockwise from the top left corner, to a point on it."""
     size = float(window.high - window.low)
     if y == window.low:
         return x - window.low
@@ -273,7 +278,7 @@ def along_border(window, x, y):
 
 @subkernel
 def stays(runs, count, k, closed):
-    """Whether the corner at the start of run k stays: between long runs, and of rectangles."""
+    """Return whether the corner at the start of run k is fixed: between long runs, and of rectangles."""
     if not closed and k == 0:
         return False
     run = runs[k]
@@ -309,7 +314,7 @@ def put_place(n, x, y, run, corner, allowed, places_inout):
 
 @subkernel
 def put_run(n, run, start, end, places_inout):
-    """Append the places within a run, those between two lengths of the path. Returns how many places there are."""
+    """Append the places within a run, between two lengths of the path. Returns the number of places."""
     for step in range(3):
         if step != 1 and run.length == 1:
             continue
@@ -324,7 +329,7 @@ def put_run(n, run, start, end, places_inout):
 
 @subkernel
 def put_end(n, runs, count, at, off_x, off_y, places_inout):
-    """Append a crossing, off a place of the path."""
+    """Append a crossing, offset from a place of the path."""
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
         k += 1
@@ -336,7 +341,9 @@ def put_end(n, runs, count, at, off_x, off_y, places_inout):
 
 @subkernel
 def put_points(window, found, closed, workspace):
-    """Append the chain of so many places as a piece (PIECE), backward: points (POINT). Returns whether there is one."""
+    """Append a piece (PIECE) and its points (POINT) from the chain of `found` places, reversed. Returns False if found
+    is 0.
+    """
     if found == 0:
         return False
     counts = workspace.counts
@@ -361,8 +368,10 @@ def put_points(window, found, closed, workspace):
 
 @subkernel
 def add_open(window, x, y, direction, cracks, workspace):
-    """Append the piece of a path between two borders: so many cracks from a corner on; 0: the path only passes the
-    corner of the tile from one border to another. Returns whether it could be done."""
+    """Append the piece of a path between two borders, `cracks` cracks from a corner on. Returns whether it succeeded.
+
+    cracks 0: the path only passes the corner of the tile from one border to another.
+    """
     runs, places = workspace.runs, workspace.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
     count = record(window, x, y, direction, cracks + 2 * SEEN, runs)
@@ -373,7 +382,7 @@ def add_open(window, x, y, direction, cracks, workspace):
     for k in range(count):
         run = runs[k]
         if start < run.at < end:
-            # A crossing on another tile's pixels: the line from it leaves the border at once.
+            # After a crossing on another tile's pixels the line leaves the border at once.
             barred = (run.at == SEEN and start < run.at) or (run.at == SEEN + cracks and end > run.at)
             put_place(n, float(run.x), float(run.y), run, True, not (run.joined or barred), places)
             places[n].anchor = not barred and stays(runs, count, k, False)
@@ -385,8 +394,7 @@ def add_open(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_closed(window, x, y, direction, cracks, workspace):
-    """Append the piece of a loop of so many cracks, from a corner on where it turns. Returns whether it could be
-    done."""
+    """Append the piece of a loop of `cracks` cracks, from a corner where it turns. Returns whether it succeeded."""
     runs, places = workspace.runs, workspace.places
     count = record(window, x, y, direction, cracks, runs)
     n = 0
@@ -408,7 +416,7 @@ def add_closed(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_at_corner(window, x, y, workspace):
-    """Append all pieces that start at a corner of the grid on the tile's border. Returns whether it could be done."""
+    """Append all pieces that start at a corner of the grid on the tile's border. Returns whether it succeeded."""
     pixels = window.pixels
     done = True
     solid = 0
@@ -432,9 +440,9 @@ def add_at_corner(window, x, y, workspace):
 
 @subkernel
 def find_paths(window, workspace):
-    """Find all pieces of the outline in a tile. Returns whether it could be done.
+    """Find all pieces of the outline in a tile. Returns whether it succeeded.
 
-    workspace: Paths. Linear in pixels and corners, but for the lines.
+    workspace: Paths. Linear in pixels and corners, except for the line search.
     """
     low, high = window.low, window.high
     workspace.counts[0] = 0
@@ -457,15 +465,15 @@ def find_paths(window, workspace):
 
 
 # ---- tile regions ----------------------------------------------------------------------------------------------------
-# What is solid in one tile as rings of sides: its pieces of the outline, and the tile's border between them.
+# The solid part of a tile as rings of sides: its pieces of the outline, and the tile's border between them.
 #
-# A piece that ends on the border goes on along it, clockwise on the screen, to where the next one starts. There is
-# solid on the other side too, so these sides are inner.
+# From the end of a piece a ring follows the border, clockwise on the screen, to the start of the next piece. The other
+# side of the border is solid there too, so these sides are inner.
 
 
 @subkernel
 def tile_corner(window, number):
-    """(x, y) of a tile's corner: 0 is top left, then clockwise."""
+    """Return (x, y) of a tile's corner: 0 is top left, then clockwise."""
     number &= 3
     return (
         float(window.high if number == 1 or number == 2 else window.low),
@@ -475,7 +483,7 @@ def tile_corner(window, number):
 
 @subkernel
 def put_piece(n, first, piece, points, sides_inout):
-    """Append the sides of a piece to a ring; its last point's side is inner. Returns how many sides there are."""
+    """Append the sides of a piece to a ring; the side of its last point is inner. Returns the number of sides."""
     for k in range(piece.count):
         point = points[piece.first + k]
         n = put_side(n, first, point.x, point.y, not piece.closed and k == piece.count - 1, sides_inout)
@@ -484,7 +492,7 @@ def put_piece(n, first, piece, points, sides_inout):
 
 @subkernel
 def next_piece(pieces, count, at, around):
-    """The piece from border to border that starts next, clockwise from a place on the border; and how far on [px]."""
+    """Return the next piece from border to border, clockwise from a place on the border, and its distance [px]."""
     best = -1
     nearest = math.inf
     for k in range(count):
@@ -501,7 +509,7 @@ def next_piece(pieces, count, at, around):
 
 @subkernel
 def put_border(window, n, first, start, length, sides_inout):
-    """Append the corners of the tile that lie strictly within a length of its border from a place on."""
+    """Append the tile's corners strictly within a length of its border from a place on. Returns the number of sides."""
     size = float(window.high - window.low)
     number = math.floor(start / size) + 1
     while number * size < start + length:
@@ -513,7 +521,7 @@ def put_border(window, n, first, start, length, sides_inout):
 
 @subkernel
 def put_open(window, n, number, workspace, sides_inout):
-    """Append the ring of a piece from border to border. Returns how many sides there are."""
+    """Append the ring of a piece from border to border. Returns the number of sides."""
     around = 4.0 * (window.high - window.low)
     pieces = workspace.pieces
     first = n
@@ -528,7 +536,7 @@ def put_open(window, n, number, workspace, sides_inout):
 
 @subkernel
 def is_hole(piece, points):
-    """Whether a closed piece goes the other way round: counter-clockwise on the screen."""
+    """Return whether a closed piece is counter-clockwise on the screen."""
     doubled = 0.0
     before = points[piece.first + piece.count - 1]
     for k in range(piece.first, piece.first + piece.count):
@@ -540,9 +548,9 @@ def is_hole(piece, points):
 
 @subkernel
 def put_regions(window, workspace, sides_out):
-    """Write the rings of all that is solid in a tile (SIDE), its holes apart. Returns how many sides there are.
+    """Write the rings of a tile's solid part (SIDE), with holes as separate rings. Returns the number of sides.
 
-    workspace: Paths, as find_paths left them.
+    workspace: Paths, as left by find_paths.
     """
     n = 0
     holes = 0
@@ -571,20 +579,20 @@ def put_regions(window, workspace, sides_out):
 
 
 # ---- tile parts ------------------------------------------------------------------------------------------------------
-# The outline of one tile of a larger mask in convex parts: where it is carved only touched tiles are made anew.
+# The outline of one tile of a larger mask in convex parts. Carving recomputes only the tiles that it touches.
 #
-# A tile's parts cover what is solid in it; where its border has solid on the other side too the parts' sides are inner.
-# The parts of neighbouring tiles have the same points on their common border (fitting.crossings) and together are an
-# outline as in fitting.outline, within the same distances of the pixels' edges.
+# A tile's parts cover its solid pixels. Where the other side of its border is solid too, the parts' sides are inner.
+# The parts of neighbouring tiles have the same points on their common border (see crossings). Together they are an
+# outline as of contour.outline, within the same distances of the pixels' edges.
 
-HALO = SEEN + SHARP + 1  # [px] of its neighbours' pixels that a tile's outline depends on
+HALO = SEEN + SHARP + 1  # [px] of the neighbours' pixels on which a tile's outline depends
 
 
 class TileParts(NamedTuple):
     """Convex polygons, one after another."""
 
-    corners: np.ndarray  # (n, 2) float64 [px], clockwise on the screen; each from its topmost, then leftmost corner on
-    inner: np.ndarray  # (n,) bool: the side that starts there is shared with another part, of this tile or the next
+    corners: np.ndarray  # (n, 2) float64 [px], clockwise on the screen; topmost, then leftmost corner first
+    inner: np.ndarray  # (n,) bool: the side from that corner is shared with another part, of this tile or the next
     counts: np.ndarray  # (k,) int64: corners of each polygon
 
 
@@ -592,12 +600,13 @@ NONE = TileParts(np.zeros((0, 2)), np.zeros(0, bool), np.zeros(0, np.int64))
 
 
 def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) -> TileParts:
-    """Convex parts of at most 16 corners of a tile, whose top left corner is at a place [px], all without radius.
+    """Return the convex parts, of at most 16 corners and without radius, of a tile with its top left corner at `at`
+    [px].
 
-    window[row, col] bool: the tile's pixels, a square, and HALO pixels more on each side: its neighbours', clear beyond
-    the mask. smooth [px] as in fitting.outline, whose contract the parts of all tiles keep together. An empty tile has
-    no parts, one with solid all around too is one square of inner sides. Raises ValueError for a window of another
-    form, or whose halo of tiles is not narrower than the tile.
+    window[row, col] bool: the tile's pixels, a square, and HALO pixels of its neighbours on each side, clear beyond the
+    mask. smooth [px] as in contour.outline, whose contract holds for the parts of all tiles together. An empty tile has
+    no parts. A solid tile with solid surroundings is one square of inner sides. Raises ValueError for a window that is
+    not square, or with a tile not larger than HALO.
     """
     height, width = window.shape
     size = width - 2 * HALO
@@ -628,13 +637,13 @@ def _fit(window, size, smooth):
         counts,
     )
     if found < 0:
-        raise RuntimeError("the outline of a tile is no polygon: a defect of fitting.tile_paths")
+        raise RuntimeError("the outline of a tile is no polygon: a defect of outline.tiled")
     n = sum(counts[:found].tolist())
     return Parts(corners[:n].copy(), inner[:n].copy(), counts[:found].copy(), np.zeros(found))
 
 
 def _is_cornered(near):
-    """Whether the outline fills a bit of a clear tile: at a corner of it with solid all round."""
+    """Return whether the outline covers part of a clear tile: at a tile corner whose other three pixels are solid."""
     return (
         (near[:2, :2].sum() == 3)
         or (near[:2, -2:].sum() == 3)
@@ -645,7 +654,7 @@ def _is_cornered(near):
 
 @cache
 def _room(size):
-    """Room for one tile at a time: 12 MB for 64 px."""
+    """Return scratch arrays for one tile at a time: 12 MB for 64 px."""
     paths = room_for_paths(size, HALO)
     most = 3 * len(paths.points)
     return (paths, np.zeros(most, SIDE), np.zeros((most, 2)), np.zeros(most, bool), np.zeros(most, np.int64))
@@ -653,8 +662,7 @@ def _room(size):
 
 @subkernel
 def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
-    """Write the rings of sides (SIDE) as parts, in pixels of a tile that begins at row and column low.
-    Returns how many."""
+    """Write the rings of sides (SIDE) as parts, in pixels relative to row and column `low`. Returns their number."""
     sides = sides_inout
     n = 0
     parts = 0
@@ -689,10 +697,10 @@ def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
 
 @kernel
 def convex_tile(window, most, workspace, sides_inout, corners_out, inner_out, counts_out):
-    """The convex parts of a tile: corners (n, 2) [px], inner (n,), counts (parts,). Returns how many; -1: what was
-    found is no polygon.
+    """Write the convex parts of a tile. Returns their number, or -1 if the rings are no polygon.
 
-    window: Window; most: corners of a part; workspace: Paths; sides_inout: SIDE, room to work in.
+    window: Window; most: largest number of corners of a part; workspace: Paths; sides_inout: SIDE, scratch; corners_out
+    (n, 2) [px], inner_out (n,), counts_out (parts,).
     """
     if not find_paths(window, workspace):
         return -1

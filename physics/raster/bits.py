@@ -1,6 +1,7 @@
 """Packed pixels as 64-bit words: set, count, AND, and rotate to an angle bucket.
 
-Bit b of word k in a row is x = 64k + b. Words are uint64, shift counts are kept in 0..63."""
+Bit b of word k in a row is x = 64k + b. Words are uint64, shift counts are kept in 0..63.
+"""
 
 import math
 from dataclasses import dataclass
@@ -11,12 +12,11 @@ from physics.jit import subkernel
 from physics.jit.plain import popcount, word
 
 # ---- bits ------------------------------------------------------------------------------------------------------------
-# Packed pixels: bit b of word k in a row is x = 64k + b. Words are uint64, shift counts are kept in 0..63.
 
 
 @subkernel
 def bits_from(words, row, stride, start):
-    """The 64 pixels of a row from column `start` on, which may lie left or right of the raster: clear there.
+    """Return the 64 pixels of a row from column `start` on; pixels left or right of the raster are clear.
 
     words: uint64 pixels; row: first word of the row; stride: words per row. O(1).
     """
@@ -32,7 +32,7 @@ def bits_from(words, row, stride, start):
 
 @subkernel
 def columns_up_to(count):
-    """A word whose lowest `count` bits are set; all of them from 64 on."""
+    """Return a word whose lowest `count` bits are set; all of them from 64 on."""
     if count >= 64:
         return word(0xFFFFFFFFFFFFFFFF)
     if count <= 0:
@@ -42,21 +42,23 @@ def columns_up_to(count):
 
 @subkernel
 def lowest_bit(value):
-    """Place of the lowest set bit of a word that is not zero."""
-    # The bits below the lowest set one are exactly those of (value - 1) that value has not.
+    """Return the index of the lowest set bit of a word that is not zero."""
+    # ~value & (value - 1) has exactly the bits below the lowest set one.
     return popcount(word(word(value - word(1)) & word(value ^ word(0xFFFFFFFFFFFFFFFF))))
 
 
 @subkernel
 def count_bits(value):
-    """Number of set bits."""
+    """Return the number of set bits."""
     return popcount(value)
 
 
 @subkernel
 def sum_of_places(value):
-    """The sum of the places of all set bits: each binary digit of a place counts the bits that have it (Knuth 4A,
-    7.1.3)."""
+    """Return the sum of the indices of all set bits (Knuth 4A, 7.1.3).
+
+    Each binary digit of an index is summed over the set bits whose index has it.
+    """
     return (
         popcount(word(value & word(0xAAAAAAAAAAAAAAAA)))
         + 2 * popcount(word(value & word(0xCCCCCCCCCCCCCCCC)))
@@ -69,25 +71,25 @@ def sum_of_places(value):
 
 @subkernel
 def without_lowest(value):
-    """The word with its lowest set bit cleared."""
+    """Return the word with its lowest set bit cleared."""
     return word(value & word(value - word(1)))
 
 
 @subkernel
 def both(a, b):
-    """Pixels set in both words."""
+    """Return the pixels set in both words."""
     return word(a & b)
 
 
 @subkernel
 def either(a, b):
-    """Pixels set in one of the words."""
+    """Return the pixels set in at least one of the words."""
     return word(a | b)
 
 
 @subkernel
 def first_run(value):
-    """(start, end) of the lowest row of set bits of a word that is not zero; end is exclusive."""
+    """Return (start, end) of the lowest run of set bits of a word that is not zero; end is exclusive."""
     start = lowest_bit(value)
     clear = word((value >> word(start)) ^ word(0xFFFFFFFFFFFFFFFF))
     return start, 64 if clear == word(0) else start + lowest_bit(clear)
@@ -95,60 +97,62 @@ def first_run(value):
 
 @subkernel
 def run_bits(start, end):
-    """A word whose bits from start on are set, up to end, which may be 64."""
+    """Return a word whose bits start..end - 1 are set; end may be 64."""
     return word(columns_up_to(end) ^ columns_up_to(start))
 
 
 @subkernel
 def minus(a, b):
-    """Pixels set in a word and not in the other."""
+    """Return the pixels set in the first word and not in the second."""
     return word(a & word(b ^ word(0xFFFFFFFFFFFFFFFF)))
 
 
 @subkernel
 def touch(a, b):
-    """Whether a pixel of one word is the neighbour, side or corner, of one in the word of the line beside."""
+    """Return whether a pixel of one word is 8-connected to one in the word of the adjacent row."""
     return word(word(a | word(a << word(1)) | word(a >> word(1))) & b) != word(0)
 
 
 @subkernel
 def has_bit(value, place):
-    """Whether a bit of a word is set."""
+    """Return whether a bit of a word is set."""
     return word(word(value >> word(place)) & word(1)) != word(0)
 
 
 @subkernel
 def is_set(words, row, x):
-    """Whether the pixel in column x of a row is set; x must lie within the row."""
+    """Return whether the pixel in column x of a row is set; x must lie within the row."""
     return (word(words[row + (x >> 6)] >> word(x & 63)) & word(1)) != word(0)
 
 
 @subkernel
 def shared_word(words, word_a, shift_a, word_b, shift_b):
-    """The pixels that two words share once each is shifted down by 0..63 columns. word_*: unsigned, which spares the
-    check for negative ones."""
+    """Return the pixels that two words share after each is shifted down by 0..63 columns.
+
+    word_*: unsigned indices, which saves the check for negative ones.
+    """
     return word(word(words[word(word_a)] >> word(shift_a)) & word(words[word(word_b)] >> word(shift_b)))
 
 
 @subkernel
 def shifts_to(columns):
-    """(up, down, kept) by which `moved` brings a word by -64 to 64 columns to the right."""
+    """Return (up, down, kept) with which `moved` shifts a word by -64 to 64 columns to the right."""
     kept = word(0xFFFFFFFFFFFFFFFF) if abs(columns) < 64 else word(0)
     return word(max(columns, 0) & 63), word(max(-columns, 0) & 63), kept
 
 
 @subkernel
 def moved(value, up, down, kept):
-    """A word shifted up, then down, and cut to what is kept."""
+    """Return a word shifted up, then down, and masked with `kept`."""
     return word(word(word(value << up) >> down) & kept)
 
 
 @subkernel
 def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
-    """(row, shared pixels) of the first of `rows` rows of one word each that share a pixel; (rows, 0) when none does.
+    """Return (row, shared pixels) of the first of `rows` one-word rows that share a pixel; (rows, 0) without one.
 
-    word_*: where in the words the rows begin; shift_*: columns on the left that are not looked at. On the right nothing
-    has to be cut off: beyond their solid bounds words are clear. O(rows).
+    word_*: index of the first rows; shift_*: columns on the left to skip. The right end needs no mask, because words
+    are clear beyond their solid bounds. O(rows).
     """
     for row in range(rows):
         shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
@@ -158,7 +162,7 @@ def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
 
 
 def packed(solid: np.ndarray) -> np.ndarray:
-    """solid[row, col] as (rows, ceil(columns/64)) uint64, lowest bit first."""
+    """Return solid[row, col] packed as (rows, ceil(columns/64)) uint64, lowest bit first."""
     height, width = solid.shape
     padded = np.zeros((height, -(-width // 64) * 64), bool)
     padded[:, :width] = solid
@@ -166,7 +170,7 @@ def packed(solid: np.ndarray) -> np.ndarray:
 
 
 def halo(solid: np.ndarray) -> np.ndarray:
-    """The packed pixels that are solid or next to a solid one, side or corner, in a raster larger by one all round."""
+    """Return the packed dilation of solid by its 8 neighbours, in a raster larger by one pixel all round."""
     rows, columns = solid.shape
     grown = np.zeros((rows + 2, columns + 2), bool)
     for y in range(3):
@@ -176,14 +180,14 @@ def halo(solid: np.ndarray) -> np.ndarray:
 
 
 # ---- overlap ---------------------------------------------------------------------------------------------------------
-# Two masks by AND of their words: the first pixel they share, how many, and where they lie.
+# Overlap of two masks by AND of their words: first shared pixel, number and moments of the shared pixels.
 #
-# dx, dy [px] is where B's raster starts, seen from A's. Only the rectangle that both solid bounds share is read.
+# dx, dy [px]: start of B's raster relative to A's. Only the intersection of the solid bounds is read.
 
 
 @subkernel
 def shared_rectangle(a, b, dx, dy):
-    """(left, top, right, bottom) of the solid bounds that two rasters share, in A's columns and rows."""
+    """Return the intersection (left, top, right, bottom) of two rasters' solid bounds, in A's columns and rows."""
     return (
         max(a.set_left, b.set_left + dx),
         max(a.set_top, b.set_top + dy),
@@ -194,7 +198,7 @@ def shared_rectangle(a, b, dx, dy):
 
 @subkernel
 def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
-    """The first shared pixel in reading order: (found, x, y) in A's columns and rows. O(words) at worst."""
+    """Return (found, x, y) of the first shared pixel in reading order, in A's columns and rows. O(words) at worst."""
     a = rasters[mask_a]
     b = rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
@@ -220,10 +224,10 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
-    """A row of A in which rasters of one word per row share a pixel, looked for from the guessed one on; -1: none.
+    """Return a row of A in which two one-word-wide rasters share a pixel, or -1; the search begins at `guess`.
 
-    row_*: their first words; box_*: their solid bounds (left, top, right, bottom). O(1) where the guess is right, else
-    O(rows).
+    row_*: index of their first words; box_*: their solid bounds (left, top, right, bottom). O(1) for a right guess,
+    else O(rows).
     """
     left = max(box_a[0], box_b[0] + dx)
     top = max(box_a[1], box_b[1] + dy)
@@ -243,8 +247,11 @@ def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
 
 @subkernel
 def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
-    """(area, sum of x, sum of y, how much more is shared one pixel to the left than to the right) of rasters of one
-    word per row whose bounds meet; see line_shared and shared_moments. O(rows)."""
+    """Return (area, sum of x, sum of y, difference) of the shared pixels of two one-word-wide rasters.
+
+    The difference is the area shared one pixel to the left minus that one pixel to the right. The bounds must meet; see
+    line_shared and shared_moments. O(rows).
+    """
     up, down, kept = shifts_to(dx)
     left_up, left_down, left_kept = shifts_to(dx - 1)
     right_up, right_down, right_kept = shifts_to(dx + 1)
@@ -268,7 +275,7 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
 
 @subkernel
 def shared_area(rasters, words, mask_a, mask_b, dx, dy):
-    """The number of shared pixels. O(words)."""
+    """Return the number of shared pixels. O(words)."""
     a = rasters[mask_a]
     b = rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
@@ -296,7 +303,7 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
-    """(area, sum of x, sum of y) over the shared pixels, in A's columns and rows. O(words)."""
+    """Return (area, sum of x, sum of y) over the shared pixels, in A's columns and rows. O(words)."""
     a = rasters[mask_a]
     b = rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
@@ -323,19 +330,19 @@ def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
 
 
 # ---- rotate ----------------------------------------------------------------------------------------------------------
-# Turns a mask to one of the angle buckets, always from its source, never from a turned one.
+# Rotation of a mask to an angle bucket, always from its source.
 #
-# A pixel whose centre falls on a solid source pixel is solid: that keeps thin lines in one piece. Then pixels are added
-# where the source covers most of them, or taken away where it covers least and nothing falls apart, until there are as
-# many as the source has: the area is right at every angle (hard_cases D5 to D7). Each kept pixel remembers the source
-# pixel that it shows, so that a sprite can be drawn from exactly the pixels that collide.
+# A pixel whose centre falls on a solid source pixel is solid, which keeps thin lines in one piece. Then pixels with the
+# most coverage are added, or pixels with the least coverage removed where this keeps the connectivity. The target is
+# the number of pixels of the source at every angle. Each pixel stores its source pixel, so that a sprite can be drawn
+# from exactly the pixels that collide.
 
-SAMPLES = 5  # per side of a pixel, so that one is its centre: coverage in steps of 1/25
+SAMPLES = 5  # per side of a pixel, one at its centre: coverage in steps of 1/25
 OFFSETS = sorted(
     (((i + 0.5) / SAMPLES, (j + 0.5) / SAMPLES) for j in range(SAMPLES) for i in range(SAMPLES)),
     key=lambda at: ((at[0] - 0.5) ** 2 + (at[1] - 0.5) ** 2, at),
 )
-BAND = 1 << 14  # [px] turned at once: what that takes for a while stays in the cache and leaves no gaps in the heap
+BAND = 1 << 14  # [px] rotated at once: temporary arrays stay in the cache and do not fragment the heap
 
 
 @dataclass(frozen=True)
@@ -349,12 +356,12 @@ class Turned:
 
 
 def bucket_of(angle: float, buckets: int) -> int:
-    """The bucket whose angle is nearest."""
+    """Return the bucket whose angle is nearest to `angle` [rad]."""
     return int(math.floor(angle * buckets / math.tau + 0.5)) % buckets
 
 
 def turn(solid: np.ndarray, origin: tuple[float, float], bucket: int, buckets: int) -> Turned:
-    """The mask turned by bucket/buckets of a full turn, clockwise on the screen, about its origin."""
+    """Return the mask rotated by bucket/buckets of a full turn, clockwise on the screen, about its origin."""
     rows, columns = np.ogrid[: solid.shape[0], : solid.shape[1]]
     source_x, source_y = (np.where(solid, each, -1).astype(np.int16) for each in (columns, rows))
     if solid.size == 0 or not solid.any():
@@ -382,7 +389,7 @@ def _any_turn(solid, origin, angle):
     origin_x, origin_y = -math.floor(out_x.min()), -math.floor(out_y.min())
     width, height = math.ceil(out_x.max()) + origin_x, math.ceil(out_y.max()) + origin_y
 
-    padded = np.pad(solid, 1)  # a clear border catches what falls beside the source
+    padded = np.pad(solid, 1)  # a clear border for samples outside the source
     mixed = _mixed(padded)
     centered, coverage = np.empty((height, width), bool), np.empty((height, width), np.uint8)
     sources = np.empty((2, height, width), np.int16)
@@ -402,9 +409,10 @@ def _any_turn(solid, origin, angle):
 
 
 def _sampled(padded, mixed, base_x, base_y, cosine, sine):
-    """(whether the centre is solid, how many samples are, the first solid one's pixel of the padded source or -1).
+    """Return (centre is solid, number of solid samples, source index) of each pixel.
 
-    base_x, base_y: the first corner of each pixel in the padded source [px]; mixed: as _mixed tells.
+    The source index is the padded source pixel of the first solid sample, or -1. base_x, base_y: the first corner of
+    each pixel in the padded source [px]; mixed: result of _mixed.
     """
     rows, columns = padded.shape
 
@@ -417,10 +425,10 @@ def _sampled(padded, mixed, base_x, base_y, cosine, sine):
     middle, *others = OFFSETS
     source = at(base_x, base_y, middle)
     centered = padded.ravel()[source]
-    # Samples lie less than a pixel from the centre: where all pixels around its source are alike, it tells for them.
+    # Samples lie less than a pixel from the centre: where all 3 x 3 source pixels are equal, the centre stands for all.
     some = np.flatnonzero(mixed.ravel()[source])
     coverage = centered * np.uint8(len(OFFSETS))
-    source = np.where(centered, source, -1)  # the centre decides the colour
+    source = np.where(centered, source, -1)  # the centre determines the colour
     covered, found, base_x, base_y = centered[some].astype(np.uint8), source[some], base_x[some], base_y[some]
     for offset in others:
         sample = at(base_x, base_y, offset)
@@ -432,7 +440,7 @@ def _sampled(padded, mixed, base_x, base_y, cosine, sine):
 
 
 def _mixed(padded):
-    """Where the 3 x 3 pixels around one are not all solid and not all clear; beyond the edge all is clear."""
+    """Return where the 3 x 3 pixels around a pixel are neither all solid nor all clear; clear beyond the edge."""
     wide = np.pad(padded, 1).view(np.uint8)
     row = wide[:, :-2] + wide[:, 1:-1] + wide[:, 2:]
     count = row[:-2] + row[1:-1] + row[2:]
@@ -440,7 +448,7 @@ def _mixed(padded):
 
 
 def _as_many(centered, coverage, wanted):
-    """The centred pixels, up to the wanted number by adding the best covered or dropping the worst covered."""
+    """Return the centred pixels, changed to the wanted number by adding the most or removing the least covered ones."""
     kept = centered.copy()
     missing = wanted - int(kept.sum())
     if missing > 0:
@@ -460,16 +468,16 @@ def _as_many(centered, coverage, wanted):
 
 
 def _in_order(some, key):
-    """Where something is true, by a key for each pixel; alike ones by row and column."""
+    """Return the flat indices where `some` is true, sorted by a key per pixel, then by row and column."""
     at = np.flatnonzero(some)
     return at[np.argsort(key.ravel()[at], kind="stable")]
 
 
 def _is_simple(around):
-    """Whether the middle of 3 x 3 pixels can go without parting the others: its solid neighbours hang together."""
+    """Return whether the middle of 3 x 3 pixels is a simple point: its removal keeps its neighbours connected."""
     ring = [bool(around[y, x]) for y, x in ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))]
     if not any(ring) or all(ring[1::2]):
-        return False  # alone, or inside
-    # Corners between two solid sides belong to them; count how often the ring changes from clear to solid.
+        return False  # isolated, or interior
+    # Corners between two solid sides belong to them. Count the changes of the ring from clear to solid.
     joined = [solid or (k % 2 == 0 and ring[k - 1] and ring[(k + 1) % 8]) for k, solid in enumerate(ring)]
     return sum(not joined[k - 1] and joined[k] for k in range(8)) == 1

@@ -1,4 +1,4 @@
-"""Masks as unions of pixel squares at any pose: whether they share area, how much, and its centroid."""
+"""Masks as unions of pixel squares at any pose: overlap test, shared area and its centroid."""
 
 import math
 
@@ -16,34 +16,35 @@ from physics.raster.bits import (
 )
 
 # ---- exact -----------------------------------------------------------------------------------------------------------
-# Two masks as unions of pixel squares, one turned and moved by any amount: do they share area, and where.
+# Overlap of two masks as unions of pixel squares, one rotated and moved by any amount.
 #
-# A is the mask whose raster everything is seen in, and which has a halo: its solid pixels and their eight neighbours,
-# as packed words one pixel larger all round. The square of a pixel of B shares area with a square of A only if its
-# centre falls on the halo, as no square reaches further than half its diagonal, 0.71 px. So a miss costs one bit for
-# each pixel of B within A's bounds, and the test of two squares where the outlines are near each other.
+# A is the mask whose raster is the frame of reference, and which has a halo: the dilation of its solid pixels by their
+# eight neighbours, packed in a raster one pixel larger all round. The square of a pixel of B shares area with a square
+# of A only if its centre is on the halo, because no square extends further than half its diagonal, 0.71 px. So a miss
+# costs one bit test for each pixel of B within A's bounds. Squares are tested only where the outlines are near each
+# other.
 #
-# u, v [px] is where B's raster starts, seen from A's; cosine, sine: of its angle there. Squares are open: those that
-# touch, within rounding, share nothing.
+# u, v [px]: start of B's raster in A's; cosine, sine: of its angle there. Squares are open: squares that touch, within
+# rounding, share no area.
 
-ROUNDED = 2.0**-50  # of the size: what coordinates are off by
+ROUNDED = 2.0**-50  # relative to the size: rounding error of coordinates
 
 
 @subkernel
 def slack_of(a, b):
-    """[px] by which two squares of these rasters must be in each other to share area: what may be rounding is none."""
+    """Return the depth [px] by which two squares must overlap to share area: less may be a rounding error."""
     return ROUNDED * (a.width + a.height + b.width + b.height)
 
 
 @subkernel
 def reach_of(cosine, sine):
-    """[px] nearer than this along the axes of both lie the centres of two unit squares that share area."""
+    """Return the distance [px] along the axes of both unit squares below which their centres must lie to share area."""
     return 0.5 + 0.5 * (abs(cosine) + abs(sine))
 
 
 @subkernel
 def do_squares_meet(dx, dy, cosine, sine, near):
-    """Whether two unit squares share area, by the separating axis test: B's centre is at dx, dy [px] from A's."""
+    """Return whether two unit squares share area (separating axis test); B's centre is at dx, dy [px] from A's."""
     return (
         abs(dx) < near
         and abs(dy) < near
@@ -54,7 +55,7 @@ def do_squares_meet(dx, dy, cosine, sine, near):
 
 @subkernel
 def leave_square(dx, dy, cosine, sine, reach, nx, ny):
-    """How far [px] B's square moves along a unit direction until it leaves A's: the first axis that parts them."""
+    """Return how far [px] B's square moves along a unit direction until an axis separates it from A's."""
     least = math.inf
     for axis in range(4):
         ax = (1.0 if axis == 0 else 0.0) if axis < 2 else (cosine if axis == 2 else -sine)
@@ -70,7 +71,7 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 
 @subkernel
 def box_in_raster(a, b, u, v, cosine, sine):
-    """(left, top, right, bottom) of the pixels of B whose squares may meet the solid bounds of A."""
+    """Return (left, top, right, bottom) of the pixels of B whose squares may overlap the solid bounds of A."""
     half_x = 0.5 * (a.set_right - a.set_left)
     half_y = 0.5 * (a.set_bottom - a.set_top)
     dx = a.set_left + half_x - u
@@ -89,7 +90,7 @@ def box_in_raster(a, b, u, v, cosine, sine):
 
 @subkernel
 def clip_run(low, high, start, step, least, most):
-    """The part of low..high in which least <= start + step * t <= most."""
+    """Return the part (low, high) of low..high in which least <= start + step * t <= most."""
     if step > 0.0:
         return max(low, (least - start) / step), min(high, (most - start) / step)
     if step < 0.0:
@@ -99,17 +100,19 @@ def clip_run(low, high, start, step, least, most):
 
 @subkernel
 def run_near(a, left, right, x, y, cosine, sine, margin):
-    """(first, last + 1) of the columns left..right of a row of B whose centres lie within the solid bounds of A, grown
-    by a margin [px]. x, y: the centre of column 0."""
+    """Return (first, last + 1) of the columns of a row of B with centres within the solid bounds of A.
+
+    left, right: range of columns; x, y: the centre of column 0; margin [px]: by which the bounds are enlarged.
+    """
     low, high = clip_run(float(left), right - 1.0, x, cosine, a.set_left - margin, a.set_right + margin)
     low, high = clip_run(low, high, y, sine, a.set_top - margin, a.set_bottom + margin)
-    # A row that runs past at a shallow angle is met beyond any whole number.
+    # A row at a shallow angle may meet the bounds beyond the integer range.
     return math.ceil(min(low, float(right))), math.floor(max(high, left - 1.0)) + 1
 
 
 @subkernel
 def square_under(words, a, x, y, cosine, sine, near):
-    """(found, column, row) of the first pixel of A whose square meets that of B with its centre at x, y. O(1)."""
+    """Return (found, column, row) of the first pixel of A whose square overlaps that of B centred at x, y. O(1)."""
     column = math.floor(x)
     row = math.floor(y)
     for j in range(max(0, row - 1), min(a.height, row + 2)):
@@ -124,7 +127,7 @@ def square_under(words, a, x, y, cosine, sine, near):
 
 @subkernel
 def first_upright(rasters, words, mask_a, mask_b, u, v):
-    """As first_squares, where both lie alike: a pixel of B covers up to four of A, so up to four ANDs. O(words)."""
+    """Return first_squares for equal angles: a pixel of B covers up to four of A, so up to four ANDs. O(words)."""
     slack = slack_of(rasters[mask_a], rasters[mask_b])
     column = math.floor(u + slack)
     row = math.floor(v + slack)
@@ -138,9 +141,9 @@ def first_upright(rasters, words, mask_a, mask_b, u, v):
 
 @subkernel
 def first_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
-    """The first two squares found that share area: (found, column and row in A, column and row in B).
+    """Return the first overlapping squares found: (found, column and row in A, column and row in B).
 
-    O(pixels of B within A's bounds) at worst; a hit ends it.
+    O(pixels of B within A's bounds) at worst; the first hit ends the search.
     """
     if cosine == 1.0 and sine == 0.0:
         return first_upright(rasters, words, mask_a, mask_b, u, v)
@@ -170,10 +173,10 @@ def first_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
 
 @subkernel
 def squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, nx, ny, most):
-    """The least move [px] of B along a unit direction of A's raster after which no area is shared; > most when none is.
+    """Return the least move [px] of B along a unit direction of A's raster that ends the overlap; > most for none.
 
-    Two squares share area on one stretch of the move: each pair found is passed by at its end, none comes twice,
-    and the end of the last is the move. O(first_squares · pairs passed).
+    Two squares overlap on one interval of the move. Each pair found advances the move to the end of its interval, and
+    no pair is found twice. O(first_squares · pairs found).
     """
     reach = reach_of(cosine, sine)
     slack = slack_of(rasters[mask_a], rasters[mask_b])
@@ -191,26 +194,25 @@ def squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, nx, ny, 
 
 
 # ---- shares ----------------------------------------------------------------------------------------------------------
-# How much of a region lies in a box along the axes, and where: closed forms over the region's outline.
+# Area and centroid of the part of a region in an axis-aligned box: closed forms over the region's outline.
 #
-# By Green's theorem the area is the integral of x dy round the outline, its x held within the box and only where y is;
-# so are the moments. Each line and each arc of the outline has a share of them, and the sum over all is exact: no
-# polygon is clipped, nothing is kept between. Everything is seen from the box's top left corner; the outline runs
-# clockwise on the screen, where y points down.
+# By Green's theorem the area is the integral of x dy along the outline, with x clamped to the box and only for y in the
+# box; likewise the moments. Each line and each arc of the outline contributes a share, and the sum is exact. No polygon
+# is clipped or stored. Coordinates are relative to the box's top left corner. The outline runs clockwise on the screen,
+# where y points down.
 
 
 @subkernel
 def between(value, low, high):
-    """The value, or the bound that it is beyond."""
+    """Return the value clamped to low..high."""
     return max(low, min(high, value))
 
 
 @subkernel
 def line_share(px, py, qx, qy, width, height):
-    """Share of the line from p to q [px] in (area, moment of x, moment of y) of what lies in the box
-    0..width x 0..height.
+    """Return the share of the line from p to q [px] in (area, moment of x, moment of y) in 0..width x 0..height.
 
-    Cut where it crosses the box's sides, it has up to three pieces; along each, x as it is held is linear.
+    The box's sides cut the line into up to three pieces; the clamped x is linear along each.
     """
     area = 0.0
     moment_x = 0.0
@@ -247,7 +249,7 @@ def line_share(px, py, qx, qy, width, height):
 
 @subkernel
 def arc_primitives(x, y, radius, angle):
-    """Integrals from 0 to an angle of x dy, x²/2 dy and x y dy along a circle around (x, y)."""
+    """Return the integrals from 0 to an angle of x dy, x²/2 dy and x y dy along a circle around (x, y)."""
     cosine = math.cos(angle)
     sine = math.sin(angle)
     r2 = radius * radius
@@ -263,7 +265,9 @@ def arc_primitives(x, y, radius, angle):
 
 @subkernel
 def next_cut(x, y, radius, width, height, after, until):
-    """The first angle behind `after`, at most `until`, at which a circle around (x, y) crosses a line of the box."""
+    """Return the first angle after `after`, at most `until`, at which a circle around (x, y) crosses a line of
+    the box.
+    """
     best = until
     for side in range(4):
         away = (0.0 - x if side == 0 else width - x) if side < 2 else (0.0 - y if side == 2 else height - y)
@@ -282,14 +286,16 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """As line_share, for the arc round (x, y) [px] from an angle `start` to a greater one `end` [rad]."""
+    """Return the share, as line_share, of the arc around (x, y) [px] from an angle `start` to a larger one
+    `end` [rad].
+    """
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
     low = start
     while low < end:
         high = next_cut(x, y, radius, width, height, low, end)
-        # Beside the middle, where an arc between two cuts may just touch a line.
+        # Not the middle: there an arc between two cuts may just touch a line.
         within = low + 0.4 * (high - low)
         at_x = x + radius * math.cos(within)
         at_y = y + radius * math.sin(within)
@@ -311,23 +317,24 @@ def arc_share(x, y, radius, start, end, width, height):
 
 
 # ---- shared squares --------------------------------------------------------------------------------------------------
-# The area that two masks share as unions of squares, and its centroid: raster and names as in raster/exact.py.
+# Shared area of two masks as unions of squares, and its centroid. Names as above.
 #
-# A pixel of B whose neighbourhood in A is solid counts whole; of one near A's outline, the share in each run of solid
-# pixels under it is added. O(pixels of B within A's bounds).
+# A pixel of B whose neighbourhood in A is solid counts as a whole. For one near A's outline the shares in the runs of
+# solid pixels under it are added. O(pixels of B within A's bounds).
 
 
 @subkernel
 def square_share(x, y, cosine, sine, width, height):
-    """(area, moment of x, moment of y) of what a turned unit square around (x, y) has in the box
-    0..width x 0..height."""
+    """Return (area, moment of x, moment of y) of a rotated unit square around (x, y) in the box 0..width x
+    0..height.
+    """
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
     ux = 0.5 * (cosine + sine)
     uy = 0.5 * (sine - cosine)
     for _ in range(4):
-        # From one corner to the next, a quarter turn further round the centre.
+        # From one corner to the next, by a quarter turn.
         a, mx, my = line_share(x + ux, y + uy, x - uy, y + ux, width, height)
         area += a
         moment_x += mx
@@ -338,7 +345,7 @@ def square_share(x, y, cosine, sine, width, height):
 
 @subkernel
 def share_under(words, a, x, y, cosine, sine):
-    """(area, moment of x, moment of y) in A of the square of B with its centre at x, y."""
+    """Return (area, moment of x, moment of y) that the square of B centred at x, y shares with A."""
     column = math.floor(x) - 1
     row = math.floor(y) - 1
     area = 0.0
@@ -366,7 +373,7 @@ def share_under(words, a, x, y, cosine, sine):
 
 @subkernel
 def shared_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
-    """(area [px2], moment of x, moment of y) of what two masks share; the moments over the area are its centroid."""
+    """Return (area [px2], moment of x, moment of y) that two masks share; moments over area are the centroid."""
     a = rasters[mask_a]
     b = rasters[mask_b]
     area = 0.0

@@ -1,4 +1,4 @@
-"""PixelTiles: a raster in tiles of 64 x 64 pixels, its connected pieces, and pixels that are carved away."""
+"""PixelTiles: a raster in tiles of 64 x 64 pixels, its connected components, and carving."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -14,23 +14,23 @@ from physics.settings import MASK_TILE
 from physics.tables.table import joined
 
 # ---- pieces ----------------------------------------------------------------------------------------------------------
-# Connected pieces of pixels, kept tile by tile: what a change to one tile parts is known without reading the others.
+# Connected components of pixels, stored per tile, so that a change to one tile needs no pass over the others.
 #
-# A tile is 64 x 64 pixels, one word a row. What hangs together within it, side to side or corner to corner, is a node;
-# nodes of neighbouring tiles that touch are linked. Pieces are what links hold together. A node knows its pixels along
-# the four borders as words, so that a link is three operations. Source: runs and union-find by Rosenfeld and Pfaltz
-# 1966, "Sequential operations in digital picture processing".
+# A tile is 64 x 64 pixels, one word per row. A node is an 8-connected component within a tile. Nodes of adjacent tiles
+# that touch are linked, and a piece is a connected component of linked nodes. A node stores its pixels along the four
+# borders as words, so that a link test is three operations. Source: runs and union-find by Rosenfeld and Pfaltz 1966,
+# "Sequential operations in digital picture processing".
 
-TILE = MASK_TILE  # [px] a side: one word a row
-MOST_RUNS = TILE * TILE // 2  # in one tile
+TILE = MASK_TILE  # [px] per side: one word per row
+MOST_RUNS = TILE * TILE // 2  # per tile
 MOST_NODES = TILE * TILE // 4
 NODE = np.dtype(
-    [  # pixels of one tile that hang together
+    [  # connected pixels of one tile
         ("tile", np.int64),  # row * columns + column
         ("count", np.int64),  # [px]
-        ("sum_x", np.int64),  # of the columns and rows of its pixels in the raster
+        ("sum_x", np.int64),  # sums of the columns and rows of its pixels in the raster
         ("sum_y", np.int64),
-        ("sum_squares", np.int64),  # of columns and of rows
+        ("sum_squares", np.int64),  # sum of the squares of columns and rows
         ("first", np.int64),  # the first pixel in reading order: row * 64 + column within the tile
         ("min_x", np.int64),  # bounds in the raster; max exclusive
         ("min_y", np.int64),
@@ -47,7 +47,7 @@ NODE = np.dtype(
 
 @subkernel
 def root_of(k, parents_inout):
-    """The root of k in a forest, whose paths are halved."""
+    """Return the root of k in a union-find forest, and halve its path."""
     while parents_inout[k] != k:
         parents_inout[k] = parents_inout[parents_inout[k]]
         k = parents_inout[k]
@@ -56,7 +56,7 @@ def root_of(k, parents_inout):
 
 @subkernel
 def join(a, b, parents_inout):
-    """Join two trees of a forest; the root is the earlier one."""
+    """Join two trees of a union-find forest; the smaller index becomes the root."""
     a = root_of(a, parents_inout)
     b = root_of(b, parents_inout)
     parents_inout[max(a, b)] = min(a, b)
@@ -64,7 +64,7 @@ def join(a, b, parents_inout):
 
 @subkernel
 def trace_runs(words, runs_out, parents_out):
-    """Write (row, start, end) of the runs of a tile's pixels, and the forest of those that touch. Returns how many.
+    """Write (row, start, end) of the runs of a tile's pixels, and the forest of touching runs. Returns their number.
 
     words (64,) uint64. O(runs).
     """
@@ -80,7 +80,7 @@ def trace_runs(words, runs_out, parents_out):
             runs_out[count, 1] = start
             runs_out[count, 2] = end
             parents_out[count] = count
-            # Those above that end before it touch no later one either.
+            # A run above that ends before this one touches no later run either.
             while above < begin and runs_out[above, 2] < start:
                 above += 1
             other = above
@@ -104,10 +104,10 @@ def find_nodes(
     parents_out,
     nodes_out,
 ):
-    """Write the nodes of a tile in the order of their first pixels. Returns how many.
+    """Write the nodes of a tile in the order of their first pixels. Returns their number.
 
-    words (64,) uint64; left, top [px] of the tile in its raster; runs_out (2048, 3), parents_out (2048,) int64: room
-    for the work; nodes_out (1024,) NODE. O(runs).
+    words (64,) uint64; left, top [px] of the tile in its raster; runs_out (2048, 3), parents_out (2048,) int64: scratch
+    arrays; nodes_out (1024,) NODE. O(runs).
     """
     count = trace_runs(words, runs_out, parents_out)
     found = 0
@@ -124,7 +124,7 @@ def find_nodes(
             n.min_x, n.max_x = left + start, left + end
             n.min_y, n.max_y = top + row, top + row + 1
             n.top, n.bottom, n.left, n.right = word(0), word(0), word(0), word(0)
-            # From here on the run says which node it is of: later ones look it up at their root.
+            # The root run now holds the number of its node; later runs look it up there.
             runs_out[k, 0] = -1 - found
             found += 1
         at = -1 - runs_out[root, 0]
@@ -161,7 +161,7 @@ def pick_node(
     parents_out,
     picked_out,
 ):
-    """Write the pixels of a tile that hang together with its pixel `first` (row * 64 + column).
+    """Write the pixels of a tile that are connected with its pixel `first` (row * 64 + column).
 
     words, picked_out (64,) uint64; runs_out, parents_out as find_nodes. O(runs).
     """
@@ -180,7 +180,7 @@ def pick_node(
 
 @subkernel
 def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
-    """Join the nodes of a tile with those of another, which lies across columns and down rows from it."""
+    """Join the nodes of a tile with those of a later tile, `across` columns and `down` rows away."""
     for i in range(starts[tile], starts[tile + 1]):
         a = nodes[i]
         for j in range(starts[other], starts[other + 1]):
@@ -206,10 +206,9 @@ def label_pieces(
     # write
     labels_out,
 ):
-    """Write the number of the piece of each node, from 0 in the order of their first nodes. Returns how many there are.
+    """Write the number of the piece of each node, from 0 in the order of their first nodes. Returns their number.
 
-    nodes NODE in the order of tiles, starts (tiles + 1,) where those of each tile begin; columns: tiles in a row.
-    O(nodes).
+    nodes NODE in the order of tiles, starts (tiles + 1,): first node of each tile; columns: tiles per row. O(nodes).
     """
     for k in range(len(nodes)):
         labels_out[k] = k
@@ -226,7 +225,7 @@ def label_pieces(
                 link_nodes(nodes, starts, tile, tile + columns + 1, 1, 1, labels_out)
             if column > 0:
                 link_nodes(nodes, starts, tile, tile + columns - 1, -1, 1, labels_out)
-    # The parent of a node is an earlier one, whose number is known by then; numbers are told by their sign.
+    # The parent of a node precedes it, so its number is known. Numbers are stored as negative values.
     found = 0
     for k in range(len(nodes)):
         if labels_out[k] == k:
@@ -253,7 +252,7 @@ def measure_pieces(
 
     nodes NODE, labels (nodes,) the piece of each; width [px] of the raster. O(nodes).
     """
-    within = TILE - 1  # the bits of a column in its tile
+    within = TILE - 1  # mask of a column within its tile
     for k in range(len(nodes)):
         n = nodes[k]
         piece = labels[k]
@@ -264,8 +263,10 @@ def measure_pieces(
 
 @kernel
 def add_up(nodes, totals_out):
-    """Write pixels, sums of columns, of rows, of the squares of both, and left, top, right, bottom of all nodes (NODE);
-    the last four are 0 without any. O(nodes)."""
+    """Write the totals of all nodes (NODE): pixels, sums of columns, of rows and of the squares of both, and bounds.
+
+    totals_out (8,); the bounds left, top, right, bottom are 0 without nodes. O(nodes).
+    """
     for k in range(8):
         totals_out[k] = 0
     for k in range(len(nodes)):
@@ -281,9 +282,9 @@ def add_up(nodes, totals_out):
 
 
 # ---- pixel tiles -----------------------------------------------------------------------------------------------------
-# PixelTiles: the solid pixels of a raster in tiles of 64 x 64 that never change; what is changed is a copy of a few.
+# PixelTiles: the solid pixels of a raster in immutable tiles of 64 x 64; a change copies the changed tiles.
 #
-# Rasters that differ in some tiles share all others: a copy of a carved terrain costs the tiles that were touched.
+# Rasters that differ in some tiles share all others. A carved copy of a terrain costs only the tiles that changed.
 
 EMPTY = np.zeros(TILE, np.uint64)
 EMPTY.flags.writeable = False
@@ -292,20 +293,20 @@ FULL = np.uint64(2**64 - 1)
 
 @cache
 def _room():
-    """(runs, parents, nodes) that kernels write to: read before the next call."""
+    """Return shared scratch arrays (runs, parents, nodes); the results must be read before the next use."""
     return np.empty((MOST_RUNS, 3), np.int64), np.empty(MOST_RUNS, np.int64), np.empty(MOST_NODES, NODE)
 
 
 class Pieces(NamedTuple):
-    """What hangs together, side to side or corner to corner."""
+    """Connected pieces of pixels (8-connected)."""
 
-    labels: np.ndarray  # (nodes,) number of the piece that each node is of
+    labels: np.ndarray  # (nodes,) number of the piece of each node
     counts: np.ndarray  # (pieces,) pixels
     firsts: np.ndarray  # (pieces,) first pixel in reading order: row * width + column
 
 
 class PixelTiles:
-    """words[tile] (64,) uint64, one word a row; tiles in reading order; nodes: see physics/raster/pixel_tiles.py."""
+    """A raster in tiles: words[tile] (64,) uint64, one word per row, tiles in reading order; nodes (NODE) by tile."""
 
     def __init__(
         self, width: int, height: int, words: list[np.ndarray], nodes: np.ndarray, starts: np.ndarray | None = None
@@ -313,14 +314,14 @@ class PixelTiles:
         self.width, self.height = width, height
         self.columns, self.rows = -(-width // TILE), -(-height // TILE)
         self.words, self.nodes = words, nodes
-        # (tiles + 1,) where the nodes of each tile begin.
+        # (tiles + 1,) index of the first node of each tile.
         if starts is None:
             starts = np.searchsorted(nodes["tile"], np.arange(self.columns * self.rows + 1))
         self.starts = starts
 
     @classmethod
     def of(cls, solid: np.ndarray) -> "PixelTiles":
-        """Of solid[row, column] bool. O(pixels)."""
+        """Return the tiles of solid[row, column] bool. O(pixels)."""
         height, width = solid.shape
         blank = cls(width, height, [], np.zeros(0, NODE))
         whole = np.zeros((blank.rows * TILE, blank.columns * TILE), bool)
@@ -335,7 +336,7 @@ class PixelTiles:
         return cls(width, height, list(words), nodes[np.argsort(nodes["tile"], kind="stable")])
 
     def _full_nodes(self, tiles: np.ndarray) -> np.ndarray:
-        """NODE rows of tiles that are solid throughout: what find_nodes() would write."""
+        """Return the NODE rows of fully solid tiles, as find_nodes() would write them."""
         nodes = np.zeros(len(tiles), NODE)
         row, column = np.divmod(tiles, self.columns)
         squares = 0
@@ -350,12 +351,12 @@ class PixelTiles:
         return nodes
 
     def _nodes_of(self, tile: int, words: np.ndarray) -> np.ndarray:
-        """NODE rows of a tile."""
+        """Return the NODE rows of a tile."""
         (runs, parents, nodes), (row, column) = _room(), divmod(tile, self.columns)
         return joined([nodes[: find_nodes(words, tile, column * TILE, row * TILE, runs, parents, nodes)]])
 
     def replaced(self, changed: Mapping[int, np.ndarray]) -> "PixelTiles":
-        """With other words in some tiles. O(tiles + runs of those)."""
+        """Return a copy with other words in some tiles. O(tiles + runs of those)."""
         words, parts, starts, last = self.words.copy(), [], self.starts.copy(), 0
         for tile, new in sorted(changed.items()):
             new.flags.writeable = False
@@ -368,7 +369,7 @@ class PixelTiles:
 
     @cached_property
     def pieces(self) -> Pieces:
-        """What hangs together. O(nodes)."""
+        """Connected pieces. O(nodes)."""
         labels = np.empty(len(self.nodes), np.int64)
         count = label_pieces(self.nodes, self.starts, self.columns, labels)
         counts, firsts = np.zeros(count, np.int64), np.full(count, self.width * self.height)
@@ -376,14 +377,14 @@ class PixelTiles:
         return Pieces(labels, counts, firsts)
 
     def words_of(self, node: int) -> np.ndarray:
-        """(64,) uint64: the pixels of one node in its tile."""
+        """Return the pixels of one node in its tile, (64,) uint64."""
         runs, parents, _ = _room()
         picked, of = np.empty(TILE, np.uint64), self.nodes[node]
         pick_node(self.words[int(of["tile"])], int(of["first"]), runs, parents, picked)
         return picked
 
     def node_at(self, tile: int, first: int) -> int:
-        """The node that a pixel (row * 64 + column) of a tile is of."""
+        """Return the node of a pixel (row * 64 + column) of a tile."""
         begin, end = self.starts[tile : tile + 2].tolist()
         if end - begin == 1:
             return begin
@@ -391,7 +392,7 @@ class PixelTiles:
         return next(node for node in range(begin, end) if int(self.words_of(node)[row]) >> column & 1)
 
     def cut_out(self, nodes: np.ndarray) -> tuple[np.ndarray, int, int]:
-        """(solid[row, column] bool of some nodes within their bounds, left, top [px] of it)."""
+        """Return (solid[row, column] bool of some nodes within their bounds, left, top [px] of it)."""
         some = self.nodes[nodes]
         left, top = int(some["min_x"].min()), int(some["min_y"].min())
         first_column, first_row = left // TILE, top // TILE
@@ -406,7 +407,7 @@ class PixelTiles:
         return np.ascontiguousarray(window), left, top
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
-        """(size, size) bool: the pixels from column left and row top on, clear beyond the raster. O(size²)."""
+        """Return the pixels from column left and row top on, (size, size) bool, clear beyond the raster. O(size²)."""
         column, row = left // TILE, top // TILE
         columns, rows = (left + size - 1) // TILE - column + 1, (top + size - 1) // TILE - row + 1
         near = [
@@ -419,7 +420,7 @@ class PixelTiles:
         return unpacked(words[y : y + size])[:, x : x + size]
 
     def differences(self, other: "PixelTiles", tiles: Iterable[int]) -> list[tuple[int, int, int, int]]:
-        """The boxes (left, top, right, bottom), the last two exclusive, in which some tiles differ from another's."""
+        """Return boxes (left, top, right, bottom), the last two exclusive, around the differences in some tiles."""
         found = []
         for tile in tiles:
             row, column = divmod(tile, self.columns)
@@ -433,12 +434,12 @@ class PixelTiles:
 
     @property
     def solid(self) -> np.ndarray:
-        """solid[row, column] bool. O(pixels)."""
+        """Pixels solid[row, column] bool. O(pixels)."""
         return np.ascontiguousarray(unpacked(self.packed)[: self.height, : self.width])
 
     @property
     def packed(self) -> np.ndarray:
-        """(rows * 64, columns) uint64: bit b of word k in a row is x = 64k + b. O(words)."""
+        """Packed pixels, (rows * 64, columns) uint64: bit b of word k in a row is x = 64k + b. O(words)."""
         whole = np.array(self.words, np.uint64).reshape(self.rows, self.columns, TILE)
         return np.ascontiguousarray(whole.transpose(0, 2, 1)).reshape(-1, self.columns)
 
@@ -450,13 +451,15 @@ class PixelTiles:
 
     @property
     def sums(self) -> tuple[int, int, int, int]:
-        """(pixels, sums of their columns, of their rows, of the squares of both), exactly."""
+        """Exact sums: (pixels, sum of columns, sum of rows, sum of the squares of both)."""
         count, x, y, squares = self._totals[:4]
         return count, x, y, squares
 
     @property
     def bounds(self) -> tuple[int, int, int, int] | None:
-        """(left, top, right, bottom) of the solid pixels in the raster, the last two exclusive; None without any."""
+        """Box (left, top, right, bottom) of the solid pixels in the raster, the last two exclusive; None
+        without any.
+        """
         if not len(self.nodes):
             return None
         left, top, right, bottom = self._totals[4:]
@@ -464,19 +467,19 @@ class PixelTiles:
 
 
 def unpacked(words: np.ndarray) -> np.ndarray:
-    """(rows, 64 * columns) bool of (rows, columns) uint64."""
+    """Return (rows, 64 * columns) bool of (rows, columns) uint64."""
     return np.unpackbits(words.astype("<u8", copy=False).view(np.uint8), axis=1, bitorder="little").view(bool)
 
 
 # ---- cut -------------------------------------------------------------------------------------------------------------
-# Pixels taken out of tiles, and what comes loose by it.
+# Carving: removal of pixels from tiles, and the pieces that it separates.
 
-Tool = Callable[[np.ndarray, int, int, np.ndarray], int]  # (words, left, top, found_out) -> how many are found
+Tool = Callable[[np.ndarray, int, int, np.ndarray], int]  # (words, left, top, found_out) -> number of pixels found
 Box = tuple[float, float, float, float]  # min_x, min_y, max_x, max_y [px]
 
 
 class Loose(NamedTuple):
-    """A piece that came loose: solid[row, column] bool within its bounds, and where these begin in the raster [px]."""
+    """A separated piece: solid[row, column] bool within its bounds, and the start of these in the raster [px]."""
 
     solid: np.ndarray
     left: int
@@ -484,21 +487,21 @@ class Loose(NamedTuple):
 
 
 class Cut(NamedTuple):
-    """What a tool did."""
+    """Result of a cut."""
 
-    tiles: PixelTiles  # what is left
+    tiles: PixelTiles  # the remaining pixels
     changed: tuple[int, ...]  # numbers of the tiles that differ
-    removed: int  # pixels that the tool took
+    removed: int  # number of pixels that the tool removed
     loose: tuple[Loose, ...]  # in the order of their first pixels
-    crumbs: int  # pixels of pieces that were too small to come loose
+    crumbs: int  # pixels of separated pieces that were too small to keep
 
 
 def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
-    """Take out the pixels that a tool finds within its box [px, of the raster], and what hangs on nothing then.
+    """Remove the pixels that a tool finds within its box [px, of the raster], and the pieces that this separates.
 
-    one_piece: only the largest piece stays; else the largest of each piece that was there before, so that what was
-    apart stays. Of pieces of one size the one with the first pixel. Those of less than `crumb` pixels are gone.
-    O(tiles + runs of those that change).
+    one_piece: only the largest piece stays; else the largest part of each previous piece stays, so that separate pieces
+    are kept. Of parts of equal size the one with the first pixel stays. Separated pieces of less than `crumb` pixels
+    vanish. O(tiles + runs of those that change).
     """
     changed, removed = _taken(tiles, tool, box)
     if not removed:
@@ -527,7 +530,7 @@ def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) ->
 
 
 def _taken(tiles, tool, box):
-    """({tile: its words without what the tool finds}, how many pixels it found)."""
+    """Return ({tile: its words without the pixels that the tool finds}, number of these pixels)."""
     first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
     last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))
     changed, removed, found = {}, 0, np.empty(TILE, np.uint64)
@@ -543,10 +546,10 @@ def _taken(tiles, tool, box):
 
 
 def _pieces_before(before, after, changed):
-    """(pieces,): the number of the piece before that each piece after is of."""
+    """Return the number (pieces,) of the previous piece that each present piece belongs to."""
     labels, parts, last = before.pieces.labels, [], 0
     for tile in sorted(changed):
-        # The nodes of the other tiles are those that were there, in the same order.
+        # The nodes of unchanged tiles are the same, in the same order.
         parts.append(labels[last : before.starts[tile]])
         firsts = after.nodes["first"][after.starts[tile] : after.starts[tile + 1]].tolist()
         parts.append(np.array([labels[before.node_at(tile, first)] for first in firsts], np.int64))
@@ -558,12 +561,12 @@ def _pieces_before(before, after, changed):
 
 
 # ---- erase -----------------------------------------------------------------------------------------------------------
-# Pixels of a tile that lie inside a tool: their centres are in a convex shape, or in another mask's squares.
+# Pixels of a tile inside a tool: their centres are in a convex shape, or in another mask's squares.
 
 
 @subkernel
 def is_in_hull(corners, radius, x, y):
-    """Whether a point [px] is in a convex hull grown by a radius, its surface included.
+    """Return whether a point [px] is in a convex hull rounded by a radius, its surface included.
 
     corners (n, 2) [px], n >= 1, clockwise on the screen.
     """
@@ -597,7 +600,7 @@ def find_in_hull(
     # write
     found_out,
 ):
-    """Write the pixels of a tile whose centres are in a convex hull grown by a radius. Returns how many.
+    """Write the pixels of a tile whose centres are in a convex hull rounded by a radius. Returns their number.
 
     words, found_out (64,) uint64; left, top [px] of the tile in the hull's coordinates; corners (n, 2) [px], n >= 1,
     clockwise on the screen. O(pixels within the hull's box · n).
@@ -628,7 +631,7 @@ def find_in_hull(
 
 @subkernel
 def is_in_pixels(solid, x, y):
-    """Whether a point [px] is in a solid pixel of solid[row, column], its sides included."""
+    """Return whether a point [px] is in a solid pixel of solid[row, column], its sides included."""
     column = math.floor(x)
     row = math.floor(y)
     for j in range(row - 1 if y == row else row, row + 1):
@@ -650,7 +653,7 @@ def find_in_pixels(
     # write
     found_out,
 ):
-    """Write the pixels of a tile whose centres are in the squares of another mask. Returns how many.
+    """Write the pixels of a tile whose centres are in the squares of another mask. Returns their number.
 
     words, found_out (64,) uint64; solid[row, column] bool of the other; x, y [px]: the tile's corner in its raster;
     cosine, sine: of the tile's angle there. O(pixels of the tile).

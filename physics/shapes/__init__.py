@@ -1,1 +1,1 @@
-"""What bodies are made of: shapes as values, and the flat geometry that kernels read of them."""
+"""Shapes as values, and the flat geometry of them that kernels read."""

@@ -1,4 +1,4 @@
-"""From a mask to simpler shapes, tier by tier, and how well they fit: fit, hull, decompose, measure."""
+"""Simpler shapes in place of a mask, tier by tier, and their accuracy: fit, hull, decompose, measure."""
 
 import math
 from collections.abc import Sequence
@@ -19,13 +19,16 @@ from physics.shapes.values import SHORTEST, STRAIGHT, Capsule, Circle, Polygon, 
 from physics.tables.shape import SHAPE
 
 # ---- polygons --------------------------------------------------------------------------------------------------------
-# Convex polygons around points, and in place of a concave outline.
+# Convex polygons around points, and convex decomposition of a concave polygon.
 
 
 def hull(points: Points) -> Polygon:
-    """The convex hull of points (n, 2) [px]. Of more than 16 corners those go, sides extended outward, that add least
-    area: the polygon holds all points (up to rounding). Raises ValueError for fewer than three points and for
-    points on a line, TypeError."""
+    """Return the convex hull of points (n, 2) [px], with 16 corners at most.
+
+    Of a larger hull, the edges whose removal adds least area are removed and their neighbours extended. The polygon
+    contains all points, up to rounding. Raises ValueError for fewer than three points and for points on a line,
+    TypeError.
+    """
     points = checks.columns("points", points)
     corners = distinct(convex_hull(points)) if len(points) > 2 else points[:0]
     if len(corners) < 3:
@@ -37,12 +40,13 @@ def hull(points: Points) -> Polygon:
 
 
 def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0.0) -> tuple[Polygon, ...]:
-    """A simple polygon of any size, points (n, 2) [px] in either winding, in few convex ones of 3 to 16 corners.
+    """Return the convex decomposition of a simple polygon, points (n, 2) [px] in either winding.
 
-    holes: polygons inside that are left out; they may touch in corners. tolerance [px]: bumps and notches up to
-    that deep are left out, which saves parts; 0: exactly the polygon, cut between its corners. Without holes and
-    with at most 40 corners no cuts between corners give fewer parts, as long as 16 corners do for each. Raises
-    ValueError for edges that cross or meet (naming both), for no area, for a hole that is not inside; TypeError.
+    The parts have 3 to 16 corners. holes: polygons inside that are cut out; they may touch at corners. tolerance [px]:
+    bumps and notches up to that depth are ignored, which saves parts; 0: exactly the polygon, cut between its corners.
+    Without holes and with at most 40 corners the number of parts is minimal for cuts between corners, as long as each
+    part needs at most 16 corners. Raises ValueError for edges that cross or touch (it names both), for zero area, for a
+    hole that is not inside; TypeError.
     """
     outer = checks.columns("points", points)
     if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
@@ -54,7 +58,7 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
 
 
 def distinct(corners: np.ndarray) -> np.ndarray:
-    """Convex corners (n, 2) without those that a Polygon does not take: equal ones, and straight ones."""
+    """Return convex corners (n, 2) without those that Polygon rejects: equal and collinear corners."""
     size = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
     k = 0
     while len(corners) > 2 and k < len(corners):
@@ -63,26 +67,26 @@ def distinct(corners: np.ndarray) -> np.ndarray:
         turn = before[0] * after[1] - before[1] * after[0]
         if np.hypot(*before) <= 2.0 * SHORTEST * size or turn <= 2.0 * STRAIGHT * lengths:
             corners = np.delete(corners, k, axis=0)
-            k = max(k - 1, 0)  # its neighbour before turns more now
+            k = max(k - 1, 0)  # the corner before it turns more now
         else:
             k += 1
     return corners
 
 
 # ---- approximate -----------------------------------------------------------------------------------------------------
-# From a sprite's mask to simpler shapes, tier by tier: cheaper to test, wrong by more.
+# Simpler shapes for a sprite's mask, tier by tier: a cheaper tier is less accurate.
 
 TIERS = ("circle", "aabb", "obb", "capsule", "hull", "parts", "outline", "pixels", "mask")
 
 
 def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
-    """The shapes that stand for a mask in a tier; () for a mask without pixels.
+    """Return the shapes that replace a mask in a tier; () for a mask without pixels.
 
-    circle: the least circle that holds all pixels; aabb: the bounds at each pose; obb: the least turned box; capsule:
-    the least one that holds all pixels; hull: their convex hull, of 16 corners at most; parts: convex polygons, bumps
-    and notches of up to tolerance [px] left out beside what the outline leaves out; outline: mask.outline, in convex
-    parts, rounded where the sprite is round; pixels: the mask as drawn, snap=True; mask: exactly, snap=False. They have
-    the mask's own values. Raises TypeError, ValueError.
+    circle: the smallest circle around all pixels; aabb: the bounds at each pose; obb: the smallest oriented box;
+    capsule: the smallest capsule around all pixels; hull: the convex hull, with 16 corners at most; parts: convex
+    polygons that ignore bumps and notches of up to tolerance [px], in addition to the smoothing of the outline;
+    outline: mask.outline, in convex parts, rounded where the sprite is round; pixels: the mask as drawn, snap=True;
+    mask: exactly, snap=False. The shapes have the mask's own values. Raises TypeError, ValueError.
     """
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
@@ -93,7 +97,7 @@ def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
     if mask.area == 0:
         return ()
     key = (tier, tolerance if tier == "parts" else 0.0)
-    if key not in mask.fitted:  # a mask never changes, so neither does what stands for it
+    if key not in mask.fitted:  # a mask is immutable, so the result is cached
         mask.fitted[key] = _fit(mask.bare, tier, tolerance)
     fitted = mask.fitted[key]
     return fitted if mask is mask.bare else tuple(each.with_values_of(mask) for each in fitted)
@@ -122,7 +126,7 @@ def _fit(mask, tier, tolerance):
 
 
 def _snapped(mask, snap):
-    """The mask that is tested as drawn, or exactly: itself where it is."""
+    """Return the mask with this `snap`: the mask itself where it has it already."""
     if mask.snap == snap:
         return mask
     if snap not in mask.fitted:
@@ -131,13 +135,13 @@ def _snapped(mask, snap):
 
 
 # ---- accuracy --------------------------------------------------------------------------------------------------------
-# What a stand-in for a mask costs and gets wrong: measure.
+# Cost and error of shapes that replace a mask.
 
 Solid = Circle | Capsule | Polygon | PixelMask | Bounds
 
 
 class Fit(NamedTuple):
-    """Shapes beside the mask that they stand for."""
+    """Accuracy and cost of shapes in place of a mask; the fields are described in measure."""
 
     over: float
     missed: float
@@ -151,20 +155,20 @@ class Fit(NamedTuple):
 
 
 def measure(mask: PixelMask, shapes: Solid | Sequence[Solid]) -> Fit:
-    """How well shapes stand for a mask; all in its body space, overlapping shapes as their union.
+    """Return how well shapes represent a mask, in its body space; overlapping shapes count as their union.
 
     over: area of the shapes outside the mask's pixels [px²]; missed: area of the pixels outside the shapes [px²]; iou:
-    the area that both share over that of both together; hausdorff: the largest distance of a point of the boundary of
-    either from the other's boundary [px], at most 1e-6 too small; area_error: difference of the areas over the
-    pixels'; center_error: distance of the centres of area [px]; inertia_error: difference of the moments of inertia,
-    each about its own centre, over the pixels'; corners: 1 of a Circle, 2 of a Capsule, all of a Polygon, 4 of Bounds,
-    of a PixelMask those of its pixels' edges; bytes: what a world keeps for the shapes: their rows of `shapes`, and
-    corners and pixels (at one angle) in its library.
+    intersection over union of the areas; hausdorff: Hausdorff distance of the two boundaries [px], at most 1e-6 too
+    small; area_error: difference of the areas over the pixels' area; center_error: distance of the centres of area
+    [px]; inertia_error: difference of the moments of inertia, each about its own centre, over the pixels' moment;
+    corners: 1 of a Circle, 2 of a Capsule, all of a Polygon, 4 of Bounds, those of the pixels' edges of a PixelMask;
+    bytes: size of the shapes in a world: their rows of `shapes`, and their corners and pixels (at one angle) in its
+    library.
 
-    Areas, centres and moments are exact but for rounding: a PixelMask counts as the union of its pixel squares, Bounds
-    as the box that they are at the angle 0. Errors are never negative. Without shapes or without pixels iou is 0, and
-    hausdorff, center_error and the errors relative to nothing are inf; without either iou is 1 and all errors 0.
-    Raises TypeError for what is no PixelMask, or no shape with an area.
+    Areas, centres and moments are exact up to rounding. A PixelMask counts as the union of its pixel squares, Bounds as
+    its box at the angle 0. Errors are never negative. Without shapes or without pixels iou is 0, and hausdorff,
+    center_error and the errors relative to nothing are inf. Without either iou is 1 and all errors are 0. Raises
+    TypeError for a mask that is no PixelMask and for shapes without an area.
     """
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
@@ -201,7 +205,7 @@ def _relative(value, truth):
 
 
 def _hulls(shape):
-    """(corners clockwise on the screen, radius) of the convex hulls that a shape is, in body space."""
+    """Return the convex hulls of a shape in body space: [(corners clockwise on the screen, radius)]."""
     if isinstance(shape, Bounds):
         return _box_around(_hulls(shape.shape))
     if isinstance(shape, PixelMask):

@@ -1,4 +1,4 @@
-"""All kinds of shapes, and the mass of a body, whose overlapping shapes are weighed once."""
+"""All kinds of shapes, and the mass of a body, in which overlapping area counts once."""
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
@@ -27,17 +27,17 @@ from physics.shapes.mask import Bounds, PixelMask
 from physics.shapes.values import Capsule, Chain, Circle, Mass, Polygon, Segment, TileGrid, together
 
 # ---- overlapping -----------------------------------------------------------------------------------------------------
-# Shapes of one body that overlap are weighed once, where they do as the densest of them.
+# Mass of the shapes of one body: overlapping area counts once, with the density of the densest shape.
 #
-# Convex shapes and pixel masks, these as the union of their pixel squares; tile grids and lines weigh nothing. The
-# parts of each union are those that overlap, one with another; what only touches keeps the sums that it has by itself,
-# to the bit.
+# This holds for convex shapes and for pixel masks, as the union of their pixel squares. Tile grids and lines have no
+# mass. Shapes are grouped by overlaps, and each group is weighed as a union. Shapes that only touch keep their own
+# mass, to the bit.
 
 CONVEX = (Circle, Capsule, Polygon)
 
 
 class Hull(NamedTuple):
-    """What is convex, and how much it weighs a px2."""
+    """A convex shape with a density [mass per px2]."""
 
     corners: tuple
     radius: float  # [px]
@@ -45,7 +45,7 @@ class Hull(NamedTuple):
 
 
 class Pixels(NamedTuple):
-    """A mask, and how much it weighs a px2."""
+    """A mask with a density [mass per px2]."""
 
     mask: PixelMask
     density: float
@@ -55,7 +55,7 @@ Weighed = Hull | Pixels
 
 
 def weighed_once(parts: Sequence[tuple]) -> Mass:
-    """The mass of shapes with their densities: [(shape, density)]."""
+    """Return the mass of shapes with their densities: [(shape, density)]; overlapping area counts once."""
     if len(parts) < 2:
         return together(shape.mass_of(density) for shape, density in parts)
     figures = [_figure_of(shape, density) for shape, density in parts]
@@ -85,7 +85,7 @@ def _box_of(figure: Weighed) -> Box:
 
 
 def _groups(figures):
-    """Sets of figures that hang together by overlaps; equal ones count as one that overlaps."""
+    """Return the sets of figures connected by overlaps. Equal figures count as one that overlaps."""
     groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
     different = list(dict.fromkeys(figures))
     for i, k in _near(different):
@@ -97,7 +97,7 @@ def _groups(figures):
 
 
 def _near(figures):
-    """Places of the pairs whose boxes share area."""
+    """Return the index pairs of the figures whose boxes share area."""
     if len(figures) < 2:
         return []
     boxes = np.array([_box_of(each) for each in figures])
@@ -107,9 +107,10 @@ def _near(figures):
 
 
 def overlap(a: Hull, b: Hull) -> bool:
-    """Whether two rounded hulls share area: no side's normal, and no line through two corners, tells them apart.
+    """Return whether two rounded hulls share area, by the separating axis theorem.
 
-    Source: the separating axis theorem; between rounded corners the axis may be any line from one to the other.
+    Candidate axes are the normals of all sides and, because of the rounding, the lines between any two corners of both
+    hulls.
     """
     first, second = np.array(a.corners), np.array(b.corners)
     reach = a.radius + b.radius
@@ -126,7 +127,7 @@ def overlap(a: Hull, b: Hull) -> bool:
 
 
 def _shares_pixels(a: Weighed, b: Weighed) -> bool:
-    """Whether two figures share area, one or both of them a mask."""
+    """Return whether two figures share area, one or both of them a mask."""
     window = _common(_box_of(a), _box_of(b))
     cells = cells_of([_placed(each) for each in (a, b) if isinstance(each, Pixels)], window)
     base = (window[0], window[1])
@@ -136,7 +137,7 @@ def _shares_pixels(a: Weighed, b: Weighed) -> bool:
 
 
 def _placed(figure: Pixels):
-    """(solid, left, top) of a mask in body space."""
+    """Return (solid, left, top) of a mask in body space."""
     return figure.mask.solid, -figure.mask.origin[0], -figure.mask.origin[1]
 
 
@@ -145,7 +146,7 @@ def _outline(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def _common(a: Box, b: Box) -> Box:
-    """What two boxes share; of none the right side lies left of the left one."""
+    """Return the intersection of two boxes; if it is empty, the right side lies left of the left one."""
     return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
 
 
@@ -159,14 +160,17 @@ def _mass_of_group(group: set) -> Mass:
     hulls = sorted(each for each in group if isinstance(each, Hull))
     if not masks:
         return _union_mass(tuple(hulls))
-    # In one order whatever order they were told in.
+    # Sorted: the sum is independent of the order of the shapes.
     return _mass_with_masks(
         sorted(masks, key=lambda each: (each.density, each.mask.bounds, each.mask.fingerprint)), hulls
     )
 
 
 def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> Mass:
-    """Layer on layer, each what found_of says of all that are at least so dense."""
+    """Return the mass of a group, summed by layers of density.
+
+    Each layer is the moments, from found_of, of all shapes with at least that density.
+    """
     densities = sorted({each.density for each in group})
     layers = []
     for below, density in zip([0.0, *densities], densities, strict=False):
@@ -177,12 +181,14 @@ def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> M
 
 @lru_cache(maxsize=256)
 def _union_mass(group: tuple[Hull, ...]) -> Mass:
-    """Of hulls that overlap."""
+    """Return the mass of overlapping hulls."""
     return _layered(group, lambda hulls: moments(_outline(hulls)))
 
 
 def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
-    """Of masks and hulls that overlap: what masks are, what hulls are, less what both are."""
+    """Return the mass of overlapping masks and hulls, by inclusion-exclusion: masks plus hulls minus the shared
+    area.
+    """
     base = _box_of(masks[0])[:2]
 
     def union(dense):
@@ -199,7 +205,7 @@ def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
 
 
 def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
-    """Of the union of masks: of each, less what is counted more than once."""
+    """Return the sums of the union of masks: the sum of all, minus the area counted more than once."""
     sums = NO_SUMS
     for each in masks:
         weight = each.mask.mass_of(1.0)
@@ -215,19 +221,18 @@ def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
 # ---- kinds -----------------------------------------------------------------------------------------------------------
 # All kinds of shapes, and the mass of any of them.
 #
-# A shape is an immutable value in body space, in pixels; x right, y down, angles clockwise on the screen. It knows its
-# geometry and its mass; where it is, its body knows. All but PixelMask and TileGrid compare by value.
+# A shape is an immutable value in body space, in pixels; x right, y down, angles clockwise on the screen. It has a
+# geometry and a mass, but no pose: that belongs to its body. All but PixelMask and TileGrid compare by value.
 
 Shape = Circle | Capsule | Polygon | Segment | Chain | TileGrid | PixelMask | Bounds
 SHAPES = (Circle, Capsule, Polygon, Segment, Chain, TileGrid, PixelMask, Bounds)
 
 
 def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> Mass:
-    """Mass of one shape or several together: inertia about the common centre of mass. Where they overlap they are
-    weighed once, as the densest.
+    """Return the mass of one shape or several together, with the inertia about the common centre of mass.
 
-    density [mass per px2] is that of shapes without a material of their own.
-    Raises TypeError for what is no shape, ValueError for a density that is not > 0.
+    Overlapping area counts once, with the highest density. density [mass per px2]: of shapes without a material of
+    their own. Raises TypeError for a value that is no shape, ValueError for a density that is not > 0.
     """
     density = checks.number("density", density, above=0.0)
     parts = shapes if isinstance(shapes, (tuple, list)) else (shapes,)

@@ -1,4 +1,4 @@
-"""The geometry of all shapes of a world in flat arrays that kernels read, and the rows that shapes need there."""
+"""The geometry of all shapes of a world in flat arrays that kernels read, and the table rows of shapes."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -41,13 +41,13 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PART, PIX
 from physics.tables.table import Table
 
 # ---- library ---------------------------------------------------------------------------------------------------------
-# The corners, tiles and pixels of all shapes of a world, in flat arrays that kernels read.
+# Corners, tiles and pixels of all shapes of a world, in flat arrays that kernels read.
 #
-# A shape that is used by a thousand bodies stands here once. Masks are added per angle as they come up. What no shape
-# uses any longer stays until it may be half of all; then what is used is put into a library of its own.
+# A shape used by a thousand bodies is stored once. Masks are rasterised per angle on demand. Unused geometry stays
+# until it may be half of the whole; then the used part is copied to a new library.
 
 SLACK = 1 << 16  # [bytes] of geometry, and …
-FEW = 64  # … shapes, that are not worth tidying up for
+FEW = 64  # … shapes: below these limits unused geometry is kept
 KIND_OF = {
     Circle: CIRCLE,
     Polygon: POLYGON,
@@ -60,7 +60,7 @@ KIND_OF = {
 
 
 class Geometries(NamedTuple):
-    """The shapes of a library by kind and row. Lists; shapes never change."""
+    """Shapes of a library by kind and row, as lists. Shapes are immutable."""
 
     outlines: list  # polygons, capsules, segments
     chains: list
@@ -69,7 +69,7 @@ class Geometries(NamedTuple):
 
 
 class Library:
-    """Adds shapes to the flat arrays. The same grid or mask, and equal other shapes, are added once."""
+    """Flat geometry arrays with their shapes. The same grid or mask, and equal other shapes, are added once."""
 
     def __init__(self) -> None:
         self.polygons, self.corners = Table(SPAN), Table(CORNER)
@@ -77,16 +77,16 @@ class Library:
         self.grids, self.cells = Table(GRID), Table(CELL)
         self.rasters, self.words = Table(RASTER), Table(np.uint64, 64)
         self.raster_of = np.full((4, MASK_ANGLE_BUCKETS), -1, np.int64)
-        self.shapes = {}  # key -> (row, shape); holds the shape, so that an id cannot be given twice
+        self.shapes = {}  # key -> (row, shape); holds the shape, so that its id is not reused
         self.masks, self.tile_grids = [], []
-        self.outlines, self.chain_shapes = [], []  # polygons, capsules and segments by their row; chains by theirs
-        self.gone = 0  # shape rows dropped since it was made
-        self.least = 0  # [bytes] when it was made
+        self.outlines, self.chain_shapes = [], []  # polygons, capsules and segments by row; chains by row
+        self.gone = 0  # number of shape rows removed since its creation
+        self.least = 0  # [bytes] at its creation
         self.tables = self._tables()
 
     @property
     def grown(self) -> tuple[Table, ...]:
-        """The tables that every shape adds to."""
+        """The tables that grow when a shape is added."""
         return (
             self.polygons,
             self.corners,
@@ -101,15 +101,20 @@ class Library:
 
     @property
     def size(self) -> int:
-        """[bytes] in use."""
+        """Used size [bytes]."""
         return sum(table.count * table.data.itemsize for table in self.grown)
 
     def may_be_half_unused(self, shapes: int) -> bool:
-        """Whether more was dropped than the shapes that are left, or more was added than there was."""
+        """Return whether half of the geometry may be unused.
+
+        This is so if more rows were removed than are left, or if the size has more than doubled.
+        """
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
     def without_unused(self, shapes: np.ndarray) -> "Library":
-        """A library of what these SHAPE rows use; their columns `geometry` and `raster` are set to its rows."""
+        """Return a library of the geometry that these SHAPE rows use; write its rows to the columns `geometry` and
+        `raster`.
+        """
         fresh = Library()
         kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
         rasters = np.zeros(self.rasters.count + 1, np.int64)
@@ -132,7 +137,7 @@ class Library:
                         if fresh.raster_of[new, bucket] < 0:
                             fresh.add_raster(new, bucket)
                         rasters[self.raster_of[old, bucket]] = fresh.raster_of[new, bucket]
-        # What was drawn for a question is gone with it (visited): who asks next has it drawn anew.
+        # Rasters drawn for a query are removed with it (visited); the next query draws its own.
         shapes["raster"] = rasters[np.minimum(shapes["raster"], self.rasters.count)]
         fresh.least = fresh.size
         return fresh
@@ -152,7 +157,7 @@ class Library:
         )
 
     def add(self, shape: Shape) -> tuple[int, int, int]:
-        """(kind, geometry row, kind inside a Bounds) of a shape."""
+        """Return (kind, geometry row, kind inside a Bounds) of a shape, and add its geometry where it is new."""
         if isinstance(shape, Bounds):
             kind, row, _ = self.add(shape.shape)
             return BOUNDS, row, kind
@@ -182,7 +187,7 @@ class Library:
         return rows
 
     def _add_known_hulls(self, library, rows):
-        """Those in some rows of another library: all at once, and looked for later on if they were there."""
+        """Add the hulls in some rows of another library at once; `add` finds those that it found there."""
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
         for key, (row, shape) in library.shapes.items():
@@ -197,7 +202,8 @@ class Library:
         self.chains.append()[:] = (self.links.count, count, self.link_blocks.count, blocks)
         a = np.array(shape.points)
         b = np.roll(a, -1, axis=0)[:count]
-        # Neighbours: the listed ones, round the loop, or the ghosts at the ends of an open chain.
+        # Neighbours of a link: the adjacent links, across the closure of a loop, or the ghosts at the ends of an open
+        # chain.
         before, after = np.roll(a, 1, axis=0)[:count], np.roll(a, -2, axis=0)[:count]
         links = self.links.append(count)
         links["has_before"] = links["has_after"] = links["last_owned"] = True
@@ -253,7 +259,9 @@ class Library:
         return row
 
     def add_parts(self, shapes: Sequence[Circle | Capsule | Polygon | Chain]) -> np.ndarray:
-        """(n, 3): what `add` tells. Convex shapes are new: they are not looked for among those there."""
+        """Return (n, 3), the result of `add` for each shape. Convex shapes are added without a search for equal
+        ones.
+        """
         kinds = [KIND_OF[type(shape)] for shape in shapes]
         if CHAIN in kinds:
             return np.array([self.add(shape) for shape in shapes], np.int64)
@@ -267,7 +275,7 @@ class Library:
 
     @classmethod
     def of(cls, shapes: Geometries) -> "Library":
-        """With these shapes in these rows."""
+        """Return a library with these shapes in these rows."""
         library = cls()
         library.add_parts(shapes.outlines)
         for row, shape in reversed([*enumerate(shapes.outlines)]):
@@ -277,10 +285,11 @@ class Library:
         return library
 
     def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
-        """The row of a mask that takes the place of another in one of the SHAPE rows.
+        """Return the row of a mask that replaces another in one of the SHAPE rows.
 
-        changed: the tiles in which they differ, None: any. Of a large mask that no other row has only these are
-        written, and its hull stays: turned, its box may be larger than what is left. O(words that change), or as add.
+        changed: the tiles in which the masks differ, None: any. If no other row uses a large mask, only these tiles are
+        written and its hull is kept; at other angles its box may then be larger than the remaining pixels. O(words that
+        change), otherwise as add.
         """
         row = self.shapes[id(old)][0]
         users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
@@ -304,8 +313,10 @@ class Library:
         return row
 
     def _add_exact(self, shape):
-        """What the exact test of a mask that is not snapped, and its tight box, read at the angle 0:
-        (halo, its stride, hull, corners)."""
+        """Add the data for the exact test of a mask that is not snapped and for its tight box, read at the angle 0.
+
+        Returns (first word of the halo, its stride, first corner of the hull, number of corners).
+        """
         hull = _hull_of(shape)
         around = np.zeros((0, 0), np.uint64) if shape.snap else halo(shape.solid)
         first = -1 if shape.snap else self.words.count, around.shape[1], self.corners.count, len(hull)
@@ -315,7 +326,7 @@ class Library:
         return first
 
     def add_raster(self, mask: int, bucket: int) -> None:
-        """Add a mask at an angle bucket: turned from its source, once."""
+        """Add the raster of a mask at an angle bucket, rotated from its source."""
         shape = self.masks[mask]
         words, (width, height), origin, box = _drawn(shape, bucket)
         self.raster_of[mask, bucket] = self.rasters.count
@@ -336,11 +347,11 @@ class Library:
         self.tables = self._tables()
 
     def shapes_by_row(self) -> Geometries:
-        """Its shapes. Added in this order to another library they get the same rows there."""
+        """Return its shapes. Added in this order to another library, they get the same rows there."""
         return Geometries([*self.outlines], [*self.chain_shapes], [*self.tile_grids], [*self.masks])
 
     def shape_of(self, row: np.void) -> Shape:
-        """The shape that a SHAPE row stands for."""
+        """Return the shape of a SHAPE row."""
         kind = int(row["kind"])
         inner = int(row["wrapped"]) if kind == BOUNDS else kind
         if inner == CIRCLE:
@@ -353,7 +364,7 @@ class Library:
 
     @contextmanager
     def visited(self) -> Iterator[None]:
-        """Whatever is added inside the with block is taken out again at its end: shapes that only ask a question."""
+        """Remove all geometry added inside the with block at its end: for shapes of a query."""
         kept = [(table, table.count) for table in self.grown]
         lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
         known = len(self.shapes)
@@ -370,7 +381,7 @@ class Library:
             self.tables = self._tables()
 
     def raster(self, mask: int, angle: float) -> np.void:
-        """The raster of a mask at an angle, added where it is missing."""
+        """Return the raster of a mask at an angle, added where it is missing."""
         bucket = bucket_of(angle, MASK_ANGLE_BUCKETS)
         if self.raster_of[mask, bucket] < 0:
             self.add_raster(mask, bucket)
@@ -378,7 +389,7 @@ class Library:
 
 
 def _drawn(shape, bucket):
-    """(words, size, origin, box of the solid pixels or None) of a mask at an angle bucket; at 0 as it is."""
+    """Return (words, size, origin, box of the solid pixels or None) of a mask at an angle bucket; at 0 unrotated."""
     if bucket == 0:
         return shape.words, shape.size, shape.origin, shape.solid_box
     turned = shape.turned_to(bucket)
@@ -388,7 +399,7 @@ def _drawn(shape, bucket):
 
 
 def _hull_of(shape):
-    """Corners of a mask's hull; of a large one's box: that is known without a look at its pixels."""
+    """Return the corners of a mask's hull; of a large one those of its box, which need no pass over its pixels."""
     if shape.area and is_tiled(shape) and shape.snap:
         left, top, right, bottom = shape.bounds
         return np.array([(left, top), (right, top), (right, bottom), (left, bottom)])
@@ -396,15 +407,15 @@ def _hull_of(shape):
 
 
 # ---- rasters ---------------------------------------------------------------------------------------------------------
-# Masks at angles that came up: drawn once per angle bucket, before a kernel needs them.
+# Rasters of masks: one per angle bucket, added before a kernel needs it.
 #
-# The columns raster, left and top of a SHAPE row with the role PIXELS hold for one test: the narrow phase has such rows
-# drawn by `draw_masks` before its passes read them, and so does every other reader. What is not snapped is tested by
-# its pixels as they were added, turned with its body: it is drawn for pictures only.
+# The columns raster, left and top of a SHAPE row with the role PIXELS are valid for one test. Every reader, such as the
+# narrow phase, first writes them with `draw_masks`. A mask that is not snapped is tested by its unrotated pixels,
+# transformed with its body; its rasters at other angles are for pictures only.
 
 
 def add_missing_rasters(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
-    """Draw the snapped masks of these shape rows at angles, of now or after dt [s], that have not come up before."""
+    """Draw the snapped masks of these shape rows at their present angles and those after dt [s], where missing."""
     if not library.masks:
         return
     missing = np.zeros((2 * len(rows), 2), np.int64)
@@ -415,13 +426,15 @@ def add_missing_rasters(library: Library, rows: np.ndarray, bodies: np.ndarray, 
 
 
 def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Draw the snapped PIXELS among these SHAPE rows at the present poses of their bodies, and write their columns
-    raster, left and top. A body without a pose that a double resolves is passed over."""
+    """Draw the snapped PIXELS among these SHAPE rows at the present poses of their bodies.
+
+    Writes their columns raster, left and top. A body beyond POSITION_LIMIT is skipped.
+    """
     _draw(library, rows[(shapes["role"][rows] == PIXELS) & shapes["snap"][rows]], bodies, shapes)
 
 
 def draw_pictures(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """As draw_masks, and also what is not snapped: somebody looks."""
+    """Draw the PIXELS and the masks that are not snapped among these SHAPE rows, for pictures; else as draw_masks."""
     pictured = (shapes["role"][rows] == PIXELS) | ~shapes["snap"][rows]
     _draw(library, rows[(shapes["kind"][rows] == MASK) & pictured], bodies, shapes)
 
@@ -432,7 +445,7 @@ def _draw(library, rows, bodies, shapes):
     x, y, angles = (bodies[name][shapes["body_row"][rows]] for name in ("x", "y", "angle"))
     there = (np.abs(x) < POSITION_LIMIT) & (np.abs(y) < POSITION_LIMIT) & (np.abs(angles) < POSITION_LIMIT)
     rows, angles = rows[there], angles[there]
-    # As placement.bucket_at.
+    # Same formula as placement.bucket_at.
     buckets = np.floor(angles * MASK_ANGLE_BUCKETS / math.tau + 0.5).astype(np.int64) & (MASK_ANGLE_BUCKETS - 1)
     masks = shapes["geometry"][rows]
     missing = library.raster_of[masks, buckets] < 0
@@ -443,11 +456,14 @@ def _draw(library, rows, bodies, shapes):
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
-# The rows that shapes need: SHAPE rows, masses, places in the broad phase.
+# Table rows of shapes: SHAPE rows, masses, extents.
 
 
 def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
-    """Refuse no shapes, dynamic chains, turned or dynamic tiles. Raises TypeError, ValueError."""
+    """Reject a dynamic body of segments only, dynamic chains and one-way masks, and rotated or dynamic tiles.
+
+    Raises TypeError, ValueError.
+    """
     if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
         raise ValueError(
             f"shapes of a dynamic body must hold one with mass, a Segment has none (got {checks.shown(shapes)})"
@@ -467,19 +483,23 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
-    """(radius, centre of a circle in body space) [px] of a shape, or of what a Bounds wraps, for its SHAPE row."""
+    """Return (radius, centre of a circle in body space) [px] of a shape, or of the shape inside a Bounds, for
+    its row.
+    """
     inner = getattr(shape, "shape", shape)
     x, y = getattr(inner, "center", (0.0, 0.0))
     return getattr(inner, "radius", 0.0), x, y
 
 
 def is_snapped(shape: Shape) -> bool:
-    """Whether a shape is a mask that is tested as drawn, for its SHAPE row."""
+    """Return whether a shape is a mask that is tested as drawn, for its SHAPE row."""
     return isinstance(shape, PixelMask) and shape.snap
 
 
 def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
-    """The mass of a body's shapes, sensors among them; mass: in place of what the densities make of it, 0: none."""
+    """Return the mass of a body's shapes, including sensors. mass: replaces the mass from the densities; 0:
+    does not.
+    """
     found = mass_of(tuple(shapes), density)
     if mass == 0.0:
         return found
@@ -487,10 +507,11 @@ def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
 
 
 def thin_half(shape: Shape, in_parts: bool) -> float:
-    """Half of how thin [px] a shape is where it is thinnest; in_parts: of a mask the parts that stand for it.
+    """Return the inradius [px] of a shape at its thinnest part; in_parts: masks are represented by the parts of their
+    outline.
 
-    Thin arms would be over a wall before the middle is: measured, sprites of 3 px blocks passed 1 px walls at half
-    their size a step. A part thinner than a pixel lies beside one that makes it up.
+    A thin arm would be beyond a wall before the middle of the sprite is. Measured: sprites of 3 px blocks passed 1 px
+    walls at half their size per step. Parts thinner than a pixel count as 1 px, because they lie beside a thicker one.
     """
     if not (in_parts and isinstance(shape, PixelMask)):
         return shape.smallest_half
@@ -498,8 +519,8 @@ def thin_half(shape: Shape, in_parts: bool) -> float:
 
 
 def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
-    """Write mass, inertia and size of BODY rows of one kind of body. in_parts: whether masks are pushed by parts."""
-    in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # how thin it is counts for what moves
+    """Write mass, inertia and size of BODY rows of one kind of body. in_parts: response uses the parts of masks."""
+    in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # only moving bodies need the thinnest part
     rows["mass"], rows["inertia"] = mass.mass, mass.inertia
     rows["local_center_x"], rows["local_center_y"] = mass.center
     moves = (rows["kind"] == DYNAMIC) & (mass.mass > 0.0)
@@ -514,7 +535,7 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
 def place(
     library: Library, shape: Shape, bodies: np.ndarray, shapes: np.ndarray, row: int, pose: Sequence[float]
 ) -> None:
-    """Fill a BODY and a SHAPE row for a shape at a pose that stands in no world."""
+    """Fill a BODY and a SHAPE row for a shape at a pose outside a world, as queries need them."""
     b = bodies[row : row + 1]
     describe(library, shape, shapes[row : row + 1], row, row, pose[2:3])
     b["id"], b["x"], b["y"], b["angle"] = row, *pose
@@ -524,7 +545,7 @@ def place(
 def describe(
     library: Library, shape: Shape, rows: np.ndarray, ids: ArrayLike, body_rows: ArrayLike, angles: Sequence[float]
 ) -> None:
-    """Fill SHAPE rows, a view, for one shape at so many places in no world; angles: those that its bodies have."""
+    """Fill SHAPE rows, a view, for one shape at several poses outside a world; angles [rad]: those of its bodies."""
     kind, geometry, wrapped = library.add(shape)
     rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows
     rows["kind"], rows["geometry"], rows["wrapped"] = kind, geometry, wrapped
@@ -536,11 +557,11 @@ def describe(
 
 
 # ---- part rows -------------------------------------------------------------------------------------------------------
-# The SHAPE rows of a large mask's parts: those in some of its tiles, and those that are as they would be anew.
+# SHAPE rows of a large mask's parts: the rows in some of its tiles, and the rows equal to new parts.
 
 
 def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndarray:
-    """(n,) int64 rows of the parts of a shape, by id, in the wanted tiles: (tiles,) bool. O(shapes)."""
+    """Return the rows (n,) int64 of the parts of a shape, by id, in the wanted tiles: (tiles,) bool. O(shapes)."""
     found = np.empty(len(shapes), np.int64)
     return found[: list_parts(shapes, owner, wanted, found)]
 
@@ -548,10 +569,10 @@ def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndar
 def find_equal(
     geometry: Geometry, shapes: np.ndarray, rows: np.ndarray, corners: np.ndarray, counts: np.ndarray
 ) -> np.ndarray:
-    """(k,) int64: for each of some polygons, one after another, which of the rows (n,) has the same corners in the same
-    order, as its place among them; -1 where none has.
+    """Return the index (k,) int64 among rows (n,) of the row equal to each polygon, -1 without one.
 
-    corners (m, 2) [px], counts (k,): corners of each. O(k n).
+    Equal polygons have the same corners in the same order. corners (m, 2) [px], one polygon after another; counts (k,):
+    corners of each. O(k n).
     """
     found = np.empty(len(counts), np.int64)
     find_polygons(geometry, shapes, rows, corners, counts, found)
@@ -560,7 +581,7 @@ def find_equal(
 
 @kernel
 def list_parts(shapes, owner, wanted, rows_out):
-    """Write the rows of the parts that rows_in_tiles tells. Returns how many."""
+    """Write the rows of the parts of rows_in_tiles. Returns their number. O(shapes)."""
     count = 0
     for k in range(len(shapes)):
         s = shapes[k]
@@ -572,7 +593,7 @@ def list_parts(shapes, owner, wanted, rows_out):
 
 @kernel
 def find_polygons(geometry, shapes, rows, corners, counts, found_out):
-    """Write for each polygon its place among the rows, as find_equal tells."""
+    """Write the index of each polygon among the rows, see find_equal. O(k n)."""
     first = 0
     for k in range(len(counts)):
         found_out[k] = -1

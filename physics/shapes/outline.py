@@ -1,4 +1,4 @@
-"""The outline of a mask as convex shapes, whole or tile by tile, and its upper side where it is one-way."""
+"""The outline of a mask as convex shapes, whole or tile by tile, and its upper side if the mask is one-way."""
 
 import math
 from collections import defaultdict
@@ -29,16 +29,16 @@ from physics.shapes.values import Capsule, Chain, Circle, Polygon
 from physics.tables.shape import SHARPEST, WHOLE_MASK
 
 # ---- outline tiles ---------------------------------------------------------------------------------------------------
-# The outline of a large mask tile by tile, so that where it is carved only the tiles touched are made anew.
+# Tiled outline of a large mask: carving recomputes only the tiles that it touches.
 #
-# Tiles lie at multiples of MASK_TILE pixels from the mask's first pixel, row by row. What has been made of a tile is
-# kept in `fitted`, and taken over by a mask that differs from this one in a few pixels (keep_tiles).
+# Tiles lie at multiples of MASK_TILE pixels from the mask's first pixel, row by row. Results per tile are cached in
+# `fitted`. A mask that differs in a few pixels takes them over (keep_tiles).
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom [px]
 
 
 class Sprite(Protocol):
-    """What an outline is taken of: shapes.mask.PixelMask has it."""
+    """Interface of the source of an outline, implemented by shapes.mask.PixelMask."""
 
     @property
     def solid(self) -> np.ndarray: ...  # bool [row, col]
@@ -51,20 +51,20 @@ class Sprite(Protocol):
     @property
     def smooth(self) -> float: ...
 
-    fitted: dict[Any, Any]  # what has been worked out
+    fitted: dict[Any, Any]  # cached results
 
     def window(self, left: int, top: int, size: int) -> np.ndarray: ...  # (size, size) bool, clear beyond the mask
 
 
 class OutlinePart(NamedTuple):
-    """A convex part of an outline in body space, and what of it lies inside the outline."""
+    """A convex part of an outline in body space, with flags of its edges and corners inside the outline."""
 
     shape: Circle | Capsule | Polygon
     inner: int  # as in SHAPE
 
 
 class Tile:
-    """What one tile has of an outline, whatever lies around it but for a halo of pixels."""
+    """The part of an outline in one tile; it depends on the tile's pixels and a halo around them."""
 
     def __init__(self, mask: Sprite, number: int) -> None:
         down, across = divmod(number, tiles_of(mask)[1])
@@ -74,7 +74,7 @@ class Tile:
         self.parts = tile_parts(window, mask.smooth, self.at)  # in raster pixels
 
     def has_parts_of(self, other: "Tile") -> bool:
-        """Whether its parts are those of another, to the bit."""
+        """Return whether its parts equal those of another tile, to the bit."""
         return all(mine.tobytes() == its.tobytes() for mine, its in zip(self.parts, other.parts, strict=True))
 
     @cached_property
@@ -87,7 +87,10 @@ class Tile:
 
 
 def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None = None) -> list[Polygon]:
-    """Polygons of corners (n, 2), one after another, of which each has (k,) counts; which: some of these, None: all."""
+    """Return the polygons of corners (n, 2), one after another, with counts (k,) of corners each.
+
+    which: indices of the wanted polygons, None: all.
+    """
     points, ends = corners.tolist(), [0, *np.cumsum(counts).tolist()]
     some = range(len(counts)) if which is None else which.tolist()
     return [Polygon.known(points[ends[k] : ends[k + 1]]) for k in some]
@@ -103,25 +106,25 @@ class TiledParts(NamedTuple):
 
 
 def is_tiled(mask: Sprite) -> bool:
-    """Whether a mask's outline is made of tiles: a large one's, unless that is a full rectangle."""
+    """Return whether a mask's outline is tiled: that of a large mask that is no full rectangle."""
     width, height = mask.size
     return max(width, height) > LARGE_MASK and mask.area < width * height
 
 
 def tiles_of(mask: Sprite) -> tuple[int, int]:
-    """How many rows and columns of tiles a mask has."""
+    """Return the number of rows and columns of tiles of a mask."""
     width, height = mask.size
     return -(-height // MASK_TILE), -(-width // MASK_TILE)
 
 
 def tile_outlines(mask: Sprite, numbers: Sequence[int]) -> list[tuple[OutlinePart, ...]]:
-    """The parts of a mask's outline in each of some tiles, which count row by row; () of an empty tile."""
+    """Return the parts of a mask's outline in each of some tiles, numbered row by row; () for an empty tile."""
     found = zip(_tiles(mask, numbers), _inner(mask, numbers), strict=True)
     return [tuple(map(OutlinePart, tile.shapes, inner.tolist())) for tile, inner in found]
 
 
 def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
-    """The same of one or more tiles, in their order, in arrays."""
+    """Return the parts of one or more tiles, in their order, as arrays."""
     tiles, inner = _tiles(mask, numbers), _inner(mask, numbers)
     return TiledParts(
         np.concatenate([each.known.corners for each in tiles]),
@@ -132,12 +135,12 @@ def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
 
 
 def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
-    """Take over what has been made of tiles from a mask that differs in pixels within some boxes only.
+    """Take over the cached tiles of a mask that differs only in the pixels of some boxes.
 
-    Both have the same size, origin and smooth; old may be the mask itself, its pixels changed; boxes: left, top, right,
-    bottom [px] in the raster, the last two exclusive. Only tiles within HALO of those pixels are worked out anew.
-    Returns the numbers of all whose outline may differ now, in their order: those that came out otherwise, and the
-    ones around them where their corners on the border changed.
+    Both masks have the same size, origin and smooth; old may be the mask itself with changed pixels. boxes: left, top,
+    right, bottom [px] in the raster, the last two exclusive. Only tiles within HALO of those pixels are recomputed.
+    Returns the sorted numbers of all tiles whose outline may differ: those with different parts, and their neighbours
+    if corners on the common border changed.
     """
     tiles, inner = (_known(old, name).copy() for name in KEPT)
     mask.fitted.update(tiles=tiles, inner=inner)
@@ -162,7 +165,7 @@ def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
     return sorted(changed)
 
 
-KEPT = ("tiles", "inner")  # what is known of tiles, by number: Tile, and `inner` of its parts; else None
+KEPT = ("tiles", "inner")  # cached per tile, by number: Tile, and `inner` of its parts; else None
 
 
 def _known(mask, name) -> list:
@@ -173,7 +176,7 @@ def _known(mask, name) -> list:
 
 
 def _tiles(mask, numbers) -> list[Tile]:
-    """What some tiles have of the outline, worked out once."""
+    """Return some tiles, computed once."""
     known = _known(mask, "tiles")
     for number in numbers:
         if known[number] is None:
@@ -182,7 +185,7 @@ def _tiles(mask, numbers) -> list[Tile]:
 
 
 def _inner(mask, numbers) -> list[np.ndarray]:
-    """What of the parts of some tiles lies inside the outline, as in SHAPE, worked out once."""
+    """Return the flags of inner edges and corners of the parts of some tiles, as in SHAPE, computed once."""
     known, (rows, columns) = _known(mask, "inner"), tiles_of(mask)
     missing = [number for number in numbers if known[number] is None]
     if missing:
@@ -194,18 +197,18 @@ def _inner(mask, numbers) -> list[np.ndarray]:
 
 
 def _near(number, rows, columns):
-    """A tile and those around it, of those there are, in their order."""
+    """Return the numbers of a tile and its existing neighbours, in their order."""
     row, column = divmod(number, columns)
     across = range(max(column - 1, 0), min(column + 2, columns))
     return [y * columns + x for y in range(max(row - 1, 0), min(row + 2, rows)) for x in across]
 
 
 # ---- outline ---------------------------------------------------------------------------------------------------------
-# The outline of a mask as convex shapes: what is pushed, swept, cast and walked on meets these, and no pixels.
+# Outline of a mask as convex shapes, for response, sweeps, casts and characters.
 
 
 def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
-    """The parts of a mask's outline, worked out once; () for a mask without pixels."""
+    """Return the parts of a mask's outline, computed once; () for a mask without pixels."""
     if "outline" not in mask.fitted:
         if is_tiled(mask):
             mask.fitted["outline"] = tuple(part for _, tile in outline_by_tile(mask) for part in tile)
@@ -219,9 +222,9 @@ def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
 
 
 def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
-    """(number of the tile, its parts) of each tile of a mask's outline.
+    """Return (number of the tile, its parts) of each tile of a mask's outline.
 
-    Of a mask whose outline is in one piece that is (WHOLE_MASK, all parts).
+    For an outline that is not tiled the result is [(WHOLE_MASK, all parts)].
     """
     if not is_tiled(mask):
         return [(WHOLE_MASK, outline_of(mask))]
@@ -230,7 +233,7 @@ def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
 
 
 def _placed(part, outline_turns, origin):
-    """In body space, with one edge for each straight side: inner where a neighbour covers all of it."""
+    """Return a part in body space with one edge per straight side; a side is inner if neighbours cover all of it."""
     turns = np.flatnonzero(np.array(_angles(part.corners)) < HALF_TURN)
     corners, inner = part.corners - np.array(origin), np.asarray(part.inner, bool)
     if len(corners) == 1:
@@ -248,10 +251,10 @@ def _bits(sides, turns):
 
 
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
-    """For each part, by how much the outline turns at each corner [rad]: pi where no other part meets it there.
+    """Return for each part the turn of the outline at each corner [rad]: pi where no other part meets it.
 
-    COVERED where parts that meet leave no corner that sticks out. Where they do leave one, the first of them that has a
-    side of the outline there has it. Corners are the same where their coordinates are.
+    The turn is COVERED where the parts that meet leave no convex corner. Otherwise the first of them with a side of the
+    outline there gets the turn, the others COVERED. Corners are the same if their coordinates are equal.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
     for part in parts:
@@ -271,30 +274,30 @@ def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
 
 
 def _angles(corners):
-    """The angle inside each corner of a convex outline [rad]."""
+    """Return the interior angle at each corner of a convex outline [rad]."""
     before, after = np.roll(corners, 1, axis=0) - corners, np.roll(corners, -1, axis=0) - corners
     cross = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
     return np.arctan2(cross, (before * after).sum(axis=1)).tolist()
 
 
 # ---- surface ---------------------------------------------------------------------------------------------------------
-# The upper side of a mask that is open from below: what stands on it meets these chains, and no convex parts.
+# Upper side of a one-way mask as chains, which replace the convex parts in collisions with it.
 
 
 class Stretch(NamedTuple):
     """A stretch of an upper side in body space."""
 
     shape: Chain
-    inner: int = 0  # as OutlinePart's: no line lies inside
+    inner: int = 0  # as in OutlinePart: no link lies inside
 
 
 def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
-    """Chains in body space along the upper side of a mask's outline, worked out once; () for a mask without pixels.
+    """Return chains in body space along the upper side of a mask's outline, computed once; () without pixels.
 
-    Each is a run of the outline's lines that lead to the right, from its left end to its right one: all whose outward
-    normals point upwards in the mask's own space, floors of holes among them. Vertical lines and undersides are no part
-    of them, and part runs from one another; but steps of at most `smooth` [px], where two lines miss each other, are
-    joined in their middle: nobody stumbles over them. The outline as in fitting.outline; O(pixels).
+    Each chain is a run of edges that lead to the right, from left to right: the edges whose outward normals point
+    upwards in the mask's own space, including floors of holes. Vertical edges and undersides are left out and separate
+    the runs. Steps of at most `smooth` [px] between two such edges are joined in their middle, so that characters do
+    not catch on them. The outline is that of outline.contour. O(pixels).
     """
     if "surfaces" not in mask.fitted:
         rings = [ring for piece in outline(mask.solid, mask.smooth) for ring in (piece.outer, *piece.holes)]
@@ -304,7 +307,7 @@ def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
 
 
 def _joined(ring, most):
-    """A ring without the steps of at most so many px between two lines that lead to the right."""
+    """Return a ring without the vertical steps of at most `most` px between two edges that lead to the right."""
     way = np.roll(ring, -1, axis=0) - ring
     right = way[:, 0] > 0.0
     step = (way[:, 0] == 0.0) & (np.abs(way[:, 1]) <= most) & np.roll(right, 1) & np.roll(right, -1)
@@ -313,9 +316,9 @@ def _joined(ring, most):
 
 
 def _runs(ring):
-    """Points of the stretches of a ring, its inside to the right, that lead to the right [px]."""
+    """Return the points of the stretches of a ring, its inside to the right, that lead to the right [px]."""
     right = np.roll(ring[:, 0], -1) > ring[:, 0]
-    first = int(np.flatnonzero(~right)[0])  # what leads back: no stretch goes over it
+    first = int(np.flatnonzero(~right)[0])  # starts at an edge that leads back: no stretch crosses it
     ring, right = np.roll(ring, -first, axis=0), np.roll(right, -first)
     closed = np.concatenate([ring, ring[:1]])
     turns = np.flatnonzero(np.diff(right.astype(np.int8), prepend=0, append=0))

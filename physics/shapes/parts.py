@@ -1,8 +1,8 @@
-"""Any shape as a union of rounded convex hulls: what distance and time of impact are measured between.
+"""Convex decomposition of any shape into rounded hulls, between which distance and time of impact are measured.
 
-A hull is one part; a chain has one per link; tiles have a rectangle per block of solid cells, and a polygon per slope.
-A mask has two answers: a rectangle per block of solid pixels, for who measures by pixels, and the parts of its outline,
-for all that is swept or cast.
+A hull is one part. A chain has one part per link. Tiles have a rectangle per block of solid cells, and a polygon per
+slope. A mask has two decompositions: a rectangle per block of solid pixels, for measurements by pixels, and the parts
+of its outline, for sweeps and casts.
 """
 
 from collections.abc import Sequence
@@ -19,7 +19,7 @@ from physics.shapes.outline import outline_of
 from physics.shapes.placement import turn_of_mask, write_hull
 from physics.shapes.values import Chain, Circle, TileGrid
 
-NEAR = 1e-9  # of its coordinates a box is asked for around itself: casts round as well
+NEAR = 1e-9  # relative to the coordinates: margin of a query box, since casts round as well
 
 
 class Parts(NamedTuple):
@@ -27,12 +27,12 @@ class Parts(NamedTuple):
 
     corners: np.ndarray  # (n, 16, 2) [px]
     counts: np.ndarray  # (n,) corners of each
-    boxes: np.ndarray  # (n, 4) min_x min_y max_x max_y of each with its rounding
+    boxes: np.ndarray  # min_x min_y max_x max_y of each part, rounding included
     radii: np.ndarray  # (n,) rounding of each [px]
 
 
 def parts_of(outlines: Sequence, radius: float = 0.0) -> Parts:
-    """From a list of outlines of 1 to 16 corners (n, 2), clockwise on the screen [px], all with the same rounding."""
+    """Return the Parts of outlines of 1 to 16 corners (n, 2), clockwise on the screen [px], with one rounding [px]."""
     corners, counts = np.zeros((len(outlines), 16, 2)), np.zeros(len(outlines), np.int64)
     for k, outline in enumerate(outlines):
         counts[k] = len(outline)
@@ -41,20 +41,20 @@ def parts_of(outlines: Sequence, radius: float = 0.0) -> Parts:
 
 
 def with_boxes(corners: np.ndarray, counts: np.ndarray, radii: np.ndarray) -> Parts:
-    """Parts of these corners (n, 16, 2), counts and roundings, with the boxes around them."""
+    """Return Parts of corners (n, 16, 2), counts and roundings, with their bounding boxes."""
     used = (np.arange(16)[None, :] < counts[:, None])[:, :, None]
     low, high = np.where(used, corners, np.inf).min(axis=1), np.where(used, corners, -np.inf).max(axis=1)
     return Parts(corners, counts, np.concatenate([low - radii[:, None], high + radii[:, None]], axis=1), radii)
 
 
 def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -> Parts:
-    """Parts in body space, placed where the body is at (x, y) [px] and turned."""
+    """Return parts in body space moved to the pose of their body: (x, y) [px], cosine and sine of its angle."""
     corners = parts.corners @ np.array([[cosine, sine], [-sine, cosine]]) + (x, y)
     return with_boxes(corners, parts.counts, parts.radii)
 
 
 def outline_parts(mask: PixelMask) -> Parts:
-    """The parts of a mask's outline in body space, kept with the mask."""
+    """Return the parts of a mask's outline in body space, cached with the mask."""
     mask = mask.bare
     if "outline parts" not in mask.fitted:
         shapes = [part.shape for part in outline_of(mask)]
@@ -66,7 +66,7 @@ def outline_parts(mask: PixelMask) -> Parts:
 
 
 def parts_near(parts: Parts, left: float, top: float, right: float, bottom: float) -> Parts:
-    """Those of the parts whose boxes meet a closed box [px], by a rounding more."""
+    """Return the parts whose boxes meet a closed box [px], enlarged by a rounding margin."""
     reach = NEAR * max(map(abs, (left, top, right, bottom)))
     low, high = parts.boxes[:, :2], parts.boxes[:, 2:]
     keep = (low <= (right + reach, bottom + reach)).all(axis=1) & (high >= (left - reach, top - reach)).all(axis=1)
@@ -74,15 +74,15 @@ def parts_near(parts: Parts, left: float, top: float, right: float, bottom: floa
 
 
 def rectangle(left: float, top: float, right: float, bottom: float) -> list[tuple[float, float]]:
-    """Corners of a box, clockwise on the screen."""
+    """Return the corners of a box, clockwise on the screen."""
     return [(left, top), (right, top), (right, bottom), (left, bottom)]
 
 
 def tile_outlines(grid: TileGrid, x: float, y: float, feet: float) -> list:
-    """Outlines of a TileGrid whose origin is at (x, y) [px].
+    """Return the outlines of a TileGrid whose origin is at (x, y) [px].
 
-    feet [px]: the lowest point of the other shape, from the grid's origin: a one-way tile counts, as its top edge, for
-    what is wholly above it.
+    feet [px]: the lowest point of the other shape, relative to the grid's origin. A one-way tile is present, as its top
+    edge, only for shapes wholly above it.
     """
     size = grid.tile_size
     solid, slopes, one_way = grid.blocks
@@ -105,12 +105,12 @@ def tile_outlines(grid: TileGrid, x: float, y: float, feet: float) -> list:
 
 
 def mask_outlines(mask: PixelMask, bucket: int, x: float, y: float) -> list:
-    """Outlines of a mask's pixels at an angle bucket, whose raster's top left corner is at (x, y) [px]."""
+    """Return the outlines of a mask's pixels at an angle bucket, with the raster's top left corner at (x, y) [px]."""
     return [rectangle(x + left, y + top, x + right, y + bottom) for left, top, right, bottom in mask.blocks(bucket)]
 
 
 def exact_outlines(mask: PixelMask, x: float, y: float, angle: float) -> list:
-    """Outlines of the pixels of a mask that is not snapped, whose body is at a pose."""
+    """Return the outlines of the pixels of a mask that is not snapped, with its body at a pose."""
     cosine, sine = turn_of_mask(angle)
     turn = np.array([[cosine, sine], [-sine, cosine]])
     blocks = mask_outlines(mask, 0, -mask.origin[0], -mask.origin[1])
@@ -118,7 +118,7 @@ def exact_outlines(mask: PixelMask, x: float, y: float, angle: float) -> list:
 
 
 def chain_outlines(chain: Chain) -> list:
-    """Both ends of each link in body space [px]."""
+    """Return both ends of each link in body space [px]."""
     points = list(chain.points) + ([chain.points[0]] if chain.loop else [])
     return list(pairwise(points))
 
@@ -126,8 +126,11 @@ def chain_outlines(chain: Chain) -> list:
 def placed_parts(
     library: Library, bodies: np.ndarray, shapes: np.ndarray, row: int, x: float, y: float, feet: float
 ) -> Parts:
-    """Parts of a SHAPE row as it stands, seen from (x, y) [px]; of a mask its pixels, as drawn where it is snapped.
-    feet [px]: the lowest point of who asks, see tile_outlines."""
+    """Return the parts of a SHAPE row at its present pose, relative to (x, y) [px].
+
+    A mask is represented by its pixels, as drawn if it is snapped. feet [px]: the lowest point of the other shape, see
+    tile_outlines.
+    """
     shape, placed = library.shape_of(shapes[row]), shapes[row]
     body = bodies[placed["body_row"]]
     at_x, at_y = float(body["x"]) - x, float(body["y"]) - y
@@ -152,7 +155,7 @@ def placed_parts(
 def swept_parts(
     library: Library, bodies: np.ndarray, shapes: np.ndarray, row: int, x: float, y: float, feet: float
 ) -> Parts:
-    """As placed_parts, for who sweeps or casts: of a mask its outline at the exact pose."""
+    """Return the same as placed_parts for sweeps and casts: a mask is represented by its outline at the exact pose."""
     shape = library.shape_of(shapes[row])
     if not isinstance(shape, PixelMask):
         return placed_parts(library, bodies, shapes, row, x, y, feet)

@@ -8,16 +8,16 @@ from physics.settings import DRAWN, MASK_ANGLE_BUCKETS
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 
 # ---- mask pose -------------------------------------------------------------------------------------------------------
-# Where a mask that is not snapped stands: its raster at the angle 0, turned and moved with its body.
+# Pose of a mask that is not snapped: its raster at the angle 0, rotated and moved with its body.
 #
-# What is tested against it is brought into its raster, where its pixels are [i, i + 1) x [j, j + 1): x and y [px] from
-# the raster's top left corner, along its rows and columns. Differences of positions are taken first, so that far from
-# the world's origin no digits are lost; quarter turns are exact.
+# Other shapes are transformed into its raster, where its pixels are [i, i + 1) x [j, j + 1). There x and y [px] run
+# from the raster's top left corner, along its rows and columns. Differences of positions are taken first, for precision
+# far from the world's origin. Quarter turns are exact.
 
 
 @subkernel
 def exact_aabb(rasters, corners, raster, x, y, angle):
-    """Tight AABB [px] of a mask's solid pixels when its body is at a pose; the point itself when there is none.
+    """Return the tight AABB [px] of a mask's solid pixels at a pose of its body; for an empty mask the point itself.
 
     corners: geometry.corners; raster: of the angle 0. O(corners of its hull).
     """
@@ -41,28 +41,32 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
 
 @subkernel
 def into_raster(raster, body, cosine, sine, x, y):
-    """A point of the world [px] in the raster of a mask whose body is turned by that cosine and sine."""
+    """Return a world point [px] in the raster of a mask; cosine, sine: rotation of its body."""
     u, v = turned(x - body.x, y - body.y, cosine, -sine)
     return u + raster.origin_x, v + raster.origin_y
 
 
 @subkernel
 def out_of_raster(raster, body, cosine, sine, x, y):
-    """A point of the raster in the world [px]."""
+    """Return a point of the raster in the world [px]; cosine, sine: rotation of the mask's body."""
     u, v = turned(x - raster.origin_x, y - raster.origin_y, cosine, sine)
     return body.x + u, body.y + v
 
 
 @subkernel
 def raster_of_shape(geometry, shape):
-    """The raster row that a MASK is tested by: as it is drawn, or that of the angle 0 where it is not snapped."""
+    """Return the raster row by which a MASK is tested: the one as drawn, or that of the angle 0 if it is not
+    snapped.
+    """
     return shape.raster if shape.snap else geometry.raster_of[shape.geometry, 0]
 
 
 @subkernel
 def box_as_tested(geometry, shape):
-    """AABB (min_x, min_y, max_x, max_y) [px] of the solid pixels that a MASK row is tested by: as it is drawn, or at
-    its exact pose where it is not snapped."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of the solid pixels by which a MASK row is tested.
+
+    The pixels are as drawn if the mask is snapped, else at its exact pose.
+    """
     r = geometry.rasters[shape.raster]
     if not shape.snap or r.area == 0:
         return shape.min_x, shape.min_y, shape.max_x, shape.max_y
@@ -73,9 +77,9 @@ def box_as_tested(geometry, shape):
 
 @subkernel
 def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
-    """Where the raster of another mask, snapped or not, stands in that of a mask that is not snapped.
+    """Return the pose of another mask's raster, snapped or not, in that of a mask that is not snapped.
 
-    Returns (x, y of its top left corner [px], cosine and sine of its angle).
+    The result is (x, y of its top left corner [px], cosine and sine of its angle).
     """
     frame = geometry.rasters[raster_of_shape(geometry, frame_shape)]
     cosine, sine = cosine_and_sine(frame_body.angle, frame_body.angle)
@@ -92,40 +96,40 @@ def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
 
 @kernel
 def turn_of_mask(angle):
-    """(cosine, sine) of the angle [rad] of a mask that is not snapped."""
+    """Return (cosine, sine) of the angle [rad] of a mask that is not snapped."""
     return cosine_and_sine(angle, angle)
 
 
 # ---- placement -------------------------------------------------------------------------------------------------------
-# Where a shape is at a pose: its corners, its raster on the pixel grid, its AABB.
+# Placement of shapes at a pose: corners, raster on the pixel grid, AABB.
 
 TAU = math.tau
-WHOLE = 2.0**62  # numbers below are whole numbers of a kernel; of others compiled forms make any, plain ones raise
-NOWHERE = -(1 << 62)  # [px] the pixel column or row of what is at no number
-BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] between an angle and that of its bucket, at most
+WHOLE = 2.0**62  # floats below convert to int64; larger ones are undefined if compiled, an error if not
+NOWHERE = -(1 << 62)  # [px] pixel column or row of a non-finite or too large coordinate
+BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] largest difference of an angle and its bucket's
 
 
 @subkernel
 def bucket_at(angle, buckets):
-    """The angle bucket nearest to an angle [rad]."""
+    """Return the angle bucket nearest to an angle [rad]."""
     turn = angle * buckets / TAU + 0.5
     if not abs(turn) < WHOLE:
         return 0
-    # Buckets are a power of two: the mask is the remainder, also of negative numbers, without a division.
+    # The number of buckets is a power of two: the AND is the modulus, for negative numbers too, without a division.
     return math.floor(turn) & (buckets - 1)
 
 
 @subkernel
 def raster_at(geometry, mask, angle):
-    """The raster row of a mask at an angle [rad]; the stage has made sure that it exists."""
+    """Return the raster row of a mask at an angle [rad]. The calling stage has added the raster."""
     return geometry.raster_of[mask, bucket_at(angle, geometry.raster_of.shape[1])]
 
 
 @subkernel
 def snapped(coordinate, origin):
-    """The pixel column (or row) of a raster's edge when its body is at `coordinate` [px]: one rounding, half up.
+    """Return the pixel column (or row) of a raster's edge for its body at `coordinate` [px], rounded half up.
 
-    NOWHERE for a coordinate without pixels: beyond, or not finite.
+    NOWHERE for a coordinate that is not finite or too large.
     """
     at = coordinate - origin + 0.5
     return math.floor(at) if abs(at) < WHOLE else NOWHERE
@@ -133,19 +137,23 @@ def snapped(coordinate, origin):
 
 @subkernel
 def is_drawn_when_asked(shape):
-    """Whether a SHAPE row is tested as drawn, and drawn only for a test: its AABB is that of its exact pose."""
+    """Return whether a SHAPE row is tested as drawn, but drawn only for a test: its AABB is that of its exact pose."""
     return shape.snap and shape.role == PIXELS
 
 
 @subkernel
 def drawn_beyond(body, shape):
-    """How far [px] the pixels of a SHAPE row may be drawn beyond its AABB: 0 where the AABB is that of the drawing."""
+    """Return how far [px] the pixels of a SHAPE row may be drawn beyond its AABB; 0 if the AABB is that of the
+    drawing.
+    """
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel
 def raster_aabb(geometry, raster, x, y):
-    """AABB [px] of the solid pixels of a raster whose body is at (x, y); the point itself when there is none."""
+    """Return the AABB [px] of the solid pixels of a raster with its body at (x, y); for an empty one the point
+    itself.
+    """
     r = geometry.rasters[raster]
     if r.area == 0:
         return x, y, x, y
@@ -156,7 +164,7 @@ def raster_aabb(geometry, raster, x, y):
 
 @subkernel
 def upright_aabb(raster, x, y):
-    """AABB [px] of the solid pixels of a mask that is not turned, at its exact pose: as raster_aabb, unrounded."""
+    """Return the AABB [px] of the solid pixels of an unrotated mask at its exact pose: as raster_aabb, unrounded."""
     if raster.area == 0:
         return x, y, x, y
     left = x - raster.origin_x
@@ -167,10 +175,9 @@ def upright_aabb(raster, x, y):
 @subkernel
 def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
     """Write the world corners [px] of a row of geometry.polygons at a pose to corners_out (16, 2).
-    Returns their number.
 
-    polygons, table: geometry.polygons and geometry.corners, by themselves: handing all of a Geometry on costs more than
-    the corners.
+    Returns their number. polygons, table: geometry.polygons and geometry.corners as single arguments, because passing a
+    whole Geometry costs more than the corners.
     """
     span = polygons[polygon]
     for k in range(span.count):
@@ -183,8 +190,10 @@ def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
 
 @subkernel
 def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
-    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a row of geometry.polygons, grown by a radius.
-    Tables as polygon_at."""
+    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a row of geometry.polygons, enlarged by a radius.
+
+    Tables as polygon_at.
+    """
     span = polygons[polygon]
     first = table[span.offset]
     min_x, min_y = turned(first.x, first.y, cosine, sine)
@@ -202,19 +211,19 @@ def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
 
 @subkernel
 def is_hull(kind):
-    """Whether a kind of shape is a convex hull of corners with a rounding radius: all but TILES, MASK and CHAIN."""
+    """Return whether a kind of shape is a convex hull with a rounding radius: all but TILES, MASK and CHAIN."""
     return kind != TILES and kind != MASK and kind != CHAIN
 
 
 @subkernel
 def rounding(shapes, row):
-    """Rounding radius [px] of a hull: 0 of a BOUNDS, whatever it wraps."""
+    """Return the rounding radius [px] of a hull; 0 for a BOUNDS, whatever it wraps."""
     return 0.0 if shapes[row].kind == BOUNDS else shapes[row].radius
 
 
 @subkernel
 def chain_aabb(geometry, chain, cosine, sine):
-    """AABB [px] of a chain's links turned about its body's origin. O(links); only blocks at angle 0."""
+    """Return the AABB [px] of a chain's links rotated about its body's origin. O(links); at angle 0 O(blocks)."""
     span = geometry.chains[chain]
     min_x = math.inf
     min_y = math.inf
@@ -241,9 +250,9 @@ def chain_aabb(geometry, chain, cosine, sine):
 
 @subkernel
 def aabb_at(geometry, shapes, row, x, y, angle):
-    """Tight AABB (min_x, min_y, max_x, max_y) [px] of a shape when its body is at a pose. O(corners).
+    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape at a pose of its body. O(corners).
 
-    A mask's is that of its solid pixels, as drawn if it is snapped; an empty mask's is the point of its origin.
+    The AABB of a mask is that of its solid pixels, as drawn if it is snapped; that of an empty mask is its origin.
     """
     s = shapes[row]
     kind = s.kind
@@ -270,9 +279,9 @@ def aabb_at(geometry, shapes, row, x, y, angle):
 
 @subkernel
 def hull_at(geometry, shapes, row, x, y, angle, corners_out):
-    """World corners [px] of any hull, clockwise on the screen, to corners_out (16, 2); see `rounding` for its radius.
+    """Write the world corners [px] of any hull, clockwise on the screen, to corners_out (16, 2).
 
-    A circle has one corner, its centre. Returns their number.
+    A circle has one corner, its centre. See `rounding` for the radius. Returns the number of corners.
     """
     s = shapes[row]
     if s.kind == CIRCLE:
@@ -285,7 +294,7 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @subkernel
 def corners_at(geometry, shapes, row, x, y, angle, corners_out):
-    """World corners [px] of a POLYGON, CAPSULE or SEGMENT or, of a BOUNDS, of its AABB, clockwise on the screen.
+    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or a BOUNDS' AABB, clockwise on the screen.
 
     Returns their number.
     """
@@ -306,8 +315,9 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull at a pose to corners_out (16, 2).
-    Returns their number, and its rounding [px]."""
+    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Returns their number and the rounding
+    [px].
+    """
     return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
@@ -323,24 +333,24 @@ def missing_rasters(
     # write
     missing_out,
 ):
-    """List (mask, bucket) of the masks that will be drawn at an angle not seen before, now or at the end of the step.
+    """List (mask, bucket) of the masks at an angle not drawn yet, now or at the end of the step.
 
-    rows of shapes; bodies BODY, shapes SHAPE rows; missing_out (capacity, 2) int64. Returns the number; may name one
-    twice. O(rows).
+    rows: of shapes; bodies: BODY rows, shapes: SHAPE rows; dt [s]; missing_out (capacity, 2) int64. Returns the number;
+    the list may contain duplicates. O(rows).
     """
     found = 0
     buckets = raster_of.shape[1]
     for k in range(len(rows)):
         s = shapes[rows[k]]
         if s.role == PIXELS or (s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK)):
-            continue  # PIXELS are drawn when they are asked: see rasters.draw_masks
+            continue  # drawn on demand, see library.draw_masks
         b = bodies[s.body_row]
         if b.angle == 0.0 and b.angular_velocity == 0.0:
-            continue  # as it was added
+            continue  # unrotated, drawn when it was added
         if rasters[raster_of[s.geometry, 0]].halo >= 0:
-            continue  # tested at its exact pose, by how it was added
+            continue  # tested at its exact pose
         if not abs(b.angle + dt * b.angular_velocity) < math.inf:
-            continue  # it is nowhere
+            continue  # non-finite
         for end in range(2):
             bucket = bucket_at(b.angle + end * dt * b.angular_velocity, buckets)
             if raster_of[s.geometry, bucket] < 0:
@@ -353,9 +363,9 @@ def missing_rasters(
 
 @subkernel
 def place_mask(rasters, raster_of, body, shape_inout):
-    """Write the raster of a snapped MASK at its body's pose, where it is drawn, and the AABB of its solid pixels.
+    """Write the raster of a snapped MASK at its body's pose, its pixel column and row, and the AABB of its pixels.
 
-    rasters, raster_of: those of the geometry, by themselves: see polygon_at.
+    rasters, raster_of: those of the geometry, as single arguments; see polygon_at.
     """
     s = shape_inout
     s.raster = raster_of[s.geometry, bucket_at(body.angle, raster_of.shape[1])]
@@ -380,7 +390,7 @@ def place_masks(
     # write
     shapes_inout,
 ):
-    """Write where the masks in these rows are drawn, and by which raster, at their bodies' poses. O(rows)."""
+    """Write the raster of the masks in these rows at their bodies' poses, and its pixel column and row. O(rows)."""
     for k in range(len(rows)):
         s = shapes_inout[rows[k]]
         b = bodies[s.body_row]
@@ -399,8 +409,9 @@ def refresh_boxes(
     # write
     shapes_inout,
 ):
-    """Write the tight AABB of the shapes in these rows at their bodies' poses, and where a snapped mask is drawn.
-    O(rows)."""
+    """Write the tight AABB of the shapes in these rows at their bodies' poses, and the raster of a snapped mask.
+    O(rows).
+    """
     polygons = geometry.polygons
     table = geometry.corners
     rasters = geometry.rasters
@@ -410,7 +421,7 @@ def refresh_boxes(
         s = shapes_inout[row]
         b = bodies[s.body_row]
         if not abs(b.angle) < math.inf:
-            continue  # it is nowhere, and the next step says so
+            continue  # non-finite: the next step reports it
         if s.kind == MASK:
             if s.role != PIXELS and s.snap:
                 place_mask(rasters, raster_of, b, s)
@@ -444,5 +455,5 @@ def refresh_aabbs(
     # write
     shapes_inout,
 ):
-    """See refresh_boxes."""
+    """Write the tight AABBs of the shapes in these rows, see refresh_boxes. O(rows)."""
     refresh_boxes(rows, geometry, bodies, shapes_inout)

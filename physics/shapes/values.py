@@ -17,14 +17,17 @@ from physics.math2d import Vec2
 from physics.settings import MAX_CORNERS
 
 # ---- filter ----------------------------------------------------------------------------------------------------------
-# Filter: who may meet whom, before any narrow phase.
+# Collision filter, applied before any narrow phase.
 
 
 @dataclass(frozen=True)
 class Filter:
-    """Two shapes meet if a.membership & b.mask and b.membership & a.mask; 32 bits each. Raises ValueError."""
+    """Collision filter: shapes collide if a.membership & b.mask and b.membership & a.mask; 32 bits each.
 
-    ALL: ClassVar["Filter"]  # meets everybody
+    Raises ValueError.
+    """
+
+    ALL: ClassVar["Filter"]  # collides with every shape
 
     membership: int = 1
     mask: int = 0xFFFFFFFF
@@ -35,7 +38,7 @@ class Filter:
 
     @classmethod
     def from_packed(cls, bits: int) -> "Filter":
-        """Low 16 bits membership, high 16 bits mask."""
+        """Return the filter with the low 16 bits as membership and the high 16 bits as mask."""
         bits = checks.whole("bits", bits, 0, 0xFFFFFFFF)
         return cls(bits & 0xFFFF, bits >> 16)
 
@@ -44,15 +47,15 @@ Filter.ALL = Filter(0xFFFFFFFF, 0xFFFFFFFF)
 
 
 # ---- material --------------------------------------------------------------------------------------------------------
-# Material: what a shape's surface and inside are made of.
+# Material: surface and density of a shape.
 
 
 @dataclass(frozen=True)
 class Material:
-    """What a shape is made of: density [mass per px2] > 0; friction, restitution and rolling_resistance >= 0;
-    surface_speed [px/s], at which its surface runs like a conveyor's. Raises ValueError.
+    """Material of a shape: density [mass per px2] > 0; friction, restitution and rolling_resistance >= 0.
 
-    rolling_resistance is a share of the radius: the torque against rolling is at most that times radius and load.
+    surface_speed [px/s]: speed of its surface, as of a conveyor belt. rolling_resistance: share of the radius; the
+    torque against rolling is at most that times radius and load. Raises ValueError.
     """
 
     density: float = 1.0
@@ -69,20 +72,20 @@ class Material:
 
 
 # ---- own values ------------------------------------------------------------------------------------------------------
-# What a shape may say for itself, whatever its body says of all its shapes: material, filter, sensor.
+# Values that a shape may have in place of those of its body: material, filter, sensor.
 
 
 class OwnValues:
-    """What all shapes have. A shape is a value: it never changes, and copies of what holds it share it."""
+    """Base of all shapes: the values that may replace the body's. Shapes are immutable, and copies share them."""
 
-    material: Material | None = None  # None, of all three: its body's
+    material: Material | None = None  # None, for all three: the body's value
     filter: Filter | None = None
     sensor: bool | None = None
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """The same shape with values of its own; None: the body's. Its density counts in the body's mass.
+        """Return the same shape with values of its own; None: the body's. Its density counts in the body's mass.
 
-        A body that changes its own material, filter or sensor leaves these as they are. Raises TypeError.
+        Changing the body's material, filter or sensor leaves these values unchanged. Raises TypeError.
         """
         for name, value, wanted in (("material", material, Material), ("filter", filter, Filter)):
             if value is not None and not isinstance(value, wanted):
@@ -97,11 +100,11 @@ class OwnValues:
 
     @property
     def bare(self) -> Self:
-        """The shape without values of its own: what it is in a library, one for all that differ in them alone."""
+        """The shape without values of its own, as a library stores it: one for all shapes that differ only in them."""
         return vars(self).get("_bare", self)
 
     def with_values_of(self, other: "OwnValues") -> Self:
-        """This shape with the own values of another one."""
+        """Return this shape with the own values of another one."""
         return self.with_(other.material, other.filter, other.sensor)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:
@@ -110,7 +113,7 @@ class OwnValues:
 
 @dataclass(frozen=True)
 class EqualByValue(OwnValues):
-    """The shapes that are equal when their geometry and their own values are."""
+    """Base of the shapes that are equal when their geometry and their own values are."""
 
     material: Material | None = field(default=None, init=False, repr=False)
     filter: Filter | None = field(default=None, init=False, repr=False)
@@ -118,7 +121,7 @@ class EqualByValue(OwnValues):
 
 
 # ---- mass ------------------------------------------------------------------------------------------------------------
-# Masses of plane figures: exact sums over parts, each about its own centre: a far one loses no digits.
+# Masses of plane figures: exact sums over parts, each about its own centre, for precision far from the origin.
 
 
 @dataclass(frozen=True)
@@ -134,11 +137,11 @@ NOTHING = Mass(0.0, Vec2(0.0, 0.0), 0.0)
 
 
 def together(parts: Iterable[Mass]) -> Mass:
-    """The mass of several parts: inertia about the common centre of mass, by the theorem of parallel axes."""
+    """Return the mass of several parts, with the inertia about the common centre (parallel axis theorem)."""
     parts = [part for part in parts if part.mass > 0.0]
     if not parts:
         return NOTHING
-    # About the first part's centre, not the origin: what is far from the origin keeps its digits.
+    # Relative to the first part's centre, for precision far from the origin.
     base_x, base_y = parts[0].center
     mass = math.fsum(part.mass for part in parts)
     x = math.fsum(part.mass * (part.center[0] - base_x) for part in parts) / mass
@@ -151,7 +154,9 @@ def together(parts: Iterable[Mass]) -> Mass:
 
 
 def polygon_mass(points: Points, density: float) -> Mass:
-    """Of a polygon, points (n, 2) clockwise on the screen: shoelace integrals about the first corner."""
+    """Return the mass of a polygon, points (n, 2) clockwise on the screen: shoelace integrals about the first
+    corner.
+    """
     base = np.array(points[0])
     a = np.array(points) - base
     b = np.roll(a, -1, axis=0)
@@ -165,7 +170,9 @@ def polygon_mass(points: Points, density: float) -> Mass:
 
 
 def rounded_mass(points: Points, radius: float, density: float) -> Mass:
-    """Of a polygon grown by a radius: the polygon, a rectangle along every edge, a sector of a disc at every corner."""
+    """Return the mass of a rounded polygon: the polygon, a rectangle along every edge, a disc sector at every
+    corner.
+    """
     parts = [polygon_mass(points, density)]
     count = len(points)
     edges = [
@@ -184,7 +191,7 @@ def rounded_mass(points: Points, radius: float, density: float) -> Mass:
         )
         before_x, before_y = edges[k - 1]
         turn = math.atan2(before_x * dy - before_y * dx, before_x * dx + before_y * dy)
-        # The sector opens about the bisector of the two outward normals.
+        # The axis of the sector is the bisector of the two outward normals.
         other = math.hypot(before_x, before_y)
         bisector_x, bisector_y = out_x + before_y / other, out_y - before_x / other
         size = math.hypot(bisector_x, bisector_y)
@@ -204,14 +211,14 @@ def rounded_mass(points: Points, radius: float, density: float) -> Mass:
 # Convex shapes: a hull of corners with a rounding radius.
 # Circle has one corner, Capsule two, Polygon three to sixteen.
 
-STRAIGHT = 1e-12  # [rad] a smaller turn is none
-CORNER_OF = partial(tuple.__new__, Vec2)  # of two numbers; Vec2._make counts them first
-PHYSICS = __name__.removesuffix(".shapes.values")  # what a user imports
-SHORTEST = 1e-9  # of a hull's size: below, the direction of an edge is lost when the hull is moved about
+STRAIGHT = 1e-12  # [rad] smaller turns count as straight
+CORNER_OF = partial(tuple.__new__, Vec2)  # from two numbers; Vec2._make would count them first
+PHYSICS = __name__.removesuffix(".shapes.values")  # the package that a user imports
+SHORTEST = 1e-9  # relative to a hull's size: a shorter edge loses its direction by rounding when the hull moves
 
 
 def reach(points: Iterable[Pair], radius: float, x: float, y: float) -> float:
-    """Distance [px] from (x, y) to the furthest point of a rounded hull."""
+    """Return the distance [px] from (x, y) to the furthest point of a rounded hull."""
     return max(math.hypot(px - x, py - y) for px, py in points) + radius
 
 
@@ -241,7 +248,9 @@ class Circle(EqualByValue):
 @dataclass(frozen=True)
 class Capsule(EqualByValue):
     """All points within a radius of the line from a to b.
-    Raises ValueError for a radius that is not > 0, or no length."""
+
+    Raises ValueError for a radius that is not > 0, or no length.
+    """
 
     a: Pair
     b: Pair
@@ -268,7 +277,7 @@ class Capsule(EqualByValue):
         return self.radius
 
     def mass_of(self, density: float) -> Mass:
-        """A rectangle and two half discs, whose centres of mass lie 4r/3π beyond the ends of the line."""
+        """Return the mass of a rectangle and two half discs, whose centres of mass lie 4r/3π beyond the line's ends."""
         length = math.hypot(self.b[0] - self.a[0], self.b[1] - self.a[1])
         r = self.radius
         middle, ends = density * 2.0 * r * length, density * math.pi * r * r
@@ -284,10 +293,9 @@ class Capsule(EqualByValue):
 
 @dataclass(frozen=True)
 class Polygon(EqualByValue):
-    """A convex polygon of 3 to 16 corners in either winding; kept clockwise on the screen;
-    grown and rounded by a radius.
+    """A convex polygon of 3 to 16 corners in either winding, stored clockwise on the screen, rounded by a radius.
 
-    Raises ValueError for too few or many corners, for zero area, for three corners in line or equal ones, for a
+    Raises ValueError for too few or many corners, for zero area, for three collinear corners or equal ones, for a
     concave outline, and for a radius that is not >= 0.
     """
 
@@ -306,7 +314,7 @@ class Polygon(EqualByValue):
         shortest = np.hypot(*edges.T).min() <= SHORTEST * np.ptp(points, axis=0).max()
         if shortest or np.any(np.abs(turns) <= STRAIGHT * scale):
             raise ValueError(f"points must have no equal corners and no three in line (got {points.tolist()})")
-        # All turns to one side, and once around: a star also turns to one side only.
+        # All turns have one sign, and sum to one full turn: those of a star have one sign, too.
         around = np.arctan2(turns, (edges * following).sum(axis=1)).sum()
         if not (np.all(turns > 0) or np.all(turns < 0)) or abs(around) > 1.5 * math.tau:
             raise ValueError(
@@ -319,15 +327,17 @@ class Polygon(EqualByValue):
 
     @classmethod
     def known(cls, points: list[list[float]]) -> "Polygon":
-        """Of corners [px] that are known to be as they are kept, convex and clockwise on the screen: nothing is
-        checked. For outlines of masks, which have thousands."""
+        """Return the polygon of valid corners [px], convex and clockwise on the screen, without a check.
+
+        For the outlines of masks, which have thousands.
+        """
         found = object.__new__(cls)
         vars(found).update(points=tuple(map(CORNER_OF, points)), radius=0.0)
         return found
 
     @classmethod
     def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> "Polygon":
-        """A box of full sizes, turned about its centre."""
+        """Return a box of full sizes, rotated by `angle` [rad] about its centre."""
         half_width = checks.number("width", width, above=0.0) / 2.0
         half_height = checks.number("height", height, above=0.0) / 2.0
         x, y = checks.vector("center", center)
@@ -343,7 +353,9 @@ class Polygon(EqualByValue):
 
     @cached_property
     def smallest_half(self) -> float:
-        """From its centre of mass to the nearest edge, and the radius: of a box, half of its shorter side."""
+        """Inradius [px]: distance from the centre of mass to the nearest edge, plus the radius; half the shorter side
+        of a box.
+        """
         points = np.array(self.points)
         edges = np.roll(points, -1, axis=0) - points
         outward = np.stack([edges[:, 1], -edges[:, 0]], axis=1) / np.hypot(*edges.T)[:, None]
@@ -360,11 +372,11 @@ class Polygon(EqualByValue):
 
 
 # ---- blocks ----------------------------------------------------------------------------------------------------------
-# Rectangles that cover the solid cells of a grid, or the pixels of a mask: fewer parts than cells.
+# Cover of the solid cells of a grid, or of the pixels of a mask, by rectangles.
 
 
 def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
-    """(left, top, right, bottom) of rectangles that cover solid[row, col]: runs along rows, alike ones joined."""
+    """Return rectangles (left, top, right, bottom) that cover solid[row, col]: runs along rows, equal runs merged."""
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
     for row, line in enumerate(edges):
@@ -377,15 +389,14 @@ def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
 
 
 # ---- tiles -----------------------------------------------------------------------------------------------------------
-# TileGrid: ground made of tiles of one size.
 
 
 class TileGrid(OwnValues):
     """Solid tiles of one size; origin at the top left corner of tile (0, 0).
 
     solid[row, col] bool; one_way[row, col] bool: open from below; slopes[row, col] = (left, right): height of the
-    surface above the tile's bottom as a fraction 0..1, (0, 1) rises to the right, (0, 0) is no slope. Raises
-    ValueError when the arrays differ in shape, a slope is out of range, or a cell is of two kinds.
+    surface above the tile's bottom as a fraction 0..1, (0, 1) rises to the right, (0, 0) is no slope. Raises ValueError
+    when the arrays differ in shape, a slope is out of range, or a cell is of two kinds.
     """
 
     def __init__(
@@ -427,7 +438,7 @@ class TileGrid(OwnValues):
 
     @cached_property
     def is_empty(self) -> bool:
-        """Whether no cell holds anything."""
+        """True if all cells are empty."""
         return not (self.solid.any() or self.one_way.any() or (self.slopes > 0.0).any())
 
     @property
@@ -435,7 +446,7 @@ class TileGrid(OwnValues):
         return self.tile_size / 2.0
 
     def mass_of(self, density: float) -> Mass:
-        return NOTHING  # tiles are ground: they only carry
+        return NOTHING  # tiles are ground without mass
 
     def reach(self, x: float, y: float) -> float:
         height, width = self.solid.shape
@@ -448,7 +459,7 @@ class TileGrid(OwnValues):
 
 
 def bools(name: str, value: ArrayLike) -> np.ndarray:
-    """A C-ordered bool array [row, col]. Raises TypeError, ValueError."""
+    """Return a C-ordered bool array [row, col]. Raises TypeError, ValueError."""
     _refuse_pixels_of_pygame(name, value)
     try:
         array = np.array(value)
@@ -462,8 +473,8 @@ def bools(name: str, value: ArrayLike) -> np.ndarray:
 
 
 def _refuse_pixels_of_pygame(name: str, value: Any) -> None:
-    """NumPy would read the words of a pygame Mask, which lie in columns of bits, as numbers of pixels."""
-    pygame = sys.modules.get("pygame")  # whoever has a Mask has imported it; the physics does not
+    """Reject pygame masks and surfaces: NumPy would misread the words of a Mask, packed by columns, as pixels."""
+    pygame = sys.modules.get("pygame")  # a caller with a Mask has imported it; physics does not
     for kind, way_in in (("Mask", "from_mask(mask)"), ("Surface", "from_surface(surface)")):
         known = getattr(pygame, kind, None)
         if isinstance(known, type) and isinstance(value, known):
@@ -474,9 +485,9 @@ def _refuse_pixels_of_pygame(name: str, value: Any) -> None:
 
 
 # ---- lines -----------------------------------------------------------------------------------------------------------
-# Lines without an inside: Segment, met from both sides, and Chain, met from the front of its links.
+# Lines without an inside: Segment, two-sided, and Chain, one-sided.
 
-SHORTEST_LINK = 1e-12  # of the largest coordinate: below, a link has no direction
+SHORTEST_LINK = 1e-12  # relative to the largest coordinate: a shorter link has no direction
 
 
 def _check_length(name, a, b):
@@ -513,10 +524,10 @@ class Segment(EqualByValue):
 
 @dataclass(frozen=True)
 class Chain(EqualByValue):
-    """Links from point to point, met from the side of (dy, -dx): a floor is listed left to right, a solid island
-    clockwise on the screen, a room counter-clockwise. No mass; for static and kinematic bodies.
+    """One-sided links from point to point, solid from the side of (dy, -dx). No mass; for static and kinematic bodies.
 
-    ghosts: (before, after), neighbours of the first and last point that only smooth, either may be None; materials: one
+    A floor is listed left to right, a solid island clockwise on the screen, a room counter-clockwise. ghosts: (before,
+    after), neighbours of the first and last point that only smooth the ends, either may be None. materials: one
     Material per link (None: the body's). Raises ValueError for too few points, a link without length, ghosts of a loop.
     """
 
@@ -579,7 +590,7 @@ class Chain(EqualByValue):
 
     @property
     def links(self) -> int:
-        """How many links there are."""
+        """Number of links."""
         return len(self.points) if self.loop else len(self.points) - 1
 
     @property

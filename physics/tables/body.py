@@ -1,7 +1,7 @@
-"""BODY: one row per body, and what the numbers of its kinds mean; GIVEN: what it says of its shapes.
+"""Row types of bodies: BODY, one row per body, and GIVEN, the default values of its shapes.
 
-Rows are kept in the order of ids, so the order of rows is the canonical order of everything. A row number changes
-when an earlier row is removed; an id never changes and is never given twice.
+Rows are kept in the order of ids, which is the canonical order of every pass. A row number changes when an earlier row
+is removed. An id never changes and is never reused.
 """
 
 import numpy as np
@@ -13,7 +13,7 @@ KINDS = ("static", "kinematic", "dynamic")
 CONTINUOUS = ("off", "ray", "swept", "auto", "toi")
 OFF, RAY, SWEPT, AUTO, TOI = 0, 1, 2, 3, 4
 BODY = in_lines(
-    [  # by who asks for them: the first line of the cache is what every pass over contacts reads
+    [  # ordered by use: the first cache line holds the fields that every pass over contacts reads
         ("x", np.float64),  # [px] origin
         ("y", np.float64),
         ("angle", np.float64),  # [rad] clockwise on the screen
@@ -25,44 +25,44 @@ BODY = in_lines(
         ("id", np.int64),
         ("kind", np.int64),  # STATIC KINEMATIC DYNAMIC
         ("awake", np.bool_),
-        ("active", np.bool_),  # in the rows that a step goes over; all are in a world without sleeping
-        ("stirred", np.bool_),  # within a step: added or changed by hand before it, in a world with sleeping
-        ("quarantined", np.bool_),  # out of the simulation after it stopped being finite
+        ("active", np.bool_),  # in the rows that a step visits; every row is active in a world without sleeping
+        ("stirred", np.bool_),  # dirty: added or edited before this step, in a world with sleeping
+        ("quarantined", np.bool_),  # disabled after its pose or velocity became non-finite
         ("bullet", np.bool_),  # swept against moving bodies too
         ("fixed_rotation", np.bool_),
-        ("followed", np.bool_),  # its contacts were carried to where it stands; see collision/cache.py
-        ("inverse_mass", np.float64),  # 0 = cannot be pushed
-        ("inverse_inertia", np.float64),  # 0 = cannot be turned
-        ("extent", np.float64),  # [px] of the furthest point of its shapes from the centre of mass
-        ("smallest_half", np.float64),  # [px] from the middle of a shape to its surface
-        ("thin_half", np.float64),  # [px] the same of its thinnest part: what "fast" is measured by
-        ("previous_x", np.float64),  # [px] pose before the step: for interpolated drawing and for rolling back
+        ("followed", np.bool_),  # its contacts were updated to its present pose; see collision/cache.py
+        ("inverse_mass", np.float64),  # 0: infinite mass
+        ("inverse_inertia", np.float64),  # 0: infinite inertia
+        ("extent", np.float64),  # [px] distance from the centre of mass to the furthest point of its shapes
+        ("smallest_half", np.float64),  # [px] inradius: from the middle of a shape to its surface, the least of all
+        ("thin_half", np.float64),  # [px] the same of its thinnest part; the measure of a fast body
+        ("previous_x", np.float64),  # [px] pose before the step, for interpolated drawing and for rollback
         ("previous_y", np.float64),
         ("previous_angle", np.float64),
-        ("settled_x", np.float64),  # [px] last pose that was seen to be finite
+        ("settled_x", np.float64),  # [px] last pose that was finite
         ("settled_y", np.float64),
         ("settled_angle", np.float64),
-        ("fraction", np.float64),  # of this step's motion that was free, 1 when nothing was in the way
+        ("fraction", np.float64),  # share of this step's motion before the first impact; 1 without an impact
         ("continuous", np.int64),  # OFF RAY SWEPT AUTO TOI
-        ("force_x", np.float64),  # collected since the last step
+        ("force_x", np.float64),  # accumulated since the last step
         ("force_y", np.float64),
         ("torque", np.float64),
         ("gravity_scale", np.float64),
-        ("mass", np.float64),  # [density px2] 0 where it has none
+        ("mass", np.float64),  # [density px2] 0 for bodies without mass
         ("inertia", np.float64),  # [density px4] about the centre of mass
         ("local_center_x", np.float64),  # [px] centre of mass in body space
         ("local_center_y", np.float64),
-        ("still_x", np.float64),  # [px] pose near which it has been …
+        ("still_x", np.float64),  # [px] reference pose of the sleep test
         ("still_y", np.float64),
         ("still_angle", np.float64),
-        ("sleep_time", np.float64),  # … for so long [s]
-        ("island", np.int64),  # lowest body id of those it is piled up with, -1: none
-        ("eased", np.float64),  # [s] for which fewer would have done, or, below 0, the most were too few
-        ("substeps", np.int64),  # that its island takes in the next step, where they are not given; 0: not known yet
+        ("sleep_time", np.float64),  # [s] time spent near that pose
+        ("island", np.int64),  # lowest body id of its island; -1: none
+        ("eased", np.float64),  # [s] cooldown: > 0 while fewer substeps would do, < 0 while the most were too few
+        ("substeps", np.int64),  # adaptive substeps of its island in the next step; 0: not known yet
     ]
 )
 GIVEN = np.dtype(
-    [  # beside BODY, row by row: what the body was given for those of its shapes that have no values of their own
+    [  # beside BODY, row by row: values of the body for its shapes without values of their own
         ("density", np.float64),
         ("friction", np.float64),
         ("restitution", np.float64),
@@ -70,7 +70,7 @@ GIVEN = np.dtype(
         ("surface_speed", np.float64),  # [px/s]
         ("membership", np.int64),  # 32 bits
         ("mask", np.int64),  # 32 bits
-        ("mass", np.float64),  # in place of the densities'; 0: the densities'
+        ("mass", np.float64),  # replaces the mass from the densities; 0: does not
         ("sensor", np.bool_),
     ],
     align=True,

@@ -1,11 +1,11 @@
-"""CONTACT, MANIFOLD, ANCHOR and CONSTRAINT: a contact as it is reported, found, remembered and solved."""
+"""Row types of contacts as reported, detected, cached and solved: CONTACT, MANIFOLD, ANCHOR and CONSTRAINT."""
 
 import numpy as np
 
 from physics.tables.table import in_lines
 
 # ---- contact ---------------------------------------------------------------------------------------------------------
-# What the world tells of a step: contacts, one row per point; events; bodies that broke.
+# Reports of a step: contacts, one row per point; events; bodies that were disabled.
 
 CONTACT = np.dtype(
     [
@@ -17,11 +17,11 @@ CONTACT = np.dtype(
         ("point_y", np.float64),
         ("normal_x", np.float64),  # unit, from A to B
         ("normal_y", np.float64),
-        ("separation", np.float64),  # [px] negative where they overlap
-        ("normal_impulse", np.float64),  # of the whole step
+        ("separation", np.float64),  # [px] negative for an overlap
+        ("normal_impulse", np.float64),  # over the whole step
         ("tangent_impulse", np.float64),
-        ("area", np.float64),  # [px2] that two masks share; 0 for other shapes
-        ("feature", np.int64),  # which corner, edge, tile or pixel it came from
+        ("area", np.float64),  # [px2] area shared by two masks; 0 for other shapes
+        ("feature", np.int64),  # feature id of the corner, edge, tile or pixel of the contact
     ],
     align=True,
 )
@@ -43,99 +43,100 @@ QUARANTINE = np.dtype([("body", np.int64), ("reason", "U96")])
 
 
 # ---- manifold --------------------------------------------------------------------------------------------------------
-# MANIFOLD: where two shapes touch, as a collider found it; ANCHOR: what a solver remembers of it.
+# MANIFOLD: the contact of two shapes as a collider found it. ANCHOR: the contact cache, which the solver reads and
+# writes.
 #
-# Rows of both stand in the order of shape ids, and belong together: only worlds that stack have anchors. A manifold has
-# one normal and one or two points; shapes that touch with several normals, as on tiles, have several manifolds. Fields
-# stand by who asks for them: a pass over ten thousand contacts is as fast as the lines of the cache that it touches.
+# Rows of both are in the order of shape ids and correspond row by row. Only worlds with a stacking solver have anchors.
+# A manifold has one normal and one or two points. Shapes that touch with several normals, as on tiles, have several
+# manifolds. Fields are ordered by use, because a pass over ten thousand contacts costs the cache lines that it touches.
 
 MANIFOLD = in_lines(
     [
         ("shape_a", np.int64),  # ids; A is the shape with the smaller id
         ("shape_b", np.int64),
-        ("body_row_a", np.int32),  # rows of BODY and SHAPE, this step
+        ("body_row_a", np.int32),  # rows of BODY and SHAPE in this step
         ("body_row_b", np.int32),
         ("row_a", np.int32),
         ("row_b", np.int32),
-        ("candidate", np.int32),  # row of the pair it came from
-        ("previous", np.int32),  # row of the same manifold in the step before, used again as it was; -1: found anew
-        ("count", np.int64),  # of its points
-        ("lead", np.float64),  # [px] that B slides along the tangent (-ny, nx) before they touch; see hull_pairs.py
+        ("candidate", np.int32),  # row of the candidate pair
+        ("previous", np.int32),  # recycled: row of this manifold in the step before; -1: detected anew
+        ("count", np.int64),  # number of points
+        ("lead", np.float64),  # [px] tangential offset: B slides along (-ny, nx) before contact; see hull_pairs.py
         ("sensor", np.bool_),
-        ("swept", np.bool_),  # met on the way, not at the end of the step
+        ("swept", np.bool_),  # found by the sweep, not at the final poses
         ("persisted_1", np.bool_),  # the same feature was in contact in the step before
         ("persisted_2", np.bool_),
-        ("again", np.bool_),  # as it is it will do for the next step, while both bodies stand as this one left them
-        # Where it is.
+        ("again", np.bool_),  # can be recycled in the next step while both bodies keep the poses at the end of this one
+        # Geometry.
         ("normal_x", np.float64),  # unit, from A to B
         ("normal_y", np.float64),
         ("x_1", np.float64),  # [px] midway between the two surfaces
         ("y_1", np.float64),
-        ("separation_1", np.float64),  # [px] negative where they overlap
+        ("separation_1", np.float64),  # [px] negative for an overlap
         ("x_2", np.float64),
         ("y_2", np.float64),
         ("separation_2", np.float64),
-        # What came of it.
-        ("speed_1", np.float64),  # [px/s] approach along the normal before the response
+        # Response.
+        ("speed_1", np.float64),  # [px/s] approach speed along the normal before the response
         ("speed_2", np.float64),
-        ("normal_impulse_1", np.float64),  # of the whole step
+        ("normal_impulse_1", np.float64),  # over the whole step
         ("tangent_impulse_1", np.float64),
         ("normal_impulse_2", np.float64),
         ("tangent_impulse_2", np.float64),
-        ("feature_1", np.int64),  # which corner, edge, tile or pixel it came from: see collision/features
+        ("feature_1", np.int64),  # feature id of the corner, edge, tile or pixel; see collision/hulls.py
         ("feature_2", np.int64),
-        # What is told.
+        # Report.
         ("body_a", np.int64),  # ids
         ("body_b", np.int64),
-        ("owner_a", np.int64),  # ids of the shapes that these are parts of
+        ("owner_a", np.int64),  # parent ids: the shapes that these are parts of
         ("owner_b", np.int64),
-        ("area_1", np.float64),  # [px2] that two masks share; 0 for other shapes
+        ("area_1", np.float64),  # [px2] area shared by two masks; 0 for other shapes
         ("area_2", np.float64),
     ]
 )
 
-WITH_A, WITH_B, CORES, UPRIGHT = 0, 1, 2, 3  # what a normal turns with: a side, from core to core, or nothing
+WITH_A, WITH_B, CORES, UPRIGHT = 0, 1, 2, 3  # frame of a normal: body A, body B, core to core, the world
 
 ANCHOR = in_lines(
     [
-        # What the solver starts from, and stores.
-        ("normal_force_1", np.float64),  # impulse per second that the next step starts from
+        # Warm start: read and stored by the solver.
+        ("normal_force_1", np.float64),  # impulse per second, from which the next step starts
         ("tangent_force_1", np.float64),
         ("normal_force_2", np.float64),
         ("tangent_force_2", np.float64),
         ("rolling_force", np.float64),
-        ("restitution", np.float64),  # mixed, as friction, surface speed and rolling resistance
+        ("restitution", np.float64),  # mixed, as are friction, surface speed and rolling resistance
         ("friction", np.float64),
         ("color", np.int64),  # of its constraint in the last solve, -1: none
-        ("surface_speed", np.float64),  # [px/s] summed
-        ("rolling_resistance", np.float64),  # [px] mixed coefficient times the greater radius
-        # What both sides are, and were when it was detected.
+        ("surface_speed", np.float64),  # [px/s] sum of both sides
+        ("rolling_resistance", np.float64),  # [px] mixed coefficient times the larger radius
+        # Both sides at the time of detection.
         ("radius_a", np.float64),  # [px] from the core to the surface
         ("radius_b", np.float64),
         ("angle_a", np.float64),  # [rad] of the bodies
         ("angle_b", np.float64),
         ("frame", np.int64),  # WITH_A WITH_B CORES UPRIGHT
-        ("local_nx", np.float64),  # the normal in the body space of `frame`
+        ("local_nx", np.float64),  # the normal in the space of `frame`
         ("local_ny", np.float64),
         # Each point in the body spaces.
-        ("local_ax_1", np.float64),  # [px] the point on A's core, in A's body space: of a circle the centre, of what is
-        ("local_ay_1", np.float64),  # rounded the corner or edge inside
+        ("local_ax_1", np.float64),  # [px] the point on A's core, in A's body space: the centre of a circle, else …
+        ("local_ay_1", np.float64),  # … the corner or edge inside the rounding
         ("local_bx_1", np.float64),
         ("local_by_1", np.float64),
-        ("share_1", np.float64),  # where along the face the point is: 0 at A's core, 1 at B's, between them 0.5
-        ("base_1", np.float64),  # [px] separation when it was detected
+        ("share_1", np.float64),  # position of the point between the cores: 0 at A's, 1 at B's, 0.5 midway
+        ("base_1", np.float64),  # [px] separation at detection
         ("share_2", np.float64),
         ("base_2", np.float64),
         ("local_ax_2", np.float64),
         ("local_ay_2", np.float64),
         ("local_bx_2", np.float64),
         ("local_by_2", np.float64),
-        # Where it was in the world then, while it sticks.
-        ("apart_x", np.float64),  # [px] B's centre of mass seen from A's
+        # World-frame reference of the contact at detection, valid while it sticks.
+        ("apart_x", np.float64),  # [px] B's centre of mass relative to A's
         ("apart_y", np.float64),
         ("held_nx", np.float64),  # the normal
         ("held_ny", np.float64),
-        ("held_ax_1", np.float64),  # [px] the point seen from A's centre of mass
+        ("held_ax_1", np.float64),  # [px] the point relative to A's centre of mass
         ("held_ay_1", np.float64),
         ("held_ax_2", np.float64),
         ("held_ay_2", np.float64),
@@ -144,10 +145,10 @@ ANCHOR = in_lines(
 
 
 # ---- constraint ------------------------------------------------------------------------------------------------------
-# What a solver works on: the motions of bodies and the constraints between them.
+# Solver rows: the motions of bodies and the constraints between them.
 
-# One row per awake body, and the first for all that stands: what a solver reads and changes in its substeps. A row is
-# three lines of a processor's cache: what every pass over the constraints needs is in the first of them.
+# One row per awake body, preceded by one row for all static bodies. Solvers read and write it in their substeps. A row
+# is three cache lines; the first holds the fields that every pass over the constraints needs.
 MOTION = in_lines(
     [
         ("vx", np.float64),
@@ -158,11 +159,11 @@ MOTION = in_lines(
         ("cosine", np.float64),
         ("sine", np.float64),  # of the turn since the step began
         ("moves", np.bool_),
-        ("pushed", np.bool_),  # is integrated; feels drag and acceleration
-        ("pressed", np.bool_),  # something acts on it in this substep, or it lies on something: it does not fly freely
-        ("walks", np.bool_),  # a character: what lies under its feet bears it, and is not held down by it
+        ("pushed", np.bool_),  # dynamic: integrated, with drag and acceleration
+        ("pressed", np.bool_),  # a contact acts on it in this substep, or supports it: it is not in free flight
+        ("walks", np.bool_),  # a character: the ground supports it, and it does not hold the ground down
         ("inverse_mass", np.float64),
-        ("inverse_inertia", np.float64),  # 0 for what this step does not push
+        ("inverse_inertia", np.float64),  # 0: infinite in this step
         ("free_vx", np.float64),  # the velocity in this substep before any contact acted
         ("free_vy", np.float64),
         ("free_w", np.float64),
@@ -170,15 +171,15 @@ MOTION = in_lines(
         ("acceleration_y", np.float64),
         ("angular_acceleration", np.float64),
         ("turn", np.float64),  # [rad]
-        ("push_vx", np.float64),  # that lets overlaps out: it moves a body in this substep, and is none of its velocity
+        ("push_vx", np.float64),  # pseudo-velocity of push-out: moves the body in this substep only
         ("push_vy", np.float64),
         ("push_w", np.float64),
         ("demand", np.float64),  # square of the substeps that would keep its contacts within the accuracy
-        ("eased", np.float64),  # [s] for which fewer substeps would have done, or, below 0, the most were too few
-        ("substeps", np.int64),  # that its island takes, and then: is to take in the next step
-        ("hits", np.int64),  # see solver/hits
-        ("crowded", np.bool_),  # one of its island touches more than one thing below it and one above
-        ("overloaded", np.bool_),  # more substeps than these, and than a load may ask for, would be needed
+        ("eased", np.float64),  # [s] cooldown: > 0 while fewer substeps would do, < 0 while the most were too few
+        ("substeps", np.int64),  # of its island: in this step, then in the next one
+        ("hits", np.int64),  # see solver/restitution.py
+        ("crowded", np.bool_),  # branching: a body of its island has more than two contacts
+        ("overloaded", np.bool_),  # a load needs more substeps than it may have
     ]
 )
 
@@ -188,14 +189,14 @@ CONSTRAINT = np.dtype(
         ("motion_b", np.int32),
         ("manifold", np.int32),  # its row, and the number of its points
         ("count", np.int32),
-        ("block", np.int32),  # and lane that it stood in, see solver/lane_contacts
+        ("block", np.int32),  # block and lane of the row, see solver/contact_lanes.py
         ("lane", np.int32),
-        ("before", np.int32),  # another of the same body, see solver/hits …
+        ("before", np.int32),  # another row of the same body, see solver/restitution.py …
         ("linked", np.bool_),
-        ("played", np.bool_),  # … and whether its hits were told there, …
-        ("met_1", np.float64),  # [px/s] the speed that each point would meet with
+        ("played", np.bool_),  # … and whether its impacts were resolved there
+        ("met_1", np.float64),  # [px/s] predicted impact speed of each point
         ("met_2", np.float64),
-        ("gap_1", np.float64),  # [px] until then
+        ("gap_1", np.float64),  # [px] gap before that impact
         ("gap_2", np.float64),
         ("normal_x", np.float64),
         ("normal_y", np.float64),
@@ -205,22 +206,22 @@ CONSTRAINT = np.dtype(
         ("rolling_mass", np.float64),
         ("rolling_impulse", np.float64),
         ("radius_a", np.float64),
-        ("radius_b", np.float64),  # [px] the separation is measured from core to core
-        ("push_share", np.float64),  # of the push-out speed
-        ("calm", np.bool_),  # nothing approached before the step
-        ("loaded", np.bool_),  # it bore something in the step before
-        ("meets", np.bool_),  # both sides near each other, fast enough to bounce
-        ("rests", np.bool_),  # both sides touched before the step, too slow to bounce
-        ("alone", np.bool_),  # its faces stick, and nothing but it bears the one side on the other
-        ("still", np.bool_),  # one side cannot be pushed: the contact is twice as stiff
-        ("couple_1", np.float64),  # change of the first impulse per second, and …
-        ("couple_2", np.float64),  # … of the second per first, for the same speeds; 0 where there is but one
-        ("split", np.float64),  # see two_points
+        ("radius_b", np.float64),  # [px] separations are measured from core to core
+        ("push_share", np.float64),  # share of the push-out speed
+        ("calm", np.bool_),  # not approaching before the step
+        ("loaded", np.bool_),  # had an impulse in the step before
+        ("meets", np.bool_),  # the sides approach fast enough to bounce
+        ("rests", np.bool_),  # resting: touching before the step, too slow to bounce
+        ("alone", np.bool_),  # its faces stick, and each dynamic side has at most one more contact
+        ("still", np.bool_),  # one side has infinite mass: the contact is twice as stiff
+        ("couple_1", np.float64),  # off-diagonal: change of the first impulse per second one, and …
+        ("couple_2", np.float64),  # … of the second per first, at equal speeds; 0 for one point
+        ("split", np.float64),  # factor of the block solver, see solver/restitution.py
         ("ax_1", np.float64),
         ("ay_1", np.float64),
         ("bx_1", np.float64),
-        ("by_1", np.float64),  # [px] arms from the centres
-        ("base_1", np.float64),  # [px] separation less the arms' part
+        ("by_1", np.float64),  # [px] moment arms from the centres of mass
+        ("base_1", np.float64),  # [px] separation minus the part of the arms
         ("normal_mass_1", np.float64),
         ("tangent_mass_1", np.float64),
         ("normal_impulse_1", np.float64),
@@ -245,20 +246,20 @@ CONSTRAINT = np.dtype(
 )
 
 PUSH = np.dtype(
-    [  # one per point, for the solvers that remember nothing, in the order of shape ids
-        ("manifold", np.int32),  # its row, and which of its points
+    [  # one per point, in the order of shape ids, for the solvers without a contact cache
+        ("manifold", np.int32),  # row of the manifold, and which of its points
         ("second", np.bool_),
-        ("swept", np.bool_),  # met on the way
+        ("swept", np.bool_),  # found by the sweep
         ("body_row_a", np.int32),
         ("body_row_b", np.int32),
-        ("x", np.float64),  # [px] the point, where it was detected
+        ("x", np.float64),  # [px] the point at detection
         ("y", np.float64),
         ("normal_x", np.float64),
         ("normal_y", np.float64),
-        ("separation", np.float64),  # [px] when it was detected
-        ("anchor_x", np.float64),  # [px] centre of B seen from A's then
+        ("separation", np.float64),  # [px] at detection
+        ("anchor_x", np.float64),  # [px] centre of B relative to A's at detection
         ("anchor_y", np.float64),
-        ("speed", np.float64),  # [px/s] approach before the response
+        ("speed", np.float64),  # [px/s] approach speed before the response
         ("friction", np.float64),  # mixed
         ("restitution", np.float64),
         ("surface_speed", np.float64),

@@ -1,4 +1,4 @@
-"""The geometry of all shapes of a world in flat tables: corners, tiles, links, pixels."""
+"""Flat tables of the geometry of all shapes of a world: corners, tiles, links, pixels."""
 
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ GRID = np.dtype(
     align=True,
 )
 
-EMPTY, SOLID, ONE_WAY, SLOPE = 0, 1, 2, 3  # what a cell is
+EMPTY, SOLID, ONE_WAY, SLOPE = 0, 1, 2, 3  # kinds of cells
 CHAIN_SPAN = np.dtype(
     [  # one per Chain
         ("offset", np.int64),  # first link
@@ -26,7 +26,7 @@ CHAIN_SPAN = np.dtype(
 )
 
 LINK = np.dtype(
-    [  # [px] body space; met from the side of (dy, -dx)
+    [  # [px] in body space; solid from the side of (dy, -dx)
         ("ax", np.float64),
         ("ay", np.float64),
         ("bx", np.float64),
@@ -36,9 +36,9 @@ LINK = np.dtype(
         ("after_x", np.float64),
         ("after_y", np.float64),
         ("has_before", np.bool_),
-        ("has_after", np.bool_),  # a listed neighbour or a ghost; else the end is open
+        ("has_after", np.bool_),  # whether it has a listed neighbour or a ghost there; else the end is open
         ("first_owned", np.bool_),
-        ("last_owned", np.bool_),  # the corner at a (at b) is this link's to report
+        ("last_owned", np.bool_),  # this link reports contacts at its corner a (b)
         ("friction", np.float64),  # of its own material, -1: the shape's
         ("restitution", np.float64),
         ("rolling_resistance", np.float64),
@@ -48,7 +48,7 @@ LINK = np.dtype(
 )
 
 LINK_BLOCK = np.dtype(
-    [  # AABB [px, body space] of some links in a row: long chains are skipped by blocks
+    [  # AABB [px, body space] of consecutive links; a query skips long chains block by block
         ("min_x", np.float64),
         ("min_y", np.float64),
         ("max_x", np.float64),
@@ -59,19 +59,19 @@ LINK_BLOCK = np.dtype(
 
 BLOCK_LINKS = 16
 RASTER = np.dtype(
-    [  # one per mask and angle it was drawn at
+    [  # one per mask and angle at which it was drawn
         ("offset", np.int64),  # first word in the flat word array
         ("width", np.int64),  # [px]
         ("height", np.int64),
         ("stride", np.int64),  # words per row
         ("origin_x", np.float64),  # [px] of the body's origin from the raster's top left corner
         ("origin_y", np.float64),
-        ("set_left", np.int64),  # [px] bounds of the solid pixels; left > right when there is none
+        ("set_left", np.int64),  # [px] bounds of the solid pixels; left > right for a raster without any
         ("set_top", np.int64),
         ("set_right", np.int64),  # exclusive
         ("set_bottom", np.int64),
         ("area", np.int64),  # [px2]
-        ("halo", np.int64),  # first word of its halo, see raster/exact.py; -1: none, as it is only drawn
+        ("halo", np.int64),  # first word of its halo, see raster/exact.py; -1: none, it is only drawn
         ("halo_stride", np.int64),  # words per row
         ("hull", np.int64),  # first of the corners of its convex hull, in body space
         ("hull_count", np.int64),  # 0: none
@@ -84,14 +84,14 @@ SPAN = np.dtype([("offset", np.int64), ("count", np.int64)])
 CORNER = np.dtype([("x", np.float64), ("y", np.float64)])
 CELL = np.dtype(
     [("kind", np.int64), ("left", np.float64), ("right", np.float64), ("first", np.int64), ("last", np.int64)]
-)  # columns of the run of like cells that it belongs to
+)  # first, last: columns of the run of equal cells that it belongs to
 
 
 class Geometry(NamedTuple):
-    """What kernels read of the shapes' geometry."""
+    """Flat geometry tables that kernels read."""
 
-    polygons: np.ndarray  # SPAN of corners: polygons, and capsules and segments as hulls of two
-    corners: np.ndarray  # CORNER [px] body space, clockwise on the screen
+    polygons: np.ndarray  # SPAN of corners: polygons; capsules and segments as hulls of two corners
+    corners: np.ndarray  # CORNER [px] in body space, clockwise on the screen
     chains: np.ndarray  # CHAIN_SPAN
     links: np.ndarray  # LINK
     link_blocks: np.ndarray  # LINK_BLOCK
@@ -99,4 +99,4 @@ class Geometry(NamedTuple):
     cells: np.ndarray  # CELL: kind, surface heights of a slope as fractions, the run it belongs to
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64 pixels of all rasters
-    raster_of: np.ndarray  # (masks, buckets) raster row, -1 where not drawn at that angle yet
+    raster_of: np.ndarray  # (masks, buckets) raster row, -1 for an angle bucket that is not drawn yet

@@ -1,4 +1,4 @@
-"""StepState: what the stages of a step hand on to each other, the work counters, and the tables of a world."""
+"""Tables of a world, the StepState that the stages of a step share, and the work counters."""
 
 from collections.abc import Callable
 from typing import Any, Protocol, cast
@@ -8,7 +8,7 @@ import numpy as np
 from physics.settings import Tolerances
 
 # ---- counters --------------------------------------------------------------------------------------------------------
-# The work that a step counts: names of the counters, and the place of each in the int64 array that kernels add to.
+# Work counters of a step: their names, and the index of each in the int64 array that kernels add to.
 
 COUNTERS = (
     "bodies_integrated",
@@ -59,19 +59,19 @@ COUNTERS = (
 
 
 # ---- world tables ----------------------------------------------------------------------------------------------------
-# WorldTables: what a world between steps and the StepState of a step both have.
+# WorldTables: the fields that a world between steps and the StepState of a step have in common.
 
 
 class WorldTables(Protocol):
-    """For what is done to a world between steps, and in a step alike: falling asleep, waking, new rectangles.
+    """Interface for operations that run both between steps and within one: sleeping, waking, new swept AABBs.
 
-    Any stands for what is defined in a folder to the right of this one.
+    Any stands for a type that is defined in a package that imports this one.
     """
 
     manifolds: np.ndarray  # MANIFOLD rows
-    anchors: np.ndarray  # ANCHOR rows beside them, in worlds that stack
-    awake: Any  # dynamics.awake.Awake
-    sleepers: Any  # dynamics.sleepers.Sleepers
+    anchors: np.ndarray  # ANCHOR rows beside them, in worlds with a stacking solver
+    awake: Any  # islands.awake.Awake
+    sleepers: Any  # islands.sleep.Sleepers
     pairs: Any  # broadphase.pair_list.PairList
     touching: Any  # events.Pairs
     sensing: Any
@@ -96,74 +96,76 @@ class WorldTables(Protocol):
 
     @property
     def stacks(self) -> bool:
-        """Whether the solver is one whose contacts remember."""
+        """True if the solver has a contact cache."""
         ...
 
     @property
     def gravity(self) -> tuple[float, float]:
-        """[px/s2]."""
+        """Gravity [px/s2]."""
         ...
 
     @property
     def dt(self) -> float:
-        """[s]."""
+        """Step length [s]."""
         ...
 
 
 # ---- step state ------------------------------------------------------------------------------------------------------
-# StepState: what the stages of a step hand on to each other, and what each of them says it touches.
+# StepState: the data that the stages of a step hand on to each other, and the declaration of each stage's fields.
 #
-# A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it looks at and
-# those that it changes, single columns of a table as "bodies.vx"; a test compares every other field byte for byte
-# around it. What lasts longer than a step lies in the world, which gives it to the state and takes it back at the end.
+# A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it reads and writes,
+# single columns of a table as "bodies.vx". A test compares every other field byte for byte around the stage. Data that
+# outlives a step belongs to the world, which lends it to the state and takes it back at the end.
 
 STAGE_FIELDS = (
-    # what the world was asked for
+    # settings of the world
     "effects",
-    "stacks",  # whether the solver is one whose contacts remember
+    "stacks",  # whether the solver has a contact cache
     "tolerances",
     "gravity",  # [px/s2]
     "drag",  # [1/s]
     "wind",  # [px/s]
     "dt",  # [s]
-    "span",  # [s] that what contacts remember of their forces is a mean of; no less than dt
-    "substeps",  # 0: as many as each island asks for, …
-    "accuracy",  # [px] … so that no contact sinks further
+    "span",  # averaging window of the cached contact forces [s]; at least dt
+    "substeps",  # 0: each island chooses its own, …
+    "accuracy",  # [px] … so that no contact penetrates deeper
     "broadphase",
-    "steps",  # made before this one
-    "kept_forces",  # collected for a step of some length, when this one has none; else None
+    "steps",  # number of steps before this one
+    "kept_forces",  # the accumulated forces, kept for a later step when this one has length 0; else None
     # tables
     "bodies",  # BODY rows
     "shapes",  # SHAPE rows
     "characters",  # CHARACTER rows
     "library",  # corners, tiles and pixels of the shapes
-    # what is awake: the rows that a pass goes over
+    # the awake bodies and shapes: the rows that a pass visits
     "awake",
     "sleepers",
     # from boxes to manifolds
-    "queries",  # the look-up of shapes by boxes
+    "queries",  # the queries of shapes by boxes
     "pairs",  # the pair list: proxies and candidates
-    "changed_count",  # slots whose rectangle changed
-    "impacts",  # (n, 8) candidate, fraction, normal, stops, feature, point or nan: found before the bodies move
-    "manifolds",  # MANIFOLD rows in the order of shape ids: of the step before, until the narrow phase
-    "anchors",  # ANCHOR rows beside them, in worlds that stack
-    "sensed",  # MANIFOLD rows with sensors; None where they stand among the others
-    "unsound",  # bodies that a solver has put nowhere, or made faster than any can be
-    "swept_sensors",  # MANIFOLD rows of sensors that were met on the way
-    "ghosts",  # (n, 8) bodies that a sweep stopped: id, path, fraction; None without any
-    "parked",  # MANIFOLD rows of what fell asleep in this step
-    # what is told
-    "touching",  # the pairs that touch
-    "sensing",  # the pairs of which one is a sensor
+    "changed_count",  # number of slots whose swept AABB changed
+    "impacts",  # (n, 8) candidate, fraction, normal, stops, feature, point or nan; computed before the bodies move
+    "manifolds",  # MANIFOLD rows in the order of shape ids; those of the step before until the narrow phase
+    "anchors",  # ANCHOR rows beside them, in worlds with a stacking solver
+    "sensed",  # MANIFOLD rows of sensor contacts; None where they are among `manifolds`
+    "unsound",  # number of bodies that a solver left non-finite or beyond the speed limit
+    "swept_sensors",  # MANIFOLD rows of sensors met during the sweep
+    "ghosts",  # (n, 8) bodies stopped by a sweep: id, path, fraction; None without any
+    "parked",  # MANIFOLD rows of islands that fell asleep in this step
+    # reports
+    "touching",  # the touching pairs
+    "sensing",  # the pairs with a sensor
     "events",
-    "told",  # (MANIFOLD rows, which of them count), of what touches
+    "told",  # contacts to report: (MANIFOLD rows, flags of the rows that count)
     "work",  # counters, int64
-    "workspace",  # arrays that are grown and used again; nothing in them outlives a stage
+    "workspace",  # reusable arrays; nothing in them outlives a stage
 )
 
 
 class StepState:
-    """The fields of STAGE_FIELDS for one step. Any stands for what is defined in a folder to the right of this one."""
+    """The fields of STAGE_FIELDS for one step. Any stands for a type that is defined in a package that imports this
+    one.
+    """
 
     __slots__ = STAGE_FIELDS
 
@@ -184,8 +186,8 @@ class StepState:
     shapes: np.ndarray
     characters: np.ndarray
     library: Any  # shapes.library.Library
-    awake: Any  # dynamics.awake.Awake
-    sleepers: Any  # dynamics.sleepers.Sleepers
+    awake: Any  # islands.awake.Awake
+    sleepers: Any  # islands.sleep.Sleepers
     queries: Any  # queries.index.QueryIndex
     pairs: Any  # broadphase.pair_list.PairList
     changed_count: int
@@ -206,7 +208,7 @@ class StepState:
 
 
 class Stage(Protocol):
-    """A function of a StepState that says what it touches."""
+    """A function of a StepState that declares the fields it reads and writes."""
 
     stage: str
     reads: tuple[str, ...]
@@ -218,8 +220,11 @@ class Stage(Protocol):
 def stage(
     name: str, reads: tuple[str, ...] = (), writes: tuple[str, ...] = ()
 ) -> Callable[[Callable[[StepState], None]], Stage]:
-    """Mark a function of a StepState as a stage: its name in `world.stages`,
-    the fields it reads and those it writes."""
+    """Return a decorator that marks a function of a StepState as a stage.
+
+    name: its name in `world.stages`; reads, writes: the fields it reads and writes. Raises ValueError for an unknown
+    field.
+    """
     for each in (*reads, *writes):
         if each.split(".")[0] not in STAGE_FIELDS:
             raise ValueError(f"a stage may read and write {', '.join(STAGE_FIELDS)} (got {each!r} for {name!r})")

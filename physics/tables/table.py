@@ -9,15 +9,15 @@ from numpy.typing import ArrayLike, DTypeLike
 from physics.jit import generic, subkernel
 
 # ---- lines -----------------------------------------------------------------------------------------------------------
-# Rows and arrays that begin where a line of a processor's cache does: whoever reads one touches no line too many.
+# Rows and arrays aligned to the cache lines of the processor.
 #
-# Measured on a pyramid of 1,035 boxes: all substeps of a step in 388 us, and in 413 where neither is so.
+# Aligned rows and arrays make the substeps of a step 6 % faster (388 µs in place of 413 µs, pyramid of 1,035 boxes).
 
 LINE = 64  # [bytes]
 
 
 def in_lines(fields: Sequence[tuple[str, Any]]) -> np.dtype:
-    """The dtype of rows of these fields, in C's alignment, that fill whole lines."""
+    """Return the dtype of rows of these fields, in C's alignment, padded to whole cache lines."""
     packed = np.dtype(list(fields), align=True)
     placed: Any = packed.fields
     return np.dtype(
@@ -32,7 +32,7 @@ def in_lines(fields: Sequence[tuple[str, Any]]) -> np.dtype:
 
 
 def zeros_in_lines(count: int, dtype: Any) -> np.ndarray:
-    """So many zeros, the first of which begins a line."""
+    """Return `count` zeros of a dtype, the first of which begins a cache line."""
     dtype = np.dtype(dtype)
     bytes_ = np.zeros(count * dtype.itemsize + LINE, np.uint8)
     first = -bytes_.ctypes.data % LINE
@@ -40,11 +40,10 @@ def zeros_in_lines(count: int, dtype: Any) -> np.ndarray:
 
 
 # ---- table -----------------------------------------------------------------------------------------------------------
-# Table: a structured array that grows, and begins where a line of the cache does.
 
 
 class Table:
-    """A structured array that grows by doubling; `rows` is the used part."""
+    """Structured array that grows by doubling. `rows` is the used part. The data begins a cache line."""
 
     def __init__(self, dtype: DTypeLike, capacity: int = 16) -> None:
         self.data: np.ndarray = zeros_in_lines(capacity, dtype)
@@ -55,14 +54,14 @@ class Table:
         return self.data[: self.count]
 
     def reserve(self, count: int) -> None:
-        """Make room for `count` rows, keeping what is there."""
+        """Make room for `count` rows and keep the rows in use."""
         if count > len(self.data):
             grown = zeros_in_lines(max(count, 2 * len(self.data)), self.data.dtype)
             grown[: self.count] = self.rows
             self.data = grown
 
     def append(self, count: int = 1) -> np.ndarray:
-        """Room for `count` new zeroed rows at the end; returns them."""
+        """Add `count` zeroed rows at the end and return them."""
         self.reserve(self.count + count)
         added = self.data[self.count : self.count + count]
         added.view(np.uint8).fill(0)
@@ -70,21 +69,21 @@ class Table:
         return added
 
     def keep(self, flags: np.ndarray) -> None:
-        """Drop the rows whose flag is False; the others keep their order."""
+        """Remove the rows whose flag is False. The others keep their order."""
         kept = np.flatnonzero(flags)
-        first = len(kept) if len(kept) == len(flags) else int(np.argmin(flags))  # what stands before stays where it is
-        whole = self.data.view(np.dtype((np.void, self.data.itemsize)))  # rows in one piece, not field by field
+        first = len(kept) if len(kept) == len(flags) else int(np.argmin(flags))  # rows before it stay in place
+        whole = self.data.view(np.dtype((np.void, self.data.itemsize)))  # rows as one item, not field by field
         whole[first : len(kept)] = whole[kept[first:]]
         self.count = len(kept)
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
-# Finding rows by id: tables stand in the order of their ids.
+# Binary search for rows by id.
 
 
 @subkernel
 def row_of(table, identity):
-    """The row of an id in a table in the order of ids, or -1. O(log rows)."""
+    """Return the row of an id in a table sorted by id, or -1. O(log rows)."""
     low = 0
     high = len(table)
     while low < high:
@@ -104,16 +103,16 @@ def find_rows(
     # write
     rows_out,
 ):
-    """Write the row of every id in a table that stands in the order of ids, -1 where it is not there.
+    """Write the row of every id in a table sorted by id, -1 for an id that is absent.
 
-    ids, rows_out (n) int64. O(n log rows).
+    ids, rows_out: (n) int64. O(n log rows).
     """
     for k in range(len(ids)):
         rows_out[k] = row_of(table, ids[k])
 
 
 def rows_of(table: np.ndarray, ids: ArrayLike) -> np.ndarray:
-    """Row numbers (n) int64 of ids in a table, -1 where one is not there."""
+    """Return the row numbers (n) int64 of ids in a table sorted by id, -1 for an id that is absent."""
     ids = np.ascontiguousarray(ids, np.int64)
     rows = np.empty(len(ids), np.int64)
     find_rows(table, ids, rows)
@@ -121,6 +120,6 @@ def rows_of(table: np.ndarray, ids: ArrayLike) -> np.ndarray:
 
 
 def joined(tables: Sequence[np.ndarray]) -> np.ndarray:
-    """Rows of tables of one type, one after another: rows in one piece, not field by field."""
+    """Return the rows of several tables of one type, one table after another."""
     whole = np.dtype((np.void, tables[0].itemsize))
     return np.concatenate([each.view(whole) for each in tables]).view(tables[0].dtype)
