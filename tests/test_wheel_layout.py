@@ -285,7 +285,7 @@ def test_it_starts_as_a_module(staged):
 
 CHILD = """
 import sys
-from hitbox.physics.jit.processes import IMPORTED_FROM, end_all, search_path, start_module
+from hitbox.physics.jit.workers import IMPORTED_FROM, end_all, search_path, start_module
 child = start_module("hitbox.game.report.worker")
 child.stdin.write('{"name": "a", "work": "%s", "params": {}}\\n')
 child.stdin.flush()

@@ -49,7 +49,7 @@ def noted_turn(self):
 
 module.App.turn, module.App._rest = noted_turn, noted_rest
 code = main.main(sys.argv[3:])
-from physics.jit import totals
+from physics.jit import kernels as totals
 print(json.dumps({"frames": frames, "worked": worked, "ready": ready[:1], "compiled": totals.compiled,
                   "loaded": totals.loaded}))
 """

@@ -140,7 +140,7 @@ def test_the_shipped_outlines_are_found(alone, monkeypatch):
     code = (
         "from game.run.headless import start_dummy_display; start_dummy_display()\n"
         "from game.registry import Registry\nfrom scenes import SCENES\n"
-        "from physics.fitting import mask_parts, tile_parts\n"
+        "from physics.outline import mask_parts\nfrom physics.outline import tiled as tile_parts\n"
         "def fail(*given):\n    raise AssertionError('fitted anew: run python -m scenes.outlines')\n"
         "mask_parts._fit = tile_parts._fit = fail\n"
         "for name in ('shooter', 'platformer', 'lander', 'lab/mask_stack'):\n"

@@ -253,7 +253,7 @@ while background is not None and background.share < 1.0 and time.monotonic() < u
     if len(sys.argv) > 3:
         for process in list(background.workers._processes.values()):
             process.send_signal(int(sys.argv[3]))
-from physics.jit import totals
+from physics.jit import kernels as totals
 print(json.dumps([digests, totals.compiled, taken, None if background is None else background.share]))
 """
 

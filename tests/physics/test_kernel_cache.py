@@ -70,7 +70,7 @@ def run(code, folder, cache, *arguments, **environment):
 ONE = "import json, sys, toy; print(json.dumps(toy.ONES[int(sys.argv[1])](7.0)))"
 SUM = """
 import json, sys, toy
-from physics.jit import totals
+from physics.jit import kernels as totals
 order = [int(each) for each in sys.argv[1]]
 made = toy.make_sum(*(toy.PARTS[each] for each in order))
 print(json.dumps([made(7.0), made.plain(7.0), totals.compiled, totals.parts_loaded]))
@@ -97,7 +97,7 @@ def test_parts_of_several_processes_are_linked_to_the_right_code(toy, order):
 WORKERS = """
 import json, random, sys, toy
 from physics.background import compile_ahead
-from physics.jit import tiers, totals
+from physics.jit import kernels as totals, tiers
 rng = random.Random(int(sys.argv[1]))
 made = [*toy.ONES, *(toy.make_sum(*rng.choices(toy.PARTS, k=3)) for _ in range(9))]
 rng.shuffle(made)
@@ -185,7 +185,7 @@ def test_a_value_that_has_no_content_is_refused(toy):
 STACK = """
 import json
 from physics import Circle, PixelMask, Polygon, World
-from physics.jit import totals
+from physics.jit import kernels as totals
 import numpy as np
 world = World(solver="SOLVER")
 world.add_body(Polygon.box(400, 20), position=(0, 100), kind="static")
@@ -226,7 +226,7 @@ def test_a_copy_elsewhere_finds_what_was_compiled_and_other_sources_of_jit_do_no
     compiled, loaded = counted(first)
     assert compiled > 5 and loaded == 0
     assert counted(second) == [0, compiled]
-    changed = second / "physics" / "jit" / "views.py"
+    changed = second / "physics" / "jit" / "plain.py"
     changed.write_text(changed.read_text() + "\nANOTHER = 1\n")
     assert counted(second) == [compiled, 0]
 

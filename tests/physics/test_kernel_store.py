@@ -264,7 +264,7 @@ def test_a_claim_ends_with_its_process_and_is_not_waited_for_for_ever(kept, monk
 COMPILE = """
 import json, warnings
 from physics import Circle, Effects, World
-from physics.jit import totals
+from physics.jit import kernels as totals
 world = World(Effects())
 world.add_body(Circle(4))
 world.add_body(Circle(4), position=(3, 0))

@@ -87,7 +87,7 @@ from game.registry import Registry
 from game.run.session import Session
 from game.run.sources import BotSource
 from physics import BROADPHASES
-from physics.jit import totals
+from physics.jit import kernels as totals
 from scenes import SCENES
 
 scene_class = Registry(SCENES).scene_class(sys.argv[1])
