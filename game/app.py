@@ -1,4 +1,4 @@
-"""The window's program: events in, fixed steps, a picture out. Which screen is next stands in game/screens/stack.py."""
+"""Main program of the window: events, fixed steps, drawing. See game/screens/stack.py for the screens."""
 
 from collections.abc import Iterator
 from time import perf_counter
@@ -29,11 +29,11 @@ from game.screens.stack import AnyScreen, Screens
 from game.startup import say
 
 IDLE_SECONDS = 0.002  # rest between frames when the display does not wait for its refresh
-QUIET = 0.3  # of the music's volume while nobody plays
+QUIET = 0.3  # factor of the music's volume in quiet screens
 
 
 def run_app(options: Options, registry: Registry) -> int:
-    """Open the window and run until it is closed. Returns the exit code."""
+    """Open the window and run until it is closed. Return the exit code."""
     remove_leftovers(data_folder())
     settings, message = load_settings()
     say(message)
@@ -41,7 +41,7 @@ def run_app(options: Options, registry: Registry) -> int:
     try:
         surface = open_window(settings)
         if options.scene or options.replay:
-            beside.start(plays=True)  # no title is shown first
+            beside.start(plays=True)  # the title screen is not shown
         return App(options, registry, settings, surface, message, beside).run()
     finally:
         beside.stop()
@@ -49,7 +49,9 @@ def run_app(options: Options, registry: Registry) -> int:
 
 
 class App:
-    """The loop that runs the screen on top; what screens share is in `arcade`, which is next in `screens`."""
+    """Main loop, which runs the top screen. `arcade` holds the state that the screens share, `screens` the screen
+    stack.
+    """
 
     def __init__(
         self,
@@ -64,9 +66,9 @@ class App:
         self.arcade = Arcade(options, registry, settings, surface, message)
         self.screens = Screens(self.arcade)
         self.inputs = InputState()
-        self.clock = FixedStep()  # of the menus: a scene keeps its own time
+        self.clock = FixedStep()  # of the menus; a scene has its own clock
         self.wipe = Wipe()
-        self.frame_time = Typical()  # [s] of a picture, without the wait for the next
+        self.frame_time = Typical()  # [s] to make one picture, without the wait for the next
         self.before: float | None = None
         self.screens.open_first()
         self.arcade.apply_settings()
@@ -82,7 +84,7 @@ class App:
         return self.arcade.picture.presenter.frame.surface
 
     def run(self) -> int:
-        """The loop. Returns the exit code."""
+        """Run the loop until the program ends. Return the exit code."""
         try:
             while self.arcade.running:
                 self.turn()
@@ -101,7 +103,7 @@ class App:
         return 1 if self.screen.failure else 0
 
     def turn(self) -> None:
-        """One turn of the loop: events, due steps, one picture."""
+        """Run one iteration of the loop: events, due steps, one picture."""
         started = perf_counter()
         try:
             for event in pygame.event.get():
@@ -126,7 +128,7 @@ class App:
             self._follow(self.screen.outcome)
 
     def _menu_steps(self, now: float) -> Iterator[InputState]:
-        """The input of each step that is due at `now` [s]. A screen that keeps its own time asks for none."""
+        """Yield the input of each step that is due at `now` [s]. A screen with its own clock does not read it."""
         for _ in range(self.clock.advance(now)):
             self.inputs.set(self.arcade.devices.next())
             yield self.inputs
@@ -148,7 +150,7 @@ class App:
             self.arcade.running = False
 
     def _sound(self, now: float) -> None:
-        """The menu's sounds and the tune of this moment."""
+        """Play the menu's sounds and the current tune."""
         screen, sounds = self.screen, self.arcade.sounds
         if screen.cues:
             sounds.play_cues([(name, None, 1.0) for name in screen.cues])
@@ -160,7 +162,7 @@ class App:
         self.before = now
 
     def _rest(self, started: float) -> None:
-        """Wait for the next picture, so that an unpaced display does not burn a core."""
+        """Wait for the next picture, so that the loop does not occupy a core on an unpaced display."""
         spent = perf_counter() - started
         self.frame_time.note(spent)
         wanted = 1.0 / self.settings.frame_cap if self.settings.frame_cap else 0.0
@@ -185,10 +187,10 @@ class App:
                 self.arcade.devices.feed(event)
 
     def _follow(self, outcome: Outcome) -> None:
-        """Go where the top screen leads; the old picture is wiped away."""
+        """Perform the outcome of the top screen. The old picture is wiped away."""
         if outcome[0] == "menu" and self.screens.played is not None:
             if self.options.scene and (self.options.is_a_run or self.options.recording):
-                self.arcade.running = False  # such a run is about one scene; leaving it ends the program
+                self.arcade.running = False  # such a run is about one scene: leaving the scene ends the program
                 self.screen.outcome = None
                 return
             self.options.scene = None
@@ -197,7 +199,7 @@ class App:
         self._arrive()
 
     def _arrive(self) -> None:
-        """Another screen is on top: nothing is held there yet, and its time begins."""
+        """Reset the input and the clock for a new top screen."""
         devices, sounds = self.arcade.devices, self.arcade.sounds
         devices.release_all()
         devices.menus = not self.screen.takes_game_input
@@ -210,7 +212,7 @@ class App:
         self.clock.rest()
 
     def _save_what_is_open(self) -> None:
-        """The window is closed mid-game: the run is kept, and what was asked for is written."""
+        """Save the current run and write the requested files when the window is closed."""
         if not self.options.frames:
             self.screens.enter_results()
         self.arcade.save_settings()
@@ -221,7 +223,7 @@ class App:
             play.end_run()
 
     def _save_screenshot(self) -> None:
-        """F12: into the player's folder, under the scene's name and the time."""
+        """Save a screenshot in the player's folder, under the scene's name and the time (F12)."""
         folder, play = data_folder() / "screenshots", self.screens.played
         try:
             folder.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""The flags: what they mean and what is wrong with them. Exit 0 fine, 1 failed, 2 wrong use."""
+"""Command-line options: definitions and checks. Exit codes: 0 success, 1 failure, 2 wrong use."""
 
 import argparse
 import json
@@ -23,10 +23,10 @@ from game.run.replay_check import load_replay_for
 
 
 class Parser(argparse.ArgumentParser):
-    """argparse, but a mistake is one line and exit 2 through UsageError."""
+    """Argument parser that reports a mistake in one line, as UsageError with exit code 2."""
 
     def error(self, message: str) -> NoReturn:
-        """Called by argparse for every mistake it finds."""
+        """Raise UsageError; argparse calls this for every mistake that it finds."""
         if message.startswith("unrecognized arguments: "):
             given = message.split(": ", 1)[1].split()[0]
             flags = sorted(flag for flag in self._option_string_actions if flag.startswith("--"))
@@ -39,7 +39,7 @@ def run(arguments: Sequence[str], registry: Registry) -> int:
     try:
         code = _dispatch(read_options(arguments, registry), registry)
         if sys.stdout is not None:
-            sys.stdout.flush()  # here it can still be said that it was not written
+            sys.stdout.flush()  # a write error can still be reported here
         return code
     except UsageError as error:
         startup.say(str(error), whole=True)
@@ -50,10 +50,10 @@ def run(arguments: Sequence[str], registry: Registry) -> int:
     except Warning as warning:  # --strict makes every warning an error
         startup.say(f"--strict: {type(warning).__name__}: {warning}")
         return StrictFailure.exit_code
-    except BrokenPipeError:  # the reader of our output went away (| head)
+    except BrokenPipeError:  # the reader of the output has gone (| head)
         _give_up_output()
         return 0
-    except OSError as error:  # a full disk behind our output
+    except OSError as error:  # the output is on a full disk
         startup.say(str(error))
         _give_up_output()
         return UsageError.exit_code
@@ -62,13 +62,13 @@ def run(arguments: Sequence[str], registry: Registry) -> int:
 
 
 def _give_up_output():
-    """What could not be written is not tried again at the end of the program."""
+    """Redirect standard output to the null device, so that the interpreter does not flush it again at exit."""
     if sys.stdout is not None and sys.stdout is sys.__stdout__:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def make_parser() -> Parser:
-    """The parser, on its own for --help and for the tests."""
+    """Return the parser; --help and the tests use it alone."""
     parser = Parser(prog="hitbox", description="2D collision you can feel, trust and see.", allow_abbrev=False)
     add = parser.add_argument
     add("--list", action="store_true", help="every scene: name, title, effects, features")
@@ -105,7 +105,7 @@ def make_parser() -> Parser:
 
 
 def read_options(arguments: Sequence[str], registry: Registry) -> Options:
-    """Parse and check. Raises UsageError with one line that names what is valid."""
+    """Parse and check the arguments. Raises UsageError with one line that names the valid values."""
     given = vars(make_parser().parse_args(arguments))
     from physics import BROADPHASES, SOLVERS
 
@@ -143,10 +143,10 @@ def read_options(arguments: Sequence[str], registry: Registry) -> Options:
 
 
 def _check_output(flag, name):
-    """What cannot be a file is told at once, not only after everything was played."""
+    """Raise UsageError if `name` cannot be an output file, before the run starts."""
     try:
         is_folder = name and is_there(Path(name)) and S_ISDIR(Path(name).stat().st_mode)
-    except (OSError, ValueError) as error:  # ValueError: a name that no system has
+    except (OSError, ValueError) as error:  # ValueError: a name that is invalid on every system
         reason = getattr(error, "strerror", None) or error
         raise UsageError(f"--{flag}: {brief(name, 150)} cannot be written: {reason}") from error
     if is_folder:
@@ -154,7 +154,7 @@ def _check_output(flag, name):
 
 
 def _check_advice(options):
-    """--advise is a run of its own: it names its scene, and is played by the bot."""
+    """Check that --advise has no conflicting options, and set its scene. The bot plays this run."""
     if options.error is not None and options.advise is None:
         raise UsageError("--error needs --advise")
     if options.error is not None and not 0.0 < options.error < math.inf:
@@ -168,7 +168,7 @@ def _check_advice(options):
 
 
 def _check_report(options):
-    """--report is a run of its own; what belongs to it stands beside it."""
+    """Check that --report has no conflicting options, and that its own options come with --report."""
     if options.report is None:
         for flag in ("quick", "workers", "dask", "only"):
             if getattr(options, flag) is not None and getattr(options, flag) is not False:
@@ -190,7 +190,9 @@ def _known(name, what, valid):
 
 
 def read_layers(text: str | None) -> tuple[str, ...] | None:
-    """ "bounds,pairs" -> ("bounds", "pairs"); "all" and "none" too; None stays None (the scene's own)."""
+    """Parse --overlay: "bounds,pairs" gives ("bounds", "pairs"). "all" and "none" are valid too. None stays None (the
+    scene's own layers).
+    """
     if text is None:
         return None
     names = [name.strip() for name in text.split(",") if name.strip()]
@@ -206,7 +208,7 @@ def read_layers(text: str | None) -> tuple[str, ...] | None:
 
 
 def _take_from_recording(options):
-    """A replay names its scene, seed and switches; what the command line names too goes first."""
+    """Take scene, seed and switches from the recording. The command line takes precedence, except for the scene."""
     recording = options.recording
     if recording is None:
         return
@@ -248,7 +250,7 @@ def _check_level(options, registry):
         raise UsageError(f"--level needs --scene; scenes that take one: {takers}")
     if not registry.scene_class(options.scene).takes_level:
         raise UsageError(f"--level: {options.scene} takes none; scenes that take one: {takers}")
-    level_digest(options.level)  # a file that is not there is said before anything is compiled
+    level_digest(options.level)  # a missing file is reported before anything is compiled
 
 
 def _dispatch(options, registry):

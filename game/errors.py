@@ -3,14 +3,14 @@
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-LONGEST = 300  # letters of a message: names in files, and those of files, may have thousands
+LONGEST = 300  # characters of a message: file names and file contents may have thousands
 
 
 class UsageError(Exception):
-    """Wrong use: an unknown name, a damaged file, no display. The text is the line to print; exit 2.
+    """Wrong use: an unknown name, a damaged file, no display. The text is the line to print; exit code 2.
 
-    The line has at most LONGEST letters. `valid` are the program's own names that would be right, and `hint` the
-    nearest of them: they follow the line, and are never cut.
+    The line has at most LONGEST characters. `valid` holds the valid names, and `hint` the nearest of them. Both follow
+    the line and are never cut.
     """
 
     exit_code = 2
@@ -26,12 +26,12 @@ class UsageError(Exception):
 
     @property
     def parts(self) -> tuple[tuple[str, str], ...]:
-        """(label, text) of what is said under the headline, where there is room for more than a line."""
+        """Return (label, text) pairs for the space under the headline, where there is room for more than a line."""
         return (("reason", brief(self)),)
 
 
 class FileError(UsageError):
-    """A file that cannot be used: names the file, the place in it and the reason, in LONGEST letters."""
+    """Error for an unusable file: names the file, the place in it and the reason, in at most LONGEST characters."""
 
     headline = "This file cannot be used"
 
@@ -44,24 +44,26 @@ class FileError(UsageError):
 
     @property
     def parts(self) -> tuple[tuple[str, str], ...]:
-        """The file, the place and the reason."""
+        """Return the file, the place and the reason, each with its label."""
         return tuple(zip(("file", "place", "reason"), self._texts(), strict=True))
 
 
 class ReplayDiverged(Exception):
-    """The simulation differs from the recording; names the frame; exit 1."""
+    """Error for a simulation that differs from the recording; names the frame; exit code 1."""
 
     exit_code = 1
 
 
 class StrictFailure(Exception):
-    """What --strict objects to: a warning, a broken invariant; exit 1."""
+    """Error for a violation of --strict: a warning or a broken invariant; exit code 1."""
 
     exit_code = 1
 
 
 def brief(text: object, most: int = LONGEST) -> str:
-    """Return text for one line: past `most` letters it loses its middle; what cannot be printed is a question mark."""
+    """Return text for one line of at most `most` characters. A longer text loses its middle. Characters that cannot be
+    printed become question marks.
+    """
     line = str(text)
     if len(line) > most:
         last = max(0, most - 5) // 2
@@ -70,7 +72,7 @@ def brief(text: object, most: int = LONGEST) -> str:
 
 
 def share(texts: Sequence[object], room: int) -> list[str]:
-    """Return the texts in at most `room` letters: what is shorter than its share leaves the rest to the others."""
+    """Return the texts in at most `room` characters. The room that a short text does not use goes to the others."""
     lines = [str(text) for text in texts]
     by_length = sorted(range(len(lines)), key=lambda number: len(lines[number]))
     for left, number in zip(range(len(lines), 0, -1), by_length, strict=True):
@@ -80,7 +82,7 @@ def share(texts: Sequence[object], room: int) -> list[str]:
 
 
 def unknown_name(what: str, name: object, valid: Iterable[str]) -> UsageError:
-    """A UsageError for a name that is none of `valid`, with the nearest one as a guess."""
+    """Return a UsageError for a name that is not in `valid`, with the nearest valid name as a hint."""
     from difflib import get_close_matches
 
     valid = list(valid)

@@ -1,4 +1,4 @@
-"""Where the game's own files are: assets/ beside the packages, in a clone and when installed."""
+"""Paths of the game's own files: assets/ beside the packages, in a clone and in an installation."""
 
 from pathlib import Path
 
@@ -10,5 +10,5 @@ IMAGES = ASSETS / "images"
 SOUNDS = ASSETS / "sounds"
 MUSIC = ASSETS / "music"
 LEVELS = ASSETS / "levels"
-OUTLINES = ASSETS / "outlines.npz"  # of the masks that scenes begin with: python -m scenes.outlines
-CURE = f"rebuild it with: python -m {ASSETS.name}.build" if IN_CHECKOUT else "install hitbox again"  # of a damaged one
+OUTLINES = ASSETS / "outlines.npz"  # outlines of the masks that scenes begin with: python -m scenes.outlines
+CURE = f"rebuild it with: python -m {ASSETS.name}.build" if IN_CHECKOUT else "install hitbox again"  # of damaged assets

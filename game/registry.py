@@ -1,4 +1,4 @@
-"""Scenes by name. The list itself is scenes/__init__.py; main.py hands it in, since game never imports scenes."""
+"""Scenes by name. The list is in scenes/__init__.py; main.py passes it, since game never imports scenes."""
 
 from collections.abc import Mapping
 from importlib import import_module
@@ -8,7 +8,7 @@ from game.scene import Scene
 
 
 class Registry:
-    """Scene classes, imported when first asked for, so that one scene's start costs one scene."""
+    """Scene classes by name, imported on first use, so that starting one scene imports one scene."""
 
     def __init__(self, listing: Mapping[str, str]) -> None:
         self.listing = dict(listing)  # name -> "module:Class", in menu order
@@ -20,7 +20,7 @@ class Registry:
         return tuple(self.listing)
 
     def scene_class(self, name: str) -> type[Scene]:
-        """The class of a scene. An unknown name raises UsageError naming the valid ones."""
+        """Return the class of a scene. An unknown name raises UsageError naming the valid ones."""
         if name not in self.listing:
             raise unknown_name("scene", name, self.names)
         if name not in self.classes:
@@ -29,5 +29,5 @@ class Registry:
         return self.classes[name]
 
     def all_classes(self) -> list[type[Scene]]:
-        """Every scene class in menu order."""
+        """Return every scene class in menu order."""
         return [self.scene_class(name) for name in self.names]

@@ -1,8 +1,9 @@
-"""Scene: one class per file in scenes/. The same scene is played, tested headless, and measured.
+"""Scene: base class of the scenes, one subclass per file in scenes/. The same scene is played, tested headless, and
+measured.
 
-update() is one fixed step of 1/60 s: rules, world.step(), events. It is deterministic, touches no display
-and reads no clock. draw() changes nothing: not the state, not the random numbers. What is only seen
-(particles, curves, camera shake) lives outside state() and uses random numbers of its own.
+update() is one fixed step of 1/60 s: rules, world.step(), events. It is deterministic, uses no display and reads no
+clock. draw() changes neither the state nor the random numbers. Purely visual data (particles, curves, camera shake) is
+outside state() and uses its own random numbers.
 """
 
 import gc
@@ -30,13 +31,13 @@ from physics.outline import kept
 
 kept.use(OUTLINES)
 STEP_SECONDS = 1.0 / 60.0
-SUBSTEPS = (1, 2, 4, 8, 16, 32, "auto")  # that a player may choose from
-ASSISTS = {"invincible": False, "hit_stop": True}  # name -> how a game starts; they change it, so they come as input
+SUBSTEPS = (1, 2, 4, 8, 16, 32, "auto")  # the player's choices
+ASSISTS = {"invincible": False, "hit_stop": True}  # name -> initial value; they affect the game, so they are input
 
 
 @dataclass(frozen=True)
 class Goal:
-    """One thing a scene must reach. `due`: the frame by which it must be met. `detail`: what is so far."""
+    """Goal that a scene must reach. `due`: the frame by which it must be met. `detail`: its progress."""
 
     name: str
     due: int
@@ -46,7 +47,7 @@ class Goal:
 
 @dataclass(frozen=True)
 class Result:
-    """How a game ended. `lines`: what more there is to say of it."""
+    """Result of a game. `lines`: more lines of text about it."""
 
     won: bool
     points: int
@@ -54,7 +55,7 @@ class Result:
     lines: tuple = ()
 
     def ranks(self, ranked_by: str | None) -> bool:
-        """True if a run that ended so belongs into a table at all; ranked_by as in Scene."""
+        """Return whether a run with this result is eligible for a high-score table; ranked_by as in Scene."""
         if ranked_by == "seconds":
             return self.won
         return ranked_by == "points" and self.points > 0
@@ -62,7 +63,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Slider:
-    """A value the player may turn. `choices` names the whole numbers low, low + 1, ... when given."""
+    """Value that the player can change. `choices`, if given, names the whole numbers low, low + 1, ..."""
 
     name: str
     low: float
@@ -73,20 +74,21 @@ class Slider:
     choices: tuple = ()
 
     def clamp(self, value: float) -> float:
-        """The nearest allowed value; whole when the step is whole."""
+        """Return the nearest allowed value; an int if low and step are whole."""
         steps = round((min(max(value, self.low), self.high) - self.low) / self.step)
         value = min(self.low + steps * self.step, self.high)
         return int(value) if float(self.step).is_integer() and float(self.low).is_integer() else value
 
     def show(self, value: float) -> str:
-        """The value as text."""
+        """Return the value as text."""
         if self.choices:
             return plain_name(self.choices[int(value) - int(self.low)])
         return f"{value:g}{' ' + self.unit if self.unit else ''}"
 
 
 class Scene:
-    """One level of subclasses, which set the class attributes and define each of DEFINED:
+    """Base class of scenes. There is one level of subclasses, which set the class attributes and define each of
+    DEFINED:
 
     build(): make the worlds (add_world); called at the start and on every restart.
     update(inputs): one fixed step.
@@ -108,31 +110,31 @@ class Scene:
     title = ""
     about = ""  # one sentence for the menu
     effects = Effects()
-    other_effects: tuple[Effects, ...] = ()  # that its worlds may be put under: compiled before the start
+    other_effects: tuple[Effects, ...] = ()  # other effects its worlds may switch to: compiled before the start
     broadphase = "hash"
-    solver: str | None = None  # None: the World's own choice
-    keeps: dict[str, str] = {}  # what --advise would set otherwise -> why it stays as it is: see docs/advice.json
-    solvers: tuple[str, ...] = ()  # all that its worlds may use, where there are several: compiled before the start
+    solver: str | None = None  # None: the default of World
+    keeps: dict[str, str] = {}  # setting that --advise would change -> reason to keep it: see docs/advice.json
+    solvers: tuple[str, ...] = ()  # all solvers its worlds may use, where there are several: compiled before the start
     features: tuple[str, ...] = ()  # short phrases for the menu and --list
-    # Of physics.warmup: what its bodies meet and it asks, compiled before the start; None: all.
+    # Names for physics.warmup: the shape pairs and queries to compile before the start; None: all.
     pieces: tuple[str, ...] | None = None
     sliders: tuple[Slider, ...] = ()
-    # Slider, or "substeps" -> its value until the physics is compiled, where frames would take over 0.1 s.
+    # Slider, or "substeps" -> its value until the kernels are compiled, if frames would take over 0.1 s.
     lighter: dict[str, int | float] = {}
-    actions: tuple[tuple[str, str], ...] = ()  # (what to press, what it does) pairs for the help line
-    tiers: tuple[str, ...] = ()  # names of the tiers the scene's sprites can be tested at; the first is the start
+    actions: tuple[tuple[str, str], ...] = ()  # (key, effect) pairs for the help line
+    tiers: tuple[str, ...] = ()  # collision tiers of the scene's sprites; the first is the start
     overlays: tuple[str, ...] = ()  # overlay layers on from the start
-    filter_names: dict[int, str] = {}  # membership bit -> what it stands for, for the legend of the filters
+    filter_names: dict[int, str] = {}  # membership bit -> its meaning, for the legend of the filters
     legend_at: tuple[int, int] | None = None  # canvas (x, y) where the overlays' legend goes if it is free
-    head = 0  # canvas px of the line on top that holds the title: the line of the keys goes beside it. 0: there is none
+    head = 0  # canvas px of the title line at the top: the line of keys goes beside it. 0: no title line
     hides_pointer = True
     draggable = False  # True: dynamic bodies follow the mouse; the pointer is then shown
-    switches_broadphase = True  # False: the scene's worlds have their own
-    music = "lab"  # the tune; a scene may set another on itself, mid-game
-    ranked_by: str | None = None  # what high scores are ordered by: "points", most first, or "seconds", fewest first
-    assists: tuple[str, ...] = ()  # those of ASSISTS that it offers
+    switches_broadphase = True  # False: the scene's worlds have their own broad phases
+    music = "lab"  # the tune; a scene may set another on itself during a game
+    ranked_by: str | None = None  # order of the high scores: "points", most first, or "seconds", fewest first
+    assists: tuple[str, ...] = ()  # the names in ASSISTS that the scene offers
     takes_level = False  # True: `level` may name a file to play instead of the scene's own
-    level_suffix = ""  # of such files, ".tmj" or ".json": which of the player's own the menu lists
+    level_suffix = ""  # suffix of such files, ".tmj" or ".json": selects the player's own levels for the menu
 
     def __init_subclass__(cls):
         missing = [name for name in cls.DEFINED if not hasattr(cls, name)]
@@ -153,22 +155,22 @@ class Scene:
         self.solver = solver or type(self).solver
         self.tier = tier or (self.tiers[0] if self.tiers else None)
         self.narrowphase = self.effects.narrowphase
-        self.figures: dict[Any, Any] = {}  # of what is measured(), as far as somebody has
-        self.substeps: int | str | None = None  # None: what each world was made with
+        self.figures: dict[Any, Any] = {}  # results of the requests in measured(), as far as available
+        self.substeps: int | str | None = None  # None: the world's own setting
         self.values: dict[str, float] = {slider.name: slider.start for slider in self.sliders}
         self.assist: dict[str, bool] = {name: ASSISTS[name] for name in self.assists}
         self.accessibility = Accessibility()
-        self.ghost: list[tuple] | None = None  # the trail of an earlier run, seen beside this one; set from outside
-        self.best = 0  # points of the best run so far, to be shown; set from outside too
+        self.ghost: list[tuple] | None = None  # trail of an earlier run, drawn beside this one; set from outside
+        self.best = 0  # points of the best run so far, for display; set from outside
         self.particles = Particles(seed)
         self.drag = Drag()
-        self.pointer = (0, 0)  # of the last step, where a drag is drawn to
-        self.lights: Lights | None = None  # of the invariants of its worlds; None: nobody watches
+        self.pointer = (0, 0)  # at the last step; the end of the drag line
+        self.lights: Lights | None = None  # invariant monitor of its worlds; None: not monitored
         self.built: set[str] = set()  # names of the attributes that build() made
         self.restart()
 
     def restart(self) -> None:
-        """Back to the first frame with the same seed. Sliders and switches keep what was chosen."""
+        """Return to the first frame with the same seed. Sliders and switches keep their values."""
         self.drag.release()
         self._drop_last_run()
         self.frame = 0
@@ -182,15 +184,15 @@ class Scene:
         self.camera = Camera()
         self.camera.shake_share = self.accessibility.shake
         self.flash = Flash()
-        self.result: Result | None = None  # a Result when the game has ended; who plays it decides what comes then
-        self.trail: list[tuple] = []  # rows of where the player was in each step, for a ghost in later runs
+        self.result: Result | None = None  # set when the game has ended; the player's session decides how it continues
+        self.trail: list[tuple] = []  # rows of the player's positions, one per step, for a ghost in later runs
         self.particles.clear()
         before = set(vars(self))
         self.build()
         self.built = set(vars(self)) - before
 
     def _drop_last_run(self):
-        """Let go of what build() made: two runs at once would be the most memory that a game ever takes."""
+        """Release the objects that build() made. Two runs at once would set the peak memory of the game."""
         if self.built:
             for name in self.built:
                 vars(self).pop(name, None)
@@ -200,9 +202,9 @@ class Scene:
     def add_world(
         self, effects: Effects | None = None, broadphase: str | None = None, solver: str | None = None, **settings: Any
     ) -> WatchedWorld:
-        """Make a world with the scene's effects, broad phase, solver and seed, and list it in self.worlds.
+        """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds.
 
-        settings: what else World takes: gravity, drag, substeps, pixels_per_meter ...
+        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ...
         """
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         strategy = BROADPHASES[broadphase or self.broadphase]()
@@ -217,11 +219,11 @@ class Scene:
 
     @property
     def world(self) -> WatchedWorld:
-        """The first world."""
+        """Return the first world."""
         return self.worlds[0]
 
     def step(self, inputs: InputState) -> None:
-        """One fixed step: changes from the panel first, then the mouse's pull, then the scene's own update."""
+        """Run one fixed step: changes from the panel first, then the mouse drag, then the scene's own update."""
         self.cues.clear()
         for name, value in inputs.now.changes:
             self.change(name, value)
@@ -238,7 +240,7 @@ class Scene:
             self.lights.note(self.frame, self.worlds)
 
     def watch_invariants(self, on: bool = True, strict: bool = False) -> None:
-        """Look at every step of its worlds from now on, or no longer. strict: see Lights."""
+        """Start or stop monitoring the invariants of its worlds after every step. strict: see Lights."""
         self.lights = Lights(strict) if on else None
         for world in self.worlds:
             world.watch = None
@@ -246,7 +248,7 @@ class Scene:
                 self.lights.take(world)
 
     def _cameras(self):
-        """Each camera once: the scene's own, and those of all its pictures."""
+        """Return each camera once: the scene's own, and those of its views."""
         return {id(camera): camera for camera in (self.camera, *(each for _, each in self.views()))}.values()
 
     def change(self, name: str, value: Any) -> None:
@@ -276,39 +278,41 @@ class Scene:
         slider = next(s for s in self.sliders if s.name == name)
         self.values[name] = slider.clamp(value)
         if name == "substeps":
-            self.substeps = None  # the slider's from now on
+            self.substeps = None  # the slider's value from now on
 
     def set_broadphase(self, name: str) -> None:
-        """Switch the broad phase of every world, mid-game."""
+        """Switch the broad phase of every world during a game."""
         self.broadphase = name
         if self.switches_broadphase:
             for world in self.worlds:
                 world.broadphase = BROADPHASES[name]()
 
     def solver_choices(self) -> tuple[str, ...]:
-        """The solvers that the player may switch between: none where nothing is pushed, or each world has its own."""
+        """Return the solvers that the player may switch between. Empty without the effect response, or if each world
+        has its own.
+        """
         return () if self.solvers or not self.effects.response else self.valid_solvers()
 
     @classmethod
     def valid_solvers(cls) -> tuple[str, ...]:
-        """The solvers that the scene's effects allow."""
+        """Return the solvers that the scene's effects allow."""
         return tuple(SOLVERS) if cls.effects.stacking else ("blocking", "projection")
 
     @classmethod
     def level_suffixes(cls) -> tuple[str, ...]:
-        """Of the files that it can play as levels: () where it takes none."""
+        """Return the suffixes of the level files that the scene can play; () if it takes none."""
         if not cls.takes_level:
             return ()
         return (cls.level_suffix,) if cls.level_suffix else (".tmj", ".json")
 
     def set_solver(self, name: str) -> None:
-        """Switch the solver of every world, mid-game."""
+        """Switch the solver of every world during a game."""
         self.solver = name
         for world in self.worlds:
             world.solver = name
 
     def set_substeps(self, count: Any) -> None:
-        """Solve every world with so many substeps, "auto" for as many as its loads ask for, mid-game."""
+        """Set the number of substeps of every world during a game; "auto" adapts it to the loads."""
         self.substeps = count
         for slider in self.sliders:
             if slider.name == "substeps" and count != "auto" and slider.low <= count <= slider.high:
@@ -317,13 +321,13 @@ class Scene:
             world.substeps = count
 
     def set_narrowphase(self, on: bool) -> None:
-        """Stop at boxes, or do not, mid-game."""
+        """Switch the narrow phase on or off during a game; without it contacts are between boxes."""
         self.narrowphase = on
         for world in self.worlds:
             world.set_narrowphase(on)
 
     def set_tier(self, name: str) -> None:
-        """Test the bodies that have a tier at another one, mid-game; new ones are to be added with self.tier."""
+        """Switch the tier of all bodies that have one during a game. The scene adds new bodies with self.tier."""
         self.tier = name
         for world in self.worlds:
             for identity in world.bodies["id"].tolist():
@@ -333,56 +337,63 @@ class Scene:
 
     @property
     def own_body(self) -> int | None:
-        """Id of the body, in the first world, that the player must keep from being hit; None where there is none."""
+        """Return the id of the body, in the first world, that the player must protect; None if there is none."""
         return None
 
     def set_accessibility(self, accessibility: Accessibility) -> None:
-        """Take what the player wants of the picture."""
+        """Store the player's accessibility settings and apply them to the camera."""
         self.accessibility = accessibility
         self.camera.shake_share = accessibility.shake
 
     def play(self, sound: str, x: float | None = None, volume: float = 1.0) -> None:
-        """Ask for a sound effect. x: canvas position for the pan; None: the middle."""
+        """Queue a sound effect. x: canvas position for the pan; None: the middle."""
         self.cues.append((sound, x, volume))
 
     @property
     def offer(self) -> str:
-        """What another run begins with, "" while this one goes on by itself; while there is one the keys stay in sight.
+        """Return the text that offers a new run, "" during a run. While it is shown the help line stays visible.
 
-        (R begins it in every scene; a scene says what will happen.)
+        (R restarts every scene; the scene describes the new run.)
         """
         return ""
 
     def views(self) -> list[tuple[WatchedWorld, Camera]]:
-        """(world, camera) of each picture on the canvas: overlays look through them, step() begins their steps."""
+        """Return (world, camera) of each picture on the canvas. Overlays draw through them, and step() begins their
+        steps.
+        """
         return [(self.world, self.camera)]
 
     @property
     def chosen(self) -> tuple:
-        """All that a player has chosen here, sliders and switches: what a lane that depends on it is named after."""
+        """Return the values of all sliders and switches. Measurements that depend on them use this tuple in their
+        names.
+        """
         return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
 
     def measured(self) -> Sprites | Lanes | None:
-        """What is to be measured for `figures`, beside the game; None: nothing now."""
+        """Return the measurement request whose results go to `figures`; None: none. It runs beside the game."""
         return None
 
     def finding(self) -> str:
-        """What it has found, one sentence with numbers that it measured in this run, as they are now; before that "not
-        yet: " and what it still needs. "" where nothing is to be found."""
+        """Return the scene's finding: one sentence with the numbers measured in this run so far.
+
+        Before it is complete it begins with "not yet: " and names the missing measurements. "" for a scene without a
+        finding.
+        """
         return ""
 
     def draw_on_frame(self, frame: Frame) -> None:
-        """Draw at window resolution, under the overlays (curves, thin lines). Most scenes have nothing here."""
+        """Draw at window resolution, under the overlays (curves, thin lines). Most scenes draw nothing here."""
 
     def observe(self) -> None:
-        """Note timings after a step, for curves. Never part of the state."""
+        """Record timings after a step, for curves. They are never part of the state."""
 
 
 def set_loaded_aside() -> None:
-    """Collect what is garbage now, and count everything else as here to stay until the next call.
+    """Run a full collection, and exempt the remaining objects from collection until the next call.
 
-    A full collection with numba and a scene loaded takes 40 ms, two frames and a half; of what a game makes as it goes,
-    less than one. Call it when a scene is ready to begin.
+    A full collection with numba and a scene loaded takes 40 ms, two and a half frames. A collection of the objects made
+    during a game takes less than 1 ms. Call it when a scene is ready to begin.
     """
     gc.unfreeze()
     gc.collect()

@@ -1,7 +1,7 @@
-"""Checks that must speak before anything heavy is imported: one clear line each.
+"""Checks that report before anything heavy is imported, in one line each.
 
-Old syntax on purpose (see main.py). `*_problem` returns a line that stops the program or "";
-`*_note` returns a line worth saying on the way in or "".
+The syntax is old on purpose (see main.py). `*_problem` returns a line that stops the program, or "". `*_note` returns a
+line of information, or "".
 """
 
 import os
@@ -9,13 +9,13 @@ import sys
 from collections.abc import Callable
 
 OLDEST_PYTHON = (3, 11)
-INTERRUPTED = 130  # exit code of a program that Ctrl-C has ended
-IN_CHECKOUT = __package__ == "game"  # or an editable install; a wheel has all of it in the package hitbox
-START = ("python", "main.py") if IN_CHECKOUT else ("hitbox",)  # what starts the program, as a person types it
+INTERRUPTED = 130  # exit code after Ctrl-C
+IN_CHECKOUT = __package__ == "game"  # or an editable install; a wheel has all packages inside the package hitbox
+START = ("python", "main.py") if IN_CHECKOUT else ("hitbox",)  # command that starts the program
 
 
 def python_problem(version: tuple, executable: str) -> str:
-    """Say that this Python is too old, and which one it is; "" when it is new enough."""
+    """Return a line that reports a Python that is too old, with its version; "" if it is new enough."""
     if tuple(version[:2]) >= OLDEST_PYTHON:
         return ""
     needed, found = dotted(OLDEST_PYTHON), dotted(version[:3])
@@ -23,12 +23,12 @@ def python_problem(version: tuple, executable: str) -> str:
 
 
 def dotted(version: tuple) -> str:
-    """A version as it is written: 3.11."""
+    """Return a version as text: 3.11."""
     return ".".join(str(part) for part in version)
 
 
 def package_problem() -> str:
-    """Name the first package that is missing and how to install it; "" when all are there."""
+    """Return a line with the first missing package and the command that installs it; "" if none is missing."""
     from importlib.util import find_spec
 
     for module, package in (("numpy", "numpy"), ("pygame", "pygame-ce")):
@@ -38,14 +38,14 @@ def package_problem() -> str:
 
 
 def install(extra: str = "") -> str:
-    """Return the command that installs the program and what it needs; extra: with what an extra brings."""
+    """Return the command that installs the program and its dependencies. extra: the name of an extra to install too."""
     if IN_CHECKOUT:
         return "python -m pip install -e " + ('".[' + extra + ']"' if extra else ".")
     return "python -m pip install " + ('"hitbox[' + extra + ']"' if extra else "hitbox")
 
 
 def installed(package: str) -> bool:
-    """True when a distribution of that name is installed in this environment."""
+    """Return whether a distribution of that name is installed in this environment."""
     from importlib import metadata
 
     try:
@@ -56,7 +56,7 @@ def installed(package: str) -> bool:
 
 
 def pygame_note(is_installed: "Callable[[str], bool]" = installed) -> str:
-    """Warn when pygame and pygame-ce are both there: they overwrite each other's files."""
+    """Return a warning if both pygame and pygame-ce are installed: they overwrite each other's files."""
     if is_installed("pygame") and is_installed("pygame-ce"):
         return (
             "both pygame and pygame-ce are installed and share one import name; keep one: "
@@ -66,14 +66,14 @@ def pygame_note(is_installed: "Callable[[str], bool]" = installed) -> str:
 
 
 def numba_note(jit: bool) -> str:
-    """Say that the kernels run uncompiled. `jit`: physics.JIT."""
+    """Return a note that the kernels run uncompiled; "" if jit. `jit`: physics.JIT."""
     if jit:
         return ""
     return "numba is not in use: everything works, the physics runs slower (python -m pip install numba)"
 
 
 def pygame_name() -> str:
-    """Which pygame this is, for --version."""
+    """Return the name and version of the installed pygame, for --version."""
     import pygame
 
     edition = "pygame-ce" if getattr(pygame, "IS_CE", 0) else "pygame"
@@ -81,15 +81,15 @@ def pygame_name() -> str:
 
 
 def prepare_environment() -> None:
-    """Keep pygame's greeting off standard output, where --json prints its one object."""
+    """Suppress pygame's greeting on standard output, where --json prints its one object."""
     os.environ.setdefault("PYGAME_HIDE_SUPPORT_PROMPT", "1")
 
 
 def end_quietly_on_interrupt() -> "object":
-    """Until take_interrupts() Ctrl-C ends the program at once, with exit code 130 and without a traceback.
+    """End the program at once on Ctrl-C, with exit code 130 and without a traceback, until take_interrupts().
 
-    Returns what Ctrl-C did before. What is imported meanwhile has nothing to clean up, and an exception in the middle
-    of an import is told in many lines, or swallowed. Where Ctrl-C means something else already, it stays so.
+    Return the previous handler. The imports in between need no cleanup, and an exception during an import prints many
+    lines or is swallowed. A handler other than Python's default is left in place.
     """
     import signal
     import threading
@@ -101,7 +101,7 @@ def end_quietly_on_interrupt() -> "object":
 
 
 def take_interrupts(handler: "object") -> None:
-    """Ctrl-C raises KeyboardInterrupt again; handler: what end_quietly_on_interrupt() returned."""
+    """Make Ctrl-C raise KeyboardInterrupt again. handler: the return value of end_quietly_on_interrupt()."""
     import signal
 
     if handler is signal.default_int_handler and signal.getsignal(signal.SIGINT) is not handler:
@@ -109,11 +109,11 @@ def take_interrupts(handler: "object") -> None:
 
 
 def say(line: str, whole: bool = False) -> None:
-    """Print one line of at most errors.LONGEST letters on standard error, where there is one.
+    """Print one line of at most errors.LONGEST characters on standard error, if there is one.
 
-    whole: the line is the program's own, or bounded but for a list of the program's own names, and is not cut.
+    whole: do not cut the line. Use it for the program's own texts, and for bounded texts with a list of valid names.
     """
-    if line and sys.stderr is not None:  # closed, or a start without a terminal
+    if line and sys.stderr is not None:  # None if closed, or started without a terminal
         if not whole:
             from game.errors import brief
 

@@ -1,6 +1,6 @@
-"""What a scene wants to have measured beside the game: two sprites at every tier, or lanes of worlds to be stepped.
+"""Measurement requests of a scene: two sprites at every tier, or worlds to step.
 
-What was found comes into its `figures`, by tier or by the name of the lane. It is never part of its state.
+The results go to the scene's `figures`, by tier or by name. They are never part of its state.
 """
 
 from collections.abc import Callable, Hashable, Sequence
@@ -9,51 +9,54 @@ from typing import Any, NamedTuple
 
 from physics import PixelMask, Snapshot, World
 
-STEPS = 60  # of a run, at least: a second of play, five times 60 make the 300 that a cost is measured on
+STEPS = 60  # minimum per run: one second of play. Five runs of 60 give the 300 samples of a cost
 
 
 class Sprites(NamedTuple):
-    """Every tier of these two; each change of them is measured anew. Figures: {tier: TierFigures}."""
+    """Request to measure two sprites at every tier, again after each change. Figures: {tier: TierFigures}."""
 
     first: PixelMask
     second: PixelMask
 
 
 class Recipe(NamedTuple):
-    """A snapshot that is made where it is measured, not on the frame of who asks for it."""
+    """Snapshot that is made in the measuring process, so that it costs no time in the game's frame."""
 
     maker: str  # "module:function", which returns a Snapshot
-    arguments: tuple[Any, ...]  # of it: what JSON can hold
+    arguments: tuple[Any, ...]  # its arguments: JSON values
 
     def make(self) -> Snapshot:
-        """The snapshot."""
+        """Make and return the snapshot."""
         return resolve_name(self.maker)(*self.arguments)
 
 
 class Act(NamedTuple):
-    """What is done to a world in place of its steps."""
+    """Operation that is timed on a world instead of its steps."""
 
-    maker: str  # "module:function": function(world, *arguments) returns what is called once for each step
-    arguments: tuple[Any, ...]  # of it: what JSON can hold
+    maker: str  # "module:function": function(world, *arguments) returns a function that is called once per step
+    arguments: tuple[Any, ...]  # its arguments: JSON values
 
     def made_for(self, world: World) -> Callable[[], object]:
-        """What is to be called, and timed."""
+        """Return the function to call and time."""
         return resolve_name(self.maker)(world, *self.arguments)
 
 
 class Lane(NamedTuple):
-    """Worlds, as they are at one moment, to be stepped on: what costs `name`. Figures: {name: LaneFigures}."""
+    """Measured run: worlds in a given state, to be stepped. It measures the cost of `name`.
+
+    Figures: {name: LaneFigures}.
+    """
 
     snapshots: Sequence[Snapshot | Recipe]
-    broadphase: str  # the strategy of all of them
-    steps: int = STEPS  # that each is stepped in a run
-    stage: str | None = None  # only this stage of a step is counted; None: the whole step
-    act: Act | None = None  # in place of steps; one of each comes first in a run and is not counted
-    judged: tuple[int, int] | None = None  # first and last step whose deepest overlap and farthest way are wanted
+    broadphase: str  # broad phase of all of them
+    steps: int = STEPS  # steps per run
+    stage: str | None = None  # measure only this stage of a step; None: the whole step
+    act: Act | None = None  # replaces the steps; the first call of each run is not measured
+    judged: tuple[int, int] | None = None  # steps first, last: report deepest overlap and farthest way
 
 
 class Lanes(NamedTuple):
-    """make(name): what is to be stepped, asked once of each name that is not known yet; the others are remembered."""
+    """Request for measured runs. make(name) returns a run; it is called once per name, and the results are cached."""
 
-    names: Sequence[Hashable]  # numbers, words, tuples of them: two lanes of one name cost the same
+    names: Sequence[Hashable]  # numbers, words or tuples of them: runs with the same name cost the same
     make: Callable[[Hashable], Lane]

@@ -1,1 +1,1 @@
-"""Pixels: the canvas and its text, sprites, tiles and particles, and the way from the canvas to the window."""
+"""Drawing: the canvas and its text, sprites, tiles, particles, and the transfer of the canvas to the window."""

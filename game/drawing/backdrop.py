@@ -1,4 +1,4 @@
-"""Dusk, mountains and clouds that drift: the ground of the title and menu, and of any scene that wants it."""
+"""Backdrop of dusk, mountains and drifting clouds, for the title, the menu and scenes."""
 
 from collections.abc import Sequence
 
@@ -7,7 +7,7 @@ import pygame
 from game.drawing.canvas import CANVAS_SIZE, Canvas, whole
 from game.drawing.sprites import load_backdrop
 
-# (picture, share of the camera's motion it takes part in, how far its bottom hangs below the canvas)
+# (picture, parallax factor of the camera's motion, distance of its bottom below the canvas)
 DUSK = (("clouds", 0.06, None), ("mountains_far", 0.1, 0), ("mountains_mid", 0.2, 0), ("mountains_near", 0.45, 0))
 CLOUD_TOP = 18
 
@@ -20,7 +20,7 @@ class Backdrop:
         self.layers = [(load_backdrop(name), share, low) for name, share, low in layers]
 
     def draw(self, canvas: Canvas, distance: float, dim: int = 0) -> None:
-        """Draw for a camera that has travelled `distance` px to the right. dim 0..255 darkens it for text."""
+        """Draw for a camera that has moved `distance` px to the right. dim 0..255 darkens the picture for text."""
         canvas.surface.blit(self.sky, (0, 0))
         for picture, share, low in self.layers:
             y = CLOUD_TOP if low is None else CANVAS_SIZE[1] - picture.get_height() + low

@@ -1,4 +1,4 @@
-"""Many pictures in one call, under either pygame."""
+"""Blit of many pictures in one call, with either pygame."""
 
 from collections.abc import Iterable
 from typing import Any, cast
@@ -9,11 +9,11 @@ import pygame
 def blit_many(
     surface: pygame.Surface, pairs: Iterable[tuple[pygame.Surface, tuple[float, float]]], flags: int = 0
 ) -> None:
-    """Blit (image, (x, y)) pairs. fblits, which pygame 2.6.1 lacks, skips its checks: 0.4 against 0.5 µs each."""
+    """Blit (image, (x, y)) pairs. fblits, which pygame 2.6.1 lacks, skips its checks: 0.4 instead of 0.5 µs each."""
     if hasattr(surface, "fblits"):
         surface.fblits(pairs, flags)
     elif flags:
-        # The area None is the whole picture, which the stubs of pygame-ce forget.
+        # The area None is the whole picture; the stubs of pygame-ce do not allow it.
         surface.blits(cast(Any, [(image, place, None, flags) for image, place in pairs]), doreturn=False)
     else:
         surface.blits(pairs, doreturn=False)

@@ -1,4 +1,4 @@
-"""World to canvas: a position, a zoom and the part of the canvas it draws into."""
+"""Camera: world to canvas by a position, a zoom and a viewport on the canvas."""
 
 from math import exp, sin
 
@@ -6,15 +6,15 @@ import pygame
 
 from game.drawing.canvas import CANVAS_SIZE, Box, Number, whole
 
-SHAKE_PIXELS = 5.0  # [canvas px] at full trauma; more hides bullets
-SHAKE_DECAY = 0.75  # [1/s] trauma lost per second: a full shake is over in 1.3 s
+SHAKE_PIXELS = 5.0  # [canvas px] at full trauma; more would hide bullets
+SHAKE_DECAY = 0.75  # [1/s] trauma lost per second: a full shake ends after 1.3 s
 
 
 class Camera:
-    """`x, y`: the world point at the top left of `viewport` (a canvas Rect); `zoom`: canvas px per world px.
+    """Camera. `x, y`: the world point at the top left of `viewport` (a canvas Rect); `zoom`: canvas px per world px.
 
-    update() once per step moves it; view(alpha) gives the drawn top left, rounded once at zoom 1 so that
-    everything in the picture steps together.
+    Call begin_step() once per step before moving it. view(alpha) returns the drawn top left. At zoom 1 it is rounded
+    once, so that all drawn objects move together.
     """
 
     def __init__(
@@ -29,21 +29,21 @@ class Camera:
         self.x = self.previous_x = float(x)
         self.y = self.previous_y = float(y)
         self.trauma = 0.0
-        self.shake_share = 1.0  # of the shake that is drawn
+        self.shake_share = 1.0  # drawn share of the shake
         self.clock = 0.0
         self.limits = None
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height of the seen part of the world [world px]."""
+        """Width and height of the visible part of the world [world px]."""
         return self.viewport.width / self.zoom, self.viewport.height / self.zoom
 
     def keep_within(self, left: float, top: float, right: float, bottom: float) -> None:
-        """Never show anything outside these world limits (a level's edges)."""
+        """Limit the view to these world limits (a level's edges)."""
         self.limits = (left, top, right, bottom)
 
     def place(self, x: float, y: float) -> None:
-        """Jump to a top left without a move in between (a restart, a door)."""
+        """Jump to a top left without interpolation (a restart, a door)."""
         self.x, self.y = self._limited(x, y)
         self.previous_x, self.previous_y = self.x, self.y
 
@@ -53,7 +53,7 @@ class Camera:
         self.place(x - width / 2, y - height / 2)
 
     def begin_step(self, dt: float) -> None:
-        """Remember where the camera was, for interpolation, and let a shake fade. Once per step."""
+        """Store the previous position for interpolation, and decay the shake. Call it once per step."""
         self.previous_x, self.previous_y = self.x, self.y
         self.clock += dt
         self.trauma = max(0.0, self.trauma - SHAKE_DECAY * dt)
@@ -61,7 +61,7 @@ class Camera:
     def follow(
         self, x: float, y: float, dt: float, rate: float = 8.0, dead_zone: tuple[float, float] = (0.0, 0.0)
     ) -> None:
-        """Move towards having the world point in the middle, at `rate` [1/s], inside a dead zone not at all."""
+        """Move towards centring the world point, at `rate` [1/s]. Inside the dead zone it does not move."""
         width, height = self.size
         share = 1.0 - exp(-rate * dt)
         off_x = _outside(x - (self.x + width / 2), dead_zone[0])
@@ -69,27 +69,27 @@ class Camera:
         self.x, self.y = self._limited(self.x + off_x * share, self.y + off_y * share)
 
     def shake(self, trauma: float) -> None:
-        """Add trauma 0..1; the offset grows with its square, so small hits stay small."""
+        """Add trauma 0..1. The offset is proportional to its square, so small hits stay small."""
         self.trauma = min(1.0, self.trauma + trauma)
 
     def view(self, alpha: float = 1.0) -> tuple[float, float]:
-        """The drawn world top left (x, y); whole numbers at zoom 1."""
+        """Return the drawn world top left (x, y); whole numbers at zoom 1."""
         x = self.previous_x + (self.x - self.previous_x) * alpha
         y = self.previous_y + (self.y - self.previous_y) * alpha
         if self.trauma > 0.0 and self.shake_share > 0.0:
             reach = SHAKE_PIXELS * self.shake_share * self.trauma * self.trauma / self.zoom
-            # Two slow sines that do not repeat together: smooth, and the same in every run.
+            # Two slow sines of different periods: smooth, and the same in every run.
             x += reach * sin(self.clock * 61.0)
             y += reach * sin(self.clock * 47.0 + 1.3)
         return (whole(x), whole(y)) if self.zoom == 1.0 else (x, y)
 
     def to_canvas(self, x: Number, y: Number, alpha: float = 1.0) -> tuple[Number, Number]:
-        """Canvas position of world points; scalars or arrays."""
+        """Return the canvas position of world points; scalars or arrays."""
         left, top = self.view(alpha)
         return (x - left) * self.zoom + self.viewport.x, (y - top) * self.zoom + self.viewport.y
 
     def to_world(self, x: float, y: float) -> tuple[float, float]:
-        """World position of a canvas point, as last drawn without interpolation."""
+        """Return the world position of a canvas point, without interpolation."""
         left, top = self.view()
         return (x - self.viewport.x) / self.zoom + left, (y - self.viewport.y) / self.zoom + top
 
@@ -102,7 +102,7 @@ class Camera:
 
 
 def _outside(offset, zone):
-    """How far an offset leaves a zone of +-zone around 0."""
+    """Return how far an offset lies outside a zone of +-zone around 0; 0 inside."""
     if offset > zone:
         return offset - zone
     return offset + zone if offset < -zone else 0.0

@@ -1,1 +1,1 @@
-"""What accuracy costs: times of named work and errors against references, measured off the frame."""
+"""Measurements outside the frame: times of named work, errors against references, and the settings that follow."""

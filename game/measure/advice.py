@@ -1,6 +1,7 @@
-"""Which settings give the least time within an error: measured one change at a time, then what pays together.
+"""Advice on settings: the fastest setting within an error.
 
-An advice is only given where it is sure: the intervals of its times are apart and by more than a tie, over all moments.
+Settings are measured one change at a time, then the changes that pay are measured together. Advice is given only if it
+is certain: over all moments the intervals of the times are apart, by more than a tie.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -14,18 +15,22 @@ from game.measure.setting import Setting, settings_around
 from game.measure.survey import Survey, is_sound, told
 from game.measure.timing import RUNS
 
-PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))  # that are chosen each by itself
+# the groups of fields that are chosen independently
+PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))
 
 
 class Advice(NamedTuple):
-    """best: what to set, `here` where nothing is surely cheaper; None where nothing is within the error."""
+    """The result of `advise`.
+
+    best: the setting to use; `here` if no setting is certainly cheaper, None if no setting is within the error.
+    """
 
     here: Setting
     best: Setting | None
-    within: tuple[Setting, ...]  # all that are, the cheapest first
+    within: tuple[Setting, ...]  # all settings within the error, the cheapest first
 
 
-Tell = Callable[[int, int], object]  # (runs that are done, of so many)
+Tell = Callable[[int, int], object]  # called with (runs done, runs in all)
 
 
 def measure_settings(
@@ -39,7 +44,7 @@ def measure_settings(
         references = References(moment)
         survey.kinds = references.kinds
         for setting in settings:
-            moment.time_run(setting, 2)  # compiles what is missing
+            moment.time_run(setting, 2)  # compiles missing kernels
             survey.dot(setting).erred(number, references.errors(setting))
             survey.dot(setting).steps = STEPS
             done += 1
@@ -55,7 +60,7 @@ def measure_settings(
 def advise(
     moments: Sequence[Moment], error: float, tell: Tell = lambda done, of: None, seed: int = 0
 ) -> tuple[Advice, Survey]:
-    """What to set for an error of so many pixels, and what that was found from. Raises ValueError for no moments."""
+    """Return the advice for an error [px], and the survey that it follows from. Raises ValueError for no moments."""
     if not moments:
         raise ValueError("moments must be one at least (got none)")
     here, survey = moments[0].here, Survey()
@@ -73,8 +78,11 @@ def advise(
 
 
 def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | None:
-    """The cheapest setting within an error [px] on all counts; None where nothing is surely cheaper than `here`, or
-    `here` is the only one within. Only what every moment was run often enough for is compared."""
+    """Return the cheapest setting within an error [px] of every kind.
+
+    Returns None if no setting is certainly cheaper than `here`, or if `here` is the only one within the error. Only
+    settings with enough runs at every moment are compared.
+    """
     within = [each for each in settings_within(survey, error) if survey.dots[each].sure]
     if here not in survey.dots or not survey.dots[here].sure or not within or within[0] == here:
         return None
@@ -83,7 +91,9 @@ def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | 
 
 
 def share(survey: Survey, setting: Setting, here: Setting) -> float:
-    """Its time by that of another. Raises KeyError, or ValueError, for a setting that was not timed."""
+    """Return the time of `setting` as a share of the time of `here`. Raises KeyError or ValueError for a setting
+    without times.
+    """
     cost, now = survey.dots[setting].cost, survey.dots[here].cost
     if cost is None or now is None:
         raise ValueError("a share needs the times of both")
@@ -91,7 +101,7 @@ def share(survey: Survey, setting: Setting, here: Setting) -> float:
 
 
 def settings_within(survey: Survey, error: float) -> list[Setting]:
-    """The settings whose errors [px] are all within, the cheapest first."""
+    """Return the settings whose errors [px] of every kind are within a limit, the cheapest first."""
     found = {}
     for setting, dot in survey.dots.items():
         errors = [dot.error(kind) for kind in survey.kinds]
@@ -101,13 +111,15 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
 
 
 def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
-    """By the whole interval of its runs, not by their median alone."""
+    """Return whether one setting is cheaper than the other over the whole interval of its runs, not by the median
+    alone.
+    """
     a, b = survey.dots[one].cost, survey.dots[other].cost
     return a is not None and b is not None and cheaper((a.least, a.upper), b[:2])
 
 
 def _together(survey, here, error):
-    """Of each part the cheapest choice that surely pays by itself, all at once."""
+    """Return `here` with the cheapest choice of every part that is certainly cheaper by itself, all combined."""
     together = here
     for part in PARTS:
         alone = [

@@ -1,7 +1,7 @@
-"""What each effect costs at a moment of a world: the same state stepped with it and without it, off the frame.
+"""The cost of each effect at a moment of a world: the same state stepped with and without the effect, off the frame.
 
-A declared effect is taken out with all that needs it. One that is not declared is put in with what it needs, and finds
-nothing to do (game/measure/ledger.py): what is told is the price of having it there.
+A declared effect is removed together with all effects that need it. An undeclared one is added with the effects that it
+needs, and with nothing to do (game/measure/ledger.py). Its figure is the price of declaring it.
 """
 
 from collections.abc import Callable
@@ -15,15 +15,18 @@ from physics import Effects, World
 
 
 class Side(NamedTuple):
-    """What a world of the moment is put under; idle: the effect that is left nothing to do, "": none."""
+    """The effects of one measured world. idle: the effect that has nothing to do there; "" for none."""
 
     effects: Effects
     idle: str = ""
 
 
 class EffectCost(NamedTuple):
-    """One effect. cost, without: [s] a step with it and without it, as far as measured; kernels: how many pairs of a
-    kernel and the types it is called with are compiled for it alone; None: not counted yet, or nothing is compiled."""
+    """The cost of one effect.
+
+    cost, without: times of a step with and without the effect [s], None until measured. kernels: number of (kernel,
+    argument types) compiled for this effect alone. None: not counted yet, or nothing is compiled.
+    """
 
     effect: str
     declared: bool
@@ -33,18 +36,20 @@ class EffectCost(NamedTuple):
 
     @property
     def price(self) -> float | None:
-        """[s] a step that it takes; below 0: it saves them. None: not measured yet. Of both sides the least, as other
-        load only ever adds."""
+        """Time that the effect adds to a step [s]; negative if it saves time, None until measured.
+
+        The least times of both sides are subtracted, because other load only ever adds time.
+        """
         return None if self.cost is None or self.without is None else self.cost.least - self.without.least
 
     @property
     def noise(self) -> float:
-        """[s] by which the runs of both sides lie above the least."""
+        """Time by which the medians of both sides lie above their least times [s]."""
         return sum(each.median - each.least for each in (self.cost, self.without) if each is not None)
 
 
 def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
-    """{effect: (with it, without it)} for a world under effects."""
+    """Return {effect: (with it, without it)} for a world with these effects."""
     found = {}
     for name in EFFECTS:
         if getattr(effects, name):
@@ -56,7 +61,7 @@ def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
 
 
 def world_under(moment: Moment, side: Side) -> World:
-    """A world of the moment, all awake."""
+    """Return a world of the moment with the effects of a side, all bodies awake."""
     world = moment.world(moment.here)
     world.set_effects(side.effects)
     if side.idle:
@@ -65,7 +70,7 @@ def world_under(moment: Moment, side: Side) -> World:
 
 
 def can_be(moment: Moment, side: Side) -> bool:
-    """Whether what is in the world can live under these effects."""
+    """Return whether the contents of the world are valid under the effects of a side."""
     try:
         world_under(moment, side)
     except ValueError:
@@ -74,15 +79,18 @@ def can_be(moment: Moment, side: Side) -> bool:
 
 
 def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
-    """Seconds a step of one run from the moment on. The first run of a side also compiles: leave it out."""
+    """Return the seconds per step of one run from the moment. The first run also compiles: do not count it."""
     return seconds_a_step(world_under(moment, side).step, steps)
 
 
 def measure_effects(
     moment: Moment, tell: Callable[[str, Cost, Cost], object], goes_on: Callable[[], bool], seed: int = 0
 ) -> None:
-    """Time every effect, in shuffled turns; tell(effect, with it, without it) after each round. Of one that the world
-    cannot be without (Characters need response) nothing is told. Ends early once goes_on() is False."""
+    """Time every effect, in shuffled turns.
+
+    tell(effect, cost with it, cost without it) is called after each round. Nothing is reported for an effect that the
+    world cannot be without (characters need response). Ends early when goes_on() is False.
+    """
     sides = {
         name: pair for name, pair in sides_of(moment.effects).items() if all(can_be(moment, each) for each in pair)
     }

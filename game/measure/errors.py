@@ -1,12 +1,12 @@
-"""How wrong a setting is at a moment, against references that cannot be argued with.
+"""The errors of a setting at a moment, against reference runs and exact tests.
 
-Three errors, in pixels each: `way`, how far bodies go astray from a reference run; `overlap`, how deep rigid bodies are
-in each other, which they never should be; `verdict`, by how much a hit that is none was missed, or a miss hit.
+Three kinds of error, in pixels. `way`: how far bodies are from a reference run. `overlap`: how deep rigid bodies
+overlap, which is 0 in an exact solution. `verdict`: by how much a false hit misses, or a missed hit overlaps.
 
-The reference of a way has 64 times the substeps of four, at the stiffness of a given number of them (Erez, Tassa and
-Todorov, ICRA 2015, compare engines with themselves at smaller steps). It is asked only as long as 32 times agrees with
-it to a tenth of a pixel, and tells nothing below what both, or a third with the stiffest contacts there are, differ by:
-chaos has no reference.
+The reference of `way` has 64 times the 4 plain substeps, at the stiffness of a given number of substeps. Erez, Tassa
+and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way. The reference is used only while a
+run with 32 times the substeps agrees with it to a tenth of a pixel. Its floor is ten times that difference, or the
+difference of a third run with the stiffest contacts if that is larger. Chaotic motion has no reference.
 """
 
 from collections import Counter
@@ -21,41 +21,44 @@ from game.measure.rates import Rate
 from game.measure.setting import Setting
 from physics import World, distance
 
-VISIBLE = 1.0  # [px] what a player can see
-AGREED = 0.1  # of an error, and of VISIBLE: what the reference may be uncertain by
-FINE, COARSE = 64, 32  # times the substeps of …
+VISIBLE = 1.0  # [px] error that a player can see
+AGREED = 0.1  # largest uncertainty of the reference, as a share of the error and of VISIBLE
+FINE, COARSE = 64, 32  # multiples of PLAIN substeps
 PLAIN = 4
 LOOKS = 12  # steps of a run in which verdicts are compared
 
 
 @dataclass(frozen=True)
 class Error:
-    """In pixels. floor: below it the reference cannot tell; steps: after how many it was read; failures: what went
-    wrong on the way, counted apart."""
+    """An error in pixels.
+
+    floor: errors below it are within the uncertainty of the reference. steps: number of steps after which the error was
+    read. failures: counts of failures during the run.
+    """
 
     value: float
     floor: float = 0.0
     steps: int = 0
     failures: dict[str, int] = field(default_factory=dict)
-    wrong: Rate | None = None  # hits that are none, of all hits told
-    missed: Rate | None = None  # hits not told, of all true hits
+    wrong: Rate | None = None  # false hits, of all reported hits
+    missed: Rate | None = None  # missed hits, of all true hits
 
     @property
     def told(self) -> bool:
-        """Whether the reference is certain enough to tell this error from none."""
+        """Return whether the error is above the uncertainty of the reference."""
         return self.value > self.floor
 
 
 class Reference(NamedTuple):
-    """A way that others are compared with."""
+    """A run that other runs are compared with."""
 
     way: Way
-    horizon: int  # steps that it can be asked for
-    floor: float  # [px] below it nothing can be told
+    horizon: int  # number of steps for which the reference is valid
+    floor: float  # [px] errors below it are not significant
 
 
 class References:
-    """What the settings of a moment are compared with; made when it is first needed."""
+    """The reference of a moment, computed at first use, and the errors of settings against it."""
 
     def __init__(self, moment: Moment) -> None:
         self.moment = moment
@@ -67,12 +70,12 @@ class References:
 
     @property
     def kinds(self) -> tuple[str, ...]:
-        """The errors that this moment has; the first is the one to look at first."""
+        """The kinds of error of this moment; the most important first."""
         return ("overlap", "way") if self.moment.effects.response else ("verdict",)
 
     @cached_property
     def reference(self) -> Reference:
-        """The finest run, and what can be asked of it."""
+        """The finest run, the number of steps for which it is valid, and its floor."""
         if self.moment.effects.stacking:
             fine = self.moment.way(self.truth)
             coarse = self.moment.way(self.truth._replace(substeps=COARSE * PLAIN))
@@ -86,7 +89,7 @@ class References:
         return Reference(fine, last, float(max(unsure[last - 1] / AGREED, softness[last - 1])))
 
     def errors(self, setting: Setting) -> dict[str, Error]:
-        """{kind: Error} of a setting."""
+        """Return {kind: Error} of a setting."""
         if not self.moment.effects.response:
             return {"verdict": self._verdict(setting)}
         (fine, last, floor), way = self.reference, self.moment.way(setting)
@@ -96,7 +99,9 @@ class References:
         }
 
     def _verdict(self, setting) -> Error:
-        """Both worlds go the same way, as nobody is pushed; in some steps it is asked who meets whom."""
+        """Compare the pairs that meet with those of the exact world in some steps. Both worlds move alike: nothing is
+        pushed.
+        """
         told, true = self.moment.world(setting), self.moment.world(self.truth)
         wrong = missed = hits = said = 0
         pixels, failures = 0.0, Counter()
@@ -116,14 +121,16 @@ class References:
 
 
 def pairs_of(world: World) -> set[tuple[int, int]]:
-    """Ids of the bodies that meet, the smaller first: which of two is A goes by their shapes, which a tier replaces."""
-    contacts = world.contacts[world.contacts["separation"] <= 0.0]  # those that are about to meet are told too
+    """Return the pairs of body ids that meet, the smaller id first: shapes decide which body is A, and a tier replaces
+    them.
+    """
+    contacts = world.contacts[world.contacts["separation"] <= 0.0]  # contacts include pairs about to meet
     ids = np.sort(np.stack([contacts["body_a"], contacts["body_b"]], axis=1), axis=1)
     return set(map(tuple, ids.tolist()))
 
 
 def gap(world: World, first: int, second: int) -> float:
-    """[px] between two bodies, negative where they overlap: the least over their shapes."""
+    """Return the separation [px] of two bodies, the least over their shapes; negative if they overlap."""
     a, b = world.body(first), world.body(second)
     poses = [(body.position.x, body.position.y, body.angle) for body in (a, b)]
     return min(distance(s, poses[0], t, poses[1]).distance for s in a.shapes for t in b.shapes)

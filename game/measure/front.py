@@ -1,4 +1,4 @@
-"""Which of many (cost, error) points are worth having."""
+"""The Pareto front of (cost, error) points."""
 
 from collections.abc import Mapping
 from typing import TypeVar
@@ -8,7 +8,9 @@ TIE = 0.1  # costs that differ by less than this share are a tie, whatever their
 
 
 def pareto(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
-    """The names of the points that no other beats in both cost and error, the cheapest first."""
+    """Return the names of the points on the Pareto front (no other point has less cost and less error), the cheapest
+    first.
+    """
     front, least = [], float("inf")
     for name in sorted(points, key=lambda each: points[each]):
         if points[name][1] < least:
@@ -18,5 +20,5 @@ def pareto(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
 
 
 def cheaper(a: tuple[float, float], b: tuple[float, float]) -> bool:
-    """Whether a cost (least, median) is below another for sure: the intervals are apart, and by more than a tie."""
+    """Return whether cost a is certainly below b, both (least, median): the intervals are apart, by more than a tie."""
     return a[1] < b[0] and a[1] < (1.0 - TIE) * b[1]

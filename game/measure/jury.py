@@ -1,7 +1,7 @@
-"""What every tier of sprites says of the moments of a running world, beside their exact pixels.
+"""A comparison of all sprite tiers with the exact pixels, in a running world.
 
-A moment is taken, and in the following calls one tier after the other is asked who meets whom there: in a world of its
-own, so that nobody's verdict changes what happens. A tier a call keeps each call short.
+A moment is taken, and each of the following calls tests one tier at it. The test runs in a separate world, so it does
+not affect the scene. One tier per call keeps each call short.
 """
 
 from collections.abc import Sequence
@@ -19,22 +19,25 @@ Pairs = set[tuple[int, int]]  # ids of bodies
 
 
 class Jury:
-    """ask(world) once a step. `wrong`, `missed`: by tier, over all moments that all tiers were asked about.
+    """The reference tier against all others; call ask(world) once per step.
 
-    lit: the tier whose errors are kept to be drawn: `seen`, of the last moment, (told wrongly, else missed; outlines).
+    `wrong`, `missed`: rates by tier, over all moments at which every tier was tested. lit: the tier whose errors are
+    drawn. `seen`: the errors of that tier at the last moment, (True for a false hit, False for a missed hit; outlines).
     """
 
     def __init__(self, lit: str, tiers: Sequence[str] = TIERS) -> None:
         self.lit, self.seen = lit, list[tuple[bool, list[Any]]]()
         self.tiers = tuple(tier for tier in tiers if tier != TRUTH)
-        self.wrong = dict.fromkeys(self.tiers, Rate(0, 0))  # hits that are none, of all it told
-        self.missed = dict.fromkeys(self.tiers, Rate(0, 0))  # true hits that it did not tell, of all there were
+        self.wrong = dict.fromkeys(self.tiers, Rate(0, 0))  # false hits, of all reported hits
+        self.missed = dict.fromkeys(self.tiers, Rate(0, 0))  # missed hits, of all true hits
         self.moments = 0
         self._moment: Moment | None = None
         self._said: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Ask one more tier, of a new moment where all have been asked; True when the last one has answered."""
+        """Test one more tier, at a new moment if all tiers are done. Return whether this was the last tier of the
+        moment.
+        """
         if self._moment is None:
             self._moment, self._said = Moment(world.snapshot(), world.broadphase.name), {}
         waiting = [tier for tier in (TRUTH, *self.tiers) if tier not in self._said]
@@ -60,7 +63,7 @@ class Jury:
         return said
 
     def state(self) -> tuple[int, ...]:
-        """For a digest."""
+        """Return the numbers that belong to the digest of the scene."""
         rates = [*self.wrong.values(), *self.missed.values()]
         return self.moments, len(self._said), *(number for rate in rates for number in rate)
 

@@ -1,8 +1,10 @@
-"""`python -m game.measure.kernel_counts`: how many kernels each effect has compiled for it, told as lines of JSON.
+"""`python -m game.measure.kernel_counts`: the number of kernels compiled for each effect, as lines of JSON.
 
-Kernels run plain and note the types they are called with; nothing is compiled.
-One line on standard input: {"effects": names, "broadphase": name, "pieces": as physics.warmup takes them}. For each
-effect [name, kernels called with it and not without it] on standard output; nothing where there is no compiler.
+Kernels run as plain Python and record the types of their arguments; nothing is compiled.
+
+Standard input takes one line: {"effects": names, "broadphase": name, "pieces": as physics.warmup takes them}. Standard
+output gets one line per effect: [name, number of kernels called with it and not without it]. Without a compiler there
+is no output.
 """
 
 import json
@@ -18,14 +20,14 @@ from physics.warmup import run_warmup
 
 
 def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) -> frozenset:
-    """Return (kernel, types) of all that a world under effects may call."""
+    """Return the (kernel, types) that a world with these effects can call."""
     with tiers.collecting(all_calls=True) as found:
         run_warmup(effects, broadphase, pieces=pieces)
     return frozenset(found)
 
 
 def counts(effects: Effects, broadphase: str, pieces: Iterable[str] | None) -> Iterable[tuple[str, int]]:
-    """(effect, number of kernels that are there for it alone) of every effect."""
+    """Yield (effect, number of kernels that are compiled for it alone) for every effect."""
     wanted = None if pieces is None else tuple(pieces)
     known = cache(lambda each: called(each, broadphase, wanted))
     for name, (one, other) in sides_of(effects).items():
@@ -33,7 +35,7 @@ def counts(effects: Effects, broadphase: str, pieces: Iterable[str] | None) -> I
 
 
 def main() -> None:
-    """Count for one world, and end."""
+    """Count the kernels for one world, then exit."""
     order = json.loads(sys.stdin.readline())
     if physics.JIT:
         for found in counts(Effects.named(order["effects"]), order["broadphase"], order["pieces"]):

@@ -1,4 +1,4 @@
-"""What a scene wants to know is measured here and now, where nobody plays and there is time for it."""
+"""Synchronous measurement of a scene's requests, for runs without a player."""
 
 from game.measure.lanes import LaneFigures, measure_lanes
 from game.measure.tiers import measure_tiers
@@ -8,7 +8,7 @@ from game.wishes import Lanes, Sprites
 
 
 def know(scene: Scene) -> None:
-    """Measure what the scene wants to have measured, and is not known yet, into its `figures`."""
+    """Measure the scene's requests that have no figures yet, and store the results in its `figures`."""
     wish = scene.measured()
     if isinstance(wish, Sprites) and not scene.figures:
         measure_tiers(*wish, lambda figures: scene.figures.update({figures.tier: figures}))

@@ -1,4 +1,4 @@
-"""What a step of each of several lanes costs: warmed, in turns that are shuffled, in five runs of 60 steps and more."""
+"""The cost of a step of several measured runs (lanes): warmed up, in shuffled turns, five runs of 60 steps or more."""
 
 from collections.abc import Callable, Sequence
 from random import Random
@@ -11,12 +11,15 @@ from game.measure.timing import RUNS, Cost
 from game.wishes import Lane, Recipe
 from physics import Snapshot
 
-WARM_STEPS = 2  # before the first run: they compile
+WARM_STEPS = 2  # steps before the first run, which compile
 
 
 class LaneFigures(NamedTuple):
-    """cost: seconds a step, of the runs so far. overlap: the deepest while it was judged, farthest: that a body came in
-    a step of that time [px]; None: nobody asked."""
+    """The figures of one lane.
+
+    cost: seconds per step over the runs so far. overlap: the deepest overlap in the judged steps [px]. farthest: the
+    farthest that a body moved in one step [px]. Both are None if not requested.
+    """
 
     cost: Cost
     overlap: float | None = None
@@ -24,18 +27,19 @@ class LaneFigures(NamedTuple):
 
     @property
     def sure(self) -> bool:
-        """Whether it was run often enough."""
+        """True if the lane has enough runs."""
         return self.cost.runs >= RUNS
 
 
 def measure_lanes(
     lanes: Sequence[Lane], tell: Callable[[int, float, float | None, float | None], object], goes_on: Callable[[], bool]
 ) -> None:
-    """Measure run by run, as long as it goes on: tell(number, seconds a step, overlap, farthest) after each run.
+    """Measure run by run while goes_on(): tell(number, seconds per step, overlap, farthest) is called after each run.
 
-    The first turn goes in the order given. Overlaps and ways are looked at before it, not while time is taken.
+    The first turn keeps the given order. Overlaps and distances are measured before the first run, outside the timed
+    part.
     """
-    made: dict[str, Snapshot] = {}  # by recipe: several lanes begin with the same world
+    made: dict[str, Snapshot] = {}  # by recipe: several lanes start from the same world
     moments = [[Moment(_snapshot(each, made), lane.broadphase) for each in lane.snapshots] for lane in lanes]
     order, chance = list(range(len(lanes))), Random(0)
     seen: dict[int, tuple[float | None, float | None]] = {}
@@ -59,8 +63,11 @@ def _snapshot(given, made):
 
 
 def _judge(moment, judged):
-    """The deepest overlap of these steps, both counted, and the farthest that a body came in one [px]; None, None:
-    nobody asked."""
+    """Return the deepest overlap and the farthest motion of a body in one step [px], over the steps `judged` (both
+    inclusive).
+
+    Returns (None, None) if `judged` is None.
+    """
     if judged is None:
         return None, None
     first, last = judged

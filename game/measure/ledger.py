@@ -1,8 +1,9 @@
-"""The ledger of a scene's effects: what each changes over the bot's run, and what it takes of a step.
+"""The ledger of a scene's effects: the change that each makes in a run of the bot, and its time per step.
 
-The scene is played twice side by side, by the same keys, with one effect taken out, or put in. An effect goes with all
-that needs it, and comes with what it needs. One that comes has nothing to do: it finds gravity 0, friction 0 and so on
-in both, so that it may change nothing, and what it takes is the price of having it there.
+Two copies of the scene run side by side with the same input, one of them without one effect, or with one added. An
+effect is removed with all that need it, and added with all that it needs. An added effect has nothing to do: gravity 0,
+friction 0 and so on apply to both copies. The run must then stay the same, and the time is the price of declaring the
+effect.
 """
 
 from collections.abc import Callable
@@ -20,10 +21,10 @@ from physics import Effects, World
 from physics.tables.body import CONTINUOUS
 
 EFFECTS = tuple(field.name for field in fields(Effects))
-AFTER = 120  # steps that a run goes on after the two have parted: two seconds
+AFTER = 120  # frames that a run continues after the two copies differ: two seconds
 TOLD = ("begin", "persist", "end", "hits", "sensor_begin", "sensor_end")
-WORK = ("bodies_integrated", "narrow_tests", "solver_rows")  # counters that stand for what there is to do
-# Have no value at which they do nothing: put in they may change what happens, and it is told what.
+WORK = ("bodies_integrated", "narrow_tests", "solver_rows")  # counters that measure the amount of work
+# These effects have no neutral value: adding one may change the run, and the change is reported.
 NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
 
 
@@ -32,20 +33,21 @@ class Entry(NamedTuple):
 
     effect: str
     declared: bool
-    changed: tuple[str, ...]  # the effects that were taken out with it, itself first; put in: itself
-    refused: str  # why the scene cannot be built or played on without it, "": it can
-    moved: int | None  # frame after which some body is elsewhere, or other bodies are there
-    told: int | None  # frame after which other events are told
-    ruled: int | None  # frame after which the scene's own state is another
+    changed: tuple[str, ...]  # declared: the effects removed, this one first; undeclared: this effect
+    refused: str  # reason why the scene cannot be built or run without it; "" if it can
+    moved: int | None  # frame after which poses, velocities or body ids differ
+    told: int | None  # frame after which the events differ
+    ruled: int | None  # frame after which the scene's own state differs
     parted: int | None  # frame after which the digests differ
-    apart: float  # [px] root mean square over bodies that both have, AFTER frames after they parted, or at the end
+    # [px] root mean square distance of the bodies in both copies, AFTER frames after they differ, or at the end
+    apart: float
     worked: int  # bodies moved, pairs tested and rows solved in the run with it …
     worked_without: int  # … and without it
-    cost: float  # [s] median over the run's steps of what a step takes more with it; below 0: it saves
+    cost: float  # [s] median over the steps of the extra time with it; negative if it saves time
 
     @property
     def matters(self) -> bool:
-        """Whether the effect would be missed: of sleeping, whether it saves work."""
+        """True if the effect changes the run; for sleeping, if it saves work."""
         if self.refused:
             return True
         if self.effect == "sleeping":
@@ -54,8 +56,11 @@ class Entry(NamedTuple):
 
 
 def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER, seed: int = 1) -> Entry:
-    """Play a scene for so many frames, with an effect and without it; after: frames to go on once it is known what the
-    effect changes. Raises ValueError for a scene that cannot be built though all that it declares is there."""
+    """Run a scene for so many frames, with an effect and without it.
+
+    after: frames to continue once the change is known. Raises ValueError for a scene that cannot be built with all its
+    declared effects.
+    """
     declared = getattr(scene_class.effects, effect)
     if declared:
         one = scene_class
@@ -74,7 +79,7 @@ def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER
 
 
 def _compared(one, other_class, found, frames, after):
-    """The Entry, once the other side was played beside the one."""
+    """Return the Entry after running the other side next to the first."""
     try:
         other = Side(other_class, one.scene.seed)
     except ValueError as error:
@@ -84,7 +89,7 @@ def _compared(one, other_class, found, frames, after):
     for frame in range(1, frames + 1):
         keys = one.bot()
         try:
-            for side in (one, other) if frame % 2 else (other, one):  # who comes first finds the caches cold
+            for side in (one, other) if frame % 2 else (other, one):  # the first to step finds cold caches
                 side.step(keys)
         except ValueError as error:
             if side is one:
@@ -105,7 +110,7 @@ def _compared(one, other_class, found, frames, after):
 
 
 class Side:
-    """A scene being played. `seconds`: what its last step took; `worked`: what there was to do so far."""
+    """A running scene. `seconds`: time of its last step; `worked`: total of the WORK counters so far."""
 
     def __init__(self, scene_class: type[Scene], seed: int) -> None:
         self.scene = scene_class(seed)
@@ -113,19 +118,19 @@ class Side:
         self.seconds, self.worked = 0.0, 0
 
     def bot(self) -> InputFrame:
-        """What the scene's own bot presses next."""
+        """Return the next input of the scene's bot."""
         played = self.scene.bot()
         return played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
 
     def step(self, keys: InputFrame) -> None:
-        """One step. Raises ValueError for what the scene asks of effects that are not there."""
+        """Run one step. Raises ValueError if the scene uses an effect that is not declared."""
         self.inputs.set(keys)
         self.scene.step(self.inputs)
         self.seconds = sum(sum(world.profile.stages.values()) for world in self.scene.worlds)
         self.worked += sum(world.profile.counters[name] for world in self.scene.worlds for name in WORK)
 
     def moved(self) -> list[Any]:
-        """Who is where, bit by bit."""
+        """Return the ids, poses and velocities of all bodies, as bytes."""
         return [
             world.bodies[name].tobytes()
             for world in self.scene.worlds
@@ -133,22 +138,22 @@ class Side:
         ]
 
     def told(self) -> list[Any]:
-        """The events of the last step."""
+        """Return the events of the last step."""
         return [
             np.ascontiguousarray(getattr(world.events, name)).tobytes() for world in self.scene.worlds for name in TOLD
         ]
 
     def ruled(self) -> tuple[Any, ...]:
-        """What the scene knows besides its worlds."""
+        """Return the scene's state outside its worlds."""
         return self.scene.state()
 
     def parted(self) -> list[Any]:
-        """The digests, and what the scene knows."""
+        """Return the digests of the worlds, the scene's state and its random state."""
         return [*(world.digest() for world in self.scene.worlds), self.scene.state(), self.scene.random.getstate()]
 
 
 def root_mean_square(one: Scene, other: Scene) -> float:
-    """[px] how far the centres of the bodies that two scenes have, by world and id, are apart; 0 where none is."""
+    """Return the root mean square distance [px] of bodies present in both scenes, by world and id; 0 for none."""
     squares = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):
         a, b = ours.bodies, theirs.bodies
@@ -160,7 +165,7 @@ def root_mean_square(one: Scene, other: Scene) -> float:
 
 
 def variant(scene_class: type[Scene], effects: Effects, idle: str | None = None) -> type[Scene]:
-    """The scene with other effects declared; idle: an effect that is left nothing to do in its worlds."""
+    """Return the scene class with other declared effects. idle: an effect that has nothing to do in its worlds."""
     defined: dict[str, Any] = {"effects": effects}
     neutral = NEUTRAL.get(idle or "")
     if neutral is not None:
@@ -209,7 +214,7 @@ def _not_swept(world: World) -> None:
     world.bodies["bullet"] = False
 
 
-# Of the others (sensors, persist, one_way, carving) a scene that does not declare them has none.
+# The other effects (sensors, persist, one_way, carving) have nothing to do in a scene that does not declare them.
 NEUTRAL: dict[str, Callable[[World], None]] = {
     "gravity": _no_gravity,
     "drag": _no_drag,

@@ -1,4 +1,4 @@
-"""The machine that figures are from: facts about it, nothing that names it."""
+"""Facts about the machine that figures come from, without its name."""
 
 import os
 import platform
@@ -9,7 +9,7 @@ PACKAGES = ("numpy", "numba", "pygame-ce", "pygame", "pymunk")
 
 
 def machine() -> dict[str, Any]:
-    """Facts about where it runs; nothing that names it."""
+    """Return the facts about this machine, without its name."""
     return {
         "cpu": cpu_model(),
         "cores": os.cpu_count(),
@@ -20,7 +20,7 @@ def machine() -> dict[str, Any]:
 
 
 def cpu_model() -> str:
-    """The processor's own name, or its kind where the system does not tell."""
+    """Return the name of the processor, or its architecture if the system does not report one."""
     try:
         with open("/proc/cpuinfo", encoding="utf-8") as file:
             names = [line.split(":", 1)[1].strip() for line in file if line.startswith("model name")]
@@ -30,7 +30,7 @@ def cpu_model() -> str:
 
 
 def installed(package: str) -> str:
-    """The version of a package, "" when it is not there."""
+    """Return the version of a package; "" if it is not installed."""
     try:
         return metadata.version(package)
     except metadata.PackageNotFoundError:

@@ -1,7 +1,7 @@
-"""One moment of a world, to be stepped on under other settings: what a step costs there, and where it leads.
+"""One moment of a world, stepped under other settings: the cost of a step and the resulting motion.
 
-The scene's own rules take no part: bodies go on with the velocities that they have, so that all settings do the same
-work, and what is timed is the physics and nothing else. Times and ways are never taken in one pass.
+The scene's rules do not run: bodies keep their velocities. So every setting does the same work, and only the physics is
+timed. Times and motions are never taken in the same run.
 """
 
 from collections import Counter
@@ -17,7 +17,7 @@ from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
 
 
 class Moment:
-    """A snapshot, and the settings under which it was taken: `here`. broadphase: the name of the strategy there."""
+    """A snapshot and its settings (`here`). broadphase: the name of the strategy at that moment."""
 
     def __init__(self, snapshot: Snapshot, broadphase: str) -> None:
         facts = snapshot.facts
@@ -28,12 +28,12 @@ class Moment:
         self.here = setting_of(self.effects, broadphase, facts["solver"], facts["substeps"], tier)
 
     def world(self, setting: Setting) -> World:
-        """The world of this moment under a setting."""
+        """Return the world of this moment under a setting."""
         facts = self.snapshot.facts
         strategy = BROADPHASES[setting.broadphase]()
         world = World(self.effects, strategy, pixels_per_meter=facts["pixels_per_meter"])
         world.restore(self.snapshot)
-        # Another solver wakes all; the one that the snapshot brings lets them sleep on.
+        # Setting another solver wakes all bodies; keeping the solver of the snapshot lets them sleep.
         if setting.solver is not None and setting.solver != world.solver:
             world.solver = setting.solver
         if setting.substeps is not None and setting.substeps != world.substeps:
@@ -46,10 +46,11 @@ class Moment:
         return world
 
     def time_run(self, setting: Setting, steps: int = STEPS, stage: str | None = None, act: Act | None = None) -> float:
-        """Seconds a step of one run from this moment on. The first run of a setting also compiles: leave it out.
+        """Return the seconds per step of one run from this moment. The first run of a setting also compiles: do not
+        count it.
 
-        stage: only what this stage took, 0 where the step has none of that name; None: the whole step. act: what is
-        done in place of steps, after one step, from which the broad phase knows what there is, and one untimed call.
+        stage: time this stage only, 0 if the step has no stage of that name; None: time the whole step. act: time this
+        action instead of steps. It runs after one step, which fills the broad phase, and one untimed call.
         """
         world = self.world(setting)
         if stage is not None:
@@ -62,21 +63,21 @@ class Moment:
         return seconds_a_step(do, steps)
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
-        """Where the bodies go from this moment on; divided: each step is made in so many."""
+        """Return the motion of the bodies from this moment. divided: number of steps that replace one step."""
         world = self.world(setting)
         return follow(world, steps, divided)
 
 
 class Way(NamedTuple):
-    """Where all bodies were after each step, and what was seen on the way."""
+    """The positions of all bodies after each step, with overlaps and failures."""
 
     places: np.ndarray  # (steps, bodies, 2) centres of mass [px], in the order of ids
     moves: np.ndarray  # (bodies,) bool: dynamic
-    overlap: np.ndarray  # (steps,) the deepest that contacts tell [px]
-    failures: dict[str, int]  # cap hits, bodies put aside, steps with a place that is not finite
+    overlap: np.ndarray  # (steps,) the deepest overlap of the contacts [px]
+    failures: dict[str, int]  # cap hits, quarantined bodies, steps with a non-finite position
 
     def apart(self, other: "Way") -> np.ndarray:
-        """(steps,) root mean square over the moving bodies of how far this way is from another [px]."""
+        """Return (steps,) root mean square distance to another run over the dynamic bodies [px]."""
         gaps = self.places[:, self.moves] - other.places[: len(self.places), self.moves]
         if not gaps.size:
             return np.zeros(len(self.places))
@@ -84,7 +85,7 @@ class Way(NamedTuple):
 
 
 def follow(world: World, steps: int, divided: int = 1) -> Way:
-    """Step a world and note its way."""
+    """Step a world and record the motion of its bodies."""
     places, overlap = [], []
     failures = Counter()
     dt = world.dt / divided
@@ -105,16 +106,16 @@ def follow(world: World, steps: int, divided: int = 1) -> Way:
 
 
 def failures_of(world: World) -> Counter[str]:
-    """What went wrong in the last step, by how often; what did not is not there."""
+    """Return the counts of failures in the last step; absent keys are 0."""
     return +Counter(cap_hits=world.profile.counters["cap_hits"], put_aside=len(world.events.quarantined))
 
 
 def here_of(world: World, tier: str | None) -> Setting:
-    """The setting under which a world runs; tier: of its sprites, None where they have none."""
+    """Return the setting of a running world. tier: of its sprites, None if it has none."""
     return setting_of(world.effects, world.broadphase.name, world.solver, world.substeps, tier)
 
 
 def setting_of(effects: Effects, broadphase: str, solver: str, substeps: int | str, tier: str | None) -> Setting:
-    """A Setting without what the effects have no use for."""
+    """Return a Setting without the fields that the effects do not use."""
     used = solver if effects.response else None
     return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier)

@@ -1,7 +1,7 @@
-"""Many pairs of the same two things at poses of their own, without a world: who meets, all asked at once.
+"""A batch of collision tests: many pairs of the same two things at individual poses, without a world.
 
-A thing is one shape or several, whose union it is. What a broad phase would keep of a pair (parts whose boxes meet) is
-found when the batch is made; `test` is the narrow phase alone, so its time is that of so many verdicts.
+A thing is one shape or the union of several. The overlap test of the boxes, which a broad phase would do, runs once
+when the batch is made. `test` is the narrow phase alone, so its time is the time of that many tests.
 """
 
 from collections.abc import Sequence
@@ -20,8 +20,11 @@ from physics.tables.shape import SHAPE
 
 
 class PairBatch:
-    """`len()` pairs; poses (n, 3): x, y [px], angle [rad]. Their rows stand in an order drawn by `seed`, as in a world
-    that has been played in. Raises TypeError, ValueError."""
+    """A batch of `len()` pairs. poses: (n, 3) x, y [px], angle [rad].
+
+    The rows of the bodies are in a random order drawn from `seed`, as in a world after some play. Raises TypeError or
+    ValueError.
+    """
 
     def __init__(
         self,
@@ -64,7 +67,7 @@ class PairBatch:
         self.bodies["id"][who] = who
 
     def _near(self, rows_a, rows_b, rng):
-        """(candidates (m, 2) SHAPE rows whose boxes meet, the pair that each belongs to), in an order by chance."""
+        """Return (candidates (m, 2) SHAPE rows whose boxes overlap, the pair of each), in random order."""
         candidates, pairs = [], []
         for a in rows_a:
             for b in rows_b:
@@ -75,18 +78,18 @@ class PairBatch:
                 candidates.append(np.stack([a[near], b[near]], axis=1))
                 pairs.append(near)
         both, owner = np.concatenate(candidates).astype(np.int64), np.concatenate(pairs)
-        # The parts of a pair stay together, as they do in a list of pairs.
+        # The candidates of one pair stay together, as in a list of pairs.
         turn = np.argsort(rng.permutation(self.count)[owner], kind="stable")
         return np.ascontiguousarray(both[turn]), owner[turn]
 
     def test(self) -> int:
-        """Test all pairs; the number of manifolds. What took the time is the narrow phase and nothing else."""
+        """Test all pairs with the narrow phase, and nothing else. Return the number of manifolds."""
         candidates, work = self.candidates, no_work()
         self.found = self.narrow_phase.collide(self.library, self.bodies, self.shapes, candidates, 0.0, work)
         return len(self.found)
 
     def met(self) -> np.ndarray:
-        """(n,) bool: which pairs met in the last test(), in the order of the poses."""
+        """Return (n,) bool: whether each pair touched in the last test(), in the order of the poses."""
         met = np.zeros(self.count, bool)
         if len(self.found):
             met[self.pair_of[self.found["candidate"]]] = True

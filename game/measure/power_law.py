@@ -5,19 +5,22 @@ from typing import NamedTuple
 
 
 class PowerLaw(NamedTuple):
-    """exponent, its standard error, and the cost at size 1 [what the costs were in]."""
+    """exponent, its standard error, and factor: the cost at size 1 [unit of the costs]."""
 
     exponent: float
     error: float
     factor: float
 
     def at(self, size: float) -> float:
-        """The cost of a size."""
+        """Return the cost at a size."""
         return self.factor * size**self.exponent
 
 
 def fit_power_law(points: list[tuple[float, float]]) -> PowerLaw:
-    """Through (size, cost) points. Raises ValueError for fewer than three sizes (two leave no error), or one <= 0."""
+    """Fit a power law to (size, cost) points.
+
+    Raises ValueError for fewer than three sizes (two leave no error), or for a value <= 0.
+    """
     if len({size for size, _ in points}) < 3 or min(map(min, points)) <= 0.0:
         raise ValueError(f"a power law needs three sizes and costs above 0 (got {points})")
     n = len(points)

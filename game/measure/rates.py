@@ -1,4 +1,4 @@
-"""A rate that was counted, with the interval that it lies in."""
+"""A counted rate with its confidence interval."""
 
 from math import sqrt
 from typing import NamedTuple
@@ -7,19 +7,19 @@ SURE = 1.96  # standard deviations: 95 %
 
 
 class Rate(NamedTuple):
-    """`count` of `total`."""
+    """A rate of `count` out of `total`."""
 
     count: int
     total: int
 
     @property
     def share(self) -> float:
-        """0..1; 0 where nothing was counted."""
+        """The rate, 0..1; 0 if nothing was counted."""
         return self.count / self.total if self.total else 0.0
 
     @property
     def interval(self) -> tuple[float, float]:
-        """Where the true rate lies in 95 % of such counts (Wilson 1927); anywhere where nothing was counted."""
+        """The 95 % confidence interval of the rate (Wilson 1927); (0, 1) if nothing was counted."""
         if not self.total:
             return 0.0, 1.0
         n, p, z = self.total, self.share, SURE

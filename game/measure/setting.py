@@ -1,4 +1,4 @@
-"""What of a world can be set, and what to try: one thing changed at a time."""
+"""The settings of a world, and the settings to try: one change at a time."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -7,11 +7,11 @@ from game.drawing.number_text import count_text, plain_name
 from game.scene import SUBSTEPS
 from physics import BROADPHASES, SOLVERS, TIERS, Effects
 
-SUBSTEPPED = ("soft_step", "sequential_impulse")  # solvers that substeps, or passes in their place, mean something to
+SUBSTEPPED = ("soft_step", "sequential_impulse")  # solvers that use substeps, or passes in their place
 
 
 class Setting(NamedTuple):
-    """A world's settings that trade accuracy for time. None: it has no such thing."""
+    """The settings of a world that trade accuracy for time. None: not applicable."""
 
     broadphase: str
     narrowphase: bool
@@ -20,14 +20,14 @@ class Setting(NamedTuple):
     tier: str | None = None
 
     def differs(self, other: "Setting") -> tuple[str, ...]:
-        """Names of the fields that differ."""
+        """Return the names of the fields that differ."""
         return tuple(name for name in self._fields if getattr(self, name) != getattr(other, name))
 
     def label(self, other: "Setting") -> str:
-        """What it does otherwise than another, in a few words; "as it is" where nothing."""
+        """Return the differences from another setting in a few words; "as it is" if there are none."""
         names = self.differs(other)
         words = [_WORDS[name](value) for name in names if (value := getattr(self, name)) is not None]
-        if "solver" in names and self.substeps is not None:  # so many of it, said shortly
+        if "solver" in names and self.substeps is not None:  # the number follows the solver's name without a unit
             words = [word for name, word in zip(names, words, strict=False) if name != "substeps"]
             words[-1] += f", {'by load' if self.substeps == 'auto' else self.substeps}"
         return ", ".join(words) or "as it is"
@@ -43,7 +43,9 @@ _WORDS = {
 
 
 def settings_around(here: Setting, effects: Effects) -> list[Setting]:
-    """`here`, then each with one thing changed, solvers with every number of substeps; what is cheap to tell first."""
+    """Return `here`, then settings with one change each; solvers with every number of substeps. Kinds of change
+    alternate.
+    """
     rows = [list(_solvers(here, effects)), list(_tiers(here)), list(_broadphases(here)), list(_narrow(here))]
     found = [here]
     while any(rows):

@@ -1,4 +1,4 @@
-"""How two shapes are told apart, step by step, for drawing: separating axes, and the rounds of GJK and EPA."""
+"""Traces of separating axes, GJK and EPA, step by step, for drawing."""
 
 import numpy as np
 
@@ -36,7 +36,7 @@ from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, Tile
 from physics.tables.shape import SHAPE
 
 # ---- pair axes -------------------------------------------------------------------------------------------------------
-# Every axis that could part two convex shapes, as the separating axis test sees them: for drawing.
+# The axes that the separating axis test tries for two convex shapes, for drawing.
 
 AXIS = np.dtype(
     [
@@ -46,14 +46,14 @@ AXIS = np.dtype(
         ("owner", np.int64),  # 0: an edge of A, 1: of B
         ("edge", np.int64),
     ]
-)  # its first corner; -1: no edge, the way between the nearest corners
+)  # edge: its first corner; -1: no edge, the direction between the nearest corners
 HULLS = (Circle, Capsule, Segment, Polygon, Bounds)
 
 
 def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.ndarray:
-    """(n,) AXIS rows of two shapes at poses (x, y) or (x, y, angle), the axis that separates most first.
+    """Return (n,) AXIS rows of two shapes at poses (x, y) or (x, y, angle), the largest separation first.
 
-    The greatest separation is the distance, or minus the depth. Raises TypeError for what is no convex shape.
+    The largest separation is the distance, or minus the depth. Raises TypeError for a shape that is not convex.
     """
     a, b = _core("shape_a", shape_a, "pose_a", pose_a), _core("shape_b", shape_b, "pose_b", pose_b)
     rows = []
@@ -84,7 +84,7 @@ def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.n
 
 
 def _core(name, shape, pose_name, pose):
-    """(world corners (n, 2), radius) of a convex shape at a pose [px]."""
+    """Return (world corners (n, 2), radius) of a convex shape at a pose [px]."""
     if not isinstance(shape, HULLS) or (isinstance(shape, Bounds) and not isinstance(shape.shape, HULLS)):
         raise TypeError(
             f"{name} must be a Circle, Capsule, Segment, Polygon or Bounds of one (got {checks.shown(shape)})"
@@ -98,13 +98,13 @@ def _core(name, shape, pose_name, pose):
 
 
 # ---- trace -----------------------------------------------------------------------------------------------------------
-# GJK and EPA round by round, as lists to draw: calls the very functions that run inside, one round at a time.
+# GJK and EPA round by round, for drawing: one call per round of the functions that the physics runs.
 
 
 def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> list[dict]:
-    """The rounds of GJK, and of EPA when they overlap, between the cores of two convex shapes, as steps_of gives them.
+    """Return the rounds of GJK between the cores of two convex shapes, and of EPA if they overlap, as steps_of does.
 
-    Points are seen from A's origin. Raises TypeError for shapes that are not convex, ValueError.
+    Points are relative to the origin of A. Raises TypeError for shapes that are not convex, ValueError.
     """
     for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
         if isinstance(shape, (TileGrid, PixelMask, Chain)):
@@ -115,11 +115,11 @@ def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> lis
 
 
 def steps_of(a: np.ndarray, b: np.ndarray) -> list[dict]:
-    """What is known after each round for two hulls of corners (n, 2) [px], radii left out.
+    """Return the state after each round for two hulls of corners (n, 2) [px], without radii.
 
-    "phase" gjk or epa; "simplex" (k, 2) and, in epa, "polytope" (k, 2): points of the difference A - B; "witness": the
-    nearest points so far on A and on B; "direction": unit, searched next; "distance" so far, negative when they
-    overlap.
+    "phase": gjk or epa. "simplex" (k, 2) and, in epa, "polytope" (k, 2): points of the difference A - B. "witness": the
+    nearest points so far on A and on B. "direction": the unit direction of the next search. "distance": so far,
+    negative if they overlap.
     """
     a, b = (np.ascontiguousarray(each, np.float64) for each in (a, b))
     workspace = new_gap_workspace()
@@ -131,7 +131,7 @@ def steps_of(a: np.ndarray, b: np.ndarray) -> list[dict]:
         if status == TOUCHING:
             found.append(_step("gjk", before, workspace, 0.0))
             break
-        # The round may have added a corner behind what it measured: that belongs to the next round.
+        # The round may have added a corner after its measurement; that corner belongs to the next round.
         kept = workspace.simplex.copy(), workspace.state.copy()
         if status == SEARCHING:
             workspace.state[COUNT] -= 1.0

@@ -1,6 +1,6 @@
-"""A world's step made from outside, stage by stage: other stages than its own, and each timed by the processor's time.
+"""A world's step run from outside, stage by stage: stages can be replaced, and each is timed by processor time.
 
-`world.profile` goes by the clock on the wall, which goes on while others have the processor.
+`world.profile` uses wall-clock time, which includes the time of other processes.
 """
 
 from collections.abc import Sequence
@@ -13,14 +13,16 @@ from physics.tables.step_state import Stage
 
 
 def stages_of(world: World, *instead: Stage) -> tuple[Stage, ...]:
-    """Those of a world without characters, but for others that take the place of who has their name."""
+    """Return the stages of a world without characters; a stage of `instead` replaces the stage of the same name."""
     others = {stage.stage: stage for stage in instead}
     own = plan(world.effects, world.solver, characters=False).stages
     return tuple(others.get(stage.stage, stage) for stage in own)
 
 
 def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, Any] | None = None) -> None:
-    """What `world.step(dt)` does, in these stages; spent [s]: what each takes is added to there, where it is."""
+    """Step the world as `world.step(dt)` does, with these stages. The time of each stage [s] is added to spent, if
+    given.
+    """
     world.profile.begin([stage.stage for stage in stages])
     state = begin(world, dt)
     for stage in stages:
@@ -32,7 +34,7 @@ def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, A
 
 
 def seconds_of_stage(world: World, name: str, steps: int) -> float:
-    """What a stage takes a step, the mean of so many. Raises KeyError where the world has none of that name."""
+    """Return the mean time of a stage per step [s]. Raises KeyError if the world has no stage of that name."""
     stages, spent = stages_of(world), {}
     with undisturbed():
         for _ in range(steps):

@@ -1,6 +1,6 @@
-"""The stacking solvers with a part more often or left out, so that what each part is worth can be measured.
+"""Variants of the stacking solvers with a part repeated or left out, to measure the effect of each part.
 
-No world is set to any of these: a stage made here takes the place of the solver's own in a list of stages.
+No world is set to a variant: a stage made here replaces the solver's own in a list of stages.
 """
 
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from physics.tables.step_state import Stage, StepState, stage
 
 
 def sequential_impulse(passes: int, warm: bool = True) -> Stage:
-    """The stage with so many passes a step, which may start from no impulse (warm=False)."""
+    """Return the stage with a number of passes per step. warm=False: each step starts from zero impulses."""
     solve = partial(solve_in_passes, passes=passes, warm=warm)
 
     @stage("sequential_impulse", reads=READS, writes=WRITES)
@@ -25,9 +25,11 @@ def sequential_impulse(passes: int, warm: bool = True) -> Stage:
 
 
 def soft_step(iterations: int = 1, warm: bool = True, relaxed: bool = True) -> Stage:
-    """The stage with so many pushing passes a substep; not warm: each substep starts from no impulse; not relaxed: what
-    pushed overlaps out stays in the velocities, and friction is in the pushing pass. Raises ValueError for several
-    passes that are not relaxed."""
+    """Return the stage with a number of solve passes per substep.
+
+    warm=False: each substep starts from zero impulses. relaxed=False: the velocity that separates overlaps is kept, and
+    friction is solved in the solve pass. Raises ValueError for several passes without relaxing.
+    """
     if iterations > 1 and not relaxed:
         raise ValueError(f"impulses are counted once: without relaxing there is one iteration (got {iterations})")
     solve = partial(solve_in_substeps, kernels=_kernels(iterations, warm, relaxed))

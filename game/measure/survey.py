@@ -1,4 +1,4 @@
-"""What is known of a scene's settings: a dot of cost and error each, gathered run by run and moment by moment."""
+"""The measured settings of a scene: a dot of cost and error each, gathered run by run and moment by moment."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -13,34 +13,37 @@ from game.measure.timing import RUNS, Cost
 
 @dataclass
 class Dot:
-    """One setting. spent: seconds a step, by moment and run; errors: by moment. Both are told by methods: what follows
-    from them is asked several times in every picture of the plot, and worked out once."""
+    """The measurements of one setting.
+
+    spent: seconds per step, by moment and run. errors: by moment. Pooled values are cached, because the plot reads each
+    several times per frame.
+    """
 
     setting: Setting
     spent: dict[int, list[float]] = field(default_factory=dict)
     errors: dict[int, dict[str, Error]] = field(default_factory=dict)
     steps: int = 0  # of one run
-    _known: dict[Any, Any] = field(default_factory=dict)  # what was worked out: "cost", and ("error", its kind)
+    _known: dict[Any, Any] = field(default_factory=dict)  # cached results: "cost", and ("error", kind)
 
     def took(self, moment: int, seconds: float) -> None:
-        """One more run of a moment took so long a step."""
+        """Add a run of a moment, in seconds per step."""
         self.spent.setdefault(moment, []).append(seconds)
         self._known.clear()
 
     def erred(self, moment: int, errors: dict[str, Error]) -> None:
-        """What the errors of a moment are."""
+        """Set the errors of a moment."""
         self.errors[moment] = errors
         self._known.clear()
 
     @property
     def cost(self) -> Cost | None:
-        """Seconds a step: the mean over the moments of what each took; None before the first run."""
+        """Seconds per step: the mean over the moments; None before the first run."""
         if "cost" not in self._known:
             self._known["cost"] = self._pooled_cost()
         return self._known["cost"]
 
     def error(self, kind: str) -> Error | None:
-        """The error over all moments; None before the first."""
+        """Return the error over all moments; None before the first."""
         if ("error", kind) not in self._known:
             self._known["error", kind] = self._pooled_error(kind)
         return self._known["error", kind]
@@ -55,7 +58,7 @@ class Dot:
 
     @property
     def sure(self) -> bool:
-        """Whether every moment was run often enough."""
+        """True if every moment has enough runs."""
         return bool(self.spent) and all(len(runs) >= RUNS for runs in self.spent.values())
 
     def _pooled_error(self, kind):
@@ -86,7 +89,7 @@ def _decided(error):
 
 
 class Survey:
-    """The dots of one scene, in the order in which they came, and what follows from them."""
+    """The dots of one scene in order of arrival, and the conclusions from them."""
 
     def __init__(self) -> None:
         self.dots: dict[Setting, Dot] = {}
@@ -95,11 +98,11 @@ class Survey:
         self.planned = 0  # settings that are being measured
 
     def dot(self, setting: Setting) -> Dot:
-        """The dot of a setting, a new one where there is none."""
+        """Return the dot of a setting; a new one if there is none."""
         return self.dots.setdefault(setting, Dot(setting))
 
     def known(self, kind: str) -> dict[Setting, tuple[Cost, Error]]:
-        """The settings whose cost and error are known."""
+        """Return the settings with a cost and an error of this kind."""
         found = {}
         for setting, dot in self.dots.items():
             cost, error = dot.cost, dot.error(kind)
@@ -108,11 +111,13 @@ class Survey:
         return found
 
     def front(self, kind: str) -> list[Setting]:
-        """The settings that none beats in cost and error, the cheapest first. What cannot be told from none is none."""
+        """Return the Pareto front of the settings by cost and error, the cheapest first. Errors below their floor count
+        as 0.
+        """
         return pareto({s: (cost.median, told(error)) for s, (cost, error) in self.known(kind).items()})
 
     def finding(self, kind: str, here: Setting) -> str:
-        """One sentence about the present setting, from what is measured; "" while too little is."""
+        """Return one sentence about the present setting from the measurements; "" if there are too few."""
         known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
         if here not in known or len(known) < 2:
             return ""
@@ -135,17 +140,17 @@ class Survey:
 
 
 def told(error: Error) -> float:
-    """The error as far as the reference can tell: 0 below its floor."""
+    """Return the error [px], or 0 if it is below the floor of its reference."""
     return error.value if error.told else 0.0
 
 
 def shown(error: Error) -> str:
-    """The error in words."""
+    """Return the error in words."""
     if error.told:
         return f"{error.value:.2g} px"
     return f"less than {error.floor:.2g} px" if error.floor else "0 px"
 
 
 def is_sound(error: Error) -> bool:
-    """Whether nothing failed on the way."""
+    """Return whether the run had no failures."""
     return not any(error.failures.values())

@@ -1,4 +1,4 @@
-"""The process that measures, seen from the game: it is handed moments and fills a Survey."""
+"""The measuring process as seen from the game: it takes moments and fills a Survey."""
 
 import contextlib
 import json
@@ -30,29 +30,30 @@ from physics.jit.workers import end_all, start_module
 
 
 class Surveyor:
-    """measure() hands on a moment, turn() takes what was found since into `survey`. `trouble`: why nothing is.
+    """The client of the measuring process: measure() sends a moment, turn() moves the results into `survey`.
 
-    The process starts with the first order, and again with the first after stop().
+    `trouble`: the reason why nothing is measured. The process starts with the first order, and again with the first
+    order after stop().
     """
 
     def __init__(self) -> None:
         self.survey = Survey()
-        self.here: Setting | None = None  # under which the last moment was taken
+        self.here: Setting | None = None  # setting of the last moment
         self.busy = False
         self.trouble = ""
-        self.revision = 0  # counts what was found
-        # Of the sprites or the lanes that were asked for, as far as they are known, by tier or by name.
+        self.revision = 0  # counts the results
+        # Figures of the requested sprites or lanes so far, by tier or by name.
         self.figures: dict[Hashable, TierFigures | LaneFigures] = {}
         self.asked: list[tuple[list[Hashable], list[Lane]]] = []  # lanes, order by order
-        self.runs: dict[Hashable, list[float]] = {}  # of lanes, seconds a step
-        self.latest: int | str | None = None  # what the last order is called
-        self.effects: dict[str, EffectCost] = {}  # once they were asked for, as far as they are known
+        self.runs: dict[Hashable, list[float]] = {}  # of lanes, seconds per step
+        self.latest: int | str | None = None  # identifier of the last order
+        self.effects: dict[str, EffectCost] = {}  # costs of effects once requested, as far as measured
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
-        self.folder: tempfile.TemporaryDirectory[str] | None = None  # what is handed on lies there
+        self.folder: tempfile.TemporaryDirectory[str] | None = None  # folder of the files that orders name
         self.process: subprocess.Popen[str] | None = None
 
     def measure(self, snapshot: Snapshot, broadphase: str) -> None:
-        """Measure this moment too, instead of the one before if that is not done."""
+        """Measure this moment too; it replaces an unfinished earlier order."""
         if not self._started():
             return
         self.survey.moments += 1
@@ -61,7 +62,7 @@ class Surveyor:
         self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def measure_sprites(self, first: PixelMask, second: PixelMask) -> None:
-        """Measure every tier of two sprites: `figures`."""
+        """Measure every tier of two sprites; the results go to `figures`."""
         if not self._started():
             return
         self.figures, self.latest = {}, "sprites"
@@ -71,7 +72,9 @@ class Surveyor:
         _hand_on(self.process, order, partial(np.savez, order["sprites"], **arrays), self.found)
 
     def measure_lanes(self, wish: Lanes) -> None:
-        """Measure the lanes of a wish that are not known yet, instead of what was asked for before: `figures`."""
+        """Measure the lanes of a request that have no figures yet; the results go to `figures`. Replaces an earlier
+        order.
+        """
         names = [name for name in wish.names if not self.knows(name)]
         if not names or not self._started():
             return
@@ -88,8 +91,10 @@ class Surveyor:
         self._hand_on_beside(order, lambda: [each.save(paths[id(each)]) for each in snapshots])
 
     def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
-        """Measure what each effect costs at this moment, and how many kernels it has compiled: `effects`. pieces: what
-        of the physics the scene meets, as physics.warmup takes it."""
+        """Measure the cost of each effect at this moment and count its compiled kernels; the results go to `effects`.
+
+        pieces: the parts of the physics that the scene uses, as physics.warmup takes them.
+        """
         if not self._started():
             return
         declared = snapshot.facts["effects"]
@@ -104,12 +109,12 @@ class Surveyor:
         self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def knows(self, name: Hashable) -> bool:
-        """Whether a lane of this name was run often enough."""
+        """Return whether a lane of this name has enough runs."""
         figures = self.figures.get(name)
         return isinstance(figures, LaneFigures) and figures.sure
 
     def _started(self):
-        """Start the process where there is none; whether there is one, which is then busy."""
+        """Start the process if there is none and mark it busy. Return whether it runs."""
         if self.process is None:
             try:
                 self.process = start_module(f"{__package__}.worker")
@@ -118,30 +123,30 @@ class Surveyor:
                 self.stop()
                 self.trouble = f"the process that measures could not be started: {error}"
                 return False
-            self.found = queue.SimpleQueue()  # what an earlier process tells last is of no use
-            # The thread does not hold the surveyor: whoever forgets to stop it leaves no process behind.
+            self.found = queue.SimpleQueue()  # discards the last results of an earlier process
+            # The thread holds no reference to the surveyor, so that its finalizer ends a process that was not stopped.
             threading.Thread(target=_listen, args=(self.process, self.found), daemon=True).start()
             weakref.finalize(self, self.process.kill)
         self.busy = True
         return True
 
     def _hand_on_beside(self, order, save):
-        """Off the frame: packing the pixels of a level takes longer than one."""
+        """Send an order from a thread: compressing the pixels of a level takes longer than a frame."""
         args = self.process, order, save, self.found
         threading.Thread(target=_hand_on, args=args, name="hand on", daemon=True).start()
 
     def _path(self, name):
-        assert self.folder is not None  # as long as there is a process
+        assert self.folder is not None  # there is a folder while there is a process
         return str(Path(self.folder.name) / name)
 
     def turn(self) -> None:
-        """Take what was found since the last turn; once per picture."""
+        """Take the results since the last turn; call once per frame."""
         with contextlib.suppress(queue.Empty):
             while True:
                 self._take(self.found.get_nowait())
 
     def wait(self, seconds: float) -> None:
-        """Take what is found until the moment is done, for so long at most."""
+        """Take results until the moment is done, for so many seconds at most."""
         end = monotonic() + seconds
         with contextlib.suppress(queue.Empty):
             while self.busy:
@@ -186,7 +191,7 @@ class Surveyor:
         self.figures[names[lane]] = LaneFigures(Cost.of(runs, steps), overlap, farthest)
 
     def stop(self) -> None:
-        """End the process; what was found stays."""
+        """End the process; the results stay."""
         process, self.process = self.process, None
         folder, self.folder = self.folder, None
         self.busy = False
@@ -197,7 +202,7 @@ class Surveyor:
 
 
 def _hand_on(process, order, save, found):
-    """Save what an order names, and give it. A process that is gone is told of by who listens to it."""
+    """Save the files of an order, then send it. The listening thread reports a process that has ended."""
     try:
         save()
     except (OSError, ValueError) as error:
@@ -210,7 +215,7 @@ def _hand_on(process, order, save, found):
 
 
 def _listen(process, found):
-    with contextlib.suppress(ValueError):  # whoever ends the process closes what is read here
+    with contextlib.suppress(ValueError):  # ending the process closes this stream
         for line in process.stdout:
             with contextlib.suppress(ValueError):
                 found.put(json.loads(line))
@@ -218,13 +223,13 @@ def _listen(process, found):
 
 
 def figures_of(values: list[Any]) -> TierFigures:
-    """A TierFigures from what JSON made of it."""
+    """Return a TierFigures from its JSON form."""
     tier, shapes, hit, miss, wrong, missed, build, fit = values
     costs, rates = (Cost(*hit), Cost(*miss)), (Rate(*wrong), Rate(*missed))
     return TierFigures(tier, shapes, *costs, *rates, Cost(*build), Fit(*fit))
 
 
 def error_of(values: dict[str, Any]) -> Error:
-    """An Error from what JSON made of it."""
+    """Return an Error from its JSON form."""
     wrong, missed = (None if values[name] is None else Rate(*values[name]) for name in ("wrong", "missed"))
     return Error(values["value"], values["floor"], values["steps"], values["failures"], wrong, missed)

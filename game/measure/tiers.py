@@ -1,8 +1,8 @@
-"""What every tier of two sprites costs and how often it is wrong, over poses around each other.
+"""The cost and the error rates of every tier of two sprites, over random relative poses.
 
-The poses are drawn evenly from a disc of offsets and all angles, the disc so large that about half of them are hits:
-rates mean nothing without the share of hits in what they were counted on (hard_cases.md, section 3.2, chart 1). The
-truth is the exact test of pixel squares; hits and misses are timed apart, each on its own batch of real pairs.
+Poses are drawn uniformly from a disc of offsets and all angles. The disc is so large that about half of them are hits:
+error rates mean nothing without the share of hits among the tested poses. The reference is the exact test of pixel
+squares. Hits and misses are timed separately, each on a batch of real pairs.
 """
 
 from collections.abc import Callable, Sequence
@@ -17,26 +17,26 @@ from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
 from physics import TIERS, Fit, PixelMask, fit, measure
 
 POSES = 4000
-WANTED = 0.5  # of the poses are hits
-HALVINGS = 12  # of the interval in which the disc's radius is sought
-REPEATS = 3  # of a batch in a run: 40 us alone would be short for a clock
+WANTED = 0.5  # share of the poses that are hits
+HALVINGS = 12  # bisection steps for the radius of the disc
+REPEATS = 3  # tests of a batch per run: 40 us alone would be short for a clock
 
 
 class TierFigures(NamedTuple):
-    """One tier beside the exact mask. Costs are seconds a pair."""
+    """One tier compared with the exact mask. Costs are seconds per pair."""
 
     tier: str
-    shapes: int  # that stand for the first sprite
+    shapes: int  # number of shapes that represent the first sprite
     hit: Cost
     miss: Cost
-    wrong: Rate  # hits that are none, of all that it calls hits
-    missed: Rate  # true hits that it calls none, of all true hits
-    build: Cost  # seconds to make the shapes of the first sprite, from its pixels
-    fit: Fit  # how well they stand for it
+    wrong: Rate  # false hits, of all reported hits
+    missed: Rate  # missed hits, of all true hits
+    build: Cost  # seconds to build the shapes of the first sprite from its pixels
+    fit: Fit  # quality of the fit
 
 
 class Poses(NamedTuple):
-    """(n, 3) poses of two sprites, and which of them truly meet."""
+    """(n, 3) poses of two sprites, and whether each pair truly meets."""
 
     first: np.ndarray
     second: np.ndarray
@@ -44,7 +44,9 @@ class Poses(NamedTuple):
 
 
 def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: int = 0) -> Poses:
-    """Poses of which about half are hits. Raises ValueError for a sprite without pixels, which never meets anything."""
+    """Return poses of which about half are hits. Raises ValueError for a sprite without pixels, which never meets
+    anything.
+    """
     exact = [fit(mask, "mask") for mask in (first, second)]
     for name, mask in (("first", first), ("second", second)):
         if not mask.area:
@@ -78,7 +80,7 @@ def measure_tiers(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers over poses around each other, and tell each. Raises ValueError for a sprite without pixels."""
+    """Measure the tiers over random relative poses and report each. Raises ValueError for a sprite without pixels."""
     measure_at(first, second, poses_around(first, second, seed=seed), tell, tiers, seed)
 
 
@@ -90,7 +92,7 @@ def measure_at(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers at poses, of which some are hits and some are none, in shuffled turns; tell each."""
+    """Measure the tiers at poses, which include hits and misses, in shuffled turns, and report each."""
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
     verdicts, batches = {tier: np.zeros(len(poses.met), bool) for tier in tiers}, {}
     for tier, (a, b) in shapes.items():
@@ -99,7 +101,7 @@ def measure_at(
             batch = batches[f"{tier} {kind}"] = PairBatch(a, poses.first[which], b, poses.second[which], seed)
             batch.test()
             verdicts[tier][which] = batch.met()
-    # A batch is tested so often that a run takes as long as a clock needs to be exact.
+    # A batch is tested REPEATS times per run, so that a run is long enough for the clock.
     works = {name: partial(_test, batch) for name, batch in batches.items()}
     costs = timed_in_turns(works, {name: REPEATS * len(batch) for name, batch in batches.items()}, seed=seed)
     builds = timed_in_turns({tier: partial(_build, first, tier) for tier in tiers}, dict.fromkeys(tiers, 1), seed=seed)
@@ -113,7 +115,7 @@ def measure_at(
 
 
 def _build(mask, tier):
-    """Make the shapes anew: what a mask has been fitted with is kept with it."""
+    """Fit the shapes again: a new PixelMask avoids the fit that is cached with a mask."""
     return fit(PixelMask(mask.solid, mask.origin), tier)
 
 

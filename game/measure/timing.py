@@ -1,7 +1,7 @@
-"""Times of named work: warmed, in shuffled turns, the least and the median of several runs.
+"""Times of named work: warmed up, in shuffled turns, as the least and the median of several runs.
 
-Rules: reference/hard_cases.md section 3.4. Other load on the machine only ever adds time, so the least is what the work
-takes, and how far the median lies above it is the noise. All works are run in every turn: load meets them alike.
+Other load on the machine only ever adds time. So the least time is the cost of the work, and the distance of the median
+from it is the noise. All works run in every turn, so that load affects them alike.
 """
 
 import gc
@@ -13,16 +13,16 @@ from statistics import median
 from typing import NamedTuple, TypeVar
 
 RUNS = 5
-LEAST_PAIRS = 1000  # what a cost per pair is measured on, at least
+LEAST_PAIRS = 1000  # least number of pairs that a cost per pair is measured on
 Name = TypeVar("Name")
-FINE = 1e-6  # [s] a clock that is coarser is no clock for a step
+FINE = 1e-6  # [s] a coarser clock is too coarse for a step
 
-# The processor's time, which is not ours while others have it, where it is told finely enough (not on Windows).
+# Processor time excludes other processes; wall-clock time where the system reports it too coarsely (Windows).
 clock = time.thread_time if time.get_clock_info("thread_time").resolution <= FINE else time.perf_counter
 
 
 class Cost(NamedTuple):
-    """Seconds a piece, of so many pieces a run; the spread is told, never hidden in a mean."""
+    """Seconds per piece over several runs, with their spread."""
 
     least: float
     median: float
@@ -32,7 +32,7 @@ class Cost(NamedTuple):
 
     @classmethod
     def of(cls, seconds: list[float], pieces: int) -> "Cost":
-        """Of the seconds a piece that each run took. Raises ValueError for no run, or no piece."""
+        """Return the cost from the seconds per piece of each run. Raises ValueError without runs or pieces."""
         if not seconds or pieces < 1:
             raise ValueError(f"a cost needs runs and pieces (got {len(seconds)} runs of {pieces} pieces)")
         ordered = sorted(seconds)
@@ -41,13 +41,13 @@ class Cost(NamedTuple):
 
     @property
     def noise(self) -> float:
-        """How far the median run lies above the least, as a share of it."""
+        """The distance of the median run from the least, as a share of the least."""
         return self.median / self.least - 1.0 if self.least > 0.0 else 0.0
 
 
 @contextmanager
 def undisturbed() -> Iterator[None]:
-    """No collection of garbage in between: it is nobody's cost."""
+    """Disable garbage collection in the block, so that its time is not counted."""
     was_on = gc.isenabled()
     gc.disable()
     try:
@@ -58,7 +58,7 @@ def undisturbed() -> Iterator[None]:
 
 
 def seconds_a_step(step: Callable[[], object], steps: int) -> float:
-    """The mean of so many, each timed by itself."""
+    """Return the mean seconds of so many steps, each timed by itself."""
     spent = 0.0
     with undisturbed():
         for _ in range(steps):
@@ -69,7 +69,9 @@ def seconds_a_step(step: Callable[[], object], steps: int) -> float:
 
 
 def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, runs: int = RUNS) -> dict[Name, Cost]:
-    """Seconds a step of worlds by their step, which go on in turns of count: with the usual ones 300 steps each."""
+    """Return the seconds per step by name. Each run times `count` steps of every entry in turn: 300 steps each by
+    default.
+    """
     spent: dict[Name, list[float]] = {name: [] for name in steps}
     for _ in range(runs):
         for name, step in steps.items():
@@ -80,7 +82,7 @@ def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, run
 def timed_in_turns(
     works: Mapping[str, Callable[[], object]], pieces: Mapping[str, int], runs: int = RUNS, seed: int = 0
 ) -> dict[str, Cost]:
-    """{name: Cost} of works that each do `pieces[name]` pieces a call; the first call of each is not counted."""
+    """Return {name: Cost} of works with `pieces[name]` pieces per call; the first call is not counted."""
     order, spent = list(works), {name: [] for name in works}
     chance = Random(seed)
     for work in works.values():

@@ -1,7 +1,7 @@
-"""The tuner: takes the advice by itself, as it comes, while somebody plays.
+"""The tuner: applies the advice on settings automatically while the player plays.
 
-It changes the settings only where the whole interval of the runs is cheaper, at every moment that was measured: what it
-decides is not taken back by noise.
+It changes the settings only if the whole interval of the runs is cheaper, at every measured moment. So noise does not
+undo its decisions.
 """
 
 from collections.abc import Callable
@@ -13,17 +13,20 @@ from game.measure.survey import Survey
 
 
 class Decision(NamedTuple):
-    """What the tuner did."""
+    """A change of settings by the tuner."""
 
     frame: int  # of the scene
     before: Setting
     after: Setting
-    share: float  # its time by that before
-    refused: str  # why the scene did not take it, "": it did
+    share: float  # time of `after` as a share of the time of `before`
+    refused: str  # reason why the scene refused it; "" if it was applied
 
 
 class Tuner:
-    """apply(setting): puts it to work, and tells why not, "" where it did. Off at first."""
+    """Applies the advice of a survey; off at first.
+
+    apply(setting) applies a setting. It returns the reason for a refusal, or "" if the setting was applied.
+    """
 
     def __init__(self, survey: Survey, apply: Callable[[Setting], str]) -> None:
         self.survey, self.apply = survey, apply
@@ -31,7 +34,7 @@ class Tuner:
         self.decisions: list[Decision] = []
 
     def step(self, frame: int, here: Setting) -> Decision | None:
-        """Take the advice that there is, once for what the scene refuses. Returns what was decided now."""
+        """Apply the present advice, unless the scene refused it before. Return the decision made now, if any."""
         if not self.on:
             return None
         best = advised(self.survey, here)

@@ -1,7 +1,7 @@
-"""Why two bodies touch, or not: the way of a pair through the last step, stage by stage, with its numbers and times.
+"""The inspector of a contact: the path of a pair through the last step, stage by stage, with numbers and times.
 
-Times of stages are of the whole step and said with what was done in them. What the pair alone takes in the narrow phase
-is measured when it is asked: a thousand copies of it, warmed, in five runs.
+Times of stages are for the whole step. The time of the pair alone in the narrow phase is measured on request: a
+thousand copies of it, warmed up, in five runs.
 """
 
 from math import atan2, degrees
@@ -19,14 +19,14 @@ MICRO, NANO = 1e6, 1e9
 
 
 class Part(NamedTuple):
-    """What one stage said of the pair; stage: its name in words."""
+    """The result of one stage for the pair. stage: the name of the stage in words."""
 
     stage: str
     text: str
 
 
 class Touch(NamedTuple):
-    """A point of contact: whose, where [px]."""
+    """A contact point: ids of its bodies and shapes, and its place [px]."""
 
     body_a: int
     body_b: int
@@ -37,7 +37,7 @@ class Touch(NamedTuple):
 
 
 def nearest(world: World, x: float, y: float, reach: float) -> Touch | None:
-    """The contact next to a place [px] within reach; None where there is none."""
+    """Return the contact nearest to a place [px] within reach [px]; None if there is none."""
     found = world.contacts
     if not len(found):
         return None
@@ -51,15 +51,16 @@ def nearest(world: World, x: float, y: float, reach: float) -> Touch | None:
 
 
 def still_there(world: World, touch: Touch) -> bool:
-    """Whether the pair touches in the last step too."""
+    """Return whether the pair touches in the last step too."""
     found = world.contacts
     return bool(((found["shape_a"] == touch.shape_a) & (found["shape_b"] == touch.shape_b)).any())
 
 
 def explain(world: World, touch: Touch) -> list[Part]:
-    """The way of a pair that touches through the last step. Raises ValueError for one that does not."""
+    """Return the stages of a touching pair in the last step. Raises ValueError for a pair that does not touch."""
     rows, _ = by_owner(world.told_manifolds())
-    mine = rows[(rows["owner_a"] == touch.shape_a) & (rows["owner_b"] == touch.shape_b)]  # all that its parts touch in
+    # all contacts of their child shapes
+    mine = rows[(rows["owner_a"] == touch.shape_a) & (rows["owner_b"] == touch.shape_b)]
     if not len(mine):
         raise ValueError(f"touch must be of a pair that touches (got {touch})")
     parts = [_broad_phase(world, touch), _filter(world, touch), _narrow_phase(world, touch, mine)]
@@ -71,7 +72,7 @@ def explain(world: World, touch: Touch) -> list[Part]:
 
 
 def cost_of(world: World, touch: Touch) -> Cost:
-    """What the narrow phase takes for these two bodies [s], at the poses that they have now."""
+    """Return the time [s] of the narrow phase for these two bodies at their present poses."""
     bodies = world.body(touch.body_a), world.body(touch.body_b)
     poses = [np.tile((*body.position, body.angle), (LEAST_PAIRS, 1)) for body in bodies]
     batch = PairBatch(bodies[0].shapes, poses[0], bodies[1].shapes, poses[1])

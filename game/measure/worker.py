@@ -1,7 +1,7 @@
-"""`python -m game.measure.worker`: measures moments, sprites, lanes and effects, off the frame of whoever plays.
+"""`python -m game.measure.worker`: measures moments, sprites, lanes and effects in a separate process.
 
-A line of JSON on standard input is what to measure, in place of what was before; lines of JSON on standard output
-are what was found. The process ends with its standard input, so that it never outlives the program that started it.
+Each line of JSON on standard input is an order that replaces the one before. Lines of JSON on standard output are
+results. The process ends when its standard input closes, so it never outlives the program that started it.
 """
 
 import contextlib
@@ -28,18 +28,18 @@ from game.wishes import STEPS, Act, Lane, Recipe
 from physics import PixelMask, Snapshot
 from physics.jit.workers import end_all, start_module
 
-NICE = 19  # of the system's 0 to 19: whoever plays goes first
+NICE = 19  # of 0 to 19: the game has priority
 
 
 class Orders:
-    """The moment that is to be measured now."""
+    """The order that is to be done now."""
 
     def __init__(self) -> None:
         self.latest: dict[str, Any] | None = None
         self.changed = threading.Condition()
 
     def listen(self) -> None:
-        """Take orders until there is nobody left to give them; then end the process, whatever it is at."""
+        """Read orders until standard input closes, then exit the process at once."""
         for line in sys.stdin:
             with self.changed:
                 self.latest = json.loads(line)
@@ -47,14 +47,14 @@ class Orders:
         os._exit(0)
 
     def next(self, after: dict[str, Any] | None) -> dict[str, Any]:
-        """The first order after another one; waits for it."""
+        """Return the first order after another one; blocks until there is one."""
         with self.changed:
             self.changed.wait_for(lambda: self.latest is not after)
             assert self.latest is not None
             return self.latest
 
     def holds(self, order: dict[str, Any]) -> bool:
-        """Whether nothing else was asked for meanwhile."""
+        """Return whether this order is still the latest."""
         return self.latest is order
 
 
@@ -72,7 +72,7 @@ def measure(order: dict[str, Any], tell: Callable[[str], object], goes_on: Calla
     for setting in settings:
         if not goes_on():
             return
-        moment.time_run(setting, 2)  # compiles what is missing
+        moment.time_run(setting, 2)  # compiles missing kernels
         say(setting=setting, errors={kind: vars(error) for kind, error in references.errors(setting).items()})
         say(setting=setting, spent=moment.time_run(setting), steps=STEPS)
     chance = Random(number)
@@ -86,7 +86,7 @@ def measure(order: dict[str, Any], tell: Callable[[str], object], goes_on: Calla
 
 
 def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> None:
-    """Measure every tier of two sprites, which lie in an .npz: solid_0, origin_0, solid_1, origin_1."""
+    """Measure every tier of two sprites, stored in an .npz file: solid_0, origin_0, solid_1, origin_1."""
     with np.load(order["sprites"], allow_pickle=False) as stored:
         masks = [PixelMask(stored[f"solid_{k}"], tuple(stored[f"origin_{k}"].tolist())) for k in (0, 1)]
     measure_tiers(masks[0], masks[1], lambda figures: tell(json.dumps({"moment": order["moment"], "tier": figures})))
@@ -94,8 +94,8 @@ def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> Non
 
 
 def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure lanes, each a dict with the files of its snapshots in their place; recipes and acts are lists."""
-    loaded = cache(Snapshot.load)  # what several lanes begin with is read once
+    """Measure lanes, each a dict with file names in place of its snapshots; recipes and acts are lists."""
+    loaded = cache(Snapshot.load)  # a snapshot that several lanes share is read once
 
     def begun(given):
         return loaded(given) if isinstance(given, str) else Recipe(*given)
@@ -118,7 +118,7 @@ def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], g
 
 
 def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure what each effect costs at a moment, and count the kernels that are compiled for it."""
+    """Measure the cost of each effect at a moment, and count the kernels that are compiled for it."""
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
 
     def say(**found):
@@ -134,13 +134,13 @@ def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on:
         threading.Thread(target=_listen, args=(counting.stdout, counted), daemon=True).start()
 
         def say_counts(wait):
-            """Those that there are by now; wait: all."""
+            """Report the counts so far. wait: report all."""
             while wait or not counted.empty():
                 line = counted.get()
                 if line is None:
                     counted.put(None)
                     return
-                if line.startswith("["):  # libraries greet
+                if line.startswith("["):  # libraries may print greetings
                     name, count = json.loads(line)
                     say(effect=name, kernels=count)
 
@@ -156,14 +156,14 @@ def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on:
 
 
 def _listen(lines, heard):
-    """Hand on each line, and None after the last."""
+    """Put each line into a queue, and None after the last."""
     for line in lines:
         heard.put(line)
     heard.put(None)
 
 
 def main() -> None:
-    """Measure for as long as there is somebody to tell."""
+    """Do orders until standard input closes."""
     with contextlib.suppress(OSError, AttributeError):
         os.nice(NICE)
     orders, order = Orders(), None
@@ -180,7 +180,7 @@ def main() -> None:
                 measure_costs(order, tell, goes_on)
             else:
                 measure(order, tell, goes_on)
-        except (ValueError, OSError) as error:  # a moment that cannot be measured is told, and the next awaited
+        except (ValueError, OSError) as error:  # report a moment that cannot be measured, and go on
             print(json.dumps({"moment": order["moment"], "failed": str(error)}), flush=True)
 
 

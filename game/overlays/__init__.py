@@ -1,1 +1,1 @@
-"""Overlay layers: each on a key and a panel check box, on in any scene, mid-game. They only read."""
+"""Overlay layers: each has a key and a check box in the panel, works in any scene, and only reads."""

@@ -1,4 +1,4 @@
-"""What an overlay layer is. Layers only read; each answers for itself where and when it is drawn."""
+"""Base class of the overlay layers. Layers only read; each decides where and when it is drawn."""
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
@@ -8,7 +8,7 @@ from physics import World
 
 LegendLine = tuple[Color, str]
 
-# What --overlay takes, in the order of the panel: keys 1 to 9, then letters.
+# Valid names of --overlay, in the order of the panel: keys 1 to 9, then letters.
 LAYER_NAMES = (
     "bounds",
     "motion",
@@ -31,18 +31,18 @@ LAYER_NAMES = (
 
 
 class Layer:
-    """`key`: the key that switches it; `color`: of its check box and of its first legend line."""
+    """Overlay layer. `key`: the key that switches it; `color`: of its check box and of its first legend line."""
 
     name: str
     title: str
     key: str
     color: Color
-    on_canvas: bool = False  # exact to the canvas pixel: drawn before the canvas is scaled
+    on_canvas: bool = False  # drawn on the canvas before it is scaled: exact to the canvas pixel
     on_frame: bool = True  # drawn at the window's resolution
     under: bool = False  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the layer's budget evenly."""
+        """Start a picture of `views` views, which share the layer's budget evenly."""
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens, where `on_frame` is True."""
@@ -51,8 +51,8 @@ class Layer:
         """Draw one world on the canvas, where `on_canvas` is True."""
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write text that follows things, where there is room."""
+        """Write labels that follow objects, where there is room."""
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         return []

@@ -1,4 +1,4 @@
-"""AABBs and bounding motion rectangles: what the broad phase looks at."""
+"""AABBs and swept AABBs (bounding motion rectangles): the input of the broad phase."""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -19,14 +19,14 @@ BOX_BUDGET = 3000  # boxes drawn per picture; the note says how many there are
 
 
 def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Color], colors: np.ndarray) -> None:
-    """Outline (n, 4) world boxes, each in the palette's colour of its number, small ones on top.
+    """Outline (n, 4) world boxes in the palette's colours, small ones on top.
 
-    colors: (n,) whole numbers into palette.
+    colors: (n,) indices into palette.
     """
     x0, y0 = lens.points(rows[:, 0], rows[:, 1])
     x1, y1 = lens.points(rows[:, 2], rows[:, 3])
     wide, high = np.maximum(np.ceil(x1 - x0), 1.0) + 1.0, np.maximum(np.ceil(y1 - y0), 1.0) + 1.0
-    # A box far larger than the view is cut just outside it: its sides beyond cost time and show nothing.
+    # A box far larger than the view is clipped just outside it: drawing its sides beyond costs time and shows nothing.
     clip = lens.clip
     left, top = np.maximum(np.floor(x0), clip.left - 2.0), np.maximum(np.floor(y0), clip.top - 2.0)
     wide = np.minimum(wide - (left - np.floor(x0)), clip.right + 2.0 - left)
@@ -36,7 +36,7 @@ def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Col
     large = (wide > STAMPED) | (high > STAMPED)
     for i in np.flatnonzero(large).tolist():
         pygame.draw.rect(frame.surface, tones[colors[i]], (left[i], top[i], wide[i], high[i]), 1)
-    # Each size and colour is looked up once, however many boxes share it.
+    # Each combination of size and colour is looked up once for all boxes that share it.
     small = np.flatnonzero(~large)
     kinds, which = np.unique((colors[small] << 16) | (wide[small] << 8) | high[small], return_inverse=True)
     images = [outline(tones[kind >> 16], kind >> 8 & 255, kind & 255) for kind in kinds.tolist()]
@@ -46,7 +46,7 @@ def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Col
 
 @lru_cache(maxsize=2048)
 def outline(color: Color, width: int, height: int) -> pygame.Surface:
-    """The picture of a small box's outline: a swarm of equal boxes is one call."""
+    """Return the picture of a small box's outline. It is cached, so that many equal boxes are one blit call."""
     image = pygame.Surface((width, height))
     clear = (0, 0, 0) if color[:3] != (0, 0, 0) else (255, 255, 255)
     image.fill(clear)
@@ -61,7 +61,7 @@ class Bounds(Layer):
     name, title, key, color = "bounds", "Bounding boxes", "1", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
@@ -78,7 +78,7 @@ class Bounds(Layer):
         draw_boxes(frame, lens, rows[seen][order], COLORS, state[order])
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         return [(self.color, f"boxes {self.drawn} of {self.total}"), (ORANGE, "boxes meet"), (RED, "touch")]
 
 
@@ -90,17 +90,17 @@ def _states(world, shapes):
     touching = np.concatenate((told["owner_a"], told["owner_b"]))
     for among, value in ((world.candidates.ravel(), PAIRED), (touching, TOUCHING)):
         rows = np.minimum(np.searchsorted(ids, among), len(ids) - 1)
-        state[rows[ids[rows] == among]] = value  # what is gone since the step has no row
+        state[rows[ids[rows] == among]] = value  # a shape removed since the step has no row
     return state
 
 
 class Motion(Layer):
-    """The bounding motion rectangle of every moving body: where it is, was and will be in one step."""
+    """Swept AABB (bounding motion rectangle) of every moving body: it covers the body's motion in one step."""
 
     name, title, key, color = "motion", "Motion rectangles", "2", SKY
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
@@ -115,5 +115,5 @@ class Motion(Layer):
         draw_boxes(frame, lens, rows[seen], (self.color,), np.zeros(len(seen), int))
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         return [(self.color, f"motion {self.drawn} of {self.total}")]

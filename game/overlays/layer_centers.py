@@ -1,4 +1,4 @@
-"""Centres of mass: what a body turns about, how it moves, and where its origin is if that is elsewhere."""
+"""Centres of mass: the point that a body rotates about, its velocity, and its origin if that is elsewhere."""
 
 import numpy as np
 import pygame
@@ -12,17 +12,19 @@ from physics import World
 from physics.tables.body import DYNAMIC
 
 CENTER_BUDGET = 600  # bodies per picture; the note says how many there are
-SECONDS = 0.1  # the arrow shows the way of this time
-APART = 1.0  # [px] an origin nearer than this is not drawn beside the centre
+SECONDS = 0.1  # the arrow is the displacement in this time
+APART = 1.0  # [px] minimum distance of a drawn origin from the centre of mass
 
 
 class Centers(Layer):
-    """The tester's mark at each dynamic body's centre of mass, its way in a tenth of a second, a line to its origin."""
+    """Crash-test mark at the centre of mass of each dynamic body, with its displacement in 0.1 s and a line to its
+    origin.
+    """
 
     name, title, key, color = "centers", "Centres of mass", "c", GOLD
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = CENTER_BUDGET // views
 
@@ -48,12 +50,12 @@ class Centers(Layer):
             mark(frame.surface, x, y, angle, 2.0 * frame.scale)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         return [(self.color, f"centres {self.drawn} of {self.total}, arrow: 0.1 s"), (FOG, "origin, where elsewhere")]
 
 
 def mark(surface: pygame.Surface, x: float, y: float, angle: float, radius: float) -> None:
-    """The crash tester's disc: two dark and two light quarters, turned with the body."""
+    """Draw a crash-test mark: a disc of two dark and two light quarters, rotated with the body."""
     pygame.draw.circle(surface, PAPER, (x, y), radius)
     cosine, sine = np.cos(angle) * radius, np.sin(angle) * radius
     for way in (1.0, -1.0):

@@ -1,4 +1,4 @@
-"""Graph colours: contacts of one colour share no body that moves, so they are solved at once, in any order."""
+"""Graph colours: contacts of one colour share no dynamic body, so they can be solved at once, in any order."""
 
 import numpy as np
 import pygame
@@ -13,16 +13,18 @@ from physics import World, debug
 
 COLOR_BUDGET = 800  # contacts per picture; the note says how many there are
 LABEL_BUDGET = 150  # numbers written out per picture
-LISTED = 8  # colours counted one by one in the legend
+LISTED = 8  # colours with their own line in the legend
 
 
 class Colors(Layer):
-    """Each contact joined to the centres of the bodies it moves, in its graph colour; white: in none, solved first."""
+    """Lines from each contact to the centres of its dynamic bodies, in its graph colour. White: no colour, solved
+    first.
+    """
 
     name, title, key, color = "colors", "Graph colours", "g", PINK
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.counts = np.zeros(0, int)
         self.overflow = 0
@@ -65,13 +67,13 @@ class Colors(Layer):
         self.counts = found
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the colours' numbers where there is room."""
+        """Write the numbers of the colours where there is room."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x + 3 * scale, y - 6 * scale, color, SMALL, scale, "left", True)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         used = np.flatnonzero(self.counts).tolist()
         lines = [(self.color, f"coloured {self.drawn} of {self.total} contacts, {len(used)} colours")]
         lines += [(color_of(i), f"{i}: {self.counts[i]}") for i in used[:LISTED]]
@@ -83,5 +85,5 @@ class Colors(Layer):
 
 
 def color_of(number: int) -> Color:
-    """The picture's colour of a graph colour; white for none."""
+    """Return the display colour of a graph colour; white for none."""
     return SERIES[number % (len(SERIES) - 1)] if number >= 0 else WHITE

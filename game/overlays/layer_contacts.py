@@ -1,4 +1,4 @@
-"""Contacts: where two shapes touch or are about to, which way they are pushed apart, how deep they are or how far."""
+"""Contacts: points where two shapes touch or are about to, with normals, depths and distances."""
 
 import numpy as np
 import pygame
@@ -12,23 +12,23 @@ from physics import World, debug
 NORMAL_LENGTH = 9.0  # [canvas px] drawn length of a normal, before the depth is added
 CONTACT_BUDGET = 800  # contacts per picture; the note says how many there are
 LABEL_BUDGET = 40  # depths written out per picture
-LEAST_DEPTH = 0.05  # [px] shallower ones round to nothing
+LEAST_DEPTH = 0.05  # [px] smaller depths are not written
 SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 STATES = ("speculative", "new", "persisted", "sensor", "asleep")
 COLORS = (FOG, GREEN, SKY, PINK, SLATE)
 
 
 class Contacts(Layer):
-    """A dot per contact point in the colour of its state, its normal from A to B, and the depth in pixels."""
+    """Dot per contact point in the colour of its state, with its normal from A to B and its depth in pixels."""
 
     name, title, key, color = "contacts", "Contacts and normals", "6", ORANGE
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
-        self.labels = []  # (text, x, y, align, colour), drawn when all fixed text has its place
+        self.labels = []  # (text, x, y, align, colour), drawn after all fixed text is placed
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
         """Draw one world through one lens."""
@@ -48,7 +48,7 @@ class Contacts(Layer):
         depth = max(0.0, -separation)
         reach = NORMAL_LENGTH * frame.scale + min(depth, 24.0) * lens.scale
         end_x, end_y = x + nx * reach, y + ny * reach
-        if state in (SPECULATIVE, ASLEEP):  # nothing is pushed here: a short stub, a hollow dot
+        if state in (SPECULATIVE, ASLEEP):  # no force here: a short line, a hollow dot
             end_x, end_y = x + nx * reach / 2, y + ny * reach / 2
         tone = frame.tone(COLORS[state])
         pygame.draw.line(
@@ -60,7 +60,7 @@ class Contacts(Layer):
         )
         hollow = 1 if state in (SPECULATIVE, SENSOR) else 0
         pygame.draw.circle(frame.surface, tone, (x, y), frame.scale + 1 + hollow, hollow)
-        if separation > LEAST_DEPTH:  # the gap between the two surfaces, the point in its middle
+        if separation > LEAST_DEPTH:  # the gap between the two surfaces, with the point in its middle
             half = separation / 2.0 * lens.scale
             ends = (x - nx * half, y - ny * half), (x + nx * half, y + ny * half)
             pygame.draw.line(frame.surface, tone, *ends, max(1, frame.scale - 1))
@@ -70,17 +70,17 @@ class Contacts(Layer):
             self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right", GOLD))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the depths, and the distances of what has not met yet, where there is room."""
+        """Write the depths, and the distances of shapes that do not touch yet, where there is room."""
         for text, x, y, align, color in self.labels:
             frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, align, True)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         states = [(COLORS[i], f"{count} {STATES[i]}") for i, count in enumerate(self.states.tolist()) if count]
         return [(self.color, f"contacts {self.drawn} of {self.total}, px deep, + px apart"), *states]
 
 
 def seen_points(lens: Lens, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Which frame points lie in the view, as row numbers."""
+    """Return the row numbers of the frame points that lie in the view."""
     clip = lens.clip
     return np.flatnonzero((x >= clip.left) & (x < clip.right) & (y >= clip.top) & (y < clip.bottom))

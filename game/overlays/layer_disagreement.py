@@ -1,4 +1,4 @@
-"""Boxes that lie: pairs in which a sprite's bounding box says hit and its pixels do not."""
+"""False box hits: pairs in which a sprite's bounding box overlaps but its pixels do not."""
 
 from collections import deque
 
@@ -15,26 +15,27 @@ from physics import World, debug
 from physics.tables.shape import MASK
 
 LIE_BUDGET = 400  # pairs drawn per picture; the note says how many there are
-REMEMBERED = 600  # steps that the share is counted over
-KEPT = 50  # steps that the mark of the player's own box stays, fading
+REMEMBERED = 600  # steps over which the share is counted
+KEPT = 50  # steps for which the mark of the player's own box stays, fading
 OWN = "your box would have died here"
 
 
 def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
-    """((n, 2), (m, 2)) shape rows of pairs with a sprite whose boxes share area: all, and those that do not touch.
+    """Return ((n, 2), (m, 2)) shape rows of pairs with a sprite whose boxes overlap: all pairs, and those without
+    contact.
 
-    Of the pairs that the broad phase found in the last step; sensors are asked for nothing.
+    The pairs are those that the broad phase found in the last step, without sensors.
     """
     ids, pairs = np.ascontiguousarray(world.shapes["id"]), world.candidates.astype(np.int64)
     none = np.zeros((0, 2), np.int64)
     if not len(ids) or not len(pairs):
         return none, none
     rows = np.minimum(np.searchsorted(ids, pairs), len(ids) - 1)
-    rows = rows[(ids[rows] == pairs).all(axis=1)]  # what is gone since the step has no row
+    rows = rows[(ids[rows] == pairs).all(axis=1)]  # a shape removed since the step has no row
     shapes, boxes = world.shapes, debug.bounds(world)
     asked = (shapes["kind"][rows] == MASK).any(axis=1) & ~shapes["sensor"][rows].astype(bool).any(axis=1)
     a, b = boxes[rows[:, 0]], boxes[rows[:, 1]]
-    asked &= ((a[:, :2] < b[:, 2:]) & (b[:, :2] < a[:, 2:])).all(axis=1)  # edges that only touch share nothing
+    asked &= ((a[:, :2] < b[:, 2:]) & (b[:, :2] < a[:, 2:])).all(axis=1)  # boxes that only share an edge do not overlap
     rows = rows[asked]
     contacts = world.contacts
     contacts = contacts[contacts["separation"] <= 0.0]
@@ -44,7 +45,9 @@ def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Disagreement(Layer):
-    """note(scene) once per step while it is on. Boxes that lie are red; where the player's own did, words say so."""
+    """Boxes with false hits, in red. Call note(scene) once per step while it is on. A false hit on the player's own box
+    gets a text.
+    """
 
     name, title, key, color = "disagreement", "Boxes that lie", "j", RED
 
@@ -53,14 +56,14 @@ class Disagreement(Layer):
         self.begin()
 
     def clear(self) -> None:
-        """Forget what was counted (another scene, or a restart)."""
-        self.counts: deque[tuple[int, int]] = deque(maxlen=REMEMBERED)  # (hits by boxes, that are none), by step
-        self.marks: list[list] = []  # [steps ago, the player's own box] that was hit by what then missed the player
-        self.inside: dict[int, list] = {}  # by body whose box is in the player's own: [that box, whether it has hit]
+        """Reset the counts (another scene, or a restart)."""
+        self.counts: deque[tuple[int, int]] = deque(maxlen=REMEMBERED)  # (box hits, false hits), by step
+        self.marks: list[list] = []  # [age in steps, the player's own box] of false hits on it
+        self.inside: dict[int, list] = {}  # by body whose box overlaps the player's own: [that box, whether it has hit]
         self.frame = 0
 
     def note(self, scene: Scene) -> None:
-        """Count the step just made."""
+        """Count the false hits of the last step."""
         if scene.frame < self.frame:
             self.clear()
         self.frame = scene.frame
@@ -71,7 +74,7 @@ class Disagreement(Layer):
             self._mark_own(scene, *told[0])
 
     def _mark_own(self, scene, hits, lies):
-        """Mark where something came into the player's own box, once it is out again and has touched nothing."""
+        """Mark the player's own box after another body's box has left it without a hit."""
         own, world = scene.own_body, scene.world
         now = {}
         if own is not None:
@@ -90,7 +93,7 @@ class Disagreement(Layer):
         self.inside = now
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = LIE_BUDGET // views
         self.labels: list[tuple[int, float, float]] = []
@@ -112,13 +115,13 @@ class Disagreement(Layer):
             self.labels.append((age, (left + right) / 2, top))
 
     def draw_labels(self, frame: Frame) -> None:
-        """What the player's own box would have cost."""
+        """Write a text at each recent false hit on the player's own box."""
         for age, x, y in reversed(self.labels):
             if age < KEPT // 2:
                 frame.text_if_free(OWN, x, y - 8 * frame.text_scale, GOLD, SMALL, frame.text_scale, "center", True)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         hits, lies = (sum(column) for column in zip(*self.counts, strict=True)) if self.counts else (0, 0)
         lines = [(self.color, f"box hits without a shared pixel {self.drawn} of {self.total}")]
         if hits:

@@ -1,4 +1,4 @@
-"""Feature ids: by which corner or face a contact point is known from step to step."""
+"""Feature ids: the corner or face that identifies a contact point from step to step."""
 
 import pygame
 
@@ -10,16 +10,16 @@ from game.overlays.layer_contacts import seen_points
 from physics import World, debug
 
 FEATURE_BUDGET = 150  # contacts per picture
-PER_LINK = 4096  # a chain's or grid's feature: number of the link or run, then the corner on it
+PER_LINK = 4096  # feature of a chain or grid: number of the link or run times this, plus the corner on it
 
 
 class Features(Layer):
-    """Each contact point's number, in its colour: while a body slides, number and colour stay."""
+    """Number of each contact point, in its colour. While a body slides, number and colour stay."""
 
     name, title, key, color = "features", "Feature ids", "f", PAPER
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = FEATURE_BUDGET // views
         self.labels = []
@@ -39,7 +39,7 @@ class Features(Layer):
             self.labels.append((text_of(feature), x, y, color))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the numbers above, below or beside their points, where there is room."""
+        """Write the numbers above or below their points, left or right, where there is room."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
             for dx, dy, align in ((3, -7, "left"), (-3, -7, "right"), (3, 3, "left"), (-3, 3, "right")):
@@ -48,11 +48,11 @@ class Features(Layer):
                     break
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend. The labels come after the legend: it counts points, not texts."""
+        """Return (color, text) lines for the legend. Labels are drawn after the legend, so it counts points."""
         return [(self.color, f"feature ids {len(self.labels)} of {self.total}, where room")]
 
 
 def text_of(feature: int) -> str:
-    """A feature as text: link:corner on chains and tiles."""
+    """Return a feature as text: link:corner on chains and tiles."""
     link, corner = divmod(int(feature), PER_LINK)
     return f"{link}:{corner}" if link else f"{corner}"

@@ -1,4 +1,4 @@
-"""Filters by colour: one colour per (membership, mask), with the pairs of kinds that may meet."""
+"""Collision filters by colour: one colour per (membership, mask), with the pairs of kinds that may meet."""
 
 import numpy as np
 
@@ -9,21 +9,21 @@ from game.overlays.layer_bounds import BOX_BUDGET, draw_boxes
 from physics import World, debug
 
 KINDS_LISTED = 6  # lines in the legend; a further line counts the rest
-WRITTEN = 4  # names of those that a kind meets
-EVERYBODY = (0xFFFFFFFF, 0xFFFF)  # masks
+WRITTEN = 4  # names written of the kinds in a mask
+EVERYBODY = (0xFFFFFFFF, 0xFFFF)  # masks that include every kind
 
 
 class Filters(Layer):
-    """Each shape's box, inset, in the colour of its filter. Two kinds meet if each is in the other's mask."""
+    """Box of each shape, inset, in the colour of its filter. Two kinds may meet if each is in the other's mask."""
 
     name, title, key, color = "filters", "Filters by colour", "7", PINK
 
     def __init__(self) -> None:
-        self.names: dict[int, str] = {}  # membership bit -> what the scene calls it
+        self.names: dict[int, str] = {}  # membership bit -> its name in the scene
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.kinds = {}  # (membership, mask) -> [colour, count]
         self.drawn = self.total = self.filtered = 0
         self.room = BOX_BUDGET // views
@@ -37,7 +37,7 @@ class Filters(Layer):
             return
         words = shapes["membership"].astype(np.uint64) << np.uint64(32) | shapes["mask"].astype(np.uint64)
         kinds, which, counts = np.unique(words, return_inverse=True, return_counts=True)
-        colors = []  # of this world's kinds; another view may have named them before
+        colors = []  # of this world's kinds; another view may have named them already
         for word, count in zip(kinds.tolist(), counts.tolist(), strict=True):
             kind = self.kinds.setdefault((word >> 32, word & 0xFFFFFFFF), [SERIES[len(self.kinds) % len(SERIES)], 0])
             kind[1] += count
@@ -50,7 +50,9 @@ class Filters(Layer):
         draw_boxes(frame, lens, inner, colors, which[seen])
 
     def _who(self, word, written=32):
-        """The kinds of a word by name: all, or all but one, where that is shorter; at most so many are written."""
+        """Return the names of the kinds in a bit mask: all, or all but one, where that is shorter; at most `written`
+        names.
+        """
         if word in EVERYBODY:
             return "all"
         if not self.names:
@@ -65,7 +67,7 @@ class Filters(Layer):
         return ", ".join(named[:written]) + (f" and {more} more" if more > 0 else "") if named else "nobody"
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         lines: list[LegendLine] = [(FOG, f"filter {self.drawn} of {self.total}, {self.filtered} pairs filtered")]
         listed = list(self.kinds.items())
         for (membership, mask), (color, count) in listed[:KINDS_LISTED]:

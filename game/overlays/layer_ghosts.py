@@ -1,4 +1,4 @@
-"""Impacts: where fast bodies met something in a step, and where they would have been without."""
+"""Times of impact: poses at which fast bodies hit during a step, and the poses at which they would have ended."""
 
 import numpy as np
 import pygame
@@ -13,21 +13,21 @@ from physics import World, debug
 from physics.tables.shape import PART
 
 GHOST_BUDGET = 200  # bodies per picture; the note says how many there are
-ARC_SCALE = 3.0  # [frame px per px] as fine as arcs are drawn
-KEPT = 45  # pictures a ghost stays, fading
+ARC_SCALE = 3.0  # [frame px per px] scale that sets the fineness of arcs
+KEPT = 45  # pictures for which a ghost stays, fading
 
 
 class Ghosts(Layer):
-    """White: a body at its time of impact, with the share of the step at which that was. Blue: where it was going."""
+    """Body at its time of impact, in white, with its share of the step. Blue: end pose without impact."""
 
     name, title, key, color = "ghosts", "Times of impact", "h", WHITE
 
     def __init__(self) -> None:
-        self.kept = {}  # id of a world -> ([[age, outlines, fraction, place, where it was going], ...], events, world)
+        self.kept = {}  # id of a world -> ([[age, outlines, fraction, place, aim], ...], events, world)
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = GHOST_BUDGET // views
         self.labels = []
@@ -52,7 +52,7 @@ class Ghosts(Layer):
                 self.labels.append((f"{fraction:.2f}", place[0], place[1], faded(WHITE, fading)))
 
     def _note(self, world):
-        """Age what is kept and add the impacts of a step that was not seen yet."""
+        """Age the kept ghosts, and add the impacts of a step that was not read yet."""
         kept, step, last = self.kept.get(id(world), ([], None, None))
         now = world.events  # a new object in every step
         if last is not world:
@@ -66,7 +66,9 @@ class Ghosts(Layer):
         return kept
 
     def _fresh(self, world):
-        """Outlines of the bodies that met something in the last step: there, and where they were going."""
+        """Return new ghosts of the bodies that had an impact in the last step: at the impact, and at the pose without
+        it.
+        """
         ghosts = debug.impact_ghosts(world)[:GHOST_BUDGET]
         bodies, shapes = world.bodies, world.shapes
         ids = np.ascontiguousarray(bodies["id"])
@@ -92,7 +94,7 @@ class Ghosts(Layer):
             frame.text_if_free(text, x, y - 4 * frame.text_scale, color, SMALL, frame.text_scale, "left", True)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         return [
             (self.color, f"impacts {self.drawn} of {self.total} in this step"),
             (SKY, "where they were going"),

@@ -1,4 +1,4 @@
-"""Impulses: how hard each contact pushes, along its normal and along the surface, as arrows."""
+"""Impulses: the normal and the friction impulse of each contact, as arrows."""
 
 from math import hypot, log10
 
@@ -12,23 +12,23 @@ from game.overlays.layer_contacts import seen_points
 from physics import World, debug
 
 IMPULSE_BUDGET = 800  # contacts per picture; the note says how many there are
-LONGEST = 26.0  # [canvas px] an arrow is drawn at most this long …
-REFERENCE = 10.0  # … and this long for the impulse that the legend names
-TYPICAL = 0.9  # the share of contacts that push less than the one the scale is set by
-FADE = 0.95  # a step: how slowly the scale comes down after a blow
+LONGEST = 26.0  # [canvas px] the greatest length of an arrow …
+REFERENCE = 10.0  # … and the length for the impulse that the legend names
+TYPICAL = 0.9  # quantile of the normal impulses that sets the scale
+FADE = 0.95  # factor per picture by which the scale decays after a peak
 
 
 class Impulses(Layer):
-    """Red: the push along the normal, on B or on what can move. Yellow: friction. The legend names the scale."""
+    """Normal impulse in red, on B or on the side that can move; friction in yellow. The legend names the scale."""
 
     name, title, key, color = "impulses", "Impulses", "9", RED
 
     def __init__(self) -> None:
-        self.level = 0.0  # the impulse that is typical now
+        self.level = 0.0  # the current quantile of the normal impulses, decaying
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = IMPULSE_BUDGET // views
         self.unit = step_of(self.level)
@@ -56,20 +56,20 @@ class Impulses(Layer):
             arrow(frame, at_x, at_y, -ny * across, nx * across, YELLOW)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         scale = f", {REFERENCE:.0f} px is {short(self.unit)}" if self.unit else ""
         return [(self.color, f"impulses {self.drawn} of {self.total}{scale}"), (YELLOW, "friction")]
 
 
 def can_move(bodies: np.ndarray, ids: np.ndarray) -> np.ndarray:
-    """Which of the bodies with these ids an impulse moves, as a bool array."""
+    """Return a bool array: whether each of the bodies with these ids has a finite mass."""
     known = np.ascontiguousarray(bodies["id"])
     rows = np.minimum(np.searchsorted(known, ids), len(known) - 1)
     return (known[rows] == ids) & (bodies["inverse_mass"][rows] > 0.0)
 
 
 def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) -> None:
-    """An arrow from (x, y) by (dx, dy) [frame px], cut at LONGEST; under a canvas pixel nothing is drawn."""
+    """Draw an arrow from (x, y) by (dx, dy) [frame px], cut at LONGEST. Below one canvas pixel it is not drawn."""
     length = hypot(dx, dy)
     if length < frame.scale:
         return
@@ -86,7 +86,7 @@ def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) 
 
 
 def step_of(value: float) -> float:
-    """The next of 1, 2, 5, 10, ... at or above a positive value: a scale that changes seldom. 0 for 0."""
+    """Return the next of 1, 2, 5, 10, ... at or above a positive value, for a scale that changes seldom. 0 for 0."""
     if not 0.0 < value < float("inf"):
         return 0.0
     power = 10.0 ** int(np.floor(log10(value)))
@@ -94,7 +94,7 @@ def step_of(value: float) -> float:
 
 
 def short(value: float) -> str:
-    """A number of the form 1, 2 or 5 times a power of ten as short text."""
+    """Return a number of the form 1, 2 or 5 times a power of ten as short text."""
     for limit, divisor, letter in ((1e3, 1, ""), (1e6, 1e3, "k"), (1e9, 1e6, "M")):
         if value < limit:
             return f"{value / divisor:g}{letter}"

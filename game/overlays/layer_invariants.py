@@ -1,4 +1,4 @@
-"""Invariants: eleven lights, U1 to U11, green, red or grey, and what the last broken one said."""
+"""Invariants: eleven lights, U1 to U11, green, red or grey, and the message of the last broken one."""
 
 from collections.abc import Iterator
 
@@ -13,42 +13,44 @@ from game.invariants.lights import Light, Lights
 from game.overlays.layer import Layer, LegendLine
 
 COLORS = {states.GREEN: GREEN, states.RED: RED, states.GREY: FOG}
-ROWS = (1, 2, 3, 4, 6, 11)  # ways to break the strip, the widest first
+ROWS = (1, 2, 3, 4, 6, 11)  # row counts of the strip, the widest first
 LINE, LAMP, GAP, MARGIN = 8, 5, 5, 3  # [text px] of a row, a lamp, between two lights, inside the frame
-COUNTED = 999  # breaks beyond are not told one by one
+COUNTED = 999  # greatest number of breaks that is written
 
 
 class Invariants(Layer):
-    """A lamp a light with its id, its word and how often it was broken; under them what the last broken one said, or
-    the one under the pointer."""
+    """Strip of lights, each with its id, its word and its number of breaks.
+
+    Below them is the message of the light under the pointer, or of the last broken one.
+    """
 
     name, title, key, color = "invariants", "Invariants", "u", GREEN
 
     def __init__(self) -> None:
         self.lights = Lights()
-        self.cost = Typical()  # [s] of watching
+        self.cost = Typical()  # [s] cost of the invariants
         self.places: list[tuple[pygame.Rect, Light]] = []  # of the last picture
 
     def note(self, lights: Lights | None) -> None:
-        """To be told of every step: the scene's lights, None while nobody watches."""
+        """Record the cost of a step; call it every step. lights: the scene's, None while invariants are off."""
         if lights is not None:
             self.cost.note(lights.seconds)
 
     def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
-        """(width, height) [frame px] that the strip can have, the widest first."""
+        """Yield the possible sizes (width, height) [frame px] of the strip, the widest first."""
         scale = frame.text_scale
         for rows in ROWS:
             columns = -(-len(self.lights.lights) // rows)
             yield columns * self._width(frame) + 2 * MARGIN * scale, ((rows + 1) * LINE + 2 * MARGIN) * scale
 
     def _width(self, frame):
-        """Of a light with its gap: as wide as the widest."""
+        """Return the width [frame px] of a light with its gap, the same for all: that of the widest."""
         scale = frame.text_scale
         widest = max(frame.measure(label_of(light), SMALL, scale)[0] for light in self.lights.lights)
         return widest + (LAMP + 2 + GAP) * scale
 
     def draw_strip(self, frame: Frame, rect: pygame.Rect, pointer: tuple[int, int] = (-1, -1)) -> None:
-        """Paint into a frame rect of one of the sizes; `pointer`: where the mouse is."""
+        """Draw the strip into a frame rect of one of the sizes; `pointer`: position of the mouse."""
         scale = frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.3), rect)
         pygame.draw.rect(frame.surface, SLATE, rect, 1)
@@ -68,7 +70,7 @@ class Invariants(Layer):
         lamp = pygame.Rect(left, top, LAMP * scale, LAMP * scale)
         color = frame.tone(COLORS[light.state])
         if light.state == states.GREY:
-            pygame.draw.rect(frame.surface, color, lamp, scale)  # hollow: told apart without its colour
+            pygame.draw.rect(frame.surface, color, lamp, scale)  # hollow: distinguishable without its colour
         else:
             frame.surface.fill(color, lamp)
         if light.state == states.RED:
@@ -77,7 +79,9 @@ class Invariants(Layer):
         frame.text(label_of(light), lamp.right + 2 * scale, top, tone, SMALL, scale)
 
     def told(self, pointer: tuple[int, int]) -> tuple[Color, str]:
-        """The line under the lights: of the one under the pointer, else of the last that was broken, else of all."""
+        """Return colour and text of the line below: of the light under the pointer, else the last broken one, else a
+        summary.
+        """
         for place, light in self.places:
             if place.collidepoint(pointer):
                 return COLORS[light.state], light.sentence
@@ -91,7 +95,7 @@ class Invariants(Layer):
         return FOG, self.summary()
 
     def summary(self) -> str:
-        """How many hold, are broken, are not asked, and what watching takes."""
+        """Return how many invariants hold, are broken or are off, and the cost per frame."""
         count = [light.state for light in self.lights.lights].count
         return (
             f"{count(states.GREEN)} hold, {count(states.RED)} broken, {count(states.GREY)} not asked, "
@@ -99,7 +103,7 @@ class Invariants(Layer):
         )
 
     def notes(self) -> list[LegendLine]:
-        """Which are not asked, by their reasons."""
+        """Return legend lines for the invariants that are off, grouped by reason."""
         reasons: dict[str, list[str]] = {}
         for light in self.lights.lights:
             if light.state == states.GREY:
@@ -108,5 +112,5 @@ class Invariants(Layer):
 
 
 def label_of(light: Light) -> str:
-    """Its id and word, and how often it was broken."""
+    """Return id and word of a light, and how often it was broken."""
     return f"{light.id} {light.word}" + (f" {min(light.breaks, COUNTED)}" if light.breaks else "")

@@ -1,4 +1,4 @@
-"""Islands: bodies that push on each other, solved together, and put to sleep together when all have come to rest."""
+"""Islands: bodies connected by contacts, which are solved together, and sleep together when all are at rest."""
 
 from collections.abc import Sequence
 from math import ceil, floor
@@ -15,20 +15,20 @@ from physics import World, debug
 
 BODY_BUDGET = 700  # shapes outlined per picture; the note says how many bodies there are
 ISLAND_BUDGET = 120  # hulls drawn per picture
-DIRECTIONS = 32  # a hull is drawn by its farthest points this many ways
+DIRECTIONS = 32  # number of directions whose farthest points make a hull
 FILL, ASLEEP_FILL, EDGE = 46, 120, 200  # opacity of 255
 
 
 class Islands(Layer):
-    """Each island's hull and shapes in a colour of its own; asleep: grey, with a z."""
+    """Hull and shapes of each island in its own colour; a sleeping one is grey, with a z."""
 
     name, title, key, color = "islands", "Islands, sleeping", "i", SERIES[1]
     under = True  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = self.asleep = self.islands = 0
-        self.found = False  # some world looks for islands
+        self.found = False  # whether any world has the effect sleeping
         self.room, self.hulls = BODY_BUDGET // views, ISLAND_BUDGET // views
         self.labels = []
 
@@ -59,7 +59,7 @@ class Islands(Layer):
             self.labels.append(("z", x, y - 2 * frame.text_scale, FOG))
 
     def _draw_hulls(self, frame, lens, boxes, islands, asleep):
-        """Tinted hulls, each on a sheet of its own size: one as large as the picture costs 2 ms."""
+        """Draw tinted hulls, each on a surface of its own size: one as large as the picture costs 2 ms."""
         members = np.flatnonzero(islands >= 0)
         if len(members) == 0:
             return
@@ -73,12 +73,12 @@ class Islands(Layer):
             draw_hull(frame.surface, lens.clip, hull, color, ASLEEP_FILL if sleeping else FILL, max(1, frame.scale - 1))
 
     def draw_labels(self, frame: Frame) -> None:
-        """A z on what sleeps, where there is room."""
+        """Write a z on each sleeping body, where there is room."""
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, "center", True)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         if not self.found:
             return [(FOG, "no islands: sleeping is not declared")]
         return [
@@ -88,7 +88,9 @@ class Islands(Layer):
 
 
 def hull_of(points: np.ndarray) -> list[list[float]]:
-    """Corners around (n, 2) points: the farthest one each way, so that thousands cost what few do."""
+    """Return hull corners of (n, 2) points: the farthest point in each of DIRECTIONS directions, so that the corners
+    stay few.
+    """
     angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
     ways = np.column_stack((np.cos(angles), np.sin(angles)))
     return points[np.argmax(points @ ways.T, axis=0)].tolist()
@@ -97,7 +99,7 @@ def hull_of(points: np.ndarray) -> list[list[float]]:
 def draw_hull(
     surface: pygame.Surface, clip: pygame.Rect, hull: Sequence[Sequence[float]], color: Color, fill: int, width: int
 ) -> None:
-    """A polygon filled with so much of a colour, 0..255, and its edge; only what lies in the clip takes time."""
+    """Draw a polygon filled with opacity `fill`, 0..255, and its edge. Only the part in the clip costs time."""
     x, y = zip(*hull, strict=True)
     left, top = floor(min(x)) - width, floor(min(y)) - width
     place = pygame.Rect(left, top, ceil(max(x)) + width + 1 - left, ceil(max(y)) + width + 1 - top).clip(clip)
@@ -111,5 +113,5 @@ def draw_hull(
 
 
 def color_of(island: int) -> Color:
-    """A colour that neighbouring numbers do not share."""
+    """Return a colour that differs between neighbouring numbers."""
     return SERIES[int(island) * 5 % (len(SERIES) - 1)]

@@ -1,7 +1,7 @@
-"""Pixel masks as they are tested, the pixels that the AND of two masks leaves, and the outlines that masks push with.
+"""Pixel masks as they are tested, the pixels that two masks share, and the mask outlines used for response.
 
 Pixels are drawn on the canvas, before it is scaled: a mask pixel is a canvas pixel, so the overlay lies exactly on the
-sprite. Outlines are drawn over it at the window's resolution, for they stand at the exact pose.
+sprite. Outlines are drawn over it at the window's resolution, at the exact pose.
 """
 
 from collections import OrderedDict
@@ -26,13 +26,13 @@ HIT = (255, 250, 150, 255)
 SEAM = faded(ORANGE, 0.25)
 PART_BUDGET = 1200  # parts of outlines per picture; the note says how many there are
 BLOCK = 160  # [px] larger masks are drawn in blocks of that size
-CACHE_SIZE = 512  # tinted masks kept; a turning sprite has one per angle bucket
+CACHE_SIZE = 512  # tinted masks kept; a rotating sprite has one per angle bucket
 
 
 class Masks(Layer):
-    """Every mask in blue with a light edge; pixels that two masks share in yellow.
+    """Masks in blue with a light edge; pixels that two masks share in yellow.
 
-    Where bodies are pushed also what of a mask pushes: its outline in white, the seams between its parts in orange.
+    With response, the outline of a mask is drawn too: in white, with orange seams between its parts.
     """
 
     name, title, key, color = "masks", "Masks, outlines", "5", BLUE
@@ -43,7 +43,7 @@ class Masks(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget of parts evenly."""
+        """Start a picture of `views` views, which share the budget of parts evenly."""
         self.drawn = self.total = self.lit = self.parts = self.parts_in_all = 0
         self.room = PART_BUDGET // views
 
@@ -60,7 +60,7 @@ class Masks(Layer):
         draw_lines(frame.surface, lens, edges.outer, WHITE, max(1, frame.scale - 1))
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw one world on the canvas. A zoomed-out view is left out: its pixels are not the mask's."""
+        """Draw one world on the canvas. A zoomed view is skipped: its pixels are not those of the mask."""
         if camera.zoom != 1.0:
             return
         left, top = camera.view()
@@ -94,7 +94,7 @@ class Masks(Layer):
         del pixels  # unlocks the surface
 
     def _images(self, solid, place, view, palette):
-        """(image, place) pairs of a mask at a place of the canvas: of a large one those of its blocks that are seen."""
+        """Yield (image, place) pairs of a mask at a place of the canvas. A large mask gives its visible blocks."""
         (height, width), (x, y) = solid.shape, place
         if height <= BLOCK and width <= BLOCK:
             yield self._tinted(solid, palette), (x, y)
@@ -106,8 +106,10 @@ class Masks(Layer):
                     yield image, (x + left, y + top)
 
     def _block(self, solid, left, top, palette):
-        """A block of a large mask, kept by its place and its pixels: carving changes a few. None where it is empty."""
-        # With a pixel more on each side, so that no edge is drawn where only the block ends.
+        """Return the image of a block of a large mask, cached by place and pixels, since carving changes few blocks.
+        None if it is empty.
+        """
+        # With a margin of one pixel, so that no edge is drawn at the border of the block.
         part = solid[max(top - 1, 0) : top + BLOCK + 1, max(left - 1, 0) : left + BLOCK + 1]
         pixels = part.tobytes()
         if True not in part:
@@ -120,7 +122,9 @@ class Masks(Layer):
         return image
 
     def _tinted(self, solid, palette):
-        """Masks hand out the same array for the same angle; it is kept with its image, so its id stays its own."""
+        """Return the cached image of a mask. Masks return the same array for the same angle; the cache keeps it, so its
+        id stays valid.
+        """
         kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:
             image = mask_image(solid, palette)
@@ -135,7 +139,7 @@ class Masks(Layer):
             self.tinted.popitem(last=False)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         lines = [(self.color, f"masks {self.drawn} of {self.total}"), (YELLOW, f"shared pixels {self.lit}")]
         if self.parts_in_all:
             lines.append((WHITE, f"outlines, {self.parts} of {self.parts_in_all} parts"))
@@ -144,7 +148,7 @@ class Masks(Layer):
 
 
 def mask_image(solid: np.ndarray, palette: str = "standard") -> pygame.Surface:
-    """A translucent image of a (h, w) bool mask with its edge pixels light."""
+    """Return a translucent image of a (h, w) bool mask with light edge pixels."""
     fill = (*toned(BLUE, palette), FILL)
     padded = np.pad(solid, 1)
     inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]

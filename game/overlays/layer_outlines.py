@@ -1,4 +1,4 @@
-"""Outlines: the exact shapes that collide, whatever is drawn over them. Pixels of masks have a layer of their own."""
+"""Outlines: the exact collision shapes, independent of the sprites. The pixels of masks have their own layer."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -21,15 +21,15 @@ Edge = tuple[tuple[float, float], tuple[float, float], bool]  # start, end, open
 
 
 class Outlines(Layer):
-    """Every shape's outline: green dynamic, blue kinematic, grey static (chains ticked where solid), pink sensor.
+    """Outline of every shape: green dynamic, blue kinematic, grey static (chains hatched where solid), pink sensor.
 
-    Of a mask it is the outline that pushes, the seams between its parts dark.
+    A mask is drawn as its outline, with the seams between its parts dark.
     """
 
     name, title, key, color = "outlines", "Shapes", "l", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.room = OUTLINE_BUDGET // views
 
@@ -50,7 +50,7 @@ class Outlines(Layer):
                 mine = seen[parts & (rows["kind"] == kind) & (rows["sensor"] == sensor)]
                 open_ones = world.shapes["kind"][mine] == CHAIN
                 self._draw_parts(frame, lens, world, mine[~open_ones], frame.tone(PINK) if sensor else tone, width)
-                # As the tops of tiles that are open from below.
+                # In the colour of one-way tile tops.
                 self._draw_parts(frame, lens, world, mine[open_ones], frame.tone(PINK if sensor else ORANGE), width)
         rows, seen = rows[~parts], seen[~parts]
         for outline, kind, sensor in zip(
@@ -63,14 +63,14 @@ class Outlines(Layer):
                 draw_outline(frame.surface, lens, outline, color, width, frame.scale)
 
     def _draw_parts(self, frame, lens, world, rows, color, width):
-        """Parts of masks' outlines, which share their colour."""
+        """Draw the parts of mask outlines that share a colour."""
         if len(rows):
             edges = mask_edges(world, rows, lens.scale)
             draw_lines(frame.surface, lens, edges.inner, faded(color, 0.6))
             draw_lines(frame.surface, lens, edges.outer, color, width)
 
     def _draw_tiles(self, frame, lens, world, shape_id, color, width):
-        """The edge of a grid's solid cells; in orange the tops of cells that are open from below."""
+        """Draw the edge of a grid's solid cells, and in orange the tops of one-way cells."""
         row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
         body = world.body(int(row["body"]))
         number = int(np.count_nonzero(world.shapes["id"][world.shapes["body"] == row["body"]] < shape_id))
@@ -82,7 +82,7 @@ class Outlines(Layer):
             pygame.draw.line(frame.surface, from_below if one_way else color, start, end, width)
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         return [
             (self.color, f"shapes {self.drawn} of {self.total}"),
             (SKY, "kinematic"),
@@ -92,7 +92,7 @@ class Outlines(Layer):
 
 
 def edges_of(grid: Any, lens: Lens, x: float, y: float) -> Iterator[Edge]:
-    """Frame lines around the cells in view of a TileGrid at (x, y): (start, end, one way) each."""
+    """Yield frame lines around the visible cells of a TileGrid at (x, y): (start, end, one way) each."""
     size, (rows, columns) = grid.tile_size, grid.solid.shape
     clip = lens.clip
     left, top = (clip.left - lens.dx) / lens.scale - x, (clip.top - lens.dy) / lens.scale - y
@@ -103,7 +103,7 @@ def edges_of(grid: Any, lens: Lens, x: float, y: float) -> Iterator[Edge]:
     slopes = slope.any(axis=2)
     solid = np.pad(grid.solid | grid.slopes.any(axis=2), 1)
     here = grid.solid[down, across] & ~slopes
-    # Sides of a cell as (x, y) of start and end in cells, and what lies behind each: above, below, left, right.
+    # Sides of a cell: (x, y) of start and end in cells, and the direction of the neighbour: up, down, left, right.
     for ax, ay, bx, by, dx, dy in ((0, 0, 1, 0, 0, -1), (0, 1, 1, 1, 0, 1), (0, 0, 0, 1, -1, 0), (1, 0, 1, 1, 1, 0)):
         behind = solid[down.start + 1 + dy : down.stop + 1 + dy, across.start + 1 + dx : across.stop + 1 + dx]
         for row, column in np.argwhere(here & ~behind).tolist():

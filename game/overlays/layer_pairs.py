@@ -1,4 +1,4 @@
-"""Candidate pairs: what the broad phase and the filter let through to the narrow phase."""
+"""Candidate pairs: the pairs that the broad phase and the filter pass to the narrow phase."""
 
 import numpy as np
 import pygame
@@ -13,12 +13,12 @@ MISS = (150, 140, 190)
 
 
 class Pairs(Layer):
-    """A line per candidate pair: red where the narrow phase found a hit, grey where it did not."""
+    """Line per candidate pair: red if the narrow phase found a hit, else grey."""
 
     name, title, key, color = "pairs", "Candidate pairs", "4", RED
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = self.hits = 0
         self.room = PAIR_BUDGET // views
 
@@ -49,5 +49,5 @@ class Pairs(Layer):
             line(surface, hit if rows[seen[i], 4] else miss, starts[i], ends[i])
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         return [(self.color, f"pairs {self.drawn} of {self.total}, {self.hits} hit")]

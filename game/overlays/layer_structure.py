@@ -1,4 +1,4 @@
-"""The broad phase's own structure: cells of the hash, boxes of the tree by depth, intervals of the sweep."""
+"""Data structure of the broad phase: cells of the hash, boxes of the tree by depth, intervals of the sweep."""
 
 from collections.abc import Iterable
 
@@ -12,17 +12,17 @@ from physics import World, debug
 
 RECT_BUDGET = 2500  # cells or tree boxes per picture; the note says how many there are
 INTERVAL_BUDGET = 1200  # intervals per picture
-LANES = 8  # intervals of one axis are drawn in this many lanes, so that neighbours show
+LANES = 8  # the intervals of one axis are spread over this many rows, so that neighbours are distinguishable
 DEPTHS = tuple(faded(color, amount) for color in (PINK, YELLOW, GREEN, SKY, BLUE) for amount in (0.0, 0.25))
 
 
 class Structure(Layer):
-    """What each strategy keeps. Brute force keeps nothing, and says so."""
+    """Data structure of each strategy. Brute force has none; the legend says so."""
 
     name, title, key, color = "structure", "Structure", "3", YELLOW
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of so many views, which share the budget evenly."""
+        """Start a picture of `views` views, which share the budget evenly."""
         self.drawn = self.total = 0
         self.views = views
         self.kinds = []
@@ -40,14 +40,14 @@ class Structure(Layer):
         if len(rows) == 0:
             return
         seen = np.flatnonzero(lens.seen(rows))
-        # Too many for the budget: of a tree the upper boxes, of cells every so manieth.
+        # Too many for the budget: the upper boxes of a tree, an even selection of cells.
         seen = seen[np.argsort(found.depth[seen], kind="stable")] if found.kind == "tree" else seen
         seen = seen[: RECT_BUDGET // self.views] if found.kind == "tree" else thinned(seen, RECT_BUDGET // self.views)
         self.drawn += len(seen)
         draw_boxes(frame, lens, rows[seen], DEPTHS, found.depth[seen] % len(DEPTHS))
 
     def _intervals(self, frame, lens, rows):
-        """Bars along the top (x axis) and the left (y axis) of the view."""
+        """Draw bars along the top (x axis) and the left (y axis) of the view."""
         self.total += len(rows)
         if len(rows) == 0:
             return
@@ -69,7 +69,7 @@ class Structure(Layer):
                 frame.surface.fill(pink, (clip.left + across, clip.top + first, thick, last - first))
 
     def notes(self) -> list[LegendLine]:
-        """(color, text) lines for the legend."""
+        """Return (color, text) lines for the legend."""
         kinds = "/".join(dict.fromkeys(self.kinds))
         if self.total == 0:
             return [(FOG, f"{kinds}: keeps no structure")]
@@ -81,20 +81,20 @@ class Structure(Layer):
 def covered(
     low: np.ndarray, high: np.ndarray, lanes: np.ndarray, count: int, length: int
 ) -> Iterable[tuple[int, int, int]]:
-    """(lane, first, last) of the stretches that each lane's intervals cover together: bars that overlap are one bar.
+    """Return (lane, first, last) of the union of each lane's intervals: overlapping bars become one bar.
 
     low, high: whole numbers 0..length; lanes: whole numbers below count.
     """
     edges = np.zeros((count, length + 1), int)
     np.add.at(edges, (lanes, low), 1)
     np.add.at(edges, (lanes, high), -1)
-    turns = np.diff(np.cumsum(edges, axis=1) > 0, axis=1, prepend=False)  # on and off again, in the order of each lane
+    turns = np.diff(np.cumsum(edges, axis=1) > 0, axis=1, prepend=False)  # starts and ends alternate in each lane
     lane, place = np.nonzero(turns)
     return zip(lane[::2].tolist(), place[::2].tolist(), place[1::2].tolist(), strict=True)
 
 
 def thinned(rows: np.ndarray, room: int) -> np.ndarray:
-    """At most `room` of the rows, evenly spread over all."""
+    """Return at most `room` of the rows, evenly spread."""
     if len(rows) <= room:
         return rows
     return rows[np.linspace(0, len(rows) - 1, room).astype(int)]

@@ -1,4 +1,4 @@
-"""Stage times as a stacked graph that scrolls, with the counters of the last step beside it."""
+"""Stage times as a scrolling stacked graph, with the counters of the last step beside it."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -14,7 +14,7 @@ from game.overlays.layer import Layer
 from game.scene import Scene
 
 HISTORY = 240  # steps kept: four seconds
-SHOWN = (  # counters written out, in the order of the step
+SHOWN = (  # counters in the table, in the order of the step
     "bodies_integrated",
     "nodes_visited",
     "pairs_tested",
@@ -29,23 +29,23 @@ SHOWN = (  # counters written out, in the order of the step
     "islands",
     "cap_hits",
 )
-SCALED_TO = 0.95  # share of the steps that the graph shows at full height
-LEAST_TOP = 0.5  # [ms] top of the graph when everything is fast
+SCALED_TO = 0.95  # quantile of the step times that fits the graph's height
+LEAST_TOP = 0.5  # [ms] least top of the graph
 FRAME_BUDGET = 1000 / 60  # [ms] a frame at 60 Hz
 LINE, GAP, MARGIN = 7, 5, 3  # [text px] of a line of a table, between two tables, and inside the frame
-GRAPH = (70, 40)  # [text px] the graph has at least, its three lines of text above the bars
-PLOT_LEAST = 10  # [text px] of bars under them
+GRAPH = (70, 40)  # [text px] least size of the graph, including three lines of text above the bars
+PLOT_LEAST = 10  # [text px] least height of the bars under them
 
 
 class Table(NamedTuple):
-    """A heading and lines of (colour, name, value)."""
+    """Table of a heading and (colour, name, value) lines."""
 
     head: str
     rows: Sequence[tuple[Color, str, str]]
 
 
 class Times(Layer):
-    """note(scene) once per step; draw_graph() paints graph and tables into a rect."""
+    """Stage times. Call note(scene) once per step; draw_graph() draws graph and tables into a rect."""
 
     name, title, key, color = "times", "Stage times", "8", GOLD
 
@@ -53,18 +53,18 @@ class Times(Layer):
         self.clear()
 
     def clear(self) -> None:
-        """Forget the history (another scene)."""
+        """Clear the history (another scene)."""
         self.steps = []  # per step: {stage: ms}
         self.totals = []  # [ms] of the same steps
         self.total = Typical()  # [ms]
-        self.rect: pygame.Rect | None = None  # where the graph is on the picture, if it is [frame px]
-        self.stages: dict[str, Typical] = {}  # those of the last step [ms]
+        self.rect: pygame.Rect | None = None  # [frame px] the graph's place in the picture, None if it is not drawn
+        self.stages: dict[str, Typical] = {}  # stages of the last step [ms]
         self.counters = {}
-        self.noted = self.painted = 0  # steps since the start, and how many of them the sheet shows
+        self.noted = self.painted = 0  # steps since the start, and the number of them painted on the sheet
         self.sheet, self.sheet_for = pygame.Surface((0, 0)), None
 
     def note(self, scene: Scene) -> None:
-        """Take the measurements of the last step."""
+        """Record the times and counters of the last step."""
         step, counters = {}, {}
         for world in scene.worlds:
             for name, seconds in world.profile.stages.items():
@@ -82,7 +82,7 @@ class Times(Layer):
             self.stages[name].note(spent)
 
     def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
-        """(width, height) [frame px] that the graph is worth being shown at, the largest first; no stage is hidden."""
+        """Yield useful sizes (width, height) [frame px] of the graph, the largest first. All show every stage."""
         stages, counters = self._tables()
         wide = [_column_width(frame, table, 1) + GAP for table in (stages, counters)]
         high = [LINE * (len(table.rows) + 1) for table in (stages, counters)]
@@ -95,9 +95,9 @@ class Times(Layer):
             yield (width + 2 * MARGIN) * scale, (height + 2 * MARGIN) * scale
 
     def draw_graph(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Paint into a frame rect: graph on the left, stages in the middle, counters on the right.
+        """Draw into a frame rect: graph on the left, stages in the middle, counters on the right.
 
-        Where there is no room for both tables the counters give way; where it is narrow the stages stand below.
+        Without room for both tables the counters are left out; in a narrow rect the stages are below the graph.
         """
         scale, self.rect = frame.text_scale, pygame.Rect(rect)
         frame.surface.fill(faded(NIGHT, 0.3), rect)
@@ -137,9 +137,9 @@ class Times(Layer):
         return SERIES[names.index(name) % len(SERIES)] if name in self.stages else FOG
 
     def _graph(self, frame, rect, scale):
-        """Three lines of text, and the bars below them."""
+        """Draw three lines of text, and the bars below them."""
         totals = sorted(self.totals) or [0.0]
-        # One slow step (a compiler, a garbage collection) must not flatten all others: it is cut, and capped white.
+        # A single slow step (compilation, garbage collection) must not flatten the others: it is cut, with a white cap.
         top = round_up(max(LEAST_TOP, totals[int(len(totals) * SCALED_TO)] * 1.1))
         lines = ((f"{self.total.value:.2f} ms a step", GOLD), (f"a frame has {FRAME_BUDGET:.1f}", FOG))
         lines = (*lines, (f"top {top:g} ms", PAPER))
@@ -156,7 +156,7 @@ class Times(Layer):
             pygame.draw.line(frame.surface, SLATE, (plot.left, y), (plot.right - 1, y))
 
     def _scroll(self, size, top, palette):
-        """Bring the graph's sheet up to date: only the new columns are painted unless its size or scale changed."""
+        """Update the graph's sheet: only the new columns are painted unless its size or scale changed."""
         column = max(1, size[0] // HISTORY)
         new = self.noted - self.painted
         if self.sheet_for != (size, top, palette) or new >= len(self.steps):
@@ -185,13 +185,13 @@ class Times(Layer):
 
 
 def _split(table, lines):
-    """A table as several of so many lines at most, each with the heading."""
+    """Return a table as several of at most `lines` lines, each with the heading."""
     rows = max(1, lines - 1)
     return [Table(table.head, table.rows[first : first + rows]) for first in range(0, max(len(table.rows), 1), rows)]
 
 
 def _cut(table, lines):
-    """A table of so many lines; what does not fit is counted in the last one."""
+    """Return a table cut to `lines` lines; its last line counts the rest."""
     if len(table.rows) < lines:
         return table
     kept = table.rows[: max(lines - 2, 0)]
@@ -208,7 +208,7 @@ def _draw_table(frame, table, x, y, width, scale):
 
 
 def round_up(value: float) -> float:
-    """The next of 0.5, 1, 2, 5, 10, 20, ...: a scale that changes seldom and is easily read."""
+    """Return the next of 0.1, 0.2, 0.5, 1, 2, 5, 10, ... at or above a value, for a readable, stable scale."""
     power = 0.1
     while True:
         for digit in (1, 2, 5):
@@ -218,7 +218,7 @@ def round_up(value: float) -> float:
 
 
 def _column_width(frame, table, scale):
-    """Room for the longest name and a number of so many digits as there may be."""
+    """Return the width for the longest name and the longest expected number."""
     longest = max((frame.measure(plain_name(name), SMALL, scale)[0] for _, name, _ in table.rows), default=0)
     digits = " 999999" if table.head.startswith("stage") else " 9999999"
     return longest + frame.measure(digits, SMALL, scale)[0] + 6 * scale

@@ -1,4 +1,4 @@
-"""The outlines of masks as lines: the edge that is felt, and the seams between its parts, which are not."""
+"""Outlines of masks as lines: the edge used for collision, and the inner seams between its parts, which are not."""
 
 from math import ceil, pi
 from typing import NamedTuple
@@ -11,17 +11,17 @@ from physics.tables.shape import PART, POLYGON
 
 
 class MaskEdges(NamedTuple):
-    """Lines in the world, (n, 4) [px]: ax ay bx by."""
+    """Lines in world coordinates, (n, 4) [px]: ax ay bx by."""
 
-    outer: np.ndarray  # what is pushed out through, met by what is swept, and walked on
-    inner: np.ndarray  # between two parts of one mask
+    outer: np.ndarray  # edges used by contacts, casts and characters
+    inner: np.ndarray  # edges between two parts of one mask
 
 
 def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
-    """The lines of the parts of masks' outlines among these rows of world.shapes.
+    """Return the lines of the parts of mask outlines among these rows of world.shapes.
 
-    A rounded part is drawn round: its edges lie `radius` outside the polygon, with arcs about the corners; scale [frame
-    px per px] says how fine these are.
+    A rounded part is drawn round: its edges lie `radius` outside the polygon, with arcs about the corners. scale [frame
+    px per px] sets the fineness of the arcs.
     """
     edges = debug.part_edges(world, rows)
     outer, inner = [], []
@@ -45,7 +45,7 @@ def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
 
 
 def _arcs(edges, facing, scale):
-    """(lines, whether it lies inside) about each corner of a rounded part."""
+    """Yield (lines, whether they lie inside) of the arc about each corner of a rounded part."""
     rounded = np.flatnonzero(edges["radius"] > 0.0)
     if not len(rounded):
         return

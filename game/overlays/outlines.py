@@ -1,4 +1,4 @@
-"""Thin lines around shapes of every kind, as physics.debug hands them out: what overlays and labs draw with."""
+"""Thin lines around shapes of every kind, from the outlines of physics.debug; used by overlays and labs."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -14,15 +14,15 @@ from game.drawing.presenter import Lens
 Point = tuple[float, float]
 Pose = tuple[float, float, float]
 
-ARC_STEP = 2.5  # [frame px] of an arc that one line stands for
+ARC_STEP = 2.5  # [frame px] length of an arc per line segment
 TICK_GAP, TICK_LENGTH = 7.0, 4.0  # [canvas px] hatching on the solid side of a chain
 TICK_BUDGET = 400  # ticks of one chain
 
 
 def ring(points: Sequence[Sequence[float]], radius: float, scale: float) -> list[Point]:
-    """Corners of the outline of a convex shape rounded by `radius`; points (k, 2) clockwise on the screen.
+    """Return the corners of the outline of a convex shape rounded by `radius`; points (k, 2) clockwise on the screen.
 
-    scale [frame px per px] says how fine the arcs have to be.
+    scale [frame px per px] sets the fineness of the arcs.
     """
     count = len(points)
     if count == 1:
@@ -52,7 +52,7 @@ def _steps(turn, radius, scale):
 
 
 def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] | None:
-    """World corners of an outline and whether they close: ([(x, y), ...], closed). None for masks and tiles."""
+    """Return world corners of an outline and whether they close: ([(x, y), ...], closed). None for masks and tiles."""
     kind = outline[0]
     if kind == "circle":
         return ring([outline[1:3]], outline[3], scale), True
@@ -69,7 +69,7 @@ def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] |
 
 
 def clockwise(points: ArrayLike) -> list[list[float]]:
-    """The corners as a list, clockwise on the screen."""
+    """Return the corners as a list, clockwise on the screen."""
     points = np.asarray(points, float)
     x, y = points[:, 0], points[:, 1]
     area = float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
@@ -77,7 +77,7 @@ def clockwise(points: ArrayLike) -> list[list[float]]:
 
 
 def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
-    """The outline as it is when its body goes from pose to pose (x, y, angle); also ("lines", (2n, 2))."""
+    """Return the outline after its body moves from pose to pose (x, y, angle); also of ("lines", (2n, 2))."""
     turn = end[2] - start[2]
     cosine, sine = cos(turn), sin(turn)
 
@@ -129,7 +129,7 @@ def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Co
 
 
 def _draw_ticks(surface, clip, points, color, scale):
-    """Hatching below a chain: it is solid on the side its normal does not show to."""
+    """Draw hatching below a chain: its solid side is opposite to its normal."""
     room = clip.inflate(8 * scale, 8 * scale)
     left = TICK_BUDGET
     for (ax, ay), (bx, by) in pairwise(points):
@@ -137,7 +137,7 @@ def _draw_ticks(surface, clip, points, color, scale):
         if length == 0.0 or not room.clipline((ax, ay), (bx, by)):
             continue
         dx, dy = (bx - ax) / length, (by - ay) / length
-        # Normal (dy, -dx); the ticks lean back a little, as engineers draw ground.
+        # Normal (dy, -dx); the ticks lean back a little, like the ground symbol of engineering drawings.
         lean_x, lean_y = (-dy - 0.6 * dx) * TICK_LENGTH * scale, (dx - 0.6 * dy) * TICK_LENGTH * scale
         count = max(1, int(length / (TICK_GAP * scale)))
         for i in range(min(count, left)):

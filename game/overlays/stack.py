@@ -1,4 +1,4 @@
-"""The stack of overlay layers over one scene: which are on, drawing them, and their legend."""
+"""Stack of overlay layers over one scene: the active layers, their drawing and their legend."""
 
 from collections.abc import Iterable, Sequence
 
@@ -27,17 +27,17 @@ from game.overlays.layer_structure import Structure
 from game.overlays.layer_times import Times
 from game.scene import Scene
 
-SHORTER = (24, 16, 10, 5)  # lines of a legend that does not fit in full
+SHORTER = (24, 16, 10, 5)  # line counts of a legend that does not fit in full
 
 
 class Overlays:
-    """`on` is the set of layer names switched on."""
+    """Overlay layers of a scene. `on` is the set of names of the active layers."""
 
     def __init__(self, on: Iterable[str] = ()) -> None:
-        self.times = Times()  # keeps a history, to be told of every step
-        self.filters = Filters()  # asks the scene what its kinds are called
-        self.invariants = Invariants()  # shows the lights of the scene
-        self.disagreement = Disagreement()  # counts the steps that it is shown
+        self.times = Times()  # keeps a history: needs every step
+        self.filters = Filters()  # needs the scene's names of its kinds
+        self.invariants = Invariants()  # needs the lights of the scene
+        self.disagreement = Disagreement()  # counts the steps during which it is on
         self.layers: tuple[Layer, ...] = (
             Bounds(),
             Motion(),
@@ -60,15 +60,15 @@ class Overlays:
         self.on = set(on)
 
     def toggle(self, name: str) -> None:
-        """Switch a layer."""
+        """Switch a layer on or off."""
         self.on ^= {name}
 
     def toggle_all(self) -> None:
-        """All off if any is on, else all on."""
+        """Switch all layers off if any is on, else all on."""
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
     def note(self, scene: Scene) -> None:
-        """To be told of every step. The invariants are watched from the step after the one that shows them."""
+        """Record a step; call it every step. Monitoring of the invariants starts one step after they are shown."""
         self.times.note(scene)
         self.invariants.note(scene.lights)
         if "disagreement" in self.on:
@@ -76,7 +76,7 @@ class Overlays:
         self.watch(scene)
 
     def watch(self, scene: Scene) -> None:
-        """Have the invariants of a scene watched while they are shown, and only then."""
+        """Monitor the invariants of a scene while they are shown or the run is strict."""
         shown = "invariants" in self.on
         if shown and scene.lights is None:
             scene.watch_invariants()
@@ -84,23 +84,23 @@ class Overlays:
             scene.watch_invariants(False)
 
     def shows_geometry(self) -> bool:
-        """True if a layer lies on the world: sprites are then drawn at the exact poses it shows."""
+        """Return whether any active layer lies on the world. Sprites are then drawn at exact poses."""
         return bool(self.on - {"times", "invariants"})
 
     def draw_on_canvas(self, canvas: Canvas, scene: Scene) -> None:
-        """Layers that are exact to the canvas pixel; before the canvas is scaled."""
+        """Draw the layers that are exact to the canvas pixel, before the canvas is scaled."""
         for layer in self._active("on_canvas"):
             layer.begin(len(scene.views()))
             for world, camera in scene.views():
                 layer.draw_on_canvas(canvas, camera, world)
 
     def draw_on_frame(self, frame: Frame, scene: Scene) -> None:
-        """Layers at window resolution, each view clipped to its part of the picture."""
+        """Draw the layers at window resolution, each view clipped to its part of the picture."""
         surface = frame.surface
         self.filters.names = scene.filter_names
         self.invariants.lights = scene.lights or Lights()
         for layer in self._active("on_frame"):
-            if not layer.on_canvas:  # else its picture has begun there
+            if not layer.on_canvas:  # else draw_on_canvas has begun its picture
                 layer.begin(len(scene.views()))
             for world, camera in scene.views():
                 lens = frame.lens(camera)
@@ -109,16 +109,16 @@ class Overlays:
             surface.set_clip(None)
 
     def draw_labels(self, frame: Frame) -> None:
-        """Text that follows things, last: it takes only the places that are left."""
+        """Write labels that follow objects. They are drawn last and take only free places."""
         for layer in self._active("on_frame"):
             layer.draw_labels(frame)
 
     def legend(self) -> list[LegendLine]:
-        """(color, text) lines of all active layers, in the order of their keys."""
+        """Return (color, text) lines of all active layers, in the order of their keys."""
         return [line for layer in self.layers if layer.name in self.on for line in layer.notes()]
 
     def draw_floating(self, frame: Frame, legend_at: tuple[int, int] | None = None) -> None:
-        """Legend and graph over the full-size game, in places that no text holds; `legend_at` is tried first."""
+        """Draw legend and graph over the full-size game, in places without text; `legend_at` is tried first."""
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
         if "invariants" in self.on:
@@ -134,7 +134,7 @@ class Overlays:
         self._draw_legend(frame, area, legend_at, scale)
 
     def _draw_lights(self, frame, area, scale):
-        """The strip of lights in the middle, as near to the bottom or the top as it can be, in few rows."""
+        """Draw the strip of lights in the middle, as close to the bottom or top as possible, in few rows."""
         for size in self.invariants.sizes(frame):
             margin = 4 * scale
             top, bottom = area.top + margin, area.bottom - size[1] - margin
@@ -146,13 +146,13 @@ class Overlays:
                 return
 
     def put_lights(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Paint the strip of lights into a rect and keep other text out of it."""
+        """Draw the strip of lights into a rect and keep other text out of it."""
         there = pygame.display.get_init() and pygame.mouse.get_focused()
         self.invariants.draw_strip(frame, rect, pygame.mouse.get_pos() if there else (-1, -1))
         frame.reserve(rect)
 
     def _draw_legend(self, frame, area, legend_at, scale):
-        """The legend where it fits; with many layers on a small picture its end is counted instead of written."""
+        """Draw the legend where it fits. If it does not, its last line counts the lines left out."""
         lines = self.legend()
         for room in (len(lines), *(count for count in SHORTER if count < len(lines))):
             if not lines:
@@ -173,13 +173,13 @@ class Overlays:
                 return
 
     def _active(self, where):
-        """Layers to draw there, "on_canvas" or "on_frame", those that fill areas first."""
+        """Return the layers to draw there, "on_canvas" or "on_frame", those that fill areas first."""
         active = [layer for layer in self.layers if layer.name in self.on and getattr(layer, where)]
         return sorted(active, key=lambda layer: not layer.under)
 
 
 def legend_size(frame: Frame, lines: Sequence[LegendLine], scale: int) -> tuple[int, int]:
-    """Width and height of the legend with its margin."""
+    """Return width and height [frame px] of the legend with its margin."""
     widest = max(frame.measure(text, SMALL, scale)[0] for _, text in lines)
     return widest + 12 * scale, len(lines) * 7 * scale + 5 * scale
 
@@ -187,7 +187,7 @@ def legend_size(frame: Frame, lines: Sequence[LegendLine], scale: int) -> tuple[
 def legend_columns(
     frame: Frame, lines: list[LegendLine], width: int, height: int, scale: int
 ) -> list[list[LegendLine]]:
-    """The lines in columns that fit into width x height; what does not fit is counted in the last line."""
+    """Return the lines in columns that fit into width x height; the last line counts those left out."""
     rows = max(1, (height - 5 * scale) // (7 * scale))
     for shown in range(len(lines), 0, -1):
         kept = lines if shown == len(lines) else [*lines[:shown], (FOG, f"and {len(lines) - shown} more lines")]
@@ -198,7 +198,7 @@ def legend_columns(
 
 
 def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale: int) -> None:
-    """A swatch and a text per line, from the top left (x, y)."""
+    """Draw a swatch and a text per line, from the top left (x, y)."""
     for index, (color, text) in enumerate(lines):
         top = y + 3 * scale + index * 7 * scale
         frame.surface.fill(frame.tone(color), (x + 3 * scale, top, 3 * scale, 5 * scale))
@@ -206,7 +206,7 @@ def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale
 
 
 def _corners(area, size, margin):
-    """Places to try: down the left, down the right, along the bottom, then the middle of the top."""
+    """Return places to try: corners, middles of the sides, then positions down the left and right edges."""
     left, right = area.left + margin, area.right - size[0] - margin
     top, bottom = area.top + margin, area.bottom - size[1] - margin
     middle_x, middle_y = (left + right) // 2, (top + bottom) // 2

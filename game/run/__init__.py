@@ -1,1 +1,1 @@
-"""A scene being run: its steps, its recording and replay, its digest, its measurements and its finished picture."""
+"""The run of a scene: its steps, recording, replay, digest, measurements and finished picture."""

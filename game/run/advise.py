@@ -1,4 +1,4 @@
-"""`--advise SCENE`: its bot plays it, and at some moments every setting is measured; then what to set is told."""
+"""`--advise SCENE`: the bot plays the scene, every setting is measured at some moments, and the advice is printed."""
 
 import json
 import sys
@@ -17,12 +17,12 @@ from game.run.session import Session
 from game.run.sources import BotSource
 from game.run.warmup import warm_up_scene
 
-MOMENTS = 3  # of the bot's run, evenly apart, the last at its end
+MOMENTS = 3  # evenly spaced over the bot's run, the last at its end
 EVERY = 2.0  # [s] between two lines of progress
 
 
 def run_advice(options: Options, registry: Registry) -> int:
-    """Measure, and print what was found. Returns the exit code: 1 where nothing is within the error."""
+    """Measure, and print the advice. Return the exit code: 1 if no setting is within the error."""
     start_dummy_display()
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     error = VISIBLE if options.error is None else options.error
@@ -36,7 +36,7 @@ def run_advice(options: Options, registry: Registry) -> int:
 
 
 def moments_of(options: Options, registry: Registry) -> list[Moment]:
-    """The scene's first world at some moments of the bot's run."""
+    """Return the scene's first world at some moments of the bot's run."""
     scene, frames, found = make_scene(options, registry), options.frames or DEFAULT_FRAMES, []
     session = Session(scene, BotSource())
     at = {frames * (number + 1) // MOMENTS for number in range(MOMENTS)} - {0}
@@ -49,7 +49,7 @@ def moments_of(options: Options, registry: Registry) -> list[Moment]:
 
 
 class Progress:
-    """A line on standard error now and then: how far it is, and how long it will take."""
+    """Progress lines on standard error: the runs done and the estimated time left."""
 
     def __init__(self) -> None:
         self.started = self.told = perf_counter()
@@ -63,7 +63,7 @@ class Progress:
 
 
 def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> list[str]:
-    """What was found, to be read."""
+    """Return the results as lines of text."""
     here, best = advice.here, advice.best
     lines = [
         f"{options.scene}: {len(survey.dots)} settings at {survey.moments} moments of {STEPS} steps, {RUNS} runs each",
@@ -81,14 +81,14 @@ def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> 
 
 
 def interval(survey: Survey, setting: Setting, here: Setting) -> tuple[float, float]:
-    """Between what its time by that of another lies, going by the quartiles of the runs."""
+    """Return the range of the time of `setting` as a share of that of `here`, from the least and the upper quartile."""
     cost, now = survey.dots[setting].cost, survey.dots[here].cost
     assert cost is not None and now is not None
     return cost.least / now.upper, cost.upper / now.least
 
 
 def as_json(options: Options, error: float, advice: Advice, survey: Survey) -> dict:
-    """What was found, whole."""
+    """Return all results as a dict for JSON."""
     best, here = advice.best, advice.here
     return {
         "scene": options.scene,

@@ -1,4 +1,4 @@
-"""Compiling beside the arcade: the played scene first, then all others, with one process fewer while it is played."""
+"""Background compilation for the arcade: the played scene first, then all others, with one core left to the game."""
 
 import contextlib
 from collections.abc import Iterator
@@ -13,8 +13,10 @@ from physics.jit.workers import cores_here
 
 
 class Beside:
-    """Kernels run as plain Python until they are compiled; nothing waits. Nothing is started before `start` or the
-    first `turn`, so that the title is there first."""
+    """The background compiler. Kernels run as plain Python until they are compiled, so nothing waits.
+
+    Compilation begins at `start` or at the first `turn`, after the title is shown.
+    """
 
     def __init__(self, registry: Registry, cores: int | None = None) -> None:
         self.cores = cores_here() if cores is None else cores
@@ -22,32 +24,34 @@ class Beside:
         self.background: Background | None = None
 
     def _all_scenes(self, registry) -> Iterator[type[Scene]]:
-        """Yield one scene class after the other, imported when it is asked for."""
+        """Yield the scene classes one by one, each imported when it is due."""
         for name in registry.names:
             with contextlib.suppress(UsageError):
                 yield registry.scene_class(name)
 
     def start(self, plays: bool = False) -> None:
-        """Start to compile beside the program, if that has not begun. plays: one core is left to the scene."""
+        """Start to compile in the background, if that has not begun. plays: leave one core to the scene."""
         if self.background is None and physics.JIT:
             self.background = physics.compile_in_background(self.cores)
         if self.background is not None:
             self.background.workers.limit = max(1, self.cores - plays)
 
     def turn(self, plays: bool) -> None:
-        """Once per turn of the program's loop. plays: a scene is on the screen, so one core is left to it, and no other
-        scene is imported."""
+        """Continue the work; call once per turn of the program's loop.
+
+        plays: a scene is on the screen, so one core is left to it and no other scene is imported.
+        """
         self.start(plays)
         if self.background is not None and not plays and (scene_class := next(self.scenes, None)) is not None:
             self.background.expect(jobs_of(scene_class))
 
     @property
     def share(self) -> float:
-        """How many of the kernels that were called run compiled, 0..1."""
+        """The share of the called kernels that ran compiled, 0..1."""
         return 1.0 if self.background is None else self.background.share
 
     def stop(self) -> None:
-        """End the processes; what they have compiled stays."""
+        """End the processes; compiled kernels stay."""
         if self.background is not None:
             self.background.stop()
             self.background = None

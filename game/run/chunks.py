@@ -1,7 +1,7 @@
-"""Bytes of one moment that share with those of the moment before what did not change, and the rest compressed.
+"""A compressed store for the bytes of a moment that shares unchanged chunks with the moment before.
 
-Arrays are cut into chunks, tables column by column, since most columns of a table stay as they are. A chunk is known
-again by Python's hash of its bytes, 64 bits under a key of their own in each process.
+Arrays are cut into chunks. Tables are cut column by column, since most columns of a table stay the same. A chunk is
+recognised by Python's hash of its bytes: 64 bits, with a different key in each process.
 """
 
 import sys
@@ -12,17 +12,17 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 CHUNK = 8192  # bytes: two columns of 500 rows
-LOOSE_CHUNK = 24576  # bytes, of what may begin elsewhere each time: so far back, and a little, zlib looks (32 kB)
-WORD = 8  # bytes: tables whose rows are whole words are laid out by columns
-ALIGNED = 16  # bytes: kernels are compiled for arrays that begin at a multiple of their items
-LONGEST = 8  # chunks that are each read by the one before, the last but one by itself
-WORTH = 0.8  # of a chunk's bytes compressed by itself, below which it is kept as what differs from another
-ALIKE = 0.2  # of a chunk's bytes as what differs from another, below which nobody looks what it takes by itself
-LEVEL = 6  # zlib's: level 1 is three times as fast, for a sixth more bytes
+LOOSE_CHUNK = 24576  # bytes, of data whose start may shift; a little less than the window of zlib (32 kB)
+WORD = 8  # bytes: tables whose rows are whole words are stored by columns
+ALIGNED = 16  # bytes: kernels are compiled for arrays aligned to their items
+LONGEST = 8  # largest depth of a chain of chunks, each compressed with the one before as dictionary
+WORTH = 0.8  # a chunk is stored relative to another if this takes less than WORTH of its own compressed size
+ALIKE = 0.2  # below this share of its size relative to another, a chunk is not compressed by itself for comparison
+LEVEL = 6  # of zlib: level 1 is three times as fast, for a sixth more bytes
 
 
 class Chunk:
-    """Some bytes, perhaps compressed. like: the chunk that stood in its place before, or None."""
+    """Some bytes, perhaps compressed. like: the chunk at the same place before, or None."""
 
     __slots__ = ("data", "hash", "like", "packed")
 
@@ -32,16 +32,16 @@ class Chunk:
 
     @property
     def depth(self) -> int:
-        """How many others are read for it."""
+        """The number of other chunks that are needed to read it."""
         return 0 if self.like is None else 1 + self.like.depth
 
     @property
     def first(self) -> "Chunk":
-        """The one of these that is read by itself."""
+        """The chunk at the start of the chain, which is read without another."""
         return self if self.like is None else self.like.first
 
     def pack(self) -> None:
-        """Compress it, if that makes it smaller: by itself, unless the other one's bytes as dictionary do better."""
+        """Compress the chunk if that makes it smaller. The bytes of `like` are the dictionary if this saves enough."""
         by_like = None if self.like is None else _deflated(self.data, self.like.content())
         alike = by_like is not None and len(by_like) < ALIKE * len(self.data)
         own = b"" if alike else _deflated(self.data, b"")
@@ -53,7 +53,7 @@ class Chunk:
             self.data, self.packed = own, True
 
     def content(self) -> bytes:
-        """The bytes it was made of."""
+        """Return the original bytes."""
         if not self.packed:
             return self.data
         reader = zlib.decompressobj(zdict=self.like.content()) if self.like is not None else zlib.decompressobj()
@@ -66,9 +66,10 @@ def _deflated(data, dictionary):
 
 
 class Chunks:
-    """What `raw` holds, in its order; `widths`: bytes of an item of each, 0 where it is no array.
+    """The bytes of several buffers, in order, as chunks.
 
-    before: an earlier one of the same things, whose chunks may be shared. `new`: those that are not.
+    raw: the buffers. widths: bytes of an item of each, 0 if it is not an array. before: an earlier Chunks of the same
+    buffers, to share chunks with. `new`: the chunks that are not shared.
     """
 
     def __init__(self, raw: Sequence[memoryview], widths: Sequence[int], before: "Chunks | None" = None) -> None:
@@ -81,7 +82,7 @@ class Chunks:
         small = []
         old = iter(before.parts if before is not None else ())
         past = next(old, ())
-        self.parts: list[tuple[Chunk, ...]] = []  # of the small ones joined, then of each large one
+        self.parts: list[tuple[Chunk, ...]] = []  # of the small buffers joined, then of each large one
         for view, width in zip(raw, rows, strict=True):
             size = view.nbytes
             if size < CHUNK:
@@ -91,7 +92,7 @@ class Chunks:
                     self._cut(_by_columns(view, width), known, next(old, ()), CHUNK if width else LOOSE_CHUNK)
                 )
         self.parts.insert(0, self._cut(memoryview(b"".join(small)), known, past, LOOSE_CHUNK))
-        if before is not None:  # the same chunks in the same order: one list for both
+        if before is not None:  # equal parts are stored once
             for number, (part, old) in enumerate(zip(self.parts, before.parts, strict=False)):
                 if part == old:
                     self.parts[number] = old
@@ -109,16 +110,16 @@ class Chunks:
         return tuple(chunks)
 
     def __iter__(self) -> Iterator[Chunk]:
-        """Every chunk, some more than once."""
+        """Iterate over every chunk; shared ones come more than once."""
         return (chunk for part in self.parts for chunk in part)
 
     def _sizes(self):
-        """(bytes, bytes of a row) of each."""
+        """Return (bytes, bytes of a row) of each buffer."""
         count = len(self.layout) // 2
         return zip(self.layout[:count], self.layout[count:], strict=True)
 
     def contents(self) -> list[memoryview]:
-        """What was given, anew, to be written to."""
+        """Return writable copies of the buffers."""
         parts = iter(self.parts)
         small = _joined(next(parts))
         found, at = [], 0
@@ -132,7 +133,7 @@ class Chunks:
 
 
 def bytes_of(many: Iterable[Chunks]) -> int:
-    """Bytes that these hold together, a chunk that several share once, with what Python takes to keep them."""
+    """Return the bytes that these hold together, with Python's overhead; shared chunks count once."""
     parts = {id(part): part for chunks in many for part in chunks.parts}
     layouts = {id(chunks.layout): chunks.layout for chunks in many}
     each = {id(chunk): chunk for part in parts.values() for chunk in part}
@@ -144,12 +145,12 @@ def bytes_of(many: Iterable[Chunks]) -> int:
 
 
 def _row(size, width):
-    """Bytes of a row of a table; of anything else 1, or 0 as it was given."""
+    """Return the bytes of a row of a table; 1 for other arrays, 0 for other data."""
     return width if width % WORD == 0 and size > width else min(width, 1)
 
 
 def _by_columns(view, width):
-    """The same bytes, word by word of all rows."""
+    """Return the bytes ordered by columns of words."""
     if width <= WORD:
         return view
     words = np.frombuffer(view, np.uint64).reshape(-1, width // WORD)
@@ -157,7 +158,7 @@ def _by_columns(view, width):
 
 
 def _by_rows(data: np.ndarray, width: int) -> np.ndarray:
-    """The reverse."""
+    """Return the bytes ordered by rows: the inverse of _by_columns."""
     if width <= WORD:
         return data
     words = np.frombuffer(data, np.uint64).reshape(width // WORD, -1)
@@ -165,5 +166,5 @@ def _by_rows(data: np.ndarray, width: int) -> np.ndarray:
 
 
 def _joined(chunks):
-    """One array of their bytes, to be written to."""
+    """Return one writable array of the bytes of chunks."""
     return np.frombuffer(bytearray(b"".join([chunk.content() for chunk in chunks])), np.uint8)

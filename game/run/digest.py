@@ -1,4 +1,4 @@
-"""One digest for a whole scene: every world in build order, the scene's own state, its random numbers."""
+"""The digest of a whole scene: every world in build order, the scene's own state, its random numbers."""
 
 import struct
 from hashlib import blake2b
@@ -7,7 +7,7 @@ from game.scene import Scene
 
 
 def scene_digest(scene: Scene) -> str:
-    """32 hex digits. Floats count by their bits, with -0.0 as 0.0; raises TypeError for any other type."""
+    """Return 32 hex digits. Floats count by their bits, with -0.0 as 0.0; raises TypeError for any other type."""
     digest = blake2b(digest_size=16)
     for world in scene.worlds:
         digest.update(world.digest().encode())

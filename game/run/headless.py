@@ -1,4 +1,4 @@
-"""A run without window, sound or waiting. It draws only when something asks for pictures."""
+"""A run without window, sound or waiting. Pictures are drawn only if an option needs them."""
 
 import json
 import os
@@ -23,18 +23,18 @@ from game.scene import Scene, set_loaded_aside
 
 
 def start_dummy_display() -> None:
-    """Let pygame draw without any display or sound device."""
+    """Set up pygame to draw without a display or sound device."""
     os.environ["SDL_VIDEODRIVER"] = "dummy"
     os.environ["SDL_AUDIODRIVER"] = "dummy"
-    os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would make an event of SIGTERM, and nobody reads events here
+    os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would turn SIGTERM into an event, and no events are read here
     pygame.display.init()
     pygame.display.set_mode((480, 270))  # so that convert_alpha() has a format to convert to
 
 
 def run_headless(options: Options, registry: Registry) -> int:
-    """Run --frames steps and report. Returns the exit code."""
+    """Run --frames steps and report. Return the exit code."""
     start_dummy_display()
-    # Kernels first, so that the times below are of steps and not of the compiler.
+    # Compile first, so that the times below do not include the compiler.
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     scene = make_scene(options, registry)
     recording = options.recording
@@ -72,7 +72,7 @@ def run_headless(options: Options, registry: Registry) -> int:
 
 
 def save_or_fail(save: Callable[[str], object], path: str) -> None:
-    """Write an output file; a path that cannot be written is wrong use."""
+    """Write an output file. Raises UsageError for a path that cannot be written."""
     try:
         save(path)
     except OSError as error:
@@ -80,7 +80,7 @@ def save_or_fail(save: Callable[[str], object], path: str) -> None:
 
 
 def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") -> int:
-    """Print what was asked for and return the exit code. broken: the invariant that ended the run, where one did."""
+    """Print the requested results and return the exit code. broken: the invariant that ended the run, or ""."""
     played = options.played_by_bot
     extra = [broken] if broken else report.strict_failures() if options.strict else []
     check = judge(scene, report.steps, extra) if played else not_judged(scene, extra)
@@ -97,7 +97,7 @@ def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") 
 
 
 def summary_line(scene: Scene, report: RunReport, check: Check, played: bool) -> str:
-    """One line about the run, for people."""
+    """Return one line of text about the run."""
     verdict = ("check ok" if check["ok"] else "check FAILED") if played else "nobody played, so nothing was checked"
     pending = f", {len(check['pending'])} goals pending" if played and check["pending"] else ""
     return f"{scene.name}: {report.steps} frames, seed {scene.seed}, {scene.broadphase}: {verdict}{pending}"

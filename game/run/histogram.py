@@ -1,14 +1,14 @@
-"""A histogram of times whose memory does not grow: bins a hundredth wide, and the exact mean and maximum."""
+"""A histogram of times in constant memory: bins 1 % wide, with the exact mean and maximum."""
 
 from math import floor, log
 
-SHORTEST, LONGEST = 1e-7, 1e3  # [s] what lies outside counts in the first or the last bin
-WIDTH = log(1.01)  # of a bin, in the logarithm of the time: a quantile is exact to half a percent
+SHORTEST, LONGEST = 1e-7, 1e3  # [s] times outside count in the first or the last bin
+WIDTH = log(1.01)  # width of a bin in the logarithm of the time: quantiles are exact to half a percent
 BINS = floor(log(LONGEST / SHORTEST) / WIDTH) + 1
 
 
 class Histogram:
-    """Of times [s] that are added one by one."""
+    """A histogram of times [s] that are added one by one."""
 
     def __init__(self) -> None:
         self.bins = [0] * BINS
@@ -16,7 +16,7 @@ class Histogram:
         self.total = self.largest = 0.0
 
     def add(self, seconds: float) -> None:
-        """Count one time."""
+        """Count one time [s]."""
         place = floor(log(max(seconds, SHORTEST) / SHORTEST) / WIDTH)
         self.bins[min(place, BINS - 1)] += 1
         self.count += 1
@@ -25,11 +25,11 @@ class Histogram:
 
     @property
     def mean(self) -> float:
-        """Exact; 0 when nothing was added."""
+        """The exact mean [s]; 0 if nothing was added."""
         return self.total / self.count if self.count else 0.0
 
     def quantile(self, share: float) -> float:
-        """The time that a share 0..1 of all is not longer than; 0 when nothing was added."""
+        """Return the quantile [s] for a share 0..1; 0 if nothing was added."""
         left = share * (self.count - 1) + 1.0
         for place, count in enumerate(self.bins):
             left -= count

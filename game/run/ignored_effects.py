@@ -1,4 +1,4 @@
-"""The effects that a running scene declares and the solver of a world does not honour: a list and a line of the HUD."""
+"""The effects that a running scene declares and a solver ignores: a list and a line of the HUD."""
 
 from collections.abc import Iterable
 
@@ -17,7 +17,7 @@ SHADE = (20, 16, 32, 225)
 
 
 def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
-    """Return {solver: names of effects} of the worlds whose solver ignores some, in the order of the worlds."""
+    """Return {solver: names of ignored effects} for worlds whose solver ignores some, in the order of the worlds."""
     found: dict[str, set[str]] = {}
     for world in worlds:
         ignored = world.ignored_effects
@@ -27,17 +27,17 @@ def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
 
 
 def ignored_effects(scene: Scene) -> list[str]:
-    """Return the names of the effects that some world of a scene declares and its solver ignores."""
+    """Return the names of the effects that a world of the scene declares and its solver ignores."""
     return in_order({name for names in ignored_by_solver(scene.worlds).values() for name in names})
 
 
 def in_order(names: set[str]) -> list[str]:
-    """Return names of effects in the order in which Effects has them."""
+    """Return names of effects in the order of Effects."""
     return [name for name in Effects.__dataclass_fields__ if name in names]
 
 
 def sentences(scene: Scene) -> list[str]:
-    """Return a sentence per solver that ignores something; none where all effects are honoured."""
+    """Return a sentence per solver that ignores effects."""
     return [
         f"{plain_name(solver)} ignores {', '.join(map(plain_name, names))}"
         for solver, names in ignored_by_solver(scene.worlds).items()
@@ -45,9 +45,10 @@ def sentences(scene: Scene) -> list[str]:
 
 
 def draw_ignored(frame: Frame, scene: Scene) -> None:
-    """Write the sentences into a free corner of the game's part of a frame, as large as fits there, below its head.
+    """Write the sentences into a free corner of the game's part of a frame, below its head, in the largest text that
+    fits.
 
-    Where no place is free they stand at the bottom on the left, and the text that they cover goes.
+    If no place is free, they are written at the bottom left and replace the text there.
     """
     told = sentences(scene)
     if not told:
@@ -74,7 +75,7 @@ def _size(frame, rows, scale):
 
 
 def _places(area, size, scale):
-    """Places of a box, from the bottom of an area to its top, at its left edge before its right one."""
+    """Yield places of a box from the bottom of an area to its top, at the left edge and then at the right edge."""
     step, edge = LINE * scale, EDGE * scale
     for x in (area.left + edge, area.right - size[0] - edge):
         for y in range(area.bottom - size[1] - edge, area.top - 1, -step):

@@ -1,8 +1,8 @@
-"""A key frame: everything that a scene is at one moment, in few bytes, to be put back into the same scene.
+"""A key frame: the whole state of a scene at one moment, in few bytes, which can be restored into the same scene.
 
-The scene and its worlds go on being the objects they are: whoever holds one sees it go back. What they hold is pickled,
-arrays beside the pickle. What never changes (pictures, shapes, code, and whatever says that a deep copy of it is
-itself) is only named.
+The scene and its worlds stay the same objects: a reference to one sees it restored. Their contents are pickled, with
+arrays outside the pickle. Constant objects are stored by reference only: pictures, shapes, code, and objects whose deep
+copy is themselves.
 """
 
 import io
@@ -21,13 +21,13 @@ from game.scene import Scene
 from physics import World
 from physics.tables.table import Table
 
-OUTSIDE = ("accessibility", "ghost", "best", "figures")  # of a scene: set from outside, whenever that is
-TRAIL = "trail"  # of a scene: it is only ever added to, so that its length says what it was
-KEPT = (type, FunctionType, np.dtype, pygame.Surface)  # never change
+OUTSIDE = ("accessibility", "ghost", "best", "figures")  # attributes of a scene that are set from outside at any time
+TRAIL = "trail"  # attribute of a scene that only grows, so its length is enough to restore it
+KEPT = (type, FunctionType, np.dtype, pygame.Surface)  # types of constant objects
 
 
 class KeyFrame:
-    """A scene as it stands. before: an earlier key frame, with which is shared what did not change."""
+    """The state of a scene. before: an earlier key frame, to share unchanged data with."""
 
     def __init__(self, scene: Scene, before: "KeyFrame | None" = None) -> None:
         self.scene = scene
@@ -35,7 +35,7 @@ class KeyFrame:
         stream = io.BytesIO()
         writer = _Writer(stream, scene)
         writer.dump({name: value for name, value in vars(scene).items() if name not in (*OUTSIDE, TRAIL)})
-        for world in writer.worlds:  # and those that are met meanwhile
+        for world in writer.worlds:  # more are appended meanwhile
             writer.tables = {id(value) for value in vars(world).values() if isinstance(value, Table)}
             writer.dump(world.__getstate__())
         self.worlds = _same(tuple(writer.worlds), before and before.worlds)
@@ -44,7 +44,7 @@ class KeyFrame:
         self.chunks = Chunks(raw, [0, *writer.widths], before and before.chunks)
 
     def restore(self) -> None:
-        """Put the scene back."""
+        """Restore the scene."""
         stream, *buffers = self.chunks.contents()
         reader = _Reader(io.BytesIO(stream), self.kept, buffers)
         scene = self.scene
@@ -59,33 +59,35 @@ class KeyFrame:
 
 
 def bytes_held(frames: Iterable[KeyFrame]) -> int:
-    """Bytes that these hold together, what several share once."""
+    """Return the bytes that these hold together; shared data counts once."""
     lists = {id(kept): kept for frame in frames for kept in (frame.kept, frame.worlds)}
     return sum(map(sys.getsizeof, lists.values())) + bytes_of([frame.chunks for frame in frames])
 
 
 def table_of(rows: np.ndarray, capacity: int) -> Table:
-    """A table with these rows: what stood behind them means nothing, and is not kept."""
+    """Return a table with these rows; the unused rows behind them are not stored."""
     table = Table(rows.dtype, capacity)
     table.append(len(rows)).view(np.uint8)[:] = rows.view(np.uint8)
     return table
 
 
 def shared(number: int) -> object:
-    """What a pickle calls for an object that is not in it; a key frame reads its own list in place of this."""
+    """Stand for an object outside the pickle; a key frame reads its own list instead."""
     raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
 
 
 class _Writer(pickle.Pickler):
-    """`kept`: the objects that the pickle only names; `worlds`: those of them that wait for their turn."""
+    """The pickler of a key frame. `kept`: the objects stored by reference; `worlds`: those of them that are still to be
+    pickled.
+    """
 
     def __init__(self, file, scene):
         self.buffers, self.widths = [], []
         super().__init__(file, 5, buffer_callback=self._take)
         self.scene = scene
         self.kept, self.worlds = [], []
-        self.numbers = {}  # by id
-        self.tables: set[int] = set()  # ids of those that a world has to itself
+        self.numbers = {}  # index in `kept` by id
+        self.tables: set[int] = set()  # ids of the tables that belong to the world alone
         self.width = 0  # bytes of an item of the array that is being pickled
 
     def _take(self, buffer):
@@ -122,7 +124,7 @@ class _Reader(pickle.Unpickler):
 
 
 def _same(new, old):
-    """The old list where it holds the very same objects."""
+    """Return the old list if it holds the same objects, else the new one."""
     if old is not None and len(new) == len(old) and all(map(is_, new, old)):
         return old
     return new

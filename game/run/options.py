@@ -1,4 +1,4 @@
-"""What a run is asked to be, as the command line reads it."""
+"""The options of a run, as read from the command line."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -7,7 +7,7 @@ from game.registry import Registry
 from game.run.replay import Replay
 from game.scene import Scene
 
-DEFAULT_FRAMES = 600  # of a headless run that names no number: ten seconds
+DEFAULT_FRAMES = 600  # of a headless run without --frames: ten seconds
 
 
 @dataclass
@@ -33,8 +33,8 @@ class Options:
     warmup: bool = False
     strict: bool = False
     version: bool = False
-    advise: str | None = None  # a scene; it is then the scene too
-    error: float | None = None  # [px] that the advice may cost
+    advise: str | None = None  # a scene, which is then also `scene`
+    error: float | None = None  # [px] allowed error of the advice
     report: str | None = None  # a folder
     quick: bool = False
     workers: int | None = None
@@ -49,23 +49,23 @@ class Options:
 
     @property
     def played_by_bot(self) -> bool:
-        """True where the scene's own player plays, or played what is replayed: its goals are then checked."""
+        """True if the scene's bot plays, or played the replayed recording: its goals are then checked."""
         return self.bot or bool(self.recording and self.recording.bot)
 
     @property
     def last_frame(self) -> int | None:
-        """The frame that the run ends with, None where it goes on for as long as somebody plays."""
+        """The frame that the run ends with; None if the player ends it."""
         return self.frames or (self.recording.frames if self.recording else None)
 
 
 def scene_class_of(options: Options, registry: Registry) -> type[Scene]:
-    """The class of the scene that the options name; they must name one."""
+    """Return the class of the scene that the options name; they must name one."""
     assert options.scene is not None
     return registry.scene_class(options.scene)
 
 
 def make_scene(options: Options, registry: Registry) -> Scene:
-    """The scene that the options ask for. Raises FileError for a level with a mistake."""
+    """Return the scene that the options name. Raises FileError for a level with a mistake."""
     return scene_class_of(options, registry)(
         options.seed or 0, options.broadphase, options.solver, options.tier, options.level
     )

@@ -1,4 +1,4 @@
-"""What a run measured: per stage, per frame, counters and events, summed over the scene's worlds."""
+"""The measurements of a run: per stage, per frame, counters and events, summed over the scene's worlds."""
 
 from collections.abc import Iterable
 from typing import Any
@@ -14,12 +14,12 @@ EVENTS = ("begin", "persist", "end", "hits")
 
 
 class RunReport:
-    """Filled step by step. Times are seconds inside and milliseconds in to_json."""
+    """The measurements of a run, filled step by step. Times are seconds inside and milliseconds in to_json."""
 
     def __init__(self) -> None:
         self.steps = 0
         self.frames = Histogram()  # update, and drawing where there was any; the last one is still open
-        self.last = None  # [s] the frame that drawing may still be added to
+        self.last = None  # [s] the frame that drawing time may still be added to
         self.updates = Histogram()  # update alone
         self.stages = {}  # name -> Histogram of the times per step
         self.counters = {}
@@ -27,7 +27,7 @@ class RunReport:
         self.quarantined = 0
 
     def note_step(self, scene: Scene, seconds: float) -> None:
-        """Take what the worlds measured in the step just made, which took that long."""
+        """Add the measurements of the worlds in the last step, which took `seconds`."""
         self.steps += 1
         self._close_frame()
         self.last = seconds
@@ -55,7 +55,7 @@ class RunReport:
             self.last = None
 
     def strict_failures(self) -> list[str]:
-        """What --strict objects to at the end of a run: quarantined bodies and any cap that was hit."""
+        """Return the failures under --strict at the end of a run: quarantined bodies and cap hits."""
         failures = []
         if self.quarantined:
             failures.append(f"{self.quarantined} bodies were quarantined")
@@ -64,7 +64,7 @@ class RunReport:
         return failures
 
     def to_json(self, scene: Scene, check: Check) -> dict[str, Any]:
-        """The object that --json prints; `check` comes from judge()."""
+        """Return the object that --json prints; `check` comes from judge()."""
         self._close_frame()
         return {
             "scene": scene.name,
@@ -84,7 +84,7 @@ class RunReport:
         }
 
     def profile_lines(self) -> list[str]:
-        """The table that --profile prints."""
+        """Return the table that --profile prints."""
         self._close_frame()
         lines = [f"{'':24}{'mean':>9}{'p50':>9}{'p99':>9}{'max':>9}  ms"]
         rows = {"frame": self.frames, "  update": self.updates}
@@ -100,18 +100,18 @@ class RunReport:
 
 
 def solver_name(scene: Scene) -> str | None:
-    """The solver that runs, also where the scene left the choice to the World."""
+    """Return the solver that runs, also if the scene left the choice to the World."""
     return scene.worlds[0].solver if scene.worlds else scene.solver
 
 
 def summary(times: Histogram, wanted: Iterable[str]) -> dict[str, float]:
-    """{mean, p50, p99, max} in milliseconds, of what is wanted; zeros when nothing was measured."""
+    """Return those of {mean, p50, p99, max} [ms] that are wanted; zeros if nothing was measured."""
     found = {"mean": times.mean, "p50": times.quantile(0.5), "p99": times.quantile(0.99), "max": times.largest}
     return {name: round(1000.0 * found[name], 4) for name in wanted}
 
 
 def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
-    """{ok, failures, pending} from the scene's goals: one due after the last frame is pending, not failed."""
+    """Return {ok, failures, pending} for the scene's goals. A goal due after the last frame is pending, not failed."""
     failures, pending = list(extra), []
     for goal in scene.check():
         if goal.met:
@@ -125,5 +125,5 @@ def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
 
 
 def not_judged(scene: Scene, extra: Iterable[str] = ()) -> Check:
-    """The check of a run that nobody played: its goals are all pending; only --strict can fail it."""
+    """Return the check of a run without a player: all goals are pending, and only --strict can fail it."""
     return {"ok": not extra, "failures": list(extra), "pending": [goal.name for goal in scene.check()]}

@@ -16,11 +16,11 @@ from game.overlays.stack import Overlays, draw_legend, legend_columns, legend_si
 from game.run.ignored_effects import draw_ignored
 from game.scene import Scene
 
-GRAPH_LEAST = 120  # [text px] of the strip's width are kept for the stage times when they are on
+GRAPH_LEAST = 120  # [text px] least width of the strip that is reserved for the stage times when they are on
 
 
 class Drawable(Protocol):
-    """What can be shown on the canvas by itself."""
+    """An object that can be shown alone on the canvas."""
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
@@ -28,7 +28,7 @@ class Drawable(Protocol):
 
 
 class Docked(Protocol):
-    """What stands beside a scene: the panel."""
+    """An object shown beside a scene: the panel."""
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
         """Paint into a frame rect."""
@@ -36,7 +36,7 @@ class Docked(Protocol):
 
 
 class Picture:
-    """Draws onto `surface`: the window's, or one of screenshot size."""
+    """The drawing of finished pictures onto `surface`: the window's, or one of screenshot size."""
 
     def __init__(self, surface: pygame.Surface | None = None) -> None:
         if surface is None:
@@ -52,9 +52,10 @@ class Picture:
         panel: Docked | None = None,
         reserve: Callable[[Frame], None] | None = None,
     ) -> Frame:
-        """Draw everything and return the frame. With geometry shown, sprites stand where the step left them.
+        """Draw the whole picture and return the frame. With geometry shown, sprites are drawn at the poses after the
+        last step.
 
-        reserve(frame): called before the overlays' text is placed, to keep it away from what is drawn later.
+        reserve(frame): called before the overlays' text is placed, to reserve the places of later drawing.
         """
         if overlays.shows_geometry():
             alpha = 1.0
@@ -77,7 +78,7 @@ class Picture:
         draw_ignored(frame, scene)
         words = frame.lift() if overlays.shows_geometry() else []
         overlays.draw_on_frame(frame, scene)
-        frame.put_back(words)  # score, lives, plots: nothing is painted over them
+        frame.put_back(words)  # text such as score and lives, and plots stay on top
         if panel is None:
             frame.reserve(frame.from_canvas((0, 0, self.canvas.surface.get_width(), scene.head)))
             overlays.draw_floating(frame, scene.legend_at)
@@ -87,7 +88,7 @@ class Picture:
         return frame
 
     def draw_without(self, draw: Callable[[Frame], None], overlays: Overlays, panel: Docked | None = None) -> Frame:
-        """In place of a scene what draw(frame) paints over its part of the picture; the panel stands beside it."""
+        """Draw draw(frame) in place of a scene, with the panel beside it."""
         self.canvas.begin(INK)
         self.presenter.docked = panel is not None
         frame = self.presenter.present(self.canvas)
@@ -98,7 +99,7 @@ class Picture:
 
     def _draw_panel(self, frame, panel, overlays):
         if self.presenter.crowded:
-            frame.begin()  # the panel covers the whole picture, and with it all text so far
+            frame.begin()  # the panel covers the whole picture with all text so far
         panel.draw(frame, self.presenter.panel_rect)
         draw_strip(frame, self.presenter.strip_rect, overlays)
 
@@ -111,7 +112,7 @@ class Picture:
 
 
 def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
-    """The strip under a docked game: legend on the left, stage times on the right, whatever is on."""
+    """Draw the strip under a docked game: legend on the left, stage times on the right, as far as they are on."""
     scale = frame.text_scale
     if rect.height < 40 * scale:
         return
@@ -128,7 +129,7 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
 
 
 def _lights_above(frame, rect, overlays, scale):
-    """The strip of invariants in the widest form that fits; returns what is left of the rect under it."""
+    """Draw the strip of invariants in the widest form that fits, and return the rest of the rect under it."""
     if "invariants" in overlays.on:
         for width, height in overlays.invariants.sizes(frame):
             if width <= rect.width - 8 * scale and height <= rect.height - 4 * scale:
@@ -138,7 +139,7 @@ def _lights_above(frame, rect, overlays, scale):
 
 
 def save_png(surface: pygame.Surface, path: str | Path) -> None:
-    """Write a surface as PNG, whatever the file is called, whole or not at all. Raises OSError where it cannot."""
+    """Write a surface as a PNG file, whatever its name. The write is atomic. Raises OSError."""
     picture = BytesIO()
     pygame.image.save(surface, picture, "picture.png")
     write_atomically(path, picture.getvalue(), makes_folder=False)

@@ -1,9 +1,9 @@
 """Recordings: the inputs of every step, the seed, and a digest after every step.
 
-A replay runs the scene again and names the first frame whose digest differs. The file is JSON with one
-line per run of equal input, so that it can be read, compared and repaired by hand. Version 2 also says which level
-was played, when, and how it ended; version 1 is still read. What was recorded under another physics plays, and says
-where it goes another way.
+A replay runs the scene again and names the first frame whose digest differs. The file is JSON with one line per run of
+equal input, so that it can be read, compared and repaired by hand. Version 2 adds the level, the date and the result;
+version 1 can still be read. A recording under another physics version is played, and the first different frame is
+reported.
 """
 
 import json
@@ -22,17 +22,17 @@ from physics import PHYSICS_VERSION
 
 FORMAT, VERSION = "hitbox replay", 2
 DIGEST_EVERY = 1  # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
-KEPT_EVERY = 30  # frames between the digests of runs that are kept unasked: half a second is exact enough
+KEPT_EVERY = 30  # frames between the digests of runs that are kept automatically: half a second is exact enough
 DIGITS = 16  # hex digits kept per frame: 64 bits
-LONGEST = 24 * 60 * 60 * 60  # frames: a day; a file of a few bytes could ask for all memory there is
-LARGEST_SEED = 2**62  # the physics takes 63 bits, and each further world of a scene counts on by one
-FARTHEST = 1_000_000  # canvas px of the pointer, and notches of the wheel
-LONGEST_DATE = 40  # letters
+LONGEST = 24 * 60 * 60 * 60  # frames: a day; without a limit a small file could exhaust the memory
+LARGEST_SEED = 2**62  # the physics takes 63 bits, and each further world of a scene adds one
+FARTHEST = 1_000_000  # limit of the pointer [canvas px] and of the wheel [notches]
+LONGEST_DATE = 40  # characters
 MOST_POINTS = 10**15
 
 
 class Recorder:
-    """Notes what went in and what came out of each step. every: frames between two digests."""
+    """A recorder of the input and the digest of each step. every: frames between two digests."""
 
     def __init__(self, scene: Scene, bot: bool = False, every: int = DIGEST_EVERY) -> None:
         level = scene.level_file
@@ -56,7 +56,7 @@ class Recorder:
         self.digests = []
 
     def note(self, frame: InputFrame, scene: Scene) -> None:
-        """Call after each step with the input it had."""
+        """Record a step; call after it with its input."""
         self.frames += 1
         if self.runs and self.runs[-1][1] == frame:
             self.runs[-1][0] += 1
@@ -66,7 +66,7 @@ class Recorder:
             self.digests.append(scene_digest(scene)[:DIGITS])
 
     def cut(self, frames: int) -> None:
-        """Forget what was noted after so many frames: the game was gone back there, and is played on."""
+        """Discard the recording after so many frames: the player rewound there and plays on."""
         left = self.frames - frames
         self.frames -= max(0, left)
         while left > 0:
@@ -78,7 +78,7 @@ class Recorder:
         del self.digests[self.frames // self.every :]
 
     def save(self, path: str | Path, result: Result | None = None) -> None:
-        """Write the recording, with the game.scene.Result it ended in; raises OSError when that is not possible."""
+        """Write the recording with the game.scene.Result at its end. Raises OSError."""
         ended = result and {"won": bool(result.won), "points": int(result.points), "seconds": float(result.seconds)}
         head = {**self.head, "result": ended, "frames": self.frames}
         lines = [json.dumps(head)[:-1] + ",", '"inputs": [']
@@ -88,7 +88,7 @@ class Recorder:
 
 
 def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
-    """Changes that bring a fresh scene to what was chosen in this one, besides what a recording's head says."""
+    """Return the changes that bring a new scene to the choices of this one, beyond those in a recording's head."""
     changes: list[tuple[str, Any]] = [
         (f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start
     ]
@@ -100,7 +100,7 @@ def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
 
 
 class Replay:
-    """A recording read back: a source of input (`next`) and a judge (`verify`)."""
+    """A recording read back: a source of input (`next`) and a check (`verify`)."""
 
     def __init__(self, path: str | Path, data: dict[str, Any], frames: list[InputFrame]) -> None:
         self.path = path
@@ -111,21 +111,21 @@ class Replay:
         self.digests, self.physics = data["digests"], data["physics"]
         self.inputs = frames
         self.index = 0
-        self.parted = ""  # where it went another way than under the physics of then
+        self.parted = ""  # first difference under another physics version
 
     @property
     def frames(self) -> int:
-        """How many steps were recorded."""
+        """The number of recorded steps."""
         return len(self.inputs)
 
     @property
     def outdated(self) -> str:
-        """In words that it was recorded under another physics, "" where it was not."""
+        """A sentence if it was recorded under another physics version, else ""."""
         then = self.physics
         return "" if then == PHYSICS_VERSION else f"recorded under physics {then}, played under {PHYSICS_VERSION}"
 
     def level_path(self) -> Path | None:
-        """The file of the level that was played, None for the scene's own. Raises FileError if it is another now."""
+        """Return the file of the played level, None for the scene's own. Raises FileError if the file has changed."""
         if self.level is None:
             return None
         path = Path(self.level["path"])
@@ -139,12 +139,15 @@ class Replay:
         return path
 
     def next(self, scene: object) -> InputFrame:
-        """The input of the next step; nothing after the last."""
+        """Return the input of the next step; no input after the last."""
         self.index += 1
         return self.inputs[self.index - 1] if self.index <= len(self.inputs) else NOTHING
 
     def verify(self, scene: Scene) -> None:
-        """Compare after a step. Raises ReplayDiverged naming the frame; under another physics it is noted instead."""
+        """Compare the digest after a step.
+
+        Raises ReplayDiverged naming the frame. Under another physics version the frame is recorded in `parted` instead.
+        """
         frame = self.index
         if frame % self.every or frame // self.every > len(self.digests):
             return
@@ -163,7 +166,7 @@ def load_replay(path: str | Path) -> Replay:
     if isinstance(data, dict) and data.get("version") == 1:
         data = {**data, "level": None, "date": "", "result": None}
     if isinstance(data, dict):
-        data.setdefault("physics", 1)  # it was not said
+        data.setdefault("physics", 1)  # older files do not hold it
     _check_head(path, data)
     frames = []
     for index, run in enumerate(data["inputs"]):

@@ -1,4 +1,6 @@
-"""Does a recording fit its scene? Files come from friends and other versions: every name and value is asked about."""
+"""The check that a recording fits its scene. Files come from friends and other versions, so every name and value is
+checked.
+"""
 
 from pathlib import Path
 
@@ -10,7 +12,9 @@ from physics import BROADPHASES
 
 
 def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[Scene]]:
-    """(recording, scene class) of a file. Raises FileError for one that is damaged, or that its scene cannot play."""
+    """Return (recording, scene class) of a file. Raises FileError for a file that is damaged or that its scene cannot
+    play.
+    """
     recording = load_replay(path)
     if recording.scene not in registry.names:
         raise FileError(
@@ -22,7 +26,7 @@ def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[
 
 
 def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
-    """Raises FileError naming the first thing that the scene does not have."""
+    """Check a recording against its scene. Raises FileError naming the first value that the scene does not have."""
     path = recording.path
     for place, value, valid in (
         ("broadphase", recording.broadphase, tuple(BROADPHASES)),
@@ -47,7 +51,7 @@ def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
 
 
 def is_possible(scene_class: type[Scene], name: object, value: object) -> bool:
-    """True if the scene takes that change; a scene whose worlds have solvers of their own takes no other."""
+    """Return whether the scene takes that change; a scene whose worlds have solvers of their own takes no other."""
     if not isinstance(name, str) or isinstance(value, (list, dict)):
         return False
     kind, _, what = name.partition(":")
