@@ -215,7 +215,7 @@ def test_a_copy_elsewhere_finds_what_was_compiled_and_other_sources_of_jit_do_no
     for path in second.rglob("*.py"):
         os.utime(path, (1, 1))
     code = (
-        "import json\nfrom physics import Circle, Effects, World\nfrom physics.jit import totals\n"
+        "import json\nfrom physics import Circle, Effects, World\nfrom physics.jit import kernels as totals\n"
         "world = World(Effects())\nworld.add_body(Circle(4))\nworld.step()\n"
         "print(json.dumps([totals.compiled, totals.loaded]))"
     )
