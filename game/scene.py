@@ -393,7 +393,7 @@ def set_loaded_aside() -> None:
     """Run a full collection, and exempt the remaining objects from collection until the next call.
 
     A full collection with numba and a scene loaded takes 40 ms, two and a half frames. A collection of the objects made
-    during a game takes less than 1 ms. Call it when a scene is ready to begin.
+    during a game takes less than one frame. Call it when a scene is ready to begin.
     """
     gc.unfreeze()
     gc.collect()
