@@ -54,8 +54,6 @@ def draw_ignored(frame: Frame, scene: Scene) -> None:
     if not told:
         return
     area = frame.area.clip(frame.rect)
-    head = scene.head * frame.scale
-    area = pygame.Rect(area.x, area.y + head, area.width, area.height - head)
     for scale in range(frame.text_scale, 0, -1):
         rows = [row for text in told for row in wrap(text, area.width - 4 * EDGE * scale, SMALL, scale)]
         size = _size(frame, rows, scale)

@@ -75,12 +75,12 @@ class Picture:
             reserve(frame)
         scene.draw_on_frame(frame)
         draw_drag(frame, scene.drag, scene.pointer)
+        frame.reserve(frame.from_canvas((0, 0, self.canvas.surface.get_width(), scene.head)))
         draw_ignored(frame, scene)
         words = frame.lift() if overlays.shows_geometry() else []
         overlays.draw_on_frame(frame, scene)
         frame.put_back(words)  # text such as score and lives, and plots stay on top
         if panel is None:
-            frame.reserve(frame.from_canvas((0, 0, self.canvas.surface.get_width(), scene.head)))
             overlays.draw_floating(frame, scene.legend_at)
         else:
             self._draw_panel(frame, panel, overlays)
