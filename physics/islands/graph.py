@@ -9,26 +9,7 @@ are solved last and prevail.
 
 from physics.jit import kernel, subkernel
 from physics.settings import COLORS
-
-
-@subkernel
-def root_of(node, parents_inout):
-    """Return the root of a node's island, with path halving."""
-    while parents_inout[node] != node:
-        parents_inout[node] = parents_inout[parents_inout[node]]
-        node = parents_inout[node]
-    return node
-
-
-@subkernel
-def join_nodes(a, b, parents_inout):
-    """Join the islands of two nodes; the lower root stays."""
-    first = root_of(a, parents_inout)
-    second = root_of(b, parents_inout)
-    if first < second:
-        parents_inout[second] = first
-    elif second < first:
-        parents_inout[first] = second
+from physics.tables.table import join_trees, root_of
 
 
 @kernel
@@ -41,7 +22,7 @@ def join(
 ):
     """Join the islands of each edge's nodes. edges (count, 2) int32; parents_inout: union-find parents. O(count)."""
     for i in range(count):
-        join_nodes(edges[i, 0], edges[i, 1], parents_inout)
+        join_trees(edges[i, 0], edges[i, 1], parents_inout)
 
 
 @subkernel
@@ -61,7 +42,7 @@ def find_roots(
         parents_out[i] = i
     for i in range(count):
         if joins[edges[i, 0]] and joins[edges[i, 1]]:
-            join_nodes(edges[i, 0], edges[i, 1], parents_out)
+            join_trees(edges[i, 0], edges[i, 1], parents_out)
     for i in range(len(parents_out)):
         parents_out[i] = root_of(i, parents_out)
 

@@ -7,14 +7,14 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.islands.awake import is_active, list_active, wakes
-from physics.islands.graph import join, root_of
+from physics.islands.graph import join
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of
 from physics.settings import SLEEP_TIME
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.contact import ANCHOR, EVENT, MANIFOLD
 from physics.tables.step_state import ISLANDS, StepState, WorldTables, stage
-from physics.tables.table import joined, row_of, rows_of
+from physics.tables.table import joined, root_of, row_of, rows_of
 
 # ---- sleepers --------------------------------------------------------------------------------------------------------
 # The sleeping set: sleeping islands with their contacts, and the touching pairs of bodies at rest.

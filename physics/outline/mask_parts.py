@@ -8,9 +8,8 @@ import numpy as np
 from physics.jit import kernel, subkernel
 from physics.outline.contour import pieces_of, smoothed_piece
 from physics.outline.kept import Parts, fitted
-from physics.outline.rings import SIDE, bridge, close_ring, cut_large, cut_reflex, merge, put_side
+from physics.outline.rings import SIDE, close_ring, put_side, write_parts
 from physics.outline.rounding import rounded_core
-from physics.outline.tiled import put_parts
 from physics.settings import MAX_CORNERS
 
 # ---- few parts -------------------------------------------------------------------------------------------------------
@@ -84,15 +83,7 @@ def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_
             sides_inout[k].apart = ring
     if len(counts) > 1:
         join_touching(n, sides_inout)
-    n = bridge(n, sides_inout)
-    if n < 0:
-        return -1
-    n = cut_reflex(n, sides_inout)
-    if n < 0:
-        return -1
-    n = cut_large(n, most, sides_inout)
-    merge(n, most, sides_inout)
-    return put_parts(n, 0, sides_inout, corners_out, inner_out, counts_out)
+    return write_parts(n, most, 0, sides_inout, corners_out, inner_out, counts_out)
 
 
 # ---- mask parts ------------------------------------------------------------------------------------------------------

@@ -388,3 +388,55 @@ def merge(n, most, sides_inout):
         sides_inout[best].seen = True
         if is_needless(sides_inout, best, most):
             take_out(best, sides_inout)
+
+
+@subkernel
+def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
+    """Write the rings of sides (SIDE) as parts, in pixels relative to row and column `low`. Returns their number."""
+    sides = sides_inout
+    n = 0
+    parts = 0
+    for k in range(count):
+        sides[k].seen = False
+    for start in range(count):
+        if not sides[start].alive or sides[start].seen:
+            continue
+        first = start
+        k = start
+        while not sides[k].seen:
+            sides[k].seen = True
+            if (sides[k].y, sides[k].x) < (sides[first].y, sides[first].x):
+                first = k
+            k = sides[k].next
+        begin = n
+        k = first
+        while True:
+            side = sides[k]
+            if side.inner != sides[side.previous].inner or turn_at(sides, side.previous, k, side.next) != 0.0:
+                corners_out[n, 0] = side.x - low
+                corners_out[n, 1] = side.y - low
+                inner_out[n] = side.inner
+                n += 1
+            k = side.next
+            if k == first:
+                break
+        counts_out[parts] = n - begin
+        parts += 1
+    return parts
+
+
+@subkernel
+def write_parts(n, most, low, sides_inout, corners_out, inner_out, counts_out):
+    """Decompose rings of `n` sides, with holes, and write the convex parts. Return their number, or -1 for no polygon.
+
+    most: largest number of corners of a part. low: row and column of the origin of the corners, see put_parts.
+    """
+    n = bridge(n, sides_inout)
+    if n < 0:
+        return -1
+    n = cut_reflex(n, sides_inout)
+    if n < 0:
+        return -1
+    n = cut_large(n, most, sides_inout)
+    merge(n, most, sides_inout)
+    return put_parts(n, low, sides_inout, corners_out, inner_out, counts_out)

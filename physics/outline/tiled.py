@@ -26,7 +26,7 @@ from physics.outline.contour import (
     walked_back,
 )
 from physics.outline.kept import Parts, fitted
-from physics.outline.rings import SIDE, bridge, close_ring, cut_large, cut_reflex, merge, put_side, turn_at
+from physics.outline.rings import SIDE, close_ring, put_side, write_parts
 from physics.settings import MAX_CORNERS
 
 # ---- crossings -------------------------------------------------------------------------------------------------------
@@ -660,41 +660,6 @@ def _room(size):
     return (paths, np.zeros(most, SIDE), np.zeros((most, 2)), np.zeros(most, bool), np.zeros(most, np.int64))
 
 
-@subkernel
-def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
-    """Write the rings of sides (SIDE) as parts, in pixels relative to row and column `low`. Returns their number."""
-    sides = sides_inout
-    n = 0
-    parts = 0
-    for k in range(count):
-        sides[k].seen = False
-    for start in range(count):
-        if not sides[start].alive or sides[start].seen:
-            continue
-        first = start
-        k = start
-        while not sides[k].seen:
-            sides[k].seen = True
-            if (sides[k].y, sides[k].x) < (sides[first].y, sides[first].x):
-                first = k
-            k = sides[k].next
-        begin = n
-        k = first
-        while True:
-            side = sides[k]
-            if side.inner != sides[side.previous].inner or turn_at(sides, side.previous, k, side.next) != 0.0:
-                corners_out[n, 0] = side.x - low
-                corners_out[n, 1] = side.y - low
-                inner_out[n] = side.inner
-                n += 1
-            k = side.next
-            if k == first:
-                break
-        counts_out[parts] = n - begin
-        parts += 1
-    return parts
-
-
 @kernel
 def convex_tile(window, most, workspace, sides_inout, corners_out, inner_out, counts_out):
     """Write the convex parts of a tile. Returns their number, or -1 if the rings are no polygon.
@@ -704,12 +669,5 @@ def convex_tile(window, most, workspace, sides_inout, corners_out, inner_out, co
     """
     if not find_paths(window, workspace):
         return -1
-    n = bridge(put_regions(window, workspace, sides_inout), sides_inout)
-    if n < 0:
-        return -1
-    n = cut_reflex(n, sides_inout)
-    if n < 0:
-        return -1
-    n = cut_large(n, most, sides_inout)
-    merge(n, most, sides_inout)
-    return put_parts(n, window.low, sides_inout, corners_out, inner_out, counts_out)
+    n = put_regions(window, workspace, sides_inout)
+    return write_parts(n, most, window.low, sides_inout, corners_out, inner_out, counts_out)

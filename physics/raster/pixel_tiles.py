@@ -11,7 +11,7 @@ from physics.jit import kernel, subkernel
 from physics.jit.plain import word
 from physics.raster.bits import either, first_run, has_bit, is_set, minus, packed, run_bits, touch
 from physics.settings import MASK_TILE
-from physics.tables.table import joined
+from physics.tables.table import join_trees, joined, root_of
 
 # ---- pieces ----------------------------------------------------------------------------------------------------------
 # Connected components of pixels, stored per tile, so that a change to one tile needs no pass over the others.
@@ -46,23 +46,6 @@ NODE = np.dtype(
 
 
 @subkernel
-def root_of(k, parents_inout):
-    """Return the root of k in a union-find forest, and halve its path."""
-    while parents_inout[k] != k:
-        parents_inout[k] = parents_inout[parents_inout[k]]
-        k = parents_inout[k]
-    return k
-
-
-@subkernel
-def join(a, b, parents_inout):
-    """Join two trees of a union-find forest; the smaller index becomes the root."""
-    a = root_of(a, parents_inout)
-    b = root_of(b, parents_inout)
-    parents_inout[max(a, b)] = min(a, b)
-
-
-@subkernel
 def trace_runs(words, runs_out, parents_out):
     """Write (row, start, end) of the runs of a tile's pixels, and the forest of touching runs. Returns their number.
 
@@ -85,7 +68,7 @@ def trace_runs(words, runs_out, parents_out):
                 above += 1
             other = above
             while other < begin and runs_out[other, 1] <= end:
-                join(other, count, parents_out)
+                join_trees(other, count, parents_out)
                 other += 1
             count += 1
         above = begin
@@ -194,7 +177,7 @@ def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
             else:
                 meets = has_bit(a.bottom, 0) and has_bit(b.top, TILE - 1)
             if meets:
-                join(i, j, parents_inout)
+                join_trees(i, j, parents_inout)
 
 
 @kernel

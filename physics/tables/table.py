@@ -1,4 +1,4 @@
-"""Structured arrays that grow, aligned to cache lines, and the search for rows by id."""
+"""Structured arrays that grow, aligned to cache lines, the search for rows by id, and union-find over rows."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -123,3 +123,24 @@ def joined(tables: Sequence[np.ndarray]) -> np.ndarray:
     """Return the rows of several tables of one type, one table after another."""
     whole = np.dtype((np.void, tables[0].itemsize))
     return np.concatenate([each.view(whole) for each in tables]).view(tables[0].dtype)
+
+
+# ---- union-find ------------------------------------------------------------------------------------------------------
+# Disjoint sets of rows as a forest: a row is the parent of another, and a root is its own parent.
+
+
+@subkernel
+def root_of(row, parents_inout):
+    """Return the root of a row's tree, with path halving."""
+    while parents_inout[row] != row:
+        parents_inout[row] = parents_inout[parents_inout[row]]
+        row = parents_inout[row]
+    return row
+
+
+@subkernel
+def join_trees(a, b, parents_inout):
+    """Join the trees of two rows; the lower root stays."""
+    first = root_of(a, parents_inout)
+    second = root_of(b, parents_inout)
+    parents_inout[max(first, second)] = min(first, second)
