@@ -13,7 +13,7 @@ from game.invariants.invariant import Answer, Invariant, NotAsked
 from game.invariants.step import Step
 from physics import World
 
-DRIFT = 1e-10  # of the momentum's scale in LONG steps (hard_cases U3) …
+DRIFT = 1e-10  # of the momentum's scale in LONG steps (invariant U3) …
 TWIST = 1e-3  # … and of the spin's, which letting overlaps out breaks slightly (U4)
 GAIN = 0.01  # of the energy in play (U5)
 STILL = 1e-9  # sleeping speeds: what is slower is what rounding leaves of a stop

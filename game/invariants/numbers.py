@@ -12,7 +12,7 @@ EVENT_NUMBERS = ("point_x", "point_y", "normal_x", "normal_y")
 CONTACT_NUMBERS = (*EVENT_NUMBERS, "separation", "normal_impulse", "tangent_impulse")
 HIT_NUMBERS = (*EVENT_NUMBERS, "speed", "normal_impulse")
 BOX_NUMBERS = ("min_x", "min_y", "max_x", "max_y")
-UNIT = 2e-12  # of the square of a normal's length: 1e-12 of the length (hard_cases U2)
+UNIT = 2e-12  # of the square of a normal's length: 1e-12 of the length (invariant U2)
 Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, what it is
 
 

@@ -6,7 +6,7 @@ from game.invariants.invariant import Answer, Invariant, NotAsked
 from game.invariants.step import Step
 from physics import World
 
-NOISE = 1e-9  # of where bodies are, after 60 steps, before chaos sets in (hard_cases U9)
+NOISE = 1e-9  # of where bodies are, after 60 steps, before chaos sets in (invariant U9)
 COMPARED = ("x", "y", "angle", "vx", "vy", "angular_velocity")
 
 

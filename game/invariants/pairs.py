@@ -12,7 +12,7 @@ from game.invariants.sample import Pair, sample
 from game.invariants.step import Step
 from physics import PixelMask, World, collide, distance
 
-ULPS = 4.0  # of the poses, that a turn and a shift may change a distance by (hard_cases U8)
+ULPS = 4.0  # of the poses, that a turn and a shift may change a distance by (invariant U8)
 SHIFT = (16.0, -32.0)  # [px] whole, so that pixels stay pixels
 BAND = 1e-9  # of where and how large two shapes are: nearer to touching, either answer is right
 TURNS = 3  # invariants that take turns

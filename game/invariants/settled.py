@@ -10,7 +10,7 @@ from physics import STATIC
 from physics.settings import CONTACT_HERTZ, HERTZ_SHARE
 
 SLOPS, HEAVY_SLOPS = 2.0, 5.0  # allowed overlap; where the masses differ by more than …
-HEAVY = 100.0  # … this ratio (hard_cases U6)
+HEAVY = 100.0  # … this ratio (invariant U6)
 CALM_TIME = 0.5  # [s] for which nothing of a heap moves faster than what falls asleep, before it has settled
 
 

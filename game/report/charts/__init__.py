@@ -1,4 +1,4 @@
-"""The charts of the report, in their order (hard_cases.md, section 3.2, numbers the first twelve)."""
+"""The charts of the report, in their order."""
 
 from game.report.charts import (
     broadphases,
