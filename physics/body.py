@@ -310,7 +310,7 @@ class Body(Handle):
     def sensor(self, value: bool) -> None:
         edit.set_sensor(self.world, self.id, value)
 
-    # --- motion ---------------------------------------------------------------------------------------------------
+    # --- settings of its motion -----------------------------------------------------------------------------------
 
     @property
     def gravity_scale(self) -> float:
