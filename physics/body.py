@@ -217,7 +217,7 @@ class Body(Handle):
 
     @property
     def contacts(self) -> np.ndarray:
-        """A copy of the CONTACT rows that name this body, of the last step or asleep, in the order of shape ids."""
+        """A copy of the CONTACT_POINT rows that name this body, of the last step or asleep, in order of shape ids."""
         world, row = self.world, self._row
         told = world.contacts
         told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]

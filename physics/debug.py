@@ -305,33 +305,33 @@ def contact_points(world: World) -> np.ndarray:
 
     state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP. color: of the graph colouring, -1 without one.
     """
-    found, sensed = world.manifolds, world.sensed
+    found, sensed = world.contact_rows, world.sensed
     if sensed is None:
         sensed = found[found["sensor"]]
     parts = [
-        _points(world, found[~found["sensor"]], world.anchors, None),
-        _points(world, sensed, None, SENSOR),
-        _points(world, world.sleepers.manifolds(), None, ASLEEP),
+        _points(world, found[~found["sensor"]], None),
+        _points(world, sensed, SENSOR),
+        _points(world, world.sleepers.contacts(), ASLEEP),
     ]
     return np.concatenate(parts)
 
 
-def _points(world, manifolds, anchors, state):
-    """Return POINT rows of manifolds. state: one for all of them, None: of each its own."""
-    contacts = contacts_of(manifolds)
-    points = np.zeros(len(contacts), POINT)
-    for name in set(contacts.dtype.fields or ()) & set(POINT.fields or ()):
-        points[name] = contacts[name]
+def _points(world, contacts, state):
+    """Return POINT rows of CONTACT rows. state: one for all of them, None: of each its own."""
+    reported = contacts_of(contacts)
+    points = np.zeros(len(reported), POINT)
+    for name in set(reported.dtype.fields or ()) & set(POINT.fields or ()):
+        points[name] = reported[name]
     points["color"] = -1
     if state is not None:
         points["state"] = state
         return points
-    of = np.repeat(np.arange(len(manifolds)), manifolds["count"])  # the manifold of each point
+    of = np.repeat(np.arange(len(contacts)), contacts["count"])  # the contact of each point
     second = np.concatenate([[False], of[1:] == of[:-1]]) if len(of) else np.zeros(0, bool)
-    if anchors is not None and len(anchors) == len(manifolds):
-        points["color"] = anchors["color"][of]
-    acting = (points["separation"] <= 0.0) | (points["normal_impulse"] > 0.0) | manifolds["swept"][of]
-    persisted = np.where(second, manifolds["persisted_2"][of], manifolds["persisted_1"][of])
+    if world.stacks:
+        points["color"] = contacts["color"][of]
+    acting = (points["separation"] <= 0.0) | (points["normal_impulse"] > 0.0) | contacts["swept"][of]
+    persisted = np.where(second, contacts["persisted_2"][of], contacts["persisted_1"][of])
     points["state"] = np.where(persisted, PERSISTED, np.where(acting, NEW, SPECULATIVE))
     points["state"][~acting & (points["separation"] > world.tolerances.slop)] = SPECULATIVE
     if not world.stacks:  # no contact remembers the step before: the events do

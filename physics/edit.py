@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from physics import checks
 from physics.broadphase.proxies import write_rectangles
 from physics.checks import Pair, Points
-from physics.collision.kept_forces import KeptForces
+from physics.contacts.matching import KeptImpulses
 from physics.dynamics.integrate import refresh_centers
 from physics.islands import sleep
 from physics.shapes.approximate import fit
@@ -195,7 +195,7 @@ def exchange_mask(
     still = body["kind"][0] != DYNAMIC
     if not (still and sleep.disturb_shapes(world, identity, shapes["id"][old])):
         sleep.disturb(world, [identity])
-    kept = KeptForces(world, old)
+    kept = KeptImpulses(world, old)
     own = rows_of(shapes, [shape_id])  # its parts come after it, so removals do not move it
     shapes["geometry"][own] = world.library.replace(before.bare, mask.bare, changed, shapes)
     if len(old):
@@ -212,7 +212,7 @@ def exchange_mask(
     refresh_centers(np.array([at]), world.bodies)
     new = np.arange(len(world.shapes) - len(fresh.shapes), len(world.shapes))
     _rejoin(world, at, np.append(own, new) if still else rows_of_owner(world, shape_id))
-    kept.hand_on(world, new)
+    kept.transfer(world, new)
 
 
 def rows_of_owner(world: WorldState, shape_id: int) -> np.ndarray:
@@ -340,10 +340,10 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
         for place, (shape_id, mask) in enumerate(zip(ids, masks, strict=True)):
             exchange_mask(world, identity, place, shape_id, mask)
     else:
-        kept = KeptForces(world, np.flatnonzero(world.shapes["body"] == identity))
+        kept = KeptImpulses(world, np.flatnonzero(world.shapes["body"] == identity))
         world._drop_shapes(world.shapes["body"] != identity)
         _add(world, identity, tuple(shapes), tuple(shapes))
-        kept.hand_on(world, np.flatnonzero(world.shapes["body"] == identity))
+        kept.transfer(world, np.flatnonzero(world.shapes["body"] == identity))
     world._tiers.pop(identity, None)
     world._sources.pop(identity, None)
 

@@ -6,44 +6,30 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.collision.manifold import by_owner
-from physics.jit import kernel, subkernel
-from physics.tables.contact import EVENT, HIT, MANIFOLD, QUARANTINE
+from physics.jit import copy_row, kernel, subkernel
+from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
 from physics.tables.step_state import CONTACTS, StepState, stage
 from physics.tables.table import joined, rows_of
 
-NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, MANIFOLD), np.zeros(0, EVENT), np.zeros(0, HIT)
+NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, CONTACT), np.zeros(0, EVENT), np.zeros(0, HIT)
 UNBROKEN = np.zeros(0, QUARANTINE)
 
 
 @subkernel
-def write_event(manifold, second, at, events_out):
-    """Write the event of the first or second point of a manifold."""
+def write_event(contact, second, at, events_out):
+    """Write the event of the first or second point of a contact."""
     e = events_out[at]
-    e.body_a = manifold.body_a
-    e.body_b = manifold.body_b
-    e.shape_a = manifold.shape_a
-    e.shape_b = manifold.shape_b
-    e.point_x = manifold.x_2 if second else manifold.x_1
-    e.point_y = manifold.y_2 if second else manifold.y_1
-    e.normal_x = manifold.normal_x
-    e.normal_y = manifold.normal_y
+    e.body_a = contact.body_a
+    e.body_b = contact.body_b
+    e.shape_a = contact.shape_a
+    e.shape_b = contact.shape_b
+    e.point_x = contact.x_2 if second else contact.x_1
+    e.point_y = contact.y_2 if second else contact.y_1
+    e.normal_x = contact.normal_x
+    e.normal_y = contact.normal_y
 
 
-@subkernel
-def copy_event(event, event_out):
-    """Copy an event row."""
-    d = event_out
-    d.body_a = event.body_a
-    d.body_b = event.body_b
-    d.shape_a = event.shape_a
-    d.shape_b = event.shape_b
-    d.point_x = event.point_x
-    d.point_y = event.point_y
-    d.normal_x = event.normal_x
-    d.normal_y = event.normal_y
-
-
-class Told(NamedTuple):
+class Comparison(NamedTuple):
     """The output of a comparison of two steps."""
 
     now: np.ndarray  # EVENT: the pairs that touch
@@ -52,21 +38,21 @@ class Told(NamedTuple):
     end: np.ndarray
     aside: np.ndarray  # EVENT: pairs that touched and fell asleep
     hits: np.ndarray  # HIT
-    keep: np.ndarray  # bool: manifolds of pairs that touch
+    keep: np.ndarray  # bool: contacts of pairs that touch
     counts: np.ndarray  # number of rows: now, begin, persist, end, asleep, hits; points of pairs that touch
 
 
-def new_told(room: int) -> Told:
+def new_comparison(room: int) -> Comparison:
     """Return output with room for that many pairs."""
     events = (np.zeros(room, EVENT) for _ in range(5))
-    return Told._make((*events, np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(7, np.int64)))
+    return Comparison._make((*events, np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(7, np.int64)))
 
 
 @subkernel
-def look_at_pair(manifolds, first, last, slop):
-    """Return the state of a pair from its manifolds first … last - 1.
+def look_at_pair(contacts, first, last, slop):
+    """Return the state of a pair from its contacts first … last - 1.
 
-    (touches, has impulses, manifold of the deepest point, whether it is the second point, manifold of the fastest
+    (touches, has impulses, contact of the deepest point, whether it is the second point, contact of the fastest
     point, whether it is the second point, its approach speed [px/s], sum of the impulses).
     """
     active = False
@@ -79,7 +65,7 @@ def look_at_pair(manifolds, first, last, slop):
     most = -math.inf
     total = 0.0
     for i in range(first, last):
-        m = manifolds[i]
+        m = contacts[i]
         for k in range(m.count):
             second = k == 1
             separation = m.separation_2 if second else m.separation_1
@@ -103,45 +89,45 @@ def look_at_pair(manifolds, first, last, slop):
 def compare_pairs(
     # read
     before,
-    manifolds,
+    contacts,
     parked,
     sensors,
     persisting,
     slop,
     hit_speed,
     # write
-    told_inout,
+    comparison_inout,
 ):
-    """Compare the pairs that touched in the step before with the manifolds of this step, both in the order of shape
+    """Compare the pairs that touched in the step before with the contacts of this step, both in the order of shape
     ids.
 
-    before: EVENT rows. manifolds: MANIFOLD rows. parked: MANIFOLD rows of pairs that fell asleep; they continue to
-    touch, report nothing, and move to the sleeping set. sensors: 1 to read manifolds of sensors only, 0 to read the
+    before: EVENT rows. contacts: CONTACT rows. parked: CONTACT rows of pairs that fell asleep; they continue to
+    touch, report nothing, and move to the sleeping set. sensors: 1 to read contacts of sensors only, 0 to read the
     others only. persisting: 1 to report pairs that continue to touch. slop [px]: a pair that touched counts as touching
     up to this separation. hit_speed [px/s]. Returns whether the comparison is complete; it is not where a child shape
     touches, because its parent shape is to be reported. O(both).
     """
-    counts = told_inout.counts
-    now = told_inout.now
-    begin = told_inout.begin
-    persist = told_inout.persist
-    keep = told_inout.keep
-    hits = told_inout.hits
+    counts = comparison_inout.counts
+    now = comparison_inout.now
+    begin = comparison_inout.begin
+    persist = comparison_inout.persist
+    keep = comparison_inout.keep
+    hits = comparison_inout.hits
     for k in range(len(counts)):
         counts[k] = 0
     i = 0
     j = 0
     asleep = 0
-    while i < len(before) or j < len(manifolds):
-        if j < len(manifolds) and manifolds[j].sensor != (sensors == 1):
+    while i < len(before) or j < len(contacts):
+        if j < len(contacts) and contacts[j].sensor != (sensors == 1):
             j += 1
             continue
-        # The manifolds of one pair, unless the next pair that touched before comes first.
-        old = j >= len(manifolds)
+        # The contacts of one pair, unless the next pair that touched before comes first.
+        old = j >= len(contacts)
         new = i >= len(before)
         if not (old or new):
             p = before[i]
-            m = manifolds[j]
+            m = contacts[j]
             old = p.shape_a < m.shape_a or (p.shape_a == m.shape_a and p.shape_b <= m.shape_b)
             new = not old or (p.shape_a == m.shape_a and p.shape_b == m.shape_b)
         if not new:
@@ -152,21 +138,21 @@ def compare_pairs(
             ):
                 asleep += 1
             if asleep < len(parked) and parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b == p.shape_b:
-                copy_event(p, told_inout.aside[counts[4]])
+                copy_row(p, comparison_inout.aside[counts[4]])
                 counts[4] += 1
             else:
-                copy_event(p, told_inout.end[counts[3]])
+                copy_row(p, comparison_inout.end[counts[3]])
                 counts[3] += 1
             i += 1
             continue
-        m = manifolds[j]
+        m = contacts[j]
         if sensors == 0 and (m.owner_a != m.shape_a or m.owner_b != m.shape_b):
             return False
         last = j
-        while last < len(manifolds) and manifolds[last].shape_a == m.shape_a and manifolds[last].shape_b == m.shape_b:
+        while last < len(contacts) and contacts[last].shape_a == m.shape_a and contacts[last].shape_b == m.shape_b:
             last += 1
         if last - j == 1 and m.count == 1:
-            # By far the most pairs have one manifold.
+            # By far the most pairs have one contact.
             impulse = m.normal_impulse_1
             pushed = impulse > 0.0
             active = m.separation_1 <= (slop if old else 0.0) or pushed or m.swept
@@ -177,10 +163,10 @@ def compare_pairs(
             fastest_second = False
         else:
             active, pushed, deepest, deepest_second, fastest, fastest_second, speed, impulse = look_at_pair(
-                manifolds, j, last, slop if old else 0.0
+                contacts, j, last, slop if old else 0.0
             )
         if active:
-            d = manifolds[deepest]
+            d = contacts[deepest]
             write_event(d, deepest_second, counts[0], now)
             counts[0] += 1
             if not old:
@@ -190,17 +176,17 @@ def compare_pairs(
                 write_event(d, deepest_second, counts[2], persist)
                 counts[2] += 1
             if (pushed or not old) and speed > hit_speed:
-                write_event(manifolds[fastest], fastest_second, counts[5], hits)
+                write_event(contacts[fastest], fastest_second, counts[5], hits)
                 hits[counts[5]].speed = speed
                 hits[counts[5]].normal_impulse = impulse
                 counts[5] += 1
         elif old:
-            copy_event(before[i], told_inout.end[counts[3]])
+            copy_row(before[i], comparison_inout.end[counts[3]])
             counts[3] += 1
         for k in range(j, last):
             keep[k] = active
             if active:
-                counts[6] += manifolds[k].count
+                counts[6] += contacts[k].count
         if old:
             i += 1
         j = last
@@ -217,7 +203,7 @@ class Changes:
     end: np.ndarray
     aside: np.ndarray  # EVENT: pairs that touched and fell asleep
     hits: np.ndarray  # HIT
-    keep: np.ndarray  # bool: manifolds of pairs that touch
+    keep: np.ndarray  # bool: contacts of pairs that touch
     points: int  # of pairs that touch
 
 
@@ -230,8 +216,8 @@ class Pairs:
 
     def _make_room(self, room):
         """Grow the output of the next comparison, and swap the rows of the last two steps."""
-        told = new_told(room)
-        self.told, self.last, self.changes = told, told._replace(now=np.zeros(room, EVENT)), Changes()
+        compared = new_comparison(room)
+        self.compared, self.last, self.changes = compared, compared._replace(now=np.zeros(room, EVENT)), Changes()
 
     def __getstate__(self):
         return self.rows.copy()  # the rest is room for later comparisons
@@ -246,25 +232,25 @@ class Pairs:
         return self.last.now[: self.count]
 
     def compare(
-        self, manifolds: np.ndarray, parked: np.ndarray, sensors: bool, persisting: bool, slop: float, hit_speed: float
+        self, contacts: np.ndarray, parked: np.ndarray, sensors: bool, persisting: bool, slop: float, hit_speed: float
     ) -> Changes | None:
-        """Read the manifolds of a step and return the changes. Return None, and change nothing, where a child shape
+        """Read the contacts of a step and return the changes. Return None, and change nothing, where a child shape
         touches.
         """
-        if self.count + len(manifolds) > len(self.told.keep):
-            self._grow(2 * (self.count + len(manifolds)))
-        told, changes = self.told, self.changes
-        if not compare_pairs(self.rows, manifolds, parked, int(sensors), int(persisting), slop, hit_speed, told):
+        if self.count + len(contacts) > len(self.compared.keep):
+            self._grow(2 * (self.count + len(contacts)))
+        compared, changes = self.compared, self.changes
+        if not compare_pairs(self.rows, contacts, parked, int(sensors), int(persisting), slop, hit_speed, compared):
             return None
         # The pairs that touch now are those of the step before in the next comparison.
-        self.told, self.last = self.last, told
-        self.count, begin, persist, end, aside, hits, changes.points = told.counts.tolist()
-        changes.begin = told.begin[:begin] if begin else NO_EVENTS
-        changes.persist = told.persist[:persist] if persist else NO_EVENTS
-        changes.end = told.end[:end] if end else NO_EVENTS
-        changes.aside = told.aside[:aside] if aside else NO_EVENTS
-        changes.hits = told.hits[:hits] if hits else NO_HITS
-        changes.keep = told.keep[: len(manifolds)]
+        self.compared, self.last = self.last, compared
+        self.count, begin, persist, end, aside, hits, changes.points = compared.counts.tolist()
+        changes.begin = compared.begin[:begin] if begin else NO_EVENTS
+        changes.persist = compared.persist[:persist] if persist else NO_EVENTS
+        changes.end = compared.end[:end] if end else NO_EVENTS
+        changes.aside = compared.aside[:aside] if aside else NO_EVENTS
+        changes.hits = compared.hits[:hits] if hits else NO_HITS
+        changes.keep = compared.keep[: len(contacts)]
         return changes
 
     def _grow(self, room):
@@ -294,7 +280,7 @@ class Pairs:
 
     def restore(self, touching: np.ndarray) -> None:
         """Replace the pairs that touch."""
-        if len(touching) > len(self.told.keep):
+        if len(touching) > len(self.compared.keep):
             self._make_room(2 * len(touching))
         self.count = len(touching)
         self.last.now[: self.count] = touching
@@ -315,46 +301,51 @@ class Events:
         "effects",
         "tolerances",
         "bodies",
-        "manifolds",
+        "contact_rows",
         "sensed",
         "parked",
         "touching",
         "sensing",
         "sleepers",
         "events",
-        "told",
+        "reported",
     ),
-    writes=("touching", "sensing", "sleepers", "events", "told", "work"),
+    writes=("touching", "sensing", "sleepers", "events", "reported", "work"),
 )
-def tell(state: StepState) -> None:
+def report_events(state: StepState) -> None:
     """Compare the pairs that touch with those of the step before, and report the changes."""
-    manifolds, events, tolerances, effects = state.manifolds, state.events, state.tolerances, state.effects
+    contacts, events, tolerances, effects = state.contact_rows, state.events, state.tolerances, state.effects
     parked, keys = state.parked or (NOTHING, None)
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed
-    told = order = None
+    compared = order = None
     if keys is None:
-        told = state.touching.compare(manifolds, parked, *usual)
-    if told is None:
-        whole, order = by_owner(manifolds)
+        compared = state.touching.compare(contacts, parked, *usual)
+    if compared is None:
+        whole, order = by_owner(contacts)
         parked, parked_order = by_owner(parked)
         if keys is not None and parked_order is not None:
             keys = keys[parked_order]
-        told = state.touching.compare(whole, parked, *usual)
-    events.begin, events.persist, events.end, events.hits = told.begin, told.persist, told.end, told.hits
-    keep = told.keep
+        compared = state.touching.compare(whole, parked, *usual)
+    events.begin, events.persist, events.end, events.hits = (
+        compared.begin,
+        compared.persist,
+        compared.end,
+        compared.hits,
+    )
+    keep = compared.keep
     if order is not None:
         keep = np.empty_like(keep)
-        keep[order] = told.keep
+        keep[order] = compared.keep
     if effects.sensors:
-        sensed = manifolds if state.sensed is None else state.sensed
+        sensed = contacts if state.sensed is None else state.sensed
         if len(sensed) or state.sensing.count:
             found = state.sensing.compare(sensed, NOTHING, True, False, 0.0, np.inf)
             events.sensor_begin, events.sensor_end = found.begin, found.end
         if state.sensed is None:
-            keep = keep & ~manifolds["sensor"]
+            keep = keep & ~contacts["sensor"]
     if keys is not None:
-        if len(told.aside):
-            state.sleepers.keep_touching(told.aside, parked, keys)
+        if len(compared.aside):
+            state.sleepers.keep_touching(compared.aside, parked, keys)
         state.sleepers.keep_told(state)
-    state.told = (manifolds, keep)
-    state.work[CONTACTS] = told.points
+    state.reported = (contacts, keep)
+    state.work[CONTACTS] = compared.points

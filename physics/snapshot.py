@@ -29,7 +29,7 @@ from physics.shapes.values import Capsule, Chain, Filter, Material, Polygon, Seg
 from physics.step import PUSHING, SOLVERS
 from physics.tables.body import BODY, GIVEN
 from physics.tables.character import CHARACTER
-from physics.tables.contact import ANCHOR, EVENT, MANIFOLD
+from physics.tables.contact import CONTACT, EVENT
 from physics.tables.shape import MASK, PART, SHAPE
 from physics.tables.table import joined
 from physics.world_state import WorldState, checked_substeps
@@ -91,7 +91,7 @@ def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geo
 # ---- snapshot --------------------------------------------------------------------------------------------------------
 # Snapshots of a world, in memory and as `.npz` files without pickle.
 
-VERSION = 11
+VERSION = 12
 ABANDONED = 3600.0  # [s] without a write after which a file counts as abandoned
 SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # settings that a snapshot restores
 DAMAGE = (
@@ -117,13 +117,11 @@ TABLES = {
     "characters": CHARACTER,
     "touching": EVENT,
     "sensing": EVENT,
-    "told": MANIFOLD,
-    "manifolds": MANIFOLD,
-    "anchors": ANCHOR,
+    "reported": CONTACT,
+    "contact_rows": CONTACT,
     "resting_touching": EVENT,
     "resting_sensing": EVENT,
-    "island_manifolds": MANIFOLD,
-    "island_anchors": ANCHOR,
+    "island_contacts": CONTACT,
     "island_touching": EVENT,
 }
 
@@ -219,9 +217,8 @@ def take(world: WorldState) -> Snapshot:
         "characters": world.characters.rows.copy(),
         "touching": world.touching.rows.copy(),
         "sensing": world.sensing.rows.copy(),
-        "told": world.told_manifolds().copy(),
-        "manifolds": world.manifolds.copy(),
-        "anchors": world.anchors.copy(),
+        "reported": world.reported_rows().copy(),
+        "contact_rows": world.contact_rows.copy(),
         "resting_touching": world.sleepers.touching.copy(),
         "resting_sensing": world.sleepers.sensing.copy(),
         "stirred": np.unique(np.array(world.awake.stirred, np.int64)),
@@ -278,8 +275,8 @@ def restore(world: WorldState, taken: Snapshot) -> None:
         table.append(len(arrays[name]))[:] = arrays[name]
     world.touching.restore(arrays["touching"])
     world.sensing.restore(arrays["sensing"])
-    world.tell_contacts(arrays["told"].copy())
-    world.manifolds, world.anchors = arrays["manifolds"].copy(), arrays["anchors"].copy()
+    world.report_contacts(arrays["reported"].copy())
+    world.contact_rows = arrays["contact_rows"].copy()
     world.sleepers = _sleepers(arrays)
     if not world.sleeps:
         world.bodies["active"] = True
@@ -299,8 +296,7 @@ def _islands_apart(islands) -> dict:
     apart: dict[str, np.ndarray] = {"island_keys": np.array(keys, np.int64)}
     for name, empty in (
         ("bodies", np.zeros(0, np.int64)),
-        ("manifolds", np.zeros(0, MANIFOLD)),
-        ("anchors", np.zeros(0, ANCHOR)),
+        ("contacts", np.zeros(0, CONTACT)),
         ("touching", np.zeros(0, EVENT)),
     ):
         parts = [getattr(islands[key], name) for key in keys]
@@ -311,7 +307,7 @@ def _islands_apart(islands) -> dict:
 
 def _sleepers(arrays) -> Sleepers:
     """Return the sleeping islands from flat arrays."""
-    sleepers, fields = Sleepers(), ("bodies", "manifolds", "anchors", "touching")
+    sleepers, fields = Sleepers(), ("bodies", "contacts", "touching")
     parts = {
         name: np.split(arrays["island_" + name], np.cumsum(arrays[f"island_{name}_counts"])[:-1]) for name in fields
     }

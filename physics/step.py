@@ -13,8 +13,10 @@ from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts
 from physics.character.carry import bear_characters, carry_characters
 from physics.character.solids import new_scratch
 from physics.checks import Pair
-from physics.collision.cache import follow_bodies, settle_contacts
-from physics.collision.narrow_phase import NarrowPhase, detect_ended, detect_piles, sense
+from physics.collision.narrow_phase import NarrowPhase, detect_ended
+from physics.contacts.cache import update_contacts, update_contacts_at_final_poses
+from physics.contacts.matching import ContactCache, find_contacts
+from physics.contacts.sensors import sense
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, refresh_centers
 from physics.dynamics.non_finite import REASONS, quarantine, quarantine_solved
 from physics.edit import check_grid_stands
@@ -32,9 +34,9 @@ from physics.solver.projection import PushSet, projection
 from physics.solver.sequential_impulse import sequential_impulse
 from physics.solver.soft_step import soft_step
 from physics.tables.body import KINEMATIC
-from physics.tables.contact import ANCHOR, MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.step_state import CARVED_PIXELS, Stage, StepState, stage
-from physics.tables.table import rows_of, zeros_in_lines
+from physics.tables.table import rows_of
 from physics.world_state import WorldState
 
 # ---- targets ---------------------------------------------------------------------------------------------------------
@@ -122,7 +124,7 @@ def arrive(world: WorldState, dt: float) -> None:
 SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
 STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
 FORCES = ("force_x", "force_y", "torque")
-NO_MANIFOLDS = np.zeros(0, MANIFOLD)
+NO_CONTACTS = np.zeros(0, CONTACT)
 PUSHING = {"blocking": blocking, "projection": projection}
 IGNORED = {"blocking": IGNORED_BY_BLOCKING, "projection": IGNORED_BY_PROJECTION}
 
@@ -145,7 +147,7 @@ def rest_exactly(state: StepState) -> None:
     if state.parked is not None:
         for key in np.unique(state.parked[1]).tolist():
             island = state.sleepers.islands[key]
-            follow_bodies(state.bodies, island.anchors, island.manifolds)
+            update_contacts(state.bodies, island.contacts)
 
 
 def ignored_effects(effects: Effects, solver: str) -> tuple[str, ...]:
@@ -175,16 +177,16 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (bear_characters, characters),
             (motion_rectangles, True),
             (broad_phase, True),
-            (detect_piles, True),
+            (find_contacts, True),
             (wake_disturbed, e.sleeping),
             (STACKING[solver], True),
             (quarantine_solved, True),
             (sweep_piles, e.continuous),
             (carry_characters, characters),
-            (settle_contacts, True),
+            (update_contacts_at_final_poses, True),
             (sense, e.sensors),
             (rest_exactly, e.sleeping),
-            (events.tell, True),
+            (events.report_events, True),
         )
     else:
         stages = (
@@ -198,7 +200,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (detect_moved if e.continuous else detect_ended, True),
             (PUSHING[solver], e.response),
             (sense, e.response and e.sensors),
-            (events.tell, True),
+            (events.report_events, True),
         )
     called = tuple(each for each, wanted in stages if wanted)
     return Plan(called, tuple(each.stage for each in called))
@@ -224,24 +226,8 @@ class Workspace:
         self.motions = Motions() if stacks else None
         self.contacts = ContactSet() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
-        # Two tables of contacts and their anchors: the present ones, and room for those of the next step.
-        self._manifolds = [zeros_in_lines(16, MANIFOLD) for _ in range(2 if stacks else 0)]
-        self._anchors = [zeros_in_lines(16, ANCHOR) for _ in range(2 if stacks else 0)]
+        self.cache = ContactCache() if stacks else None
         self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine
-
-    def contacts_beside(self, manifolds: np.ndarray, anchors: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return room for so many MANIFOLD and ANCHOR rows in tables other than these, which may have been replaced
-        between steps.
-        """
-        for rows, tables in ((manifolds, self._manifolds), (anchors, self._anchors)):
-            if rows.base is tables[0].base:
-                tables.reverse()
-        if min(len(self._manifolds[0]), len(self._anchors[0])) < count:
-            self._manifolds[0], self._anchors[0] = (
-                zeros_in_lines(2 * count, MANIFOLD),
-                zeros_in_lines(2 * count, ANCHOR),
-            )
-        return self._manifolds[0], self._anchors[0]
 
     def rows_for(self, count: int) -> np.ndarray:
         """Return room for that many row numbers."""
@@ -283,14 +269,14 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.bodies, state.shapes, state.characters = world.bodies, world.shapes, world.characters.rows
     state.queries, state.steps = world.queries, world.steps
     state.library, state.pairs, state.awake, state.sleepers = world.library, world.pairs, world.awake, world.sleepers
-    state.manifolds, state.anchors = world.manifolds, world.anchors
+    state.contact_rows = world.contact_rows
     state.touching, state.sensing = world.touching, world.sensing
-    state.sensed, state.swept_sensors = world.sensed, NO_MANIFOLDS
+    state.sensed, state.swept_sensors = world.sensed, NO_CONTACTS
     state.impacts, state.changed_count, state.unsound = NO_IMPACTS, 0, 0
     state.ghosts = state.parked = state.kept_forces = None
     if dt == 0.0:
         state.kept_forces = world.bodies[[*FORCES]].copy()
-    state.events, state.told, state.work = events.Events(), (NO_MANIFOLDS, None), world.profile.work
+    state.events, state.reported, state.work = events.Events(), (NO_CONTACTS, None), world.profile.work
     state.work[CARVED_PIXELS], world._carved_pixels = world._carved_pixels, 0
     if not world.awake.sleeping:
         world.awake.all_rows(state.bodies, state.shapes)
@@ -299,9 +285,9 @@ def begin(world: WorldState, dt: float) -> StepState:
 
 def finish(world: WorldState, state: StepState) -> None:
     """Store in the world what later steps need."""
-    world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
+    world.contact_rows, world.sensed = state.contact_rows, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
-    world.tell_contacts(*state.told)
+    world.report_contacts(*state.reported)
     if len(world.awake.fresh):
         world.bodies["stirred"][world.awake.fresh] = False
         world.awake.fresh = world.awake.fresh[:0]
@@ -323,7 +309,7 @@ def finish(world: WorldState, state: StepState) -> None:
 def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
     """Make the step of World.step(dt), and yield None before the first stage and each stage after it has run.
 
-    Meanwhile the world shows the intermediate results: bodies, candidates, manifolds, contacts and events of half a
+    Meanwhile the world shows the intermediate results: bodies, candidates, contacts and events of half a
     step, seconds and counters in `profile`. It cannot be changed. The state is not valid for further steps: a caller
     that stops in the middle, or that lets debug or a query read it, restores a snapshot afterwards. Raises ValueError
     as World.step.
@@ -349,10 +335,10 @@ def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage |
 
 def _show(world: WorldState, state: StepState) -> None:
     """Show in the world the results of the stages so far; before contacts are reported, the manifolds that touch."""
-    world.manifolds, world.anchors, world.sensed = state.manifolds, state.anchors, state.sensed
+    world.contact_rows, world.sensed = state.contact_rows, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
-    manifolds, keep = state.told
-    world.tell_contacts(*(state.told if keep is not None else (state.manifolds, _touching(state))))
+    _, keep = state.reported
+    world.report_contacts(*(state.reported if keep is not None else (state.contact_rows, _touching(state))))
 
 
 def _touching(state: StepState) -> np.ndarray:
@@ -360,7 +346,7 @@ def _touching(state: StepState) -> np.ndarray:
 
     A manifold touches if it overlaps, has an impulse, was hit by the sweep, or touched before and is within the slop.
     """
-    rows, before = state.manifolds, state.touching.rows
+    rows, before = state.contact_rows, state.touching.rows
     second = rows["count"] > 1
     gap = np.minimum(rows["separation_1"], np.where(second, rows["separation_2"], np.inf))
     old = np.isin(rows["shape_a"] << 32 | rows["shape_b"], before["shape_a"] << 32 | before["shape_b"])

@@ -148,8 +148,8 @@ def _small_world(effects, solver, strategy, pair):
     world.query_aabb((0, 0), (1, 1))  # what the strategy answers to a query
     world.rows(world.bodies["id"])
     rows_of(world.shapes, world.shapes["id"])
-    world.told_manifolds()
-    contacts_of(world.manifolds)
+    world.reported_rows()
+    contacts_of(world.contact_rows)
     second.move_to((3, 2))
     second.velocity = 0.0, 0.0
     world.step()

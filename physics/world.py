@@ -33,7 +33,7 @@ from physics.snapshot import Snapshot, digest
 from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, plans, step_length
 from physics.tables.body import BODY, DYNAMIC, GIVEN
 from physics.tables.character import CHARACTER
-from physics.tables.contact import ANCHOR, MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.shape import SHAPE
 from physics.tables.table import Table
 from physics.world_state import Profile, WorldState, checked_accuracy, checked_substeps
@@ -105,11 +105,11 @@ class World(WorldState):
         self._users, self._shapes_of, self._tiers, self._sources, self._targets = {}, {}, {}, {}, {}
         # Caches that later steps read.
         self.pairs, self.awake, self.sleepers = PairList(), Awake(False), Sleepers()
-        self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+        self.contact_rows = np.zeros(0, CONTACT)
         self.sensed = self.ghosts = self.workspace = None
         self.touching, self.sensing = Pairs(), Pairs()
         # Results of the last step.
-        self.tell_contacts(self.manifolds)
+        self.report_contacts(self.contact_rows)
         self.queries, self.events, self.steps, self.time, self.span = QueryIndex(), Events(), 0, 0.0, 0.0
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
         self._plan()
@@ -363,10 +363,10 @@ class World(WorldState):
         self._plans = plans(self._effects, self._solver)
         if before is None or before.stacks != self.stacks:
             # Stacking worlds and the others cache different data of their contacts.
-            self.manifolds, self.anchors = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR)
+            self.contact_rows = np.zeros(0, CONTACT)
             self.sensed = None
         if (self.sensed is not None) != self._effects.response:
-            self.sensed = np.zeros(0, MANIFOLD) if self._effects.response else None
+            self.sensed = np.zeros(0, CONTACT) if self._effects.response else None
         if self.awake.sleeping != self.sleeps:
             self._let_sleep(self.sleeps)
         self.profile = Profile(self._plan_now.names)

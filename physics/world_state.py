@@ -114,8 +114,7 @@ class WorldState:
     pairs: PairList
     awake: Awake
     sleepers: Sleepers
-    manifolds: np.ndarray
-    anchors: np.ndarray
+    contact_rows: np.ndarray
     sensed: np.ndarray | None
     ghosts: np.ndarray | None
     touching: Pairs
@@ -171,28 +170,28 @@ class WorldState:
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT rows of the pairs that touched, exchanged impulses or met on their way in the last step, in order of
-        shape ids.
+        """CONTACT_POINT rows of the pairs that touched, exchanged impulses or met on their way in the last step, in
+        order of shape ids.
         """
         if self._contacts is None:
-            self._contacts = contacts_of(with_areas(self, self.told_manifolds()))
+            self._contacts = contacts_of(with_areas(self, self.reported_rows()))
         return self._contacts
 
-    def told_manifolds(self) -> np.ndarray:
-        """Return the MANIFOLD rows whose points `contacts` lists."""
-        manifolds, keep = self._told
-        return manifolds if keep is None or keep.all() else manifolds[keep]
+    def reported_rows(self) -> np.ndarray:
+        """Return the CONTACT rows whose points `contacts` lists."""
+        rows, keep = self._reported
+        return rows if keep is None or keep.all() else rows[keep]
 
     @property
     def sleeping_contacts(self) -> np.ndarray:
-        """CONTACT rows of the pairs that sleep, as they were when they fell asleep."""
-        return contacts_of(with_areas(self, self.sleepers.manifolds()))
+        """CONTACT_POINT rows of the pairs that sleep, as they were when they fell asleep."""
+        return contacts_of(with_areas(self, self.sleepers.contacts()))
 
-    def tell_contacts(self, manifolds: np.ndarray, keep: np.ndarray | None = None) -> None:
-        """Store the manifolds that `contacts` reports, of which the flagged ones count. The points are listed on
+    def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
+        """Store the CONTACT rows that `contacts` reports, of which the flagged ones count. The points are listed on
         demand.
         """
-        self._told, self._contacts = (manifolds, keep), None
+        self._reported, self._contacts = (rows, keep), None
 
     @property
     def candidates(self) -> np.ndarray:

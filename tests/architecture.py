@@ -22,6 +22,7 @@ PHYSICS = (
     "broadphase",
     "distance",
     "collision",
+    "contacts",
     "ccd",
     "solver",
     "queries",

@@ -15,7 +15,7 @@ from physics.shapes.kinds import SHAPES, Shape
 from physics.shapes.library import Library, describe
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.body import BODY
-from physics.tables.contact import MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.shape import SHAPE
 
 
@@ -56,7 +56,7 @@ class PairBatch:
                 first = last
         refresh_aabbs(np.arange(len(self.shapes)), self.library.tables, self.bodies, self.shapes)
         self.candidates, self.pair_of = self._near(rows[0], rows[1], np.random.default_rng(seed + 1))
-        self.narrow_phase, self.found = narrow_phase_for_queries(), np.zeros(0, MANIFOLD)
+        self.narrow_phase, self.found = narrow_phase_for_queries(), np.zeros(0, CONTACT)
 
     def __len__(self) -> int:
         return self.count

@@ -58,7 +58,7 @@ def still_there(world: World, touch: Touch) -> bool:
 
 def explain(world: World, touch: Touch) -> list[Part]:
     """Return the stages of a touching pair in the last step. Raises ValueError for a pair that does not touch."""
-    rows, _ = by_owner(world.told_manifolds())
+    rows, _ = by_owner(world.reported_rows())
     # all contacts of their child shapes
     mine = rows[(rows["owner_a"] == touch.shape_a) & (rows["owner_b"] == touch.shape_b)]
     if not len(mine):

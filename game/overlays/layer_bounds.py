@@ -86,7 +86,7 @@ def _states(world, shapes):
     ids = np.ascontiguousarray(shapes["shape"])
     state = np.where(shapes["kind"] == 0, STILL, ALONE)
     state[shapes["sensor"].astype(bool)] = SENSOR
-    told = world.told_manifolds()
+    told = world.reported_rows()
     touching = np.concatenate((told["owner_a"], told["owner_b"]))
     for among, value in ((world.candidates.ravel(), PAIRED), (touching, TOUCHING)):
         rows = np.minimum(np.searchsorted(ids, among), len(ids) - 1)

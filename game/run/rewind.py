@@ -210,5 +210,5 @@ class Rewind:
 
 def _weight(scene):
     """Bytes of the largest tables: what a key frame takes grows with them."""
-    tables = ((world.bodies, world.shapes, world.manifolds, world.anchors) for world in scene.worlds)
+    tables = ((world.bodies, world.shapes, world.contact_rows) for world in scene.worlds)
     return FIXED + sum(table.nbytes for each in tables for table in each)

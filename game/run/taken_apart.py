@@ -22,7 +22,7 @@ from game.scene import Scene
 from physics.step import staged_step
 from physics.tables.step_state import COUNTERS, Stage
 
-TABLES = ("bodies", "shapes", "characters", "manifolds", "candidates")
+TABLES = ("bodies", "shapes", "characters", "contact_rows", "candidates")
 
 
 class Halted(Exception):

@@ -17,17 +17,17 @@ from physics.ccd.impacts import (
 from physics.ccd.mask_sweep import NO_SQUARES, find_shared_areas, squares_of
 from physics.ccd.rotational import BEFORE, new_rotational_workspace, sweep_rotational
 from physics.ccd.time_of_impact import find_impacts, stop_at_impacts
-from physics.collision.cache import anchors_of
 from physics.collision.hull_pairs import measure_approach
 from physics.collision.manifold import new_workspace
 from physics.collision.narrow_phase import detect, touch_where_they_are
+from physics.contacts.cache import write_caches
 from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.islands.sleep import in_order, order_of
 from physics.jit import kernel
 from physics.math2d import turned
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.tables.body import DYNAMIC, KINEMATIC
-from physics.tables.contact import MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.shape import CHAIN, MASK, TILES
 from physics.tables.step_state import CAP_HITS, StepState, stage
 from physics.tables.table import joined
@@ -247,9 +247,9 @@ def foresee_impacts(state: StepState) -> None:
 
 @stage(
     "narrow_phase",
-    reads=(*FORESEEN, "impacts", "manifolds", "swept_sensors"),
+    reads=(*FORESEEN, "impacts", "contact_rows", "swept_sensors"),
     writes=(
-        "manifolds",
+        "contact_rows",
         "swept_sensors",
         "library",
         "work",
@@ -266,7 +266,7 @@ def detect_moved(state: StepState) -> None:
         place_shapes(state)
     manifolds = detect(state)
     if not len(state.impacts):
-        state.manifolds = manifolds
+        state.contact_rows = manifolds
         return
     met = _written(state, state.impacts, int(state.effects.response))
     if state.effects.response:
@@ -283,12 +283,12 @@ def detect_moved(state: StepState) -> None:
     # Without response it may have ended inside, nearer to the far side.
     manifolds = manifolds[~(seen & ~nears & (apart | (not state.effects.response)))]
     met = met[~np.isin(met["candidate"], manifolds["candidate"])]
-    state.manifolds = in_order(joined([manifolds, met]))
+    state.contact_rows = in_order(joined([manifolds, met]))
 
 
 def _written(state, impacts, response) -> np.ndarray:
-    """Return MANIFOLD rows of the impacts that are the first of a body, with the approach speeds."""
-    workspace = np.zeros(len(impacts), MANIFOLD)
+    """Return CONTACT rows of the impacts that are the first of a body, with the approach speeds."""
+    workspace = np.zeros(len(impacts), CONTACT)
     found = write_impacts(
         state.bodies, state.shapes, state.pairs.rows, impacts, len(impacts), state.dt, response, workspace
     )
@@ -298,10 +298,9 @@ def _written(state, impacts, response) -> np.ndarray:
 
 @stage(
     "time_of_impact",
-    reads=(*FORESEEN, "manifolds", "anchors", "swept_sensors", "broadphase"),
+    reads=(*FORESEEN, "contact_rows", "swept_sensors", "broadphase"),
     writes=(
-        "manifolds",
-        "anchors",
+        "contact_rows",
         "swept_sensors",
         "ghosts",
         "pairs",
@@ -450,15 +449,14 @@ def _tell(state, met):
     if len(sensed):
         state.swept_sensors = sensed
     solid = written[~written["sensor"]]
-    known = state.manifolds["shape_a"] << 32 | state.manifolds["shape_b"]
+    known = state.contact_rows["shape_a"] << 32 | state.contact_rows["shape_b"]
     keys = solid["shape_a"] << 32 | solid["shape_b"]
-    state.manifolds["swept"][np.isin(known, keys)] = True
+    state.contact_rows["swept"][np.isin(known, keys)] = True
     new = solid[~np.isin(keys, known)]
     if len(new):
         # The contact of the next step reports the impact with its impulse.
         touch_where_they_are(state, new)
         new["speed_1"] = new["speed_2"] = 0.0
-        both = joined([state.manifolds, new])
-        order = order_of(both)
-        state.manifolds = both[order]
-        state.anchors = joined([state.anchors, anchors_of(state, new)])[order]
+        write_caches(state.library.tables, state.bodies, state.shapes, new)
+        both = joined([state.contact_rows, new])
+        state.contact_rows = both[order_of(both)]

@@ -505,14 +505,14 @@ def carry_all(
         "characters",
         "library",
         "pairs",
-        "manifolds",
+        "contact_rows",
         "awake",
         "queries",
         "workspace",
     ),
     writes=(
         "characters",
-        "manifolds",
+        "contact_rows",
         "awake",  # its room for the shapes that moved
         "pairs",
         "broadphase",
@@ -533,7 +533,7 @@ def carry_characters(state: StepState) -> None:
     before = bodies[own][["x", "y"]]
     if state.effects.stacking:
         if state.effects.gravity and state.dt > 0.0:
-            tell_weight(characters, state.dt * math.hypot(*state.gravity), state.manifolds)
+            tell_weight(characters, state.dt * math.hypot(*state.gravity), state.contact_rows)
         take_back(characters, bodies)
     else:
         note_feet(shapes, characters)
@@ -556,8 +556,7 @@ def carry_characters(state: StepState) -> None:
         "bodies",
         "shapes",
         "characters",
-        "manifolds",
-        "anchors",
+        "contact_rows",
         "awake",
         "sleepers",
         "pairs",
@@ -566,8 +565,7 @@ def carry_characters(state: StepState) -> None:
     ),
     writes=(
         "characters",
-        "manifolds",
-        "anchors",
+        "contact_rows",
         "awake",
         "sleepers",
         "pairs",

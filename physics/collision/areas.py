@@ -123,7 +123,7 @@ def count_areas(
 
 
 def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
-    """Return MANIFOLD rows by owner, with the area [px2] that the shapes share at the present poses.
+    """Return CONTACT rows by owner, with the area [px2] that the shapes share at the present poses.
 
     The area is 0 if neither shape is a mask, and where outlines meet but pixels do not. Each point reports the area of
     the whole pair; against tiles and chains it reports the area in its own run or link. Without contact response a step

@@ -76,7 +76,7 @@ def most_nearing(a, b):
 def closing_speed(a, b, x, y, nx, ny, lead):
     """Return the closing speed [px/s] of B and A at a point [px] along the normal; negative when they separate.
 
-    a, b: BODY rows; lead [px]: the tangential offset, see MANIFOLD.
+    a, b: BODY rows; lead [px]: the tangential offset, see CONTACT.
     """
     ax = x - a.center_x
     ay = y - a.center_y
@@ -89,7 +89,7 @@ def closing_speed(a, b, x, y, nx, ny, lead):
 
 @inlined
 def approach(a, b, manifold_inout):
-    """Write the closing speed of both points of a MANIFOLD row of two bodies, BODY rows, before any response."""
+    """Write the closing speed of both points of a CONTACT row of two bodies, BODY rows, before any response."""
     m = manifold_inout
     m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.lead)
     if m.count == 2:
@@ -98,7 +98,7 @@ def approach(a, b, manifold_inout):
 
 @kernel
 def measure_approach(bodies, manifolds_inout):
-    """Write the closing speed of every point before any response. manifolds_inout MANIFOLD rows. O(manifolds)."""
+    """Write the closing speed of every point before any response. manifolds_inout CONTACT rows. O(manifolds)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         approach(bodies[m.body_row_a], bodies[m.body_row_b], m)

@@ -1,4 +1,4 @@
-"""Rows of the MANIFOLD table, their materials, and the order in which they are reported."""
+"""Rows of the CONTACT table, their materials, and the order in which they are reported."""
 
 import math
 from typing import NamedTuple
@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.collision.hulls import part_of, upright_corners
-from physics.jit import inlined, kernel, subkernel
+from physics.jit import copy_head, inlined, kernel, subkernel
 from physics.math2d import heading, turned
 from physics.shapes.placement import corners_at
-from physics.tables.contact import CONTACT, MANIFOLD
+from physics.tables.contact import CONTACT, CONTACT_POINT, MANIFOLD_BYTES
 from physics.tables.geometry import Geometry
 from physics.tables.shape import BOUNDS, CHAIN, MASK, TILES
 
@@ -30,7 +30,7 @@ def are_whole(manifolds):
 
 
 def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return (MANIFOLD rows that name the owners of touching parts, in owner order; their original rows or None).
+    """Return (CONTACT rows that name the owners of touching parts, in owner order; their original rows or None).
 
     None means that the rows are unchanged. Parts are internal, and may have been created later than the other shape. A
     is the owner with the smaller id here too.
@@ -125,7 +125,7 @@ class Workspace(NamedTuple):
     b: np.ndarray
     points: np.ndarray  # (POINTS,), see hulls.py
     depths: np.ndarray  # (16,)
-    previous: np.ndarray  # MANIFOLD rows of the last step, for pairs with one-way ground
+    previous: np.ndarray  # CONTACT rows of the last step, for pairs with one-way ground
     memory: np.ndarray  # (candidates, 2) first row in previous, number of rows
     near: np.ndarray  # (BLOCK, 6) mask pairs whose bounds overlap, see masks.list_near
     left: np.ndarray  # (candidates + 1,) number of overlapping candidates left to a neighbour, then their rows
@@ -138,7 +138,7 @@ def new_workspace() -> Workspace:
         np.zeros((16, 2)),
         np.zeros(POINTS),
         np.zeros(16),
-        np.zeros(0, MANIFOLD),
+        np.zeros(0, CONTACT),
         np.zeros((0, 2), np.int64),
         np.zeros((BLOCK, 6), np.int64),
         np.zeros(2, np.int64),
@@ -268,47 +268,21 @@ def corners_of(geometry, bodies, shapes, row, corners_out):
 
 
 @subkernel
-def copy_manifold(manifolds, source, target, manifolds_out):
-    """Copy one row field by field: a whole-row assignment differs between compiled and plain code."""
-    s = manifolds[source]
-    d = manifolds_out[target]
-    d.body_a = s.body_a
-    d.body_b = s.body_b
-    d.shape_a = s.shape_a
-    d.shape_b = s.shape_b
-    d.owner_a = s.owner_a
-    d.owner_b = s.owner_b
-    d.body_row_a = s.body_row_a
-    d.body_row_b = s.body_row_b
-    d.row_a = s.row_a
-    d.row_b = s.row_b
-    d.candidate = s.candidate
-    d.previous = s.previous
-    d.count = s.count
-    d.normal_x = s.normal_x
-    d.normal_y = s.normal_y
-    d.lead = s.lead
-    d.sensor = s.sensor
-    d.swept = s.swept
-    d.persisted_1 = s.persisted_1
-    d.persisted_2 = s.persisted_2
-    d.again = s.again
-    d.x_1 = s.x_1
-    d.y_1 = s.y_1
-    d.separation_1 = s.separation_1
-    d.area_1 = s.area_1
-    d.feature_1 = s.feature_1
-    d.speed_1 = s.speed_1
-    d.normal_impulse_1 = s.normal_impulse_1
-    d.tangent_impulse_1 = s.tangent_impulse_1
-    d.x_2 = s.x_2
-    d.y_2 = s.y_2
-    d.separation_2 = s.separation_2
-    d.area_2 = s.area_2
-    d.feature_2 = s.feature_2
-    d.speed_2 = s.speed_2
-    d.normal_impulse_2 = s.normal_impulse_2
-    d.tangent_impulse_2 = s.tangent_impulse_2
+def copy_manifold(contacts, source, target, contacts_out):
+    """Copy the manifold of a row, without its contact cache."""
+    copy_head(contacts[source], contacts_out[target], MANIFOLD_BYTES)
+
+
+@subkernel
+def is_before(contact, shape_a, shape_b):
+    """Return whether a contact comes before those of a pair, in the order of shape ids."""
+    return contact.shape_a < shape_a or (contact.shape_a == shape_a and contact.shape_b < shape_b)
+
+
+@subkernel
+def is_of(contact, shape_a, shape_b):
+    """Return whether a contact belongs to a pair."""
+    return contact.shape_a == shape_a and contact.shape_b == shape_b
 
 
 @kernel
@@ -323,7 +297,7 @@ def place_in_order(
 ):
     """Copy manifolds to the order of their candidates, stable within one candidate (counting sort).
 
-    manifolds, manifolds_out MANIFOLD rows; starts_out (candidates + 1): scratch. O(manifolds + candidates).
+    manifolds, manifolds_out CONTACT rows; starts_out (candidates + 1): scratch. O(manifolds + candidates).
     """
     for i in range(candidate_count + 1):
         starts_out[i] = 0
@@ -345,7 +319,7 @@ def write_contacts(
     # write
     contacts_out,
 ):
-    """Write a CONTACT row for every point of the manifolds. Return their number. O(manifolds)."""
+    """Write a CONTACT_POINT row for every point of the manifolds. Return their number. O(manifolds)."""
     found = 0
     for i in range(len(manifolds)):
         m = manifolds[i]
@@ -369,8 +343,8 @@ def write_contacts(
 
 
 def contacts_of(manifolds: np.ndarray) -> np.ndarray:
-    """Return the points of MANIFOLD rows as CONTACT rows, in the order of the owners."""
+    """Return the points of CONTACT rows as CONTACT_POINT rows, in the order of the owners."""
     manifolds, _ = by_owner(manifolds)
-    contacts = np.zeros(int(manifolds["count"].sum()), CONTACT)
+    contacts = np.zeros(int(manifolds["count"].sum()), CONTACT_POINT)
     write_contacts(manifolds, contacts)
     return contacts

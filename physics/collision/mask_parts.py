@@ -9,7 +9,7 @@ from physics.collision.manifold import Batch, Workspace, add_points, circle_at, 
 from physics.jit import kernel, subkernel
 from physics.shapes.placement import rounding
 from physics.tables.body import DYNAMIC
-from physics.tables.contact import MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.shape import CIRCLE
 from physics.tables.table import rows_of
 
@@ -259,7 +259,7 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 
 
 def settle_left(batch: Batch, told: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
-    """Return at most one MANIFOLD row for each pair of shapes whose parts all left the contact to a neighbour.
+    """Return at most one CONTACT row for each pair of shapes whose parts all left the contact to a neighbour.
 
     This covers pairs without a manifold, and pairs deeper than the margin, whose manifold may lead along a wall and not
     out of it. told: the present manifolds; those with a gap do not count. previous: the manifolds of the last step.
@@ -284,7 +284,7 @@ def settle_left(batch: Batch, told: np.ndarray, previous: np.ndarray, workspace:
         return told[:0]
     before = previous[previous["separation_1"] < 0.0]
     ways = {(a, b): (x, y) for a, b, x, y in before[["owner_a", "owner_b", "normal_x", "normal_y"]].tolist()}
-    found, count = np.zeros(len(due), MANIFOLD), 0
+    found, count = np.zeros(len(due), CONTACT), 0
     for pair in pairs[due].tolist():
         candidates, rows = left[parts == pair], over[touching == pair]
         overlapping = np.unique(np.concatenate([candidates, told["candidate"][rows]])).astype(np.int64)

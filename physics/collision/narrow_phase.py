@@ -1,22 +1,7 @@
 """The narrow phase: from candidate pairs to contacts, one pass per kind of pair, and its stages."""
 
-import math
-from typing import NamedTuple
-
 import numpy as np
 
-from physics.broadphase.proxies import cover_final_poses
-from physics.collision.cache import (
-    carry_over,
-    copy_kept,
-    is_before,
-    is_of,
-    is_sound,
-    renew,
-    serves_again,
-    stands,
-    take_places,
-)
 from physics.collision.chains import admit_to_surfaces, collide_chain_pairs
 from physics.collision.hull_pairs import (
     collide_circle_pairs,
@@ -42,6 +27,8 @@ from physics.collision.manifold import (
     SURFACE_ANY,
     Batch,
     add_point,
+    is_before,
+    is_of,
     new_workspace,
     place_in_order,
 )
@@ -54,15 +41,13 @@ from physics.collision.masks_exact import (
 )
 from physics.collision.tiles import collide_grid_pairs_closed, collide_grid_pairs_one_way
 from physics.islands.awake import is_active, wakes
-from physics.islands.sleep import in_order
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import heading
 from physics.shapes.library import Library, draw_masks
 from physics.shapes.placement import drawn_beyond, is_drawn_when_asked
-from physics.tables.contact import ANCHOR, MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.shape import CHAIN, CIRCLE, MASK, PART, TILES
 from physics.tables.step_state import COUNTERS, NARROW_TESTS, SENSOR_TESTS, StepState, stage
-from physics.tables.table import joined, zeros_in_lines
+from physics.tables.table import zeros_in_lines
 
 # ---- box pairs -------------------------------------------------------------------------------------------------------
 # Which candidates a pass reads, and the pass that compares AABBs only.
@@ -259,109 +244,8 @@ def classify(
     work_inout[SENSOR_TESTS] += sensors
 
 
-# ---- persist ---------------------------------------------------------------------------------------------------------
-# Persistent manifolds: matched by their pairs, and recycled in place while nothing moved.
-#
-# Source of both: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
-
-
-@inlined
-def take_as_it_is(a, b, row_a, row_b, candidate, place, manifold_inout):
-    """Write the fields of a recycled manifold that may have changed: its rows, candidate and place in the last step.
-
-    a, b: its SHAPE rows.
-    """
-    m = manifold_inout
-    m.body_row_a = a.body_row
-    m.body_row_b = b.body_row
-    m.row_a = row_a
-    m.row_b = row_b
-    m.candidate = candidate
-    m.previous = place
-    m.persisted_1 = True
-    m.persisted_2 = True
-
-
-@kernel
-def recycle_manifolds(
-    # read
-    batch,
-    distance,
-    # write
-    previous_inout,
-    anchors_inout,
-    kinds_out,
-    counts_out,
-    stale_out,
-    work_inout,
-):
-    """Classify the solid pairs, see classify, and recycle the manifolds of the last step; distance [px]: see
-    serves_again.
-
-    Where both bodies are as the last step left them, that step has already decided. previous_inout MANIFOLD and
-    anchors_inout ANCHOR rows are updated to their bodies, in the order of shape ids like the candidates. A recycled
-    pair is NOTHING in kinds_out, and not counted. stale_out (previous) int32: the other rows, always including masks.
-    Return the number of stale rows, and the number of pairs left to test or with parts. O(candidates + manifolds).
-    """
-    bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    for i in range(len(counts_out)):
-        counts_out[i] = 0
-    stale, j = 0, 0
-    row_a = -1
-    p_stands = False
-    for i in range(batch.count):
-        a = shapes[candidates[i, 0]]
-        b = shapes[candidates[i, 1]]
-        kind = kind_asked(bodies, a, b, batch.margin, batch.ahead, SOLIDS)
-        kinds_out[i] = kind
-        counts_out[kind] += 1
-        if kind == NOTHING:
-            continue
-        counts_out[PARTED] += int(is_of_part(a, b))
-        while j < len(previous_inout) and is_before(previous_inout[j], a.id, b.id):
-            stale_out[stale] = j
-            stale += 1
-            j += 1
-        if j == len(previous_inout) or not is_of(previous_inout[j], a.id, b.id) or a.kind == MASK or b.kind == MASK:
-            continue
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
-        # The pairs of a body are adjacent.
-        if a.body_row != row_a:
-            row_a = a.body_row
-            p_stands = stands(p)
-        still = p_stands and stands(q)
-        fits, last = True, j
-        while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):
-            m = previous_inout[last]
-            if fits and not (still and m.again and is_sound(m)):
-                c = anchors_inout[last]
-                m.row_a = candidates[i, 0]
-                m.row_b = candidates[i, 1]
-                p_cosine, p_sine = heading(p.angle)
-                q_cosine, q_sine = heading(q.angle)
-                fits = not m.swept and serves_again(
-                    shapes, p, p_cosine, p_sine, q, q_cosine, q_sine, c, distance, math.inf, m
-                )
-            last += 1
-        if not fits:
-            continue  # the next candidate skips its rows
-        for k in range(j, last):
-            take_as_it_is(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
-            renew(batch.geometry, p, q, a, b, previous_inout[k], anchors_inout[k])
-        j = last
-        counts_out[kind] -= 1
-        kinds_out[i] = NOTHING
-    for k in range(j, len(previous_inout)):
-        stale_out[stale] = k
-        stale += 1
-    work_inout[NARROW_TESTS] += batch.count - counts_out[NOTHING]
-    asking = counts_out[PARTED]
-    for kind in range(NOTHING):
-        asking += counts_out[kind]
-    return stale, asking
+# ---- one-way ground --------------------------------------------------------------------------------------------------
+# Contacts of the last step with ground that is open from below.
 
 
 @kernel
@@ -399,13 +283,6 @@ def remember_ground(
 # From candidate pairs to contacts: one pass per kind of pair, called only when such pairs exist.
 
 
-class Found(NamedTuple):
-    """The manifolds found in a step, and the stale ones of the last step."""
-
-    rows: np.ndarray  # MANIFOLD, in the order of their candidates; valid until the next call
-    stale: np.ndarray  # int32 rows of the last step that are not recycled in place, ascending
-
-
 class NarrowPhase:
     """The narrow phase: writes the manifolds of candidate pairs, and keeps its workspace between steps.
 
@@ -431,8 +308,7 @@ class NarrowPhase:
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
         self.counts, self.deep = np.zeros(DRAWN_PAIRS + 1, np.int64), np.zeros(64, bool)
-        self.raw, self.ordered, self.last_raw, self.last_ordered = (zeros_in_lines(64, MANIFOLD) for _ in range(4))
-        self.stale = np.zeros(64, np.int32)
+        self.raw, self.ordered, self.last_raw, self.last_ordered = (zeros_in_lines(64, CONTACT) for _ in range(4))
 
     def collide(
         self,
@@ -459,66 +335,37 @@ class NarrowPhase:
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
         count = len(candidates)
-        self._make_room_for_pairs(count)
         margin, bias, graze, ahead = float(margin), float(bias), float(graze), float(ahead)
-        batch = Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
+        batch = self.batch_of(library, bodies, shapes, candidates, margin, bias, graze, ahead)
         if self.boxes_only:
-            return self._boxes(batch, which, work)
+            return self.find_boxes(batch, which, work)
         classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
         if self.counts[DRAWN_PAIRS]:
             draw_masks(library, np.unique(candidates[self.kinds[:count] != NOTHING]), bodies, shapes)
             batch = batch._replace(geometry=library.tables)
-        return self._complete(batch, previous, 0, work)
+        return self.complete(batch, previous, 0, work)
 
-    def update(
+    def batch_of(
         self,
         library: Library,
         bodies: np.ndarray,
         shapes: np.ndarray,
         candidates: np.ndarray,
         margin: float,
-        work: np.ndarray,
         bias: float,
         graze: float,
         ahead: float,
-        previous: np.ndarray,
-        anchors: np.ndarray,
-        recycle: float,
-    ) -> Found | None:
-        """Return the manifolds of solid pairs, as `collide`, but recycle those whose points moved by at most `recycle`
-        [px].
-
-        previous, anchors: manifolds of the last step and their cache rows; recycled ones are updated in place. Return
-        the new manifolds and the stale rows, or None if there are no new ones and all are recycled.
-        """
+    ) -> Batch:
+        """Return the input of the passes over these candidates, with room for their kinds; see collide and Batch."""
         count = len(candidates)
         self._make_room_for_pairs(count)
-        batch = Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
-        if len(self.stale) < len(previous):
-            self.stale = np.zeros(2 * len(previous), np.int32)
-        if self.boxes_only:
-            return Found(self._boxes(batch, SOLIDS, work), self._all_stale(previous))
-        left, asking = recycle_manifolds(batch, recycle, previous, anchors, self.kinds, self.counts, self.stale, work)
-        if not (left or asking):
-            return None
-        stale = self.stale[:left]
-        again = 0
-        if left < len(previous) and self.counts[PARTED]:
-            # The contact of a part depends on those of the other parts of its shape: all manifolds are sorted together.
-            again = len(previous) - left
-            self._make_room(again)
-            copy_kept(previous, stale, self.raw)
-            stale = self._all_stale(previous)
-        return Found(self._complete(batch, previous, again, work), stale)
+        return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
 
-    def _boxes(self, batch, which, work) -> np.ndarray:
+    def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
+        """Return the contacts of the candidates from their AABBs alone; see is_asked."""
         return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
 
-    def _all_stale(self, previous) -> np.ndarray:
-        self.stale[: len(previous)] = np.arange(len(previous))
-        return self.stale[: len(previous)]
-
-    def _complete(self, batch, previous, again, work) -> np.ndarray:
+    def complete(self, batch: Batch, previous: np.ndarray | None, again: int, work: np.ndarray) -> np.ndarray:
         """Return the manifolds of all pairs whose kinds are counted, in the order of the candidates.
 
         again: number of manifolds that are in self.raw already.
@@ -538,7 +385,7 @@ class NarrowPhase:
         if orders < 2:
             return self.raw[:found]
         if len(self.ordered) < len(self.raw):
-            self.ordered = zeros_in_lines(len(self.raw), MANIFOLD)
+            self.ordered = zeros_in_lines(len(self.raw), CONTACT)
         place_in_order(self.raw, found, batch.count, self.kinds, self.ordered)
         return self.ordered[:found]
 
@@ -595,10 +442,15 @@ class NarrowPhase:
             self.deep = np.zeros(2 * count, bool)
         return self.deep
 
+    def room_for(self, count: int) -> np.ndarray:
+        """Return room for so many contacts, which `complete` finds there if it is told their number."""
+        self._make_room(count)
+        return self.raw
+
     def _make_room(self, count):
         if count > len(self.raw):
             kept = self.raw
-            self.raw = zeros_in_lines(2 * count, MANIFOLD)
+            self.raw = zeros_in_lines(2 * count, CONTACT)
             self.raw[: len(kept)] = kept  # recycled manifolds may be at the beginning
 
 
@@ -618,16 +470,15 @@ def no_work() -> np.ndarray:
 
 
 # ---- detect ----------------------------------------------------------------------------------------------------------
-# The narrow phase as stages: before the solver at the start poses, and for sensors at the final poses.
+# The narrow phase as a stage of worlds without a contact cache, at the final poses.
 
-NO_PAIRS, UNANCHORED, NO_ROWS = np.zeros(0, MANIFOLD), np.zeros(0, ANCHOR), np.zeros(0, np.int64)
 PLACE = ("count", "normal_x", "normal_y", *(f"{name}_{k}" for k in (1, 2) for name in ("x", "y", "separation", "area")))
 BIAS = 0.1  # of the slop: by how much another reference face must be better than the last one
 GRAZE = 1.5  # slops that a passing body may overlap a side: a body that rests on the floor may overlap it by one
 
 
 def detect(state: StepState) -> np.ndarray:
-    """Return the manifolds at the present poses, with closing speeds; state.manifolds are those of the last step.
+    """Return the manifolds at the present poses, with closing speeds; state.contact_rows are those of the last step.
 
     With contact response, sensors are left to `sense`, which tests the final poses.
     """
@@ -642,7 +493,7 @@ def detect(state: StepState) -> np.ndarray:
         state.work,
         which=NO_SENSORS if state.effects.response else ALL,
         bias=BIAS * slop,
-        previous=state.manifolds,
+        previous=state.contact_rows,
     )
     measure_approach(state.bodies, manifolds)
     return manifolds
@@ -671,106 +522,9 @@ def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
 
 @stage(
     "narrow_phase",
-    reads=("effects", "tolerances", "bodies", "shapes", "library", "pairs", "manifolds", "workspace"),
-    writes=("manifolds", "work", "workspace"),
+    reads=("effects", "tolerances", "bodies", "shapes", "library", "pairs", "contact_rows", "workspace"),
+    writes=("contact_rows", "work", "workspace"),
 )
 def detect_ended(state: StepState) -> None:
     """Detect manifolds at the final poses."""
-    state.manifolds = detect(state)
-
-
-@stage(
-    "narrow_phase",
-    reads=("tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds", "anchors", "workspace"),
-    writes=("manifolds", "anchors", "work", "workspace"),
-)
-def detect_piles(state: StepState) -> None:
-    """Detect manifolds at the start of the step, up to the speculative distance, with the forces of the last step."""
-    tolerances, previous, anchors = state.tolerances, state.manifolds, state.anchors
-    if not len(state.awake.bodies):
-        state.manifolds, state.anchors = NO_PAIRS, UNANCHORED
-        return
-    places = state.library.tables, state.bodies, state.shapes
-    news = state.workspace.narrow.update(
-        state.library,
-        state.bodies,
-        state.shapes,
-        state.pairs.rows,
-        tolerances.speculative,
-        state.work,
-        BIAS * tolerances.slop,
-        GRAZE * tolerances.slop,
-        state.dt,
-        previous,
-        anchors,
-        tolerances.recycle,
-    )
-    if news is None:
-        return
-    found, stale = news
-    if not (len(found) or len(stale)):
-        return
-    kept = len(previous) - len(stale)
-    other_manifolds, other_anchors = state.workspace.contacts_beside(previous, anchors, kept + len(found))
-    if kept and take_places(*places, stale, found, other_anchors, previous, anchors):
-        return
-    count = carry_over(*places, previous, anchors, stale, found, other_manifolds, other_anchors)
-    state.manifolds, state.anchors = other_manifolds[:count], other_anchors[:count]
-
-
-@kernel
-def is_any_sensor(
-    # read
-    pairs,
-    shapes,
-):
-    """Return whether a side of any of the pairs of shape rows is a sensor. O(pairs)."""
-    for i in range(len(pairs)):
-        if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:
-            return True
-    return False
-
-
-@stage(
-    "sensors",
-    reads=(
-        "awake",
-        "bodies",
-        "shapes",
-        "library",
-        "pairs",
-        "broadphase",
-        *("effects", "stacks", "tolerances", "gravity", "dt"),  # for new swept AABBs
-        "swept_sensors",
-        "workspace",
-    ),
-    writes=(
-        "sensed",
-        "swept_sensors",
-        "pairs",
-        "broadphase",
-        "work",
-        "workspace",
-        "library",
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
-    ),
-)
-def sense(state: StepState) -> None:
-    """Detect sensor overlaps at the final poses, and add those of the sweeps."""
-    bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
-    # Without sensors the loops are empty. The kernels are those of every step, so none is compiled when the first
-    # sensor is added.
-    asked = state.pairs.sensors > 0
-    cover_final_poses(state, state.awake.shapes if asked else NO_ROWS)
-    pairs = state.pairs.rows
-    if not is_any_sensor(pairs if asked else pairs[:0], shapes) and not len(swept):
-        state.sensed = NO_PAIRS
-        return
-    sensed = state.workspace.sensing.collide(state.library, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
-    if len(swept):
-        known = sensed["shape_a"] << 32 | sensed["shape_b"]
-        swept = swept[~np.isin(swept["shape_a"] << 32 | swept["shape_b"], known)]
-        sensed = in_order(joined([sensed, swept]))
-        state.swept_sensors = swept[:0]
-    measure_approach(bodies, sensed)
-    state.sensed = sensed
+    state.contact_rows = detect(state)

@@ -30,8 +30,7 @@ READS = (
     "awake",
     "sleepers",
     "pairs",
-    "manifolds",
-    "anchors",
+    "contact_rows",
     "touching",
     "sensing",
     "tolerances",
@@ -46,8 +45,7 @@ WRITES = (
     "pairs",
     "awake",
     "sleepers",
-    "manifolds",
-    "anchors",
+    "contact_rows",
     "touching",
     "sensing",
     "shapes.proxy",
@@ -307,8 +305,8 @@ def quarantine_solved(state: StepState) -> None:
     broken, course = state.workspace.rows_for(len(state.bodies)), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
     found = take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)
     ids = _take_out(state, dict.fromkeys(broken[:found].tolist(), NOT_FINITE))
-    kept = ~(np.isin(state.manifolds["body_a"], ids) | np.isin(state.manifolds["body_b"], ids))
-    state.manifolds, state.anchors = state.manifolds[kept], state.anchors[kept]
+    kept = ~(np.isin(state.contact_rows["body_a"], ids) | np.isin(state.contact_rows["body_b"], ids))
+    state.contact_rows = state.contact_rows[kept]
 
 
 def _take_out(state, told):

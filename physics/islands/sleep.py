@@ -12,7 +12,7 @@ from physics.jit import kernel, subkernel
 from physics.math2d import length_of
 from physics.settings import SLEEP_TIME
 from physics.tables.body import DYNAMIC, KINEMATIC
-from physics.tables.contact import ANCHOR, EVENT, MANIFOLD
+from physics.tables.contact import CONTACT, EVENT
 from physics.tables.step_state import ISLANDS, StepState, WorldTables, stage
 from physics.tables.table import joined, root_of, row_of, rows_of
 
@@ -24,8 +24,7 @@ class Island(NamedTuple):
     """A sleeping island: its bodies, contacts and touching pairs."""
 
     bodies: np.ndarray  # ids
-    manifolds: np.ndarray
-    anchors: np.ndarray
+    contacts: np.ndarray  # CONTACT rows
     touching: np.ndarray  # EVENT rows: its touching pairs
 
 
@@ -69,19 +68,19 @@ class Sleepers:
     @staticmethod
     def _named(island) -> list:
         """Return the ids of bodies outside an island that its manifolds refer to."""
-        named = np.union1d(island.manifolds["body_a"], island.manifolds["body_b"])
+        named = np.union1d(island.contacts["body_a"], island.contacts["body_b"])
         return np.setdiff1d(named, island.bodies).tolist()
 
-    def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray, np.ndarray]]:
-        """Remove the contacts with a body from other islands, and return the (manifolds, anchors, touching) of each."""
+    def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Remove the contacts with a body from other islands, and return the (contacts, touching) of each."""
         found = []
         for key in sorted(self.links.get(identity, ())):
             island = self.take(key)
-            m, t = island.manifolds, island.touching
+            m, t = island.contacts, island.touching
             goes = (m["body_a"] == identity) | (m["body_b"] == identity)
             told = (t["body_a"] == identity) | (t["body_b"] == identity)
-            found.append((m[goes], island.anchors[goes], t[told]))
-            self.put(key, Island(island.bodies, m[~goes], island.anchors[~goes], t[~told]))
+            found.append((m[goes], t[told]))
+            self.put(key, Island(island.bodies, m[~goes], t[~told]))
         return found
 
     def keep_touching(self, rows: np.ndarray, parked: np.ndarray, keys: np.ndarray) -> None:
@@ -94,16 +93,16 @@ class Sleepers:
             self.islands[key] = self.islands[key]._replace(touching=part)
 
     def naming(self, identity: int, own: int) -> np.ndarray:
-        """Return the sleeping MANIFOLD rows that refer to a body; own: its island, if it sleeps in one."""
-        parts = [np.zeros(0, MANIFOLD)]
+        """Return the sleeping CONTACT rows that refer to a body; own: its island, if it sleeps in one."""
+        parts = [np.zeros(0, CONTACT)]
         for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
-            m = self.islands[key].manifolds
+            m = self.islands[key].contacts
             parts.append(m[(m["body_a"] == identity) | (m["body_b"] == identity)])
         return in_order(joined(parts))
 
-    def manifolds(self) -> np.ndarray:
-        """Return the MANIFOLD rows of all islands in the order of shape ids."""
-        return in_order(joined([np.zeros(0, MANIFOLD), *(each.manifolds for each in self.islands.values())]))
+    def contacts(self) -> np.ndarray:
+        """Return the CONTACT rows of all islands in the order of shape ids."""
+        return in_order(joined([np.zeros(0, CONTACT), *(each.contacts for each in self.islands.values())]))
 
     def keep_told(self, tables: WorldTables) -> None:
         """Store the touching and sensed pairs that have no side in the step any longer."""
@@ -165,7 +164,7 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
         own = int(tables.bodies["island"][row]) if row >= 0 else -1
         if own in sleepers.islands and row >= 0 and not tables.bodies["awake"][row]:
             keys.add(own)
-            keys |= _islands_beside(tables, sleepers.islands[own].manifolds, identity)
+            keys |= _islands_beside(tables, sleepers.islands[own].contacts, identity)
     wake(tables, keys)
 
 
@@ -183,7 +182,7 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
             return False
     keys, some = [], set(shapes.tolist())
     for key in sleepers.links.get(identity, ()):
-        named = sleepers.islands[key].manifolds
+        named = sleepers.islands[key].contacts
         if not (some.isdisjoint(named["shape_a"].tolist()) and some.isdisjoint(named["shape_b"].tolist())):
             keys.append(key)
     wake(tables, keys)
@@ -214,11 +213,11 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
     woken = [sleepers.take(key) for key in keys]
     ids = np.concatenate([island.bodies for island in woken])
     for island in woken:
-        parts.append((island.manifolds, island.anchors))
+        parts.append(island.contacts)
         told.append(island.touching)
     for identity in sorted(set(ids.tolist()) & sleepers.links.keys()):
-        for manifolds, anchors, touching in sleepers.take_naming(identity):
-            parts.append((manifolds, anchors))
+        for contacts, touching in sleepers.take_naming(identity):
+            parts.append(contacts)
             told.append(touching)
     rows = rows_of(bodies, ids)
     rows = rows[rows >= 0]
@@ -228,36 +227,32 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
     tables.touching.give_back(joined(told))
     sleepers.return_told(tables, ids)
     tables.awake.include(tables, rows)
-    _bring_back(tables, joined([m for m, _ in parts]), joined([a for _, a in parts]))
+    _bring_back(tables, joined(parts))
 
 
-def _bring_back(tables, manifolds, anchors):
-    """Add manifolds of pairs that are not in the step yet, with their present rows."""
-    found = tables.manifolds
+def _bring_back(tables, contacts):
+    """Add contacts of pairs that are not in the step yet, with their present rows."""
+    found = tables.contact_rows
     known = found["shape_a"] << 32 | found["shape_b"]
-    new = ~np.isin(manifolds["shape_a"] << 32 | manifolds["shape_b"], known)
-    again, anchors = with_rows(tables, manifolds[new], anchors[new])
-    if len(again):
-        again["previous"] = -1
-        both = joined([found, again])
-        order = order_of(both)
-        tables.manifolds, tables.anchors = both[order], joined([tables.anchors, anchors])[order]
+    new = ~np.isin(contacts["shape_a"] << 32 | contacts["shape_b"], known)
+    woken = with_rows(tables, contacts[new])
+    if len(woken):
+        woken["previous"] = -1
+        both = joined([found, woken])
+        tables.contact_rows = both[order_of(both)]
 
 
-def with_rows(tables: WorldTables, manifolds: np.ndarray, anchors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return manifolds and anchors with the present rows of bodies and shapes, without those of removed ones."""
-    there = np.empty(len(manifolds), bool)
-    refresh_rows(tables.bodies, tables.shapes, manifolds, there)
-    return (manifolds, anchors) if there.all() else (manifolds[there], anchors[there])
+def with_rows(tables: WorldTables, contacts: np.ndarray) -> np.ndarray:
+    """Return contacts with the present rows of bodies and shapes, without those of removed ones."""
+    there = np.empty(len(contacts), bool)
+    refresh_rows(tables.bodies, tables.shapes, contacts, there)
+    return contacts if there.all() else contacts[there]
 
 
 def forget(tables: WorldTables) -> None:
-    """Drop the manifolds of removed bodies and shapes, and update the rows of the others."""
-    if len(tables.manifolds):
-        anchors = tables.anchors if len(tables.anchors) else np.zeros(len(tables.manifolds), ANCHOR)
-        found, kept = with_rows(tables, joined([tables.manifolds]), anchors)
-        tables.manifolds = found
-        tables.anchors = kept if len(tables.anchors) else tables.anchors
+    """Drop the contacts of removed bodies and shapes, and update the rows of the others."""
+    if len(tables.contact_rows):
+        tables.contact_rows = with_rows(tables, joined([tables.contact_rows]))
 
 
 @kernel
@@ -339,10 +334,9 @@ def find_run_over(
 
 @stage(
     "wake",
-    reads=("bodies", "shapes", "manifolds", "anchors", "awake", "sleepers", "pairs", "touching", "sensing", "dt"),
+    reads=("bodies", "shapes", "contact_rows", "awake", "sleepers", "pairs", "touching", "sensing", "dt"),
     writes=(
-        "manifolds",
-        "anchors",
+        "contact_rows",
         "awake",
         "sleepers",
         "pairs",
@@ -367,8 +361,8 @@ def wake_disturbed(state: StepState) -> None:
         moving = moving[: list_active(bodies, fixed, moving)]
         for identity in bodies["id"][moving].tolist():
             keys |= sleepers.links.get(identity, set())
-    near = np.empty(2 * len(state.manifolds), np.int64)
-    near = near[: find_disturbed(bodies, state.manifolds, state.dt, near)]
+    near = np.empty(2 * len(state.contact_rows), np.int64)
+    near = near[: find_disturbed(bodies, state.contact_rows, state.dt, near)]
     keys |= set(bodies["island"][near].tolist())
     if len(fixed):
         pairs = state.pairs.rows
@@ -392,8 +386,7 @@ COUNTED = 2.0**62  # more sleep periods than this are not an exact integer in a 
 def list_edges(
     # read
     bodies,
-    manifolds,
-    anchors,
+    contacts,
     # write
     edges_out,
 ):
@@ -402,15 +395,15 @@ def list_edges(
     edges_out (manifolds, 2) int32.
     """
     found = 0
-    for i in range(len(manifolds)):
-        m = manifolds[i]
+    for i in range(len(contacts)):
+        m = contacts[i]
         a = bodies[m.body_row_a]
         b = bodies[m.body_row_b]
         if m.sensor or a.kind != DYNAMIC or b.kind != DYNAMIC or not (a.awake and b.awake):
             continue
-        touches = m.separation_1 <= 0.0 or anchors[i].normal_force_1 > 0.0
+        touches = m.separation_1 <= 0.0 or m.normal_force_1 > 0.0
         if m.count == 2:
-            touches = touches or m.separation_2 <= 0.0 or anchors[i].normal_force_2 > 0.0
+            touches = touches or m.separation_2 <= 0.0 or m.normal_force_2 > 0.0
         if touches:
             edges_out[found, 0] = m.body_row_a
             edges_out[found, 1] = m.body_row_b
@@ -438,8 +431,7 @@ def start_islands(rows, parents_out):
 def fall_asleep(
     # read
     rows,
-    manifolds,
-    anchors,
+    contacts,
     dt,
     slow,
     patience,
@@ -479,8 +471,8 @@ def fall_asleep(
             b.still_y = b.y
             b.still_angle = b.angle
         b.island = bodies_inout[parents_inout[i]].id
-    for i in range(len(manifolds)):
-        m = manifolds[i]
+    for i in range(len(contacts)):
+        m = contacts[i]
         a = bodies_inout[m.body_row_a]
         b = bodies_inout[m.body_row_b]
         if m.sensor:
@@ -489,7 +481,7 @@ def fall_asleep(
             b.sleep_time = 0.0
         if b.kind != DYNAMIC and is_active(b):
             a.sleep_time = 0.0
-        if conveyor == 1 and anchors[i].surface_speed != 0.0 and is_pressed(m):
+        if conveyor == 1 and m.surface_speed != 0.0 and is_pressed(m):
             a.sleep_time = 0.0
             b.sleep_time = 0.0
     for k in range(len(rows)):
@@ -538,8 +530,7 @@ class IslandWorkspace:
         "effects",
         "bodies",
         "shapes",
-        "manifolds",
-        "anchors",
+        "contact_rows",
         "awake",
         "sleepers",
         "pairs",
@@ -548,8 +539,7 @@ class IslandWorkspace:
         "workspace",
     ),
     writes=(
-        "manifolds",
-        "anchors",
+        "contact_rows",
         "awake",
         "sleepers",
         "pairs",
@@ -573,17 +563,16 @@ class IslandWorkspace:
 )
 def rest(state: StepState) -> None:
     """Put islands to sleep that have stayed in place for long enough; their contacts go with them."""
-    awake, bodies, manifolds, search = state.awake, state.bodies, state.manifolds, state.workspace.islands
+    awake, bodies, contacts, search = state.awake, state.bodies, state.contact_rows, state.workspace.islands
     if not len(awake.dynamic):
         return
     rows = awake.bodies
-    search.grow(len(bodies), len(manifolds))
+    search.grow(len(bodies), len(contacts))
     start_islands(rows, search.parents)
-    join(search.edges, list_edges(bodies, manifolds, state.anchors, search.edges), search.parents)
+    join(search.edges, list_edges(bodies, contacts, search.edges), search.parents)
     state.work[ISLANDS], slept = fall_asleep(
         rows,
-        manifolds,
-        state.anchors,
+        contacts,
         state.dt,
         state.tolerances.sleep_speed,
         SLEEP_TIME,
@@ -605,7 +594,7 @@ def _park(state, slept):
 
     Return the manifolds that were moved, in order, and the island of each.
     """
-    bodies, m, anchors = state.bodies, state.manifolds, state.anchors
+    bodies, m = state.bodies, state.contact_rows
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]
     still &= (bodies["kind"][m["body_row_b"]] != DYNAMIC) | ~bodies["awake"][m["body_row_b"]]
     new = np.isin(m["body_row_a"], slept)
@@ -614,7 +603,7 @@ def _park(state, slept):
     touching = (m["separation_1"] <= slop) | (m["normal_impulse_1"] > 0.0)
     touching |= (m["count"] == 2) & ((m["separation_2"] <= slop) | (m["normal_impulse_2"] > 0.0))
     kept = parking & touching
-    parked, parked_anchors, new = m[kept], anchors[kept], new[kept]
+    parked, new = m[kept], new[kept]
     parked["again"] = False  # the other side may move meanwhile
     # A body that is not dynamic is in no island, even if it was in one before its kind changed.
     sides = [
@@ -627,17 +616,16 @@ def _park(state, slept):
     by_island, by_key = np.argsort(islands, kind="stable"), np.argsort(keys, kind="stable")
     names, starts = np.unique(islands[by_island], return_index=True)
     members = np.split(bodies["id"][slept][by_island], starts[1:])
-    own, own_anchors = parked[by_key], parked_anchors[by_key]
+    own = parked[by_key]
     cuts = np.searchsorted(keys[by_key], names)
     ends = [*cuts[1:].tolist(), len(own)]
     untold = np.zeros(0, EVENT)
     put_aside = [
-        Island(ids, own[start:end], own_anchors[start:end], untold)
-        for ids, start, end in zip(members, cuts.tolist(), ends, strict=True)
+        Island(ids, own[start:end], untold) for ids, start, end in zip(members, cuts.tolist(), ends, strict=True)
     ]
     foreign = [(sides[k] != keys, parked[name]) for k, name in enumerate(("body_a", "body_b"))]
     named = np.concatenate([ids[outside] for outside, ids in foreign]).tolist()
     owners = np.concatenate([keys[outside] for outside, _ in foreign]).tolist()
     state.sleepers.put_many(names.tolist(), put_aside, named, owners)
-    state.manifolds, state.anchors = m[~parking], anchors[~parking]
+    state.contact_rows = m[~parking]
     return parked, keys

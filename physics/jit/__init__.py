@@ -15,13 +15,15 @@ from functools import wraps
 from typing import Any
 
 from physics.jit.kernels import Part, registry
-from physics.jit.plain import JIT, Builtin, popcount, put_in, view_of, word
+from physics.jit.plain import JIT, Builtin, copy_head, copy_row, popcount, put_in, view_of, word
 from physics.jit.tiers import StageKernel
 
 __all__ = [
     "Builtin",
     "DECORATORS",
     "JIT",
+    "copy_head",
+    "copy_row",
     "generic",
     "inlined",
     "kernel",

@@ -4,6 +4,7 @@ import math
 import os
 import warnings
 from collections.abc import Callable, Iterator
+from ctypes import addressof, memmove, sizeof
 from functools import cache
 from importlib.util import find_spec
 from types import CellType, CodeType, FunctionType, SimpleNamespace
@@ -126,8 +127,8 @@ class Builtin:
         self.plain, self.make, self.sources = plain, make, sources
         self.made: Any = None
 
-    def __call__(self, value):
-        return self.plain(value)
+    def __call__(self, *values):
+        return self.plain(*values)
 
     @property
     def compiled(self) -> Any:
@@ -186,8 +187,59 @@ def put_in(function: Callable) -> Callable[[], Any]:
     return lambda: compiler().njit(inline="always")(function)
 
 
+# ---- row copies ------------------------------------------------------------------------------------------------------
+# Copies of whole rows of a table, or of their first bytes. A row assigned to a row compiles to a move of each byte.
+
+
+def _copy_row(source, row_out):
+    memmove(addressof(row_out), addressof(source), sizeof(source))
+
+
+def _copy_head(source, row_out, size):
+    memmove(addressof(row_out), addressof(source), size)
+
+
+def _row_copy(typing_context, source, row_out):
+    """Type and generate the copy of a row to another one of the same type (numba.extending.intrinsic)."""
+
+    def generate(context, builder, signature, args):
+        from numba.core import cgutils
+
+        size = context.get_constant(compiler().types.intp, signature.args[0].size)
+        cgutils.raw_memcpy(builder, args[1], args[0], size, 1)
+        return context.get_dummy_value()
+
+    return compiler().types.void(source, row_out), generate
+
+
+def _head_copy(typing_context, source, row_out, size):
+    """Type and generate the copy of the first bytes of a row (numba.extending.intrinsic)."""
+
+    def generate(context, builder, signature, args):
+        from numba.core import cgutils
+
+        cgutils.raw_memcpy(builder, args[1], args[0], args[2], 1)
+        return context.get_dummy_value()
+
+    return compiler().types.void(source, row_out, size), generate
+
+
+def _make_row_copy():
+    from numba.extending import intrinsic
+
+    return intrinsic(_row_copy)
+
+
+def _make_head_copy():
+    from numba.extending import intrinsic
+
+    return intrinsic(_head_copy)
+
+
 popcount: Any = Builtin(_bits_of, _make_popcount, _count_bits) if JIT else _bits_of
 word: Any = Builtin(_masked, put_in(_as_word), _as_word) if JIT else _masked
+copy_row: Any = Builtin(_copy_row, _make_row_copy, _row_copy) if JIT else _copy_row
+copy_head: Any = Builtin(_copy_head, _make_head_copy, _head_copy) if JIT else _copy_head
 
 
 # ---- twins -----------------------------------------------------------------------------------------------------------

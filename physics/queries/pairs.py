@@ -34,7 +34,7 @@ from physics.shapes.parts import (
 from physics.shapes.placement import hull_at, refresh_aabbs, rounding
 from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, TileGrid
 from physics.tables.body import BODY
-from physics.tables.contact import MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.geometry import CORNER, SPAN, Geometry
 from physics.tables.shape import CIRCLE, SHAPE
 
@@ -157,7 +157,7 @@ HULL_PASSES = {
     POLYGON_CIRCLE: collide_polygon_circle_pairs,
     POLYGONS: collide_polygon_pairs,
 }
-NAMES = MANIFOLD.names or ()
+NAMES = CONTACT.names or ()
 
 
 @dataclass(frozen=True)
@@ -208,7 +208,7 @@ def _collide_hulls(rows, margin, swapped) -> Manifold:
     low, high = sorted(rows.shapes["kind"].tolist())
     kind = kind_of_pair(low, high)
     batch = Batch(rows.geometry, rows.bodies, rows.shapes, PAIRS[swapped], KINDS[kind], 1, margin, 0.0)
-    found = np.frombuffer(bytearray(MANIFOLD.itemsize), MANIFOLD)
+    found = np.frombuffer(bytearray(CONTACT.itemsize), CONTACT)
     if not HULL_PASSES[kind](batch, new_workspace(), found, 0, no_work()):
         return nowhere()
     m = dict(zip(NAMES, found[0].item(), strict=True))

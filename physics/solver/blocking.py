@@ -11,9 +11,9 @@ import numpy as np
 
 from physics.ccd.impacts import list_paths
 from physics.ccd.sweep import push_stopped
-from physics.collision.cache import anchors_of, follow_bodies
 from physics.collision.hull_pairs import closing_speed
 from physics.collision.narrow_phase import detect
+from physics.contacts.cache import update_contacts, write_caches
 from physics.dynamics.integrate import place_shapes
 from physics.islands.sleep import in_order
 from physics.jit import kernel, subkernel
@@ -97,11 +97,11 @@ def stop_approach(bodies_inout, manifolds_inout):
 def _make_way(state, stayed):
     """Let kinematic bodies push the bodies that stayed in their way, and those that they overlapped before.
 
-    stayed: MANIFOLD rows that stopped a body.
+    stayed: CONTACT rows that stopped a body.
     """
-    bodies, manifolds, sweeper = state.bodies, state.manifolds, state.workspace.sweep
-    overlaps = (manifolds["separation_1"] < 0.0) | ((manifolds["count"] == 2) & (manifolds["separation_2"] < 0.0))
-    met = joined([manifolds[overlaps & ~manifolds["sensor"]], stayed])
+    bodies, contacts, sweeper = state.bodies, state.contact_rows, state.workspace.sweep
+    overlaps = (contacts["separation_1"] < 0.0) | ((contacts["count"] == 2) & (contacts["separation_2"] < 0.0))
+    met = joined([contacts[overlaps & ~contacts["sensor"]], stayed])
     rows = np.union1d(met["body_row_a"], met["body_row_b"])
     rows = rows[bodies["kind"][rows] == DYNAMIC]
     moving = state.awake.bodies
@@ -112,42 +112,40 @@ def _make_way(state, stayed):
     bodies["fraction"][rows] = 0.0
     if push_stopped(state, rows):
         place_shapes(state)
-        state.manifolds = detect(state)
+        state.contact_rows = detect(state)
     bodies["fraction"][rows] = 1.0
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Move overlapping bodies back until there are none. Return the step [s]. It needs no rows but the manifolds."""
-    bodies, stopped, anchors = state.bodies, [], []
+    """Move overlapping bodies back until there are none. Return the step [s]. It needs no rows but the contacts."""
+    bodies, stopped = state.bodies, []
     while True:
-        manifolds = state.manifolds
-        seen = anchors_of(state, manifolds)
-        if not stay_behind(bodies, manifolds, state.work):
+        found = state.contact_rows
+        write_caches(state.library.tables, bodies, state.shapes, found)
+        if not stay_behind(bodies, found, state.work):
             break
-        met = manifolds["swept"] & ~manifolds["sensor"]
-        stopped.append(manifolds[met])
-        anchors.append(seen[met])
+        stopped.append(found[found["swept"] & ~found["sensor"]])
         place_shapes(state)
-        state.manifolds = detect(state)
-    _make_way(state, joined([state.manifolds[:0], *stopped]))
-    stop_approach(bodies, state.manifolds)
+        state.contact_rows = detect(state)
+    _make_way(state, joined([state.contact_rows[:0], *stopped]))
+    stop_approach(bodies, state.contact_rows)
     if stopped:
         met = joined(stopped)
         stop_approach(bodies, met)
-        follow_bodies(bodies, joined(anchors), met)
-        others = state.manifolds[~np.isin(state.manifolds["candidate"], met["candidate"])]
-        state.manifolds = in_order(joined([others, met]))
+        update_contacts(bodies, met)
+        others = state.contact_rows[~np.isin(state.contact_rows["candidate"], met["candidate"])]
+        state.contact_rows = in_order(joined([others, met]))
     return state.dt
 
 
 @stage(
     "blocking",
     reads=(
-        *("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds"),
+        *("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "contact_rows"),
         "workspace",
     ),
     writes=(
-        "manifolds",
+        "contact_rows",
         "library",
         "work",
         "workspace",

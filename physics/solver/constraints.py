@@ -487,7 +487,7 @@ class Selection:
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
         """Select, colour and order the contacts. substeps: their number, 0 for as many as each island needs."""
-        rows, manifolds = motions.used, state.manifolds
+        rows, manifolds = motions.used, state.contact_rows
         if len(self.plan.selected) < len(manifolds) or len(self.plan.taken) < len(rows):
             self.plan = new_plan(2 * len(manifolds), 2 * len(rows))
         plan = self.plan
@@ -740,13 +740,13 @@ class ContactSet:
         PREPARE[state.effects.friction, state.effects.conveyor](
             state.bodies,
             motions.used,
-            state.manifolds,
+            state.contact_rows,
             self.selection.plan,
             self.selection.count,
             group.start,
             h,
             state.tolerances.limits,
-            state.anchors,
+            state.contact_rows,
             rows,
             state.work,
         )
@@ -763,13 +763,5 @@ class ContactSet:
         """Apply restitution, limit friction, and write the impulses of a group's rows back."""
         effects, threshold = state.effects, state.tolerances.restitution_speed
         FINISH[effects.restitution, effects.friction, effects.rotation](
-            threshold,
-            state.dt,
-            1.0 / h,
-            state.dt / state.span,
-            motions.used,
-            rows,
-            state.manifolds,
-            state.anchors,
-            state.work,
+            threshold, state.dt, 1.0 / h, state.dt / state.span, motions.used, rows, state.contact_rows, state.contact_rows, state.work
         )

@@ -370,13 +370,11 @@ READS = (
     "shapes",
     "characters",
     "library",
-    "manifolds",
-    "anchors",
+    "contact_rows",
     "workspace",
 )
 WRITES = (
-    "manifolds",
-    "anchors",
+    "contact_rows",
     "library",
     "unsound",
     "work",

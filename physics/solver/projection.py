@@ -7,15 +7,15 @@ import numpy as np
 
 from physics.ccd.rotational import CORE
 from physics.ccd.sweep import shift_freely
-from physics.collision.cache import follow_bodies, write_anchors
 from physics.collision.hull_pairs import closing_speed
 from physics.collision.manifold import mixed
+from physics.contacts.cache import update_contacts, write_caches
 from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.jit import kernel, subkernel
 from physics.math2d import length_of
 from physics.settings import PROJECTION_PASSES
 from physics.tables.body import DYNAMIC, OFF
-from physics.tables.contact import ANCHOR, PUSH
+from physics.tables.contact import PUSH
 from physics.tables.step_state import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS, StepState, stage
 
 # ---- pushes ----------------------------------------------------------------------------------------------------------
@@ -117,22 +117,22 @@ class PushSet:
     """The contacts of one world as PUSH rows, which grow and are reused. It has no warm start, and caches nothing."""
 
     def __init__(self) -> None:
-        self.data, self.anchors = np.zeros(16, PUSH), np.zeros(16, ANCHOR)
+        self.data = np.zeros(16, PUSH)
         self.rows = self.data[:0]
         self.reach = np.zeros(16)  # (body rows) see limit_pushes
 
     def prepare(self, state: StepState) -> None:
-        """Fill the rows, and store the manifolds' anchors at the poses of detection."""
-        points = 2 * len(state.manifolds)
+        """Fill the rows, and write the caches of the contacts at the poses of detection."""
+        points = 2 * len(state.contact_rows)
         if len(self.data) < points:
-            self.data, self.anchors = np.zeros(2 * points, PUSH), np.zeros(points, ANCHOR)
+            self.data = np.zeros(2 * points, PUSH)
         tables, conveyor = state.library.tables, int(state.effects.conveyor)
-        found = prepare_pushes(tables, state.bodies, state.shapes, state.manifolds, conveyor, self.data)
+        found = prepare_pushes(tables, state.bodies, state.shapes, state.contact_rows, conveyor, self.data)
         self.rows = self.data[:found]
         if len(self.reach) < len(state.bodies):
             self.reach = np.zeros(2 * len(state.bodies))
         limit_pushes(self.rows, state.bodies, state.tolerances.push_speed, state.dt, self.reach)
-        write_anchors(tables, state.bodies, state.shapes, state.manifolds, self.anchors)
+        write_caches(tables, state.bodies, state.shapes, state.contact_rows)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
         """Run one pass of a solver over the rows."""
@@ -140,8 +140,8 @@ class PushSet:
 
     def store(self, state: StepState) -> None:
         """Write the result back to the manifolds, and update these to the final poses."""
-        store_pushes(self.rows, state.manifolds)
-        follow_bodies(state.bodies, self.anchors, state.manifolds)
+        store_pushes(self.rows, state.contact_rows)
+        update_contacts(state.bodies, state.contact_rows)
 
 
 # ---- projection ------------------------------------------------------------------------------------------------------
@@ -327,11 +327,11 @@ def _hold_back(state, rows, before):
 @stage(
     "projection",
     reads=(
-        *("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "manifolds"),
+        *("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "contact_rows"),
         "workspace",
     ),
     writes=(
-        "manifolds",
+        "contact_rows",
         "library",
         "work",
         "workspace",

@@ -375,7 +375,7 @@ def restore_bounces(
 ):
     """Set the separation speed of points with an impulse to restitution times the approach speed. O(count).
 
-    dt [s] of the step. threshold [px/s]: slower impacts do not bounce. MANIFOLD, ANCHOR and MOTION rows, and so many
+    dt [s] of the step. threshold [px/s]: slower impacts do not bounce. CONTACT, ANCHOR and MOTION rows, and so many
     CONSTRAINT rows.
     """
     play_all_hits(manifolds, anchors, threshold, dt, count, motions_inout, constraints_inout, work_inout)

@@ -31,16 +31,16 @@ def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
     Where a removed body lay on a body of a small fraction of its weight, all contacts of the stack below, through
     dynamic bodies, lose their cached forces. O(contacts · depth of the stack), in worlds that stack.
     """
-    manifolds, anchors, bodies = tables.manifolds, tables.anchors, tables.bodies
-    if not len(manifolds) or len(anchors) != len(manifolds):
+    contacts, bodies = tables.contact_rows, tables.bodies
+    if not len(contacts) or not tables.stacks:
         return  # contacts are not cached
-    ids_a, ids_b = manifolds["body_a"], manifolds["body_b"]
+    ids_a, ids_b = contacts["body_a"], contacts["body_b"]
     going_a, going_b = np.isin(ids_a, ids), np.isin(ids_b, ids)
     lost = going_a != going_b
     if not lost.any():
         return
     left = rows_of(bodies, np.where(going_a, ids_b, ids_a)[lost])
-    force = (anchors["normal_force_1"] + np.where(manifolds["count"] == 2, anchors["normal_force_2"], 0.0))[lost]
+    force = (contacts["normal_force_1"] + np.where(contacts["count"] == 2, contacts["normal_force_2"], 0.0))[lost]
     reached = np.zeros(len(bodies), bool)
     weight = math.hypot(*tables.gravity) if tables.effects.gravity else 0.0
     reached[left[(force > 0.0) & (force * bodies["inverse_mass"][left] > BLOW * weight)]] = True
@@ -54,7 +54,7 @@ def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
         reached[b[reached[a]]] = True
     borne = reached[row_a] | reached[row_b]
     for name in FORCES:
-        anchors[name][borne] = 0.0
+        contacts[name][borne] = 0.0
 
 
 # ---- demand ----------------------------------------------------------------------------------------------------------

@@ -1,13 +1,13 @@
-"""Row types of contacts as reported, detected, cached and solved: CONTACT, MANIFOLD, ANCHOR and CONSTRAINT."""
+"""Row types of contacts: CONTACT, as they are found, kept and solved; CONTACT_POINT and EVENT, as they are reported."""
 
 import numpy as np
 
 from physics.tables.table import in_lines
 
-# ---- contact ---------------------------------------------------------------------------------------------------------
-# Reports of a step: contacts, one row per point; events; bodies that were disabled.
+# ---- report ----------------------------------------------------------------------------------------------------------
+# Reports of a step: contact points, events, and bodies that were disabled.
 
-CONTACT = np.dtype(
+CONTACT_POINT = np.dtype(
     [
         ("body_a", np.int64),  # ids; A is the shape with the smaller id
         ("body_b", np.int64),
@@ -42,15 +42,17 @@ HIT = np.dtype(EVENT.descr + [("speed", np.float64), ("normal_impulse", np.float
 QUARANTINE = np.dtype([("body", np.int64), ("reason", "U96")])
 
 
-# ---- manifold --------------------------------------------------------------------------------------------------------
-# MANIFOLD: the contact of two shapes as a collider found it. ANCHOR: the contact cache, which the solver reads and
-# writes.
+# ---- contact ---------------------------------------------------------------------------------------------------------
+# CONTACT: two shapes that touch or may touch in this step. A row holds the manifold that a collider found, and beside
+# it the contact cache, which worlds with a stacking solver keep from step to step.
 #
-# Rows of both are in the order of shape ids and correspond row by row. Only worlds with a stacking solver have anchors.
-# A manifold has one normal and one or two points. Shapes that touch with several normals, as on tiles, have several
-# manifolds. Fields are ordered by use, because a pass over ten thousand contacts costs the cache lines that it touches.
+# Rows are in the order of shape ids. A manifold has one normal and one or two points. Shapes that touch with several
+# normals, as on tiles, have several rows. Fields are ordered by use, because a pass over ten thousand contacts costs
+# the cache lines that it touches.
 
-MANIFOLD = in_lines(
+WITH_A, WITH_B, CORES, UPRIGHT = 0, 1, 2, 3  # frame of a normal: body A, body B, core to core, the world
+
+CONTACT = in_lines(
     [
         ("shape_a", np.int64),  # ids; A is the shape with the smaller id
         ("shape_b", np.int64),
@@ -92,14 +94,7 @@ MANIFOLD = in_lines(
         ("owner_b", np.int64),
         ("area_1", np.float64),  # [px2] area shared by two masks; 0 for other shapes
         ("area_2", np.float64),
-    ]
-)
-
-WITH_A, WITH_B, CORES, UPRIGHT = 0, 1, 2, 3  # frame of a normal: body A, body B, core to core, the world
-
-ANCHOR = in_lines(
-    [
-        # Warm start: read and stored by the solver.
+        # Contact cache. Warm start: read and stored by the solver.
         ("normal_force_1", np.float64),  # impulse per second, from which the next step starts
         ("tangent_force_1", np.float64),
         ("normal_force_2", np.float64),
@@ -142,6 +137,7 @@ ANCHOR = in_lines(
         ("held_ay_2", np.float64),
     ]
 )
+MANIFOLD_BYTES: int = CONTACT.fields["normal_force_1"][1]  # type: ignore[index]  # size of the manifold in a row
 
 
 # ---- constraint ------------------------------------------------------------------------------------------------------

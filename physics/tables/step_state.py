@@ -68,8 +68,7 @@ class WorldTables(Protocol):
     Any stands for a type that is defined in a package that imports this one.
     """
 
-    manifolds: np.ndarray  # MANIFOLD rows
-    anchors: np.ndarray  # ANCHOR rows beside them, in worlds with a stacking solver
+    contact_rows: np.ndarray  # CONTACT rows in the order of shape ids
     awake: Any  # islands.awake.Awake
     sleepers: Any  # islands.sleep.Sleepers
     pairs: Any  # broadphase.pair_list.PairList
@@ -145,18 +144,17 @@ STAGE_FIELDS = (
     "pairs",  # the pair list: proxies and candidates
     "changed_count",  # number of slots whose swept AABB changed
     "impacts",  # (n, 8) candidate, fraction, normal, stops, feature, point or nan; computed before the bodies move
-    "manifolds",  # MANIFOLD rows in the order of shape ids; those of the step before until the narrow phase
-    "anchors",  # ANCHOR rows beside them, in worlds with a stacking solver
-    "sensed",  # MANIFOLD rows of sensor contacts; None where they are among `manifolds`
+    "contact_rows",  # CONTACT rows in the order of shape ids; those of the step before until the narrow phase
+    "sensed",  # CONTACT rows of sensor contacts; None where they are among `contact_rows`
     "unsound",  # number of bodies that a solver left non-finite or beyond the speed limit
-    "swept_sensors",  # MANIFOLD rows of sensors met during the sweep
+    "swept_sensors",  # CONTACT rows of sensors met during the sweep
     "ghosts",  # (n, 8) bodies stopped by a sweep: id, path, fraction; None without any
-    "parked",  # MANIFOLD rows of islands that fell asleep in this step
+    "parked",  # CONTACT rows of islands that fell asleep in this step
     # reports
     "touching",  # the touching pairs
     "sensing",  # the pairs with a sensor
     "events",
-    "told",  # contacts to report: (MANIFOLD rows, flags of the rows that count)
+    "reported",  # contacts to report: (CONTACT rows, flags of the rows that count)
     "work",  # counters, int64
     "workspace",  # reusable arrays; nothing in them outlives a stage
 )
@@ -192,8 +190,7 @@ class StepState:
     pairs: Any  # broadphase.pair_list.PairList
     changed_count: int
     impacts: np.ndarray
-    manifolds: np.ndarray
-    anchors: np.ndarray
+    contact_rows: np.ndarray
     sensed: np.ndarray | None
     unsound: int
     swept_sensors: np.ndarray
@@ -202,7 +199,7 @@ class StepState:
     touching: Any  # events.Pairs
     sensing: Any
     events: Any  # events.Events
-    told: tuple[np.ndarray, np.ndarray | None]
+    reported: tuple[np.ndarray, np.ndarray | None]
     work: np.ndarray
     workspace: Any  # step.Workspace
 

@@ -138,7 +138,7 @@ def run(quick=False):
             # Outlines meet who shares no pixel, too; the area is the pixels' verdict.
             assert pairs_of(world.contacts[world.contacts["area"] > 0.0]) == truth, f"{name}: not pygame's {len(truth)}"
         else:
-            assert pairs_of(world.told_manifolds()) == truth, f"{name}: not pygame's {len(truth)} hits"
+            assert pairs_of(world.reported_rows()) == truth, f"{name}: not pygame's {len(truth)} hits"
             pairs = max(pairs, len(world.candidates))
         world.bodies["vx"], world.bodies["vy"] = field.velocities.T
         timed[name] = partial(mean_step, field, world, read)

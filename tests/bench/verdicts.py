@@ -14,7 +14,7 @@ from physics.collision.narrow_phase import no_work
 from physics.shapes.library import Library, place
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.body import BODY
-from physics.tables.contact import MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.shape import SHAPE
 from tests.bench.timing import table
 
@@ -52,7 +52,7 @@ class Pairs:
             for which, at in enumerate(((*first, turn), away)):
                 place(self.library, masks[which], self.bodies, self.shapes, order[2 * number + which], at)
         refresh_aabbs(np.arange(2 * count), self.library.tables, self.bodies, self.shapes)
-        self.candidates, self.found = order.reshape(-1, 2).astype(np.int64), np.zeros(count, MANIFOLD)
+        self.candidates, self.found = order.reshape(-1, 2).astype(np.int64), np.zeros(count, CONTACT)
         self.kind = MASKS if snap else MASKS_EXACT
 
     def hits(self, run):

@@ -224,7 +224,7 @@ def test_u7_u8_u10_ask_physics_about_pairs(monkeypatch):
 
 def test_u10_a_contact_that_is_not_told():
     def forget(world):
-        world.tell_contacts(world.told_manifolds()[:0])
+        world.report_contacts(world.reported_rows()[:0])
 
     world = looking(BOX, Circle(9))
     watch = Watch()

@@ -225,7 +225,7 @@ def test_the_strip_names_all_stages_and_a_click_goes_there(play):
     told = words(frame)
     assert all(stage.replace("_", " ") in told for stage in play.scene.world.stages)
     assert "4 of 8: narrow phase" in told and "us, the least of" in told and "narrow tests +" in told
-    assert "manifolds" in told and "FROZEN" not in told and "-10 s" not in told
+    assert "contact rows" in told and "FROZEN" not in told and "-10 s" not in told
     assert "contacts" not in play.overlays.on and "contacts 321 of 321" in told, "the layer of the stage is shown"
     rect, number = play.apart.names[1]
     assert play.feed(K.event.Event(K.MOUSEBUTTONDOWN, button=1, pos=rect.center))

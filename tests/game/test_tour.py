@@ -18,7 +18,7 @@ from tests.lockstep import make_scene
 SIZES = [(960, 540), (1440, 810), (1100, 900), (480, 270)]
 # That there is such a thing, asked otherwise than the tour does.
 IS_THERE = {
-    "bounds": lambda world: len(world.told_manifolds()),
+    "bounds": lambda world: len(world.reported_rows()),
     "motion": lambda world: len(debug.motion(world)),
     "structure": lambda world: len(debug.structure(world).rects),
     "pairs": lambda world: len(world.candidates),

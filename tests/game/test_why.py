@@ -153,7 +153,7 @@ def test_a_mask_that_rests_by_its_parts_is_explained():
     world.add_body(PixelMask.from_array(table), position=(0.0, 10.0))
     for _ in range(20):
         world.step()
-    assert len(world.contacts) >= 2 and not (world.contacts["shape_b"] == world.told_manifolds()["shape_b"][0]).any()
+    assert len(world.contacts) >= 2 and not (world.contacts["shape_b"] == world.reported_rows()["shape_b"][0]).any()
     touch = nearest(world, 18.0, 16.0, 6.0)
     told = said(world, touch)
     assert "pair 1 of 1" in told["broad phase, hash"] and "4 points" in told["narrow phase"]

@@ -63,7 +63,7 @@ def test_a_pile_does_the_same_whether_bodies_elsewhere_are_removed(shapes):
                 # On the floor of the heap: its contact stands in the middle of the table.
                 guest = world.add_body(Polygon.box(20, 20), position=(380, -10.0))
             world.step()
-            assert (world.manifolds["separation_1"] > -8.0).all(), f"step {step}"
+            assert (world.contact_rows["separation_1"] > -8.0).all(), f"step {step}"
         ran.append([world.bodies[name][heap].copy() for name in STATE])
     for name, still, busy in zip(STATE, *ran, strict=True):
         assert np.array_equal(still, busy), name
@@ -88,10 +88,10 @@ def test_rows_stand_in_the_order_of_their_shapes_and_beside_their_anchors():
     for step in range(60 if JIT else 9):
         guest.position = (5000, -10.0 if step % 3 else -300.0)
         world.step()
-        rows = world.manifolds
+        rows = world.contact_rows
         keys = rows["shape_a"] * 1000 + rows["shape_b"]
         assert (np.diff(keys) >= 0).all()
-        assert len(world.anchors) == len(rows)
+        assert len(world.contact_rows) == len(rows)
         a, b = (world.bodies[world.rows(rows[name])] for name in ("body_a", "body_b"))
         assert np.array_equal(a["id"], world.bodies["id"][rows["body_row_a"]])
         assert np.array_equal(b["id"], world.bodies["id"][rows["body_row_b"]])

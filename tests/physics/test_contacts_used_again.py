@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from physics import JIT, Capsule, Character, Circle, Effects, PixelMask, Polygon, World
-from physics.collision.cache import follow_bodies
+from physics.contacts.cache import update_contacts
 
 STEPS = 90 if JIT else 20
 AWAKE = Effects.rigid_bodies().with_(sleeping=False)
@@ -34,9 +34,9 @@ def heap(effects, solver="soft_step", shapes=SHAPES, **arguments):
 
 def ask_again(world):
     """Have every contact asked anew in the next step."""
-    world.manifolds["again"] = False
+    world.contact_rows["again"] = False
     for island in world.sleepers.islands.values():
-        island.manifolds["again"] = False
+        island.contacts["again"] = False
 
 
 def follow(make, edit):
@@ -50,7 +50,7 @@ def follow(make, edit):
             if asked:
                 ask_again(world)
             world.step()
-            told.append((world.digest(), [world.manifolds[name].copy() for name in TOLD]))
+            told.append((world.digest(), [world.contact_rows[name].copy() for name in TOLD]))
         ran.append(told)
     for step, ((digest, rows), (expected, asked)) in enumerate(zip(*ran, strict=True)):
         for name, values, wanted in zip(TOLD, rows, asked, strict=True):
@@ -116,7 +116,7 @@ def spoil_contacts(world, step, memory):
     """Numbers of contacts that are none: the contact is found at its anchor, as it was."""
     if step % 8 == 6:
         for name in ("normal_x", "y_1", "separation_1"):
-            world.manifolds[name][step % 3 :: 4] = math.nan
+            world.contact_rows[name][step % 3 :: 4] = math.nan
 
 
 EDITS = (leave, spoil_contacts, move_floor, write_floor, turn_one_in_the_table, put_in_its_place, restore, retune)
@@ -135,7 +135,7 @@ def test_contacts_that_sleep_are_asked_when_they_wake():
         world.step()
         if not any(body.awake for body in bodies):
             break
-    asleep = [island.manifolds for island in world.sleepers.islands.values()]
+    asleep = [island.contacts for island in world.sleepers.islands.values()]
     assert sum(map(len, asleep)) >= 12 and not any(rows["again"].any() for rows in asleep)
 
 
@@ -149,15 +149,15 @@ def test_contacts_sleep_exactly_where_they_stand():
         if not any(body.awake for body in bodies):
             break
     islands = list(world.sleepers.islands.values())
-    assert sum(len(island.manifolds) for island in islands) >= 12
+    assert sum(len(island.contacts) for island in islands) >= 12
     for island in islands:
-        rows = world.rows(island.manifolds["body_a"]), world.rows(island.manifolds["body_b"])
-        carried = island.manifolds.copy()
+        rows = world.rows(island.contacts["body_a"]), world.rows(island.contacts["body_b"])
+        carried = island.contacts.copy()
         carried["body_row_a"], carried["body_row_b"] = rows
-        follow_bodies(world.bodies, island.anchors, carried)
+        update_contacts(world.bodies, carried)
         for name in (*TOLD[3:8], "x_2", "y_2", "separation_2"):
-            kept, moved = island.manifolds[name], carried[name]
-            two = island.manifolds["count"] == 2 if name.endswith("_2") else slice(None)
+            kept, moved = island.contacts[name], carried[name]
+            two = island.contacts["count"] == 2 if name.endswith("_2") else slice(None)
             assert np.array_equal(kept[two], moved[two]), name
 
 
@@ -198,9 +198,9 @@ def test_what_rests_is_used_as_it_is_and_what_turns_is_not():
     world, _, _ = heap(AWAKE, shapes=(Polygon.box(24, 24),))
     for _ in range(STEPS):
         world.step()
-    assert world.manifolds["again"].all() and len(world.manifolds) >= 12
+    assert world.contact_rows["again"].all() and len(world.contact_rows) >= 12
     world.bodies["angular_velocity"][9:] = math.tau
     world.step()
-    again = world.manifolds["again"]
-    turned = (world.manifolds["body_row_a"] >= 9) | (world.manifolds["body_row_b"] >= 9)
+    again = world.contact_rows["again"]
+    turned = (world.contact_rows["body_row_a"] >= 9) | (world.contact_rows["body_row_b"] >= 9)
     assert turned.any() and not again[turned].any() and again[~turned].any()

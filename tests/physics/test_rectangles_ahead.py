@@ -23,7 +23,7 @@ def pairs_within(world, gap):
 
 
 def told(world):
-    found = world.told_manifolds()
+    found = world.reported_rows()
     return set(zip(found["body_a"].tolist(), found["body_b"].tolist(), strict=True))
 
 

@@ -266,7 +266,7 @@ def test_a_file_whose_columns_stand_elsewhere_in_their_rows_is_read(tmp_path):
     world, hero = busy()
     go(world, hero, 10)
     world.snapshot().save(tmp_path / "kept.npz")
-    tables = ("bodies", "shapes", "manifolds", "anchors", "told")
+    tables = ("bodies", "shapes", "contact_rows", "reported")
     path = rewritten(tmp_path / "kept.npz", lambda f, a: a.update({name: shuffled(a[name]) for name in tables}))
     digest = world.digest()
     first = go(world, hero, N)

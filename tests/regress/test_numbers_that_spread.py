@@ -49,8 +49,8 @@ def test_a_shape_whose_numbers_are_none_takes_its_body_alone(column):
 
 def test_what_a_contact_bore_is_forgotten_where_it_is_no_number():
     world, bodies = heap()
-    world.anchors["normal_force_1"] = math.nan
-    world.anchors["rolling_force"] = math.inf
+    world.contact_rows["normal_force_1"] = math.nan
+    world.contact_rows["rolling_force"] = math.inf
     for _ in range(5):
         world.step()
         assert len(world.events.quarantined) == 0

@@ -50,7 +50,7 @@ def _of_pairs(world, pairs):
 
 def touching(world: World) -> np.ndarray:
     """(n, 4) boxes around two shapes that touch."""
-    told = world.told_manifolds()
+    told = world.reported_rows()
     return _of_pairs(world, np.stack([told["owner_a"], told["owner_b"]], axis=1))
 
 

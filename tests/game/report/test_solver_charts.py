@@ -30,7 +30,7 @@ def test_put_together_as_usual_it_is_the_solver(parts, substeps):
     for _ in range(30):
         usual.step()
     assert np.array_equal(run(parts, made).bodies["y"], usual.bodies["y"])
-    assert np.array_equal(run(parts, made).manifolds["normal_impulse_1"], usual.manifolds["normal_impulse_1"])
+    assert np.array_equal(run(parts, made).contact_rows["normal_impulse_1"], usual.contact_rows["normal_impulse_1"])
 
 
 @pytest.mark.parametrize(

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics import Capsule, Chain, Character, Circle, Effects, Material, PixelMask, Polygon, TileGrid, World
-from physics.tables.contact import ANCHOR, MANIFOLD
+from physics.tables.contact import CONTACT
 from physics.tables.shape import PROXY
 
 
@@ -24,7 +24,7 @@ WORLDS = {
     "sleeping": (STACKING.with_(sleeping=True), "soft_step"),
 }
 KINDS = tuple(WORLDS)
-TABLES = ("bodies", "shapes", "proxies", "characters", "manifolds", "anchors")
+TABLES = ("bodies", "shapes", "proxies", "characters", "contact_rows")
 # Numbers that no step takes on from the one before: told, or worked out again before they are read. All others put the
 # body they belong to aside.
 WRITTEN_ANEW = {
@@ -36,8 +36,7 @@ WRITTEN_ANEW = {
     "shapes": {"density", "min_x", "min_y", "max_x", "max_y"},
     "proxies": set(floats_of(PROXY)),
     "characters": set(),
-    "manifolds": set(floats_of(MANIFOLD)),  # found anew; forces that are none are forgotten
-    "anchors": set(floats_of(ANCHOR)),
+    "contact_rows": set(floats_of(CONTACT)),  # found anew; forces that are none are forgotten
 }
 # Large, and yet of use: a mass that is told has its inverse beside it.
 QUIETLY = {("bodies", name, "1e308") for name in ("mass", "inertia", "smallest_half", "thin_half", "fraction")}
@@ -61,8 +60,7 @@ def table_of(world, name):
         "shapes": world.shapes,
         "proxies": world.pairs.proxies,
         "characters": world.characters.rows,
-        "manifolds": world.manifolds,
-        "anchors": world.anchors,
+        "contact_rows": world.contact_rows,
     }[name]
 
 
@@ -124,7 +122,7 @@ class Scene:
             return int(world.shapes["proxy"][self.row_of("shapes")])
         if table == "characters":
             return 0
-        found = np.flatnonzero((world.manifolds["body_a"] == sick) | (world.manifolds["body_b"] == sick))
+        found = np.flatnonzero((world.contact_rows["body_a"] == sick) | (world.contact_rows["body_b"] == sick))
         return int(found[0])
 
     def poison(self, field, value):

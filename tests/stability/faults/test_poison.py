@@ -31,8 +31,7 @@ FEW = {  # without a compiler: one of each way in
     "shapes": ("radius",),
     "proxies": ("lower_x",),
     "characters": ("climb",),
-    "manifolds": ("normal_x",),
-    "anchors": ("normal_force_1",),
+    "contact_rows": ("normal_x", "normal_force_1"),
 }
 
 

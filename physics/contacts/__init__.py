@@ -1,0 +1,1 @@
+"""Contacts as they are kept from step to step, and sensors."""

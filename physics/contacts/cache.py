@@ -1,0 +1,494 @@
+"""The contact cache of worlds that stack: contacts at any pose, and at the final poses of a step."""
+
+import math
+
+from physics.collision.hulls import CIRCLE_CORNER, CORNERS, PART
+from physics.jit import inlined, kernel, subkernel
+from physics.math2d import heading, length_of, turned, unit
+from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE, RECYCLE_WANDER
+from physics.shapes.library import add_missing_rasters
+from physics.shapes.placement import is_hull, refresh_boxes
+from physics.tables.contact import CORES, UPRIGHT, WITH_A, WITH_B
+from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
+from physics.tables.step_state import StepState, stage
+
+# ---- cache -----------------------------------------------------------------------------------------------------------
+# The contact cache: the points of a manifold in the body spaces of both sides, and the frame its normal rotates with.
+#
+# Points, normal and separations at any pose follow from it (update_contact), without a new narrow phase. They are exact
+# to second order in the motion. The normal rotates with the side that has the reference face. A point stays with its
+# corner, on whichever side that is.
+
+FACES = 1024  # features below are points of a face, see hulls.py
+SAME = 2.0**-20  # of a body's extent: a point this near to a corner is that corner
+
+
+@subkernel
+def core_radius(shape):
+    """Return the radius [px] from the core of a shape to its surface: of a circle its own, of a hull its rounding."""
+    return shape.radius if is_hull(shape.kind) and shape.kind != BOUNDS else 0.0
+
+
+@subkernel
+def is_ground(shape):
+    """Return whether a shape is a grid or chain: the features of its manifolds begin with the run or link."""
+    return shape.kind == TILES or shape.kind == CHAIN
+
+
+@subkernel
+def has_corners(shape):
+    """Return whether a shape is a row of geometry.polygons."""
+    return is_hull(shape.kind) and shape.kind != BOUNDS and shape.kind != CIRCLE
+
+
+@subkernel
+def frame_of(a, b, feature, radii):
+    """Return the frame that the normal of a manifold rotates with: WITH_A, WITH_B, CORES or UPRIGHT.
+
+    a, b: SHAPE rows of its sides; feature: of its first point; radii [px]: sum of both core radii.
+    """
+    frame = WITH_B if a.kind == CIRCLE else WITH_A
+    if a.kind != MASK and b.kind != MASK:
+        part = feature % PART
+        disc = a.kind == CIRCLE or b.kind == CIRCLE
+        if a.kind == CIRCLE and b.kind == CIRCLE:
+            return CORES
+        if disc and CIRCLE_CORNER <= part < 2 * CIRCLE_CORNER:
+            return CORES  # around a corner
+        if part >= CORNERS and part < CORNERS + 256 and radii > 0.0:
+            return CORES
+        if not disc and part < FACES:
+            flipped = part % 2 == 1
+            frame = WITH_B if flipped != is_ground(b) else WITH_A
+    if (a if frame == WITH_A else b).kind == BOUNDS:
+        return UPRIGHT
+    return frame
+
+
+@subkernel
+def is_corner(polygons, table, body, shape, corner, local_x, local_y):
+    """Return whether a point [px] in body space is the hull core's corner of this number; the number wraps to the
+    first."""
+    span = polygons[shape.geometry]
+    c = table[span.offset + (corner if corner < span.count else 0)]
+    return length_of(c.x - local_x, c.y - local_y) <= SAME * body.extent
+
+
+@subkernel
+def core_in_body(body, cosine, sine, x, y, nx, ny, inside, behind):
+    """Return a point in body space, moved by `inside` [px] along the normal and `behind` [px] against the tangent
+    (-ny, nx)."""
+    return turned(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, cosine, -sine)
+
+
+@subkernel
+def share_of(polygons, table, body_a, body_b, contact, a, b, second):
+    """Return the position of a manifold point between the two cores, along the face: 0 at A's, 1 at B's, 0.5 midway.
+
+    The centre of a disc, or a corner, stays over the face. A point clipped by the end of a face stays with the face.
+    contact: the CONTACT row, with the cores already written; a, b: its SHAPE rows; second: it is the second point.
+    """
+    part = (contact.feature_2 if second else contact.feature_1) % PART
+    if a.kind == MASK or b.kind == MASK:
+        return 0.5
+    if a.kind == CIRCLE or b.kind == CIRCLE:
+        return 0.0 if a.kind == CIRCLE else 1.0
+    if part >= FACES:
+        return 0.5
+    with_a = (part % 2 == 0) != is_ground(b)
+    face_share = 0.0 if with_a else 1.0
+    local_ax = contact.local_ax_2 if second else contact.local_ax_1
+    local_ay = contact.local_ay_2 if second else contact.local_ay_1
+    local_bx = contact.local_bx_2 if second else contact.local_bx_1
+    local_by = contact.local_by_2 if second else contact.local_by_1
+    corner = part // 4 % 16
+    edge = part // 64
+    if has_corners(b if with_a else a):
+        if with_a:
+            over = is_corner(polygons, table, body_b, b, corner, local_bx, local_by)
+        else:
+            over = is_corner(polygons, table, body_a, a, corner, local_ax, local_ay)
+        return 1.0 - face_share if over else face_share
+    if has_corners(a if with_a else b):
+        cut = False
+        for end in range(2):
+            if with_a:
+                cut = cut or is_corner(polygons, table, body_a, a, edge + end, local_ax, local_ay)
+            else:
+                cut = cut or is_corner(polygons, table, body_b, b, edge + end, local_bx, local_by)
+        return face_share if cut else 1.0 - face_share
+    return 0.5
+
+
+@subkernel
+def write_cache(polygons, table, bodies, shapes, contact_inout):
+    """Write the cache of a contact that was detected at the present poses.
+
+    polygons, table: geometry.polygons and geometry.corners, passed separately: see placement.polygon_at. A round side
+    keeps its core, because a surface point would rotate away with its spin.
+    """
+    c = contact_inout
+    a = bodies[c.body_row_a]
+    b = bodies[c.body_row_b]
+    s = shapes[c.row_a]
+    o = shapes[c.row_b]
+    c.radius_a = core_radius(s)
+    c.radius_b = core_radius(o)
+    c.frame = frame_of(s, o, c.feature_1, c.radius_a + c.radius_b)
+    a_cosine, a_sine = heading(a.angle)
+    b_cosine, b_sine = heading(b.angle)
+    nx = c.normal_x
+    ny = c.normal_y
+    c.local_nx = nx
+    c.local_ny = ny
+    if c.frame == WITH_A:
+        c.local_nx, c.local_ny = turned(nx, ny, a_cosine, -a_sine)
+    elif c.frame == WITH_B:
+        c.local_nx, c.local_ny = turned(nx, ny, b_cosine, -b_sine)
+    c.angle_a = a.angle
+    c.angle_b = b.angle
+    c.held_nx = nx
+    c.held_ny = ny
+    c.apart_x = b.center_x - a.center_x
+    c.apart_y = b.center_y - a.center_y
+    c.held_ax_1 = c.x_1 - a.center_x
+    c.held_ay_1 = c.y_1 - a.center_y
+    c.held_ax_2 = 0.0
+    c.held_ay_2 = 0.0
+    half = 0.5 * c.separation_1
+    c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, c.x_1, c.y_1, nx, ny, -(half + c.radius_a), 0.0)
+    c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, c.x_1, c.y_1, nx, ny, half + c.radius_b, c.lead)
+    c.base_1 = c.separation_1
+    c.share_1 = share_of(polygons, table, a, b, c, s, o, False)
+    c.local_ax_2 = 0.0
+    c.local_ay_2 = 0.0
+    c.local_bx_2 = 0.0
+    c.local_by_2 = 0.0
+    c.base_2 = 0.0
+    c.share_2 = 0.5
+    if c.count == 2:
+        c.held_ax_2 = c.x_2 - a.center_x
+        c.held_ay_2 = c.y_2 - a.center_y
+        half = 0.5 * c.separation_2
+        c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, c.x_2, c.y_2, nx, ny, -(half + c.radius_a), 0.0)
+        c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, c.x_2, c.y_2, nx, ny, half + c.radius_b, c.lead)
+        c.base_2 = c.separation_2
+        c.share_2 = share_of(polygons, table, a, b, c, s, o, True)
+
+
+@subkernel
+def reset_impulses(contact_out):
+    """Clear the cached forces of a contact, and its graph colour."""
+    c = contact_out
+    c.color = -1
+    c.rolling_force = 0.0
+    c.normal_force_1 = 0.0
+    c.tangent_force_1 = 0.0
+    c.normal_force_2 = 0.0
+    c.tangent_force_2 = 0.0
+
+
+@kernel
+def write_caches(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    # write
+    contacts_inout,
+):
+    """Write the cache of every contact that was detected at the present poses, without forces. O(contacts)."""
+    for i in range(len(contacts_inout)):
+        reset_impulses(contacts_inout[i])
+        write_cache(geometry.polygons, geometry.corners, bodies, shapes, contacts_inout[i])
+
+
+# ---- update ----------------------------------------------------------------------------------------------------------
+# Update of contacts to moved bodies: points, normal and separations at any pose, from the cache.
+
+
+@inlined
+def cores_at(a, a_cosine, a_sine, b, b_cosine, b_sine, local_ax, local_ay, local_bx, local_by):
+    """Return the cores of a point at the present poses: A's [px], and B's relative to it.
+
+    a, b: BODY rows, with cosine and sine of their angles; local [px]: the cores in the body spaces.
+    """
+    ax, ay = turned(local_ax, local_ay, a_cosine, a_sine)
+    bx, by = turned(local_bx, local_by, b_cosine, b_sine)
+    ax += a.x
+    ay += a.y
+    return ax, ay, (b.x + bx) - ax, (b.y + by) - ay
+
+
+@inlined
+def clipped_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny, wander):
+    """Return (gap [px] of the cores at a point clipped by the end of a face, whether it differs from `gap`).
+
+    The incident edge runs through the other side's cores of both points. As the sides slide along the face, the clipped
+    point moves on that edge. gap: from core to core at the point; dx, dy: B's core relative to A's; other_dx, other_dy:
+    the same of the other point; apart_x, apart_y: A's core of the other point relative to this one's; with_a: the face
+    is A's; wander [px]: smaller corrections are omitted.
+    """
+    edge_x = apart_x + (other_dx - dx if with_a else 0.0)
+    edge_y = apart_y + (other_dy - dy if with_a else 0.0)
+    along = edge_y * nx - edge_x * ny
+    across = edge_x * nx + edge_y * ny
+    rise = (dy * nx - dx * ny) * across
+    # An edge that is too steep is not the one along the face.
+    if abs(across) >= abs(along) or along == 0.0 or abs(rise) <= wander * abs(along):
+        return gap, False
+    return gap - rise / along, True
+
+
+@inlined
+def is_clipped(contact, share):
+    """Return whether a point of a contact, with its share, is clipped by the end of a face."""
+    return (contact.frame == WITH_A and share == 0.0) or (contact.frame == WITH_B and share == 1.0)
+
+
+@inlined
+def point_of(ax, ay, dx, dy, nx, ny, gap, share, radius_a, radius_b):
+    """Return a point of a manifold [px], x and y, and its separation.
+
+    ax … dy: see cores_at; gap: from core to core along the normal, with the correction of clipped_gap.
+    """
+    apart = dx * nx + dy * ny
+    middle = 0.5 * (radius_a + (gap - radius_b)) + share * (apart - gap)
+    x = ax + share * (dx - apart * nx) + middle * nx
+    y = ay + share * (dy - apart * ny) + middle * ny
+    return x, y, gap - radius_a - radius_b
+
+
+@inlined
+def update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, contact_inout):
+    """Write points, normal and separations [px] at the present poses. Return (relative motion of the points since
+    detection, along or across the face [px]; motion of a core around a corner [px]; whether a clipped point moved on).
+
+    a, b: BODY rows of the sides, with cosine and sine of their angles; wander [px]: a clipped point is corrected only
+    where this makes more of a difference, that is after a large motion; infinite: never.
+    """
+    c = contact_inout
+    two = c.count == 2
+    c.lead = 0.0
+    ax_1, ay_1, dx_1, dy_1 = cores_at(
+        a, a_cosine, a_sine, b, b_cosine, b_sine, c.local_ax_1, c.local_ay_1, c.local_bx_1, c.local_by_1
+    )
+    ax_2, ay_2, dx_2, dy_2 = ax_1, ay_1, dx_1, dy_1
+    if two:
+        ax_2, ay_2, dx_2, dy_2 = cores_at(
+            a, a_cosine, a_sine, b, b_cosine, b_sine, c.local_ax_2, c.local_ay_2, c.local_bx_2, c.local_by_2
+        )
+    nx = c.local_nx
+    ny = c.local_ny
+    moved = 0.0
+    rolled = 0.0
+    if c.frame == CORES:
+        nx, ny = unit(dx_1, dy_1, c.normal_x, c.normal_y)
+        # Relative to the normal at detection: a body that rolls around a corner leaves it.
+        rolled = length_of(nx - c.local_nx, ny - c.local_ny) * max(c.radius_a, c.radius_b)
+    else:
+        if c.frame == WITH_A:
+            nx, ny = turned(nx, ny, a_cosine, a_sine)
+        elif c.frame == WITH_B:
+            nx, ny = turned(nx, ny, b_cosine, b_sine)
+        moved = max(abs(dy_1 * nx - dx_1 * ny), abs(dy_2 * nx - dx_2 * ny))
+    c.normal_x = nx + 0.0
+    c.normal_y = ny + 0.0
+    gap_1 = dx_1 * nx + dy_1 * ny
+    gap_2 = dx_2 * nx + dy_2 * ny
+    wandered_1 = False
+    wandered_2 = False
+    if two and wander < math.inf:
+        x = ax_2 - ax_1
+        y = ay_2 - ay_1
+        with_a = c.frame == WITH_A
+        if is_clipped(c, c.share_1):
+            gap_1, wandered_1 = clipped_gap(gap_1, dx_1, dy_1, dx_2, dy_2, x, y, with_a, nx, ny, wander)
+        if is_clipped(c, c.share_2):
+            gap_2, wandered_2 = clipped_gap(gap_2, dx_2, dy_2, dx_1, dy_1, -x, -y, with_a, nx, ny, wander)
+    c.x_1, c.y_1, c.separation_1 = point_of(ax_1, ay_1, dx_1, dy_1, nx, ny, gap_1, c.share_1, c.radius_a, c.radius_b)
+    moved = max(moved, abs(c.separation_1 - c.base_1))
+    if two:
+        c.x_2, c.y_2, c.separation_2 = point_of(
+            ax_2, ay_2, dx_2, dy_2, nx, ny, gap_2, c.share_2, c.radius_a, c.radius_b
+        )
+        moved = max(moved, abs(c.separation_2 - c.base_2))
+    return moved, rolled, wandered_1 or wandered_2
+
+
+@kernel
+def update_contacts(
+    # read
+    bodies,
+    # write
+    contacts_inout,
+):
+    """Update separations, points and normals of all contacts to the present poses. O(contacts)."""
+    row_a = -1
+    row_b = -1
+    a_cosine = 1.0
+    a_sine = 0.0
+    b_cosine = 1.0
+    b_sine = 0.0
+    for i in range(len(contacts_inout)):
+        c = contacts_inout[i]
+        a = bodies[c.body_row_a]
+        b = bodies[c.body_row_b]
+        # The contacts of a pair, and often those of a body, are adjacent.
+        if c.body_row_a != row_a:
+            row_a = c.body_row_a
+            a_cosine, a_sine = heading(a.angle)
+        if c.body_row_b != row_b:
+            row_b = c.body_row_b
+            b_cosine, b_sine = heading(b.angle)
+        update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, 0.0, c)
+
+
+# ---- recycle ---------------------------------------------------------------------------------------------------------
+# Contact recycling: whether a manifold of the last step can be used again. It is tested at the end of a step for the
+# next one, and at the beginning of a step for bodies that were moved in between.
+#
+# Source: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
+
+
+@inlined
+def is_finite(contact):
+    """Return whether all numbers of the manifold are finite (x - x == 0 only for finite x)."""
+    m = contact
+    total = m.normal_x + m.normal_y + m.x_1 + m.y_1 + m.separation_1
+    if m.count == 2:
+        total += m.x_2 + m.y_2 + m.separation_2
+    return total - total == 0.0
+
+
+@inlined
+def recycle_distance(contact, distance):
+    """Return the largest relative motion [px] of a contact's points with which it can be recycled.
+
+    This is the distance, or RECYCLE_MOVE times it on a loaded face that is not short itself: its points are updated
+    exactly. An unloaded contact must find its own way out of an overlap.
+    """
+    c = contact
+    loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
+    if c.count == 1 or not loaded or c.radius_a > 0.0 or c.radius_b > 0.0:
+        return distance
+    x = c.x_2 - c.x_1
+    y = c.y_2 - c.y_1
+    far = RECYCLE_MOVE * distance
+    return far if far * far <= RECYCLE_SHARE * RECYCLE_SHARE * (x * x + y * y) else distance
+
+
+@inlined
+def can_recycle(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, distance, wander, contact_inout):
+    """Update a contact to the present poses, and return whether it can be recycled.
+
+    No point may have moved by more than recycle_distance of `distance` [px], and neither side may have rotated relative
+    to the other by more than that. Clipped points must be right to within `wander` [px] without correction.
+
+    a, b: BODY rows of the sides, with cosine and sine of their angles.
+    """
+    c = contact_inout
+    moved, rolled, wandered = update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, c)
+    # The manifold lies within both sides: a rotation moves its points by at most the extent of the smaller one.
+    reach = min(a.extent, b.extent) if min(a.extent, b.extent) > 0.0 else max(a.extent, b.extent)
+    turn = abs((b.angle - c.angle_b) - (a.angle - c.angle_a)) * reach
+    if turn > distance and (shapes[c.row_a].kind == CIRCLE or shapes[c.row_b].kind == CIRCLE):
+        turn = 0.0  # a disc may rotate freely
+    near = max(rolled, turn) <= distance and moved <= recycle_distance(c, distance) and not wandered
+    return near and is_finite(c) and 0.0 <= c.share_1 <= 1.0 and 0.0 <= c.share_2 <= 1.0
+
+
+@inlined
+def is_settled(body):
+    """Return whether a body, a BODY row, is at the pose where its centre of mass was last written."""
+    return body.x == body.settled_x and body.y == body.settled_y and body.angle == body.settled_angle
+
+
+@inlined
+def is_unmoved(body):
+    """Return whether a body, a BODY row, is at the pose to which the last step updated its contacts.
+
+    Moving a body through the API clears the flag; a direct write to the table shows in the pose.
+    """
+    return body.followed and is_settled(body)
+
+
+# ---- final poses -----------------------------------------------------------------------------------------------------
+# Final poses of a step in a world with stacking: boxes, rasters and contacts are updated to them.
+#
+# Solvers, sweeps and characters move bodies one after the other. Reports, sensors and sleeping use the state after all
+# of them. Contacts are updated from the cache; nothing is detected twice.
+
+
+@subkernel
+def update_and_flag(
+    # read
+    shapes,
+    distance,
+    # write
+    bodies_inout,
+    contacts_inout,
+):
+    """Update points, normals and separations of all contacts to the present poses, and flag those that can be recycled
+    in the next step: see can_recycle. O(contacts)."""
+    row_a = -1
+    row_b = -1
+    a_cosine = 1.0
+    a_sine = 0.0
+    b_cosine = 1.0
+    b_sine = 0.0
+    for i in range(len(contacts_inout)):
+        c = contacts_inout[i]
+        a = bodies_inout[c.body_row_a]
+        b = bodies_inout[c.body_row_b]
+        # The contacts of a pair, and often those of a body, are adjacent.
+        if c.body_row_a != row_a:
+            row_a = c.body_row_a
+            a_cosine, a_sine = heading(a.angle)
+            a.followed = is_settled(a)
+        if c.body_row_b != row_b:
+            row_b = c.body_row_b
+            b_cosine, b_sine = heading(b.angle)
+            b.followed = is_settled(b)
+        fits = can_recycle(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, distance, RECYCLE_WANDER * distance, c)
+        if not fits:
+            update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, 0.0, c)
+        c.again = fits and not c.swept
+
+
+@kernel
+def update_final_poses(
+    # read
+    shape_rows,
+    geometry,
+    distance,
+    # write
+    bodies_inout,
+    shapes_inout,
+    contacts_inout,
+):
+    """Write the boxes of these shapes, and update all contacts to the present poses. O(rows + contacts).
+
+    distance [px]: see can_recycle.
+    """
+    refresh_boxes(shape_rows, geometry, bodies_inout, shapes_inout)
+    update_and_flag(shapes_inout, distance, bodies_inout, contacts_inout)
+
+
+@stage(
+    "final_poses",
+    reads=("tolerances", "awake", "bodies", "shapes", "library", "contact_rows"),
+    writes=(
+        "contact_rows",
+        "library",
+        "bodies.followed",
+        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+    ),
+)
+def update_contacts_at_final_poses(state: StepState) -> None:
+    """Update boxes, and points, normals and separations of contacts, to the final poses."""
+    rows, bodies, shapes = state.awake.shapes, state.bodies, state.shapes
+    # A body rotated by the solver may be at an angle without a raster.
+    add_missing_rasters(state.library, rows, bodies, shapes, 0.0)
+    distance = state.tolerances.recycle
+    update_final_poses(rows, state.library.tables, distance, bodies, shapes, state.contact_rows)

@@ -1,0 +1,425 @@
+"""The narrow phase of worlds that stack: contacts are recycled, or found anew and matched with the last step's."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.collision.hull_pairs import approach
+from physics.collision.manifold import NOTHING, Batch, is_before, is_of, mixed
+from physics.collision.narrow_phase import BIAS, GRAZE, PARTED, SOLIDS, NarrowPhase, is_of_part, kind_asked, no_work
+from physics.contacts.cache import can_recycle, is_finite, is_unmoved, reset_impulses, write_cache
+from physics.islands.sleep import order_of
+from physics.jit import copy_head, copy_row, inlined, kernel, subkernel
+from physics.math2d import heading
+from physics.shapes.placement import refresh_aabbs
+from physics.tables.contact import CONTACT, MANIFOLD_BYTES
+from physics.tables.shape import CHAIN, MASK, PIXELS
+from physics.tables.step_state import NARROW_TESTS, StepState, WorldTables, stage
+from physics.tables.table import joined, rows_of, zeros_in_lines
+
+NO_CONTACTS, NO_ROWS = np.zeros(0, CONTACT), np.zeros(0, np.int32)
+
+# ---- matching --------------------------------------------------------------------------------------------------------
+# Matching of contacts with those of the last step, whose impulses they take over.
+
+LARGEST_FORCE = 1e100  # a larger or non-finite cached force is reset to 0
+
+
+@subkernel
+def transfer_impulses(previous, first, contact_inout):
+    """Copy to a new contact's points the forces of the previous points with equal features.
+
+    The previous contacts of its pair begin at row `first`.
+    """
+    c = contact_inout
+    for point in range(c.count):
+        feature = c.feature_1 if point == 0 else c.feature_2
+        k = first
+        known = False
+        while not known and k < len(previous) and is_of(previous[k], c.shape_a, c.shape_b):
+            o = previous[k]
+            second = o.count == 2 and o.feature_2 == feature and o.feature_1 != feature
+            if o.feature_1 == feature or second:
+                known = True
+                normal_force = o.normal_force_2 if second else o.normal_force_1
+                tangent_force = o.tangent_force_2 if second else o.tangent_force_1
+                if point == 0:
+                    c.normal_force_1 = normal_force
+                    c.tangent_force_1 = tangent_force
+                    c.rolling_force = 0.0 if second else o.rolling_force
+                    c.persisted_1 = True
+                else:
+                    c.normal_force_2 = normal_force
+                    c.tangent_force_2 = tangent_force
+                    c.persisted_2 = True
+            k += 1
+
+
+@inlined
+def begin_step(geometry, p, q, a, b, contact_inout):
+    """Write the fields that are new in every step: mixed materials and closing speeds.
+
+    p, q: BODY rows of the sides; a, b: their SHAPE rows.
+    """
+    c = contact_inout
+    c.normal_impulse_1 = 0.0
+    c.tangent_impulse_1 = 0.0
+    c.normal_impulse_2 = 0.0
+    c.tangent_impulse_2 = 0.0
+    c.color = -1
+    forces = abs(c.normal_force_1) + abs(c.tangent_force_1) + abs(c.normal_force_2) + abs(c.tangent_force_2)
+    if not forces + abs(c.rolling_force) < LARGEST_FORCE:
+        reset_impulses(c)
+    c.friction, c.restitution, rolling_resistance, surface_speed = mixed(geometry, a, b, c)
+    # No other field of this cache line is written: unchanged values need not go back to memory.
+    if c.rolling_resistance != rolling_resistance or c.surface_speed != surface_speed:
+        c.rolling_resistance = rolling_resistance
+        c.surface_speed = surface_speed
+    approach(p, q, c)
+
+
+@kernel
+def match_contacts(
+    # read
+    geometry,
+    bodies,
+    shapes,
+    previous,
+    stale,
+    found,
+    # write
+    contacts_out,
+):
+    """Write the contacts of a step in the order of the candidates: those recycled from the last step, and the found
+    ones with the impulses of equal features. Return how many there are. O(all).
+
+    previous and found: CONTACT rows, each in that order; stale (any) int32 rows of previous that are dropped,
+    ascending. A found contact with a row of the last step is a recycled one, and keeps its cache.
+    """
+    count = 0
+    kept = 0
+    passed = 0
+    i = 0
+    j = 0
+    while True:
+        while passed < len(stale) and stale[passed] == kept:
+            passed += 1
+            kept += 1
+        if kept < len(previous) and (i == len(found) or previous[kept].candidate < found[i].candidate):
+            copy_row(previous[kept], contacts_out[count])
+            kept += 1
+        elif i < len(found):
+            c = contacts_out[count]
+            if found[i].previous >= 0:
+                copy_row(previous[found[i].previous], c)
+                copy_head(found[i], c, MANIFOLD_BYTES)
+            else:
+                copy_head(found[i], c, MANIFOLD_BYTES)
+                while j < len(previous) and is_before(previous[j], c.shape_a, c.shape_b):
+                    j += 1
+                reset_impulses(c)
+                write_cache(geometry.polygons, geometry.corners, bodies, shapes, c)
+                transfer_impulses(previous, j, c)
+                begin_step(geometry, bodies[c.body_row_a], bodies[c.body_row_b], shapes[c.row_a], shapes[c.row_b], c)
+            i += 1
+        else:
+            return count
+        count += 1
+
+
+@kernel
+def copy_recycled(
+    # read
+    previous,
+    stale,
+    # write
+    contacts_out,
+):
+    """Copy the manifolds of the recycled contacts: all but the stale ones (any, int32, ascending). O(previous)."""
+    count = 0
+    passed = 0
+    for k in range(len(previous)):
+        if passed < len(stale) and stale[passed] == k:
+            passed += 1
+        else:
+            copy_head(previous[k], contacts_out[count], MANIFOLD_BYTES)
+            count += 1
+
+
+# ---- recycling -------------------------------------------------------------------------------------------------------
+# Contacts of the last step that are used again, because their bodies have hardly moved relative to each other.
+#
+# Source: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
+
+
+@inlined
+def refresh_rows(a, b, row_a, row_b, candidate, place, contact_inout):
+    """Write the fields of a recycled contact that may have changed: its rows, candidate and place in the last step.
+
+    a, b: its SHAPE rows.
+    """
+    c = contact_inout
+    c.body_row_a = a.body_row
+    c.body_row_b = b.body_row
+    c.row_a = row_a
+    c.row_b = row_b
+    c.candidate = candidate
+    c.previous = place
+    c.persisted_1 = True
+    c.persisted_2 = True
+
+
+@kernel
+def recycle_contacts(
+    # read
+    batch,
+    distance,
+    # write
+    previous_inout,
+    kinds_out,
+    counts_out,
+    stale_out,
+    work_inout,
+):
+    """Classify the solid pairs, see classify, and recycle the contacts of the last step; distance [px]: see
+    can_recycle.
+
+    Where both bodies are as the last step left them, that step has already decided. previous_inout CONTACT rows are
+    updated to their bodies, in the order of shape ids like the candidates. A recycled pair is NOTHING in kinds_out, and
+    not counted. stale_out (previous) int32: the other rows, always including masks. Return the number of stale rows,
+    and the number of pairs left to test or with parts. O(candidates + contacts).
+    """
+    bodies = batch.bodies
+    shapes = batch.shapes
+    candidates = batch.candidates
+    for i in range(len(counts_out)):
+        counts_out[i] = 0
+    stale, j = 0, 0
+    row_a = -1
+    p_unmoved = False
+    for i in range(batch.count):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        kind = kind_asked(bodies, a, b, batch.margin, batch.ahead, SOLIDS)
+        kinds_out[i] = kind
+        counts_out[kind] += 1
+        if kind == NOTHING:
+            continue
+        counts_out[PARTED] += int(is_of_part(a, b))
+        while j < len(previous_inout) and is_before(previous_inout[j], a.id, b.id):
+            stale_out[stale] = j
+            stale += 1
+            j += 1
+        if j == len(previous_inout) or not is_of(previous_inout[j], a.id, b.id) or a.kind == MASK or b.kind == MASK:
+            continue
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        # The pairs of a body are adjacent.
+        if a.body_row != row_a:
+            row_a = a.body_row
+            p_unmoved = is_unmoved(p)
+        unmoved = p_unmoved and is_unmoved(q)
+        fits, last = True, j
+        while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):
+            c = previous_inout[last]
+            if fits and not (unmoved and c.again and is_finite(c)):
+                c.row_a = candidates[i, 0]
+                c.row_b = candidates[i, 1]
+                p_cosine, p_sine = heading(p.angle)
+                q_cosine, q_sine = heading(q.angle)
+                fits = not c.swept and can_recycle(
+                    shapes, p, p_cosine, p_sine, q, q_cosine, q_sine, distance, math.inf, c
+                )
+            last += 1
+        if not fits:
+            continue  # the next candidate skips its rows
+        for k in range(j, last):
+            refresh_rows(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
+            begin_step(batch.geometry, p, q, a, b, previous_inout[k])
+        j = last
+        counts_out[kind] -= 1
+        kinds_out[i] = NOTHING
+    for k in range(j, len(previous_inout)):
+        stale_out[stale] = k
+        stale += 1
+    work_inout[NARROW_TESTS] += batch.count - counts_out[NOTHING]
+    asking = counts_out[PARTED]
+    for kind in range(NOTHING):
+        asking += counts_out[kind]
+    return stale, asking
+
+
+# ---- narrow phase ----------------------------------------------------------------------------------------------------
+# The narrow phase of worlds that stack: contacts at the start poses, with the impulses of the last step.
+
+
+class Found(NamedTuple):
+    """The contacts found in a step, and the stale ones of the last step."""
+
+    rows: np.ndarray  # CONTACT, in the order of their candidates; valid until the next call
+    stale: np.ndarray  # int32 rows of the last step that are not recycled, ascending
+
+
+class ContactCache:
+    """Reusable arrays for the contacts of one world: the present ones, and room for those of the next step."""
+
+    def __init__(self) -> None:
+        self.tables = [zeros_in_lines(16, CONTACT) for _ in range(2)]
+        self.stale = np.zeros(64, np.int32)
+
+    def room_beside(self, contacts: np.ndarray, count: int) -> np.ndarray:
+        """Return room for so many rows in a table other than that of `contacts`, which may have been replaced between
+        steps.
+        """
+        if contacts.base is self.tables[0].base:
+            self.tables.reverse()
+        if len(self.tables[0]) < count:
+            self.tables[0] = zeros_in_lines(2 * count, CONTACT)
+        return self.tables[0]
+
+    def find(self, narrow: NarrowPhase, batch: Batch, previous: np.ndarray, distance: float, work) -> Found | None:
+        """Return the contacts of solid pairs, but recycle those whose points moved by at most `distance` [px].
+
+        previous: the contacts of the last step; recycled ones are updated in place. Return the new contacts and the
+        stale rows, or None if there are no new ones and all are recycled.
+        """
+        if len(self.stale) < len(previous):
+            self.stale = np.zeros(2 * len(previous), np.int32)
+        if narrow.boxes_only:
+            return Found(narrow.find_boxes(batch, SOLIDS, work), self._all_stale(previous))
+        stale_count, asking = recycle_contacts(batch, distance, previous, narrow.kinds, narrow.counts, self.stale, work)
+        if not (stale_count or asking):
+            return None
+        stale = self.stale[:stale_count]
+        recycled = 0
+        if stale_count < len(previous) and narrow.counts[PARTED]:
+            # The contact of a part depends on those of the other parts of its shape: all contacts are sorted together.
+            recycled = len(previous) - stale_count
+            copy_recycled(previous, stale, narrow.room_for(recycled))
+            stale = self._all_stale(previous)
+        return Found(narrow.complete(batch, previous, recycled, work), stale)
+
+    def _all_stale(self, previous):
+        self.stale[: len(previous)] = np.arange(len(previous))
+        return self.stale[: len(previous)]
+
+
+@stage(
+    "narrow_phase",
+    reads=("tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "contact_rows", "workspace"),
+    writes=("contact_rows", "work", "workspace"),
+)
+def find_contacts(state: StepState) -> None:
+    """Detect contacts at the start of the step, up to the speculative distance, with the forces of the last step."""
+    if not len(state.awake.bodies):
+        state.contact_rows = NO_CONTACTS
+        return
+    tolerances, previous, cache, narrow = (
+        state.tolerances,
+        state.contact_rows,
+        state.workspace.cache,
+        state.workspace.narrow,
+    )
+    batch = narrow.batch_of(
+        state.library,
+        state.bodies,
+        state.shapes,
+        state.pairs.rows,
+        tolerances.speculative,
+        BIAS * tolerances.slop,
+        GRAZE * tolerances.slop,
+        state.dt,
+    )
+    news = cache.find(narrow, batch, previous, tolerances.recycle, state.work)
+    if news is None or not (len(news.rows) or len(news.stale)):
+        return
+    contacts = cache.room_beside(previous, len(previous) - len(news.stale) + len(news.rows))
+    count = match_contacts(state.library.tables, state.bodies, state.shapes, previous, news.stale, news.rows, contacts)
+    state.contact_rows = contacts[:count]
+
+
+# ---- replaced shapes -------------------------------------------------------------------------------------------------
+# Contact forces across a shape replacement: they are transferred where the new surface coincides with the old one.
+#
+# Feature ids are valid for one shape only, so no cached contact matches the new one. The new shape is tested at once.
+# Each new point takes the forces of the old point at the same place with the same normal direction.
+
+# Smallest cosine between normals that count as equal: an outline that is smoothed again turns them a little.
+ALIKE = 0.9
+
+
+class KeptImpulses:
+    """The contacts of SHAPE rows that are about to be removed; empty in worlds without a contact cache."""
+
+    def __init__(self, tables: WorldTables, rows: np.ndarray) -> None:
+        found = tables.contact_rows
+        self.contacts = found[:0]
+        if len(rows) and tables.stacks and len(found):
+            going = np.zeros(len(tables.shapes), bool)
+            going[rows] = True
+            # Rows are those of the last step: shapes added since come after them; removed ones took their contacts.
+            at_a = going[found["row_a"]]
+            kept = np.flatnonzero(at_a | going[found["row_b"]])
+            if len(kept):
+                self.contacts = found[kept]
+                self.others = np.unique(np.where(at_a, found["shape_b"], found["shape_a"])[kept])
+
+    def transfer(self, tables: WorldTables, new: np.ndarray) -> None:
+        """Transfer the kept forces to the contacts of new SHAPE rows, after the old rows are removed. O(pairs)."""
+        if not len(self.contacts):
+            return
+        shapes = tables.shapes
+        rows, others = new[shapes["role"][new] != PIXELS], rows_of(shapes, self.others)
+        others = others[others >= 0]
+        refresh_aabbs(rows, tables.library.tables, tables.bodies, shapes)
+        pairs = np.array([sorted((row, other)) for row in rows.tolist() for other in others.tolist()], np.int64)
+        if not len(pairs):
+            return
+        pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+        slop, speculative = tables.tolerances.slop, tables.tolerances.speculative
+        found = tables.workspace.narrow.collide(
+            tables.library,
+            tables.bodies,
+            shapes,
+            pairs,
+            speculative,
+            no_work(),
+            which=SOLIDS,
+            bias=BIAS * slop,
+            previous=self._stood_on(shapes, pairs),
+        )
+        contacts = np.zeros(len(found), CONTACT)
+        match_contacts(tables.library.tables, tables.bodies, shapes, NO_CONTACTS, NO_ROWS, found, contacts)
+        for contact in contacts:
+            for k in range(1, int(contact["count"]) + 1):
+                self._take(contact, k, speculative)
+        known = joined([tables.contact_rows, contacts])
+        tables.contact_rows = known[order_of(known)]
+
+    def _stood_on(self, shapes, pairs):
+        """Return a contact for each new surface and each body on the old one: it stays on it, however deep."""
+        some = shapes[pairs[(shapes["kind"][pairs] == CHAIN).any(axis=1)]]
+        found = np.zeros(len(some), CONTACT)
+        found["shape_a"], found["shape_b"] = some["id"].T
+        return found
+
+    def _take(self, contact, k, reach):
+        """Copy the forces of the nearest old point, within reach [px], to point k of a new contact."""
+        old = self.contacts
+        same = (old["body_a"] == contact["body_a"]) & (old["body_b"] == contact["body_b"])
+        swapped = (old["body_a"] == contact["body_b"]) & (old["body_b"] == contact["body_a"])
+        along = old["normal_x"] * contact["normal_x"] + old["normal_y"] * contact["normal_y"]
+        fits = np.where(swapped & ~same, -along, along) > ALIKE
+        best = (np.inf, -1, 0)
+        for point in (1, 2):
+            there = fits & (same | swapped) & (old["count"] >= point)
+            gap = np.hypot(old[f"x_{point}"] - contact[f"x_{k}"], old[f"y_{point}"] - contact[f"y_{k}"])
+            for at in np.flatnonzero(there & (gap <= reach)).tolist():
+                best = min(best, (float(gap[at]), at, point))
+        _, at, point = best
+        if at >= 0:
+            for name in ("normal_force", "tangent_force"):
+                contact[f"{name}_{k}"] = old[f"{name}_{point}"][at]
+            if k == point == 1:
+                contact["rolling_force"] = old["rolling_force"][at]
