@@ -366,7 +366,7 @@ def _targets(arrays) -> dict:
 PHYSICS_VERSION = 5
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
 CLOCK = ("still_x", "still_y", "still_angle", "sleep_time")
-ASKED = ("substeps", "eased")  # only with substeps by load
+ASKED = ("substeps", "cooldown")  # only with substeps by load
 # Values of bodies and shapes. Materials are left out, because they are inert without their effect.
 GIVEN_COLUMNS = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")
 SHAPE_COLUMNS = ("id", "membership", "mask", "sensor")

@@ -27,7 +27,7 @@ from physics.islands.sleep import IslandWorkspace, rest, wake_disturbed
 from physics.settings import SHORTEST_STEP, STALL
 from physics.solver.blocking import IGNORED as IGNORED_BY_BLOCKING
 from physics.solver.blocking import blocking
-from physics.solver.constraints import ContactSet
+from physics.solver.contact_lanes import ContactLanes
 from physics.solver.motions import Motions
 from physics.solver.projection import IGNORED as IGNORED_BY_PROJECTION
 from physics.solver.projection import PushSet, projection
@@ -224,7 +224,7 @@ class Workspace:
         self.sweep = Sweeper() if effects.continuous or effects.response else None
         self.walk, self.walked = new_scratch(), np.zeros(4, np.int64)  # moved x, y; stopped x, y
         self.motions = Motions() if stacks else None
-        self.contacts = ContactSet() if stacks else PushSet()
+        self.contacts = ContactLanes() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
         self.cache = ContactCache() if stacks else None
         self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine

@@ -113,7 +113,7 @@ class Copies:
         """Leave out what only a compiled pass works on: lanes that hold no row, and what is gathered within a pass."""
         for blocks, copy in self.blocks:
             copy.gathered[:] = blocks.gathered
-            empty = np.broadcast_to((blocks.manifold < 0)[:, None, :], (len(blocks.manifold), SIZE // LANES, LANES))
+            empty = np.broadcast_to((blocks.contact < 0)[:, None, :], (len(blocks.contact), SIZE // LANES, LANES))
             lines, others = (each.lines.reshape(empty.shape) for each in (blocks, copy))
             others[empty] = lines[empty]
 

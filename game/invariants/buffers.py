@@ -17,6 +17,6 @@ class Caps(Invariant):
         hits = world.profile.counters["cap_hits"]
         if not hits:
             return None
-        asking = world.bodies["eased"] < 0.0  # those whose island asked for more than the most substeps
+        asking = world.bodies["cooldown"] < 0.0  # those whose island asked for more than the most substeps
         bodies = np.flatnonzero(asking)[:4]
         return self.broken(step, world.bodies["id"][bodies], hits, 0, "caps hit")

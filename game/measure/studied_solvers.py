@@ -6,7 +6,7 @@ No world is set to a variant: a stage made here replaces the solver's own in a l
 from collections.abc import Mapping
 from functools import cache, partial
 
-from physics.solver.motions import READS, WRITES, push_piles
+from physics.solver.motions import READS, WRITES, run_solver
 from physics.solver.sequential_impulse import solve as solve_in_passes
 from physics.solver.soft_step import BOTH, make_substeps
 from physics.solver.soft_step import solve as solve_in_substeps
@@ -19,7 +19,7 @@ def sequential_impulse(passes: int, warm: bool = True) -> Stage:
 
     @stage("sequential_impulse", reads=READS, writes=WRITES)
     def studied(state: StepState) -> None:
-        push_piles(state, solve)
+        run_solver(state, solve)
 
     return studied
 
@@ -36,7 +36,7 @@ def soft_step(iterations: int = 1, warm: bool = True, relaxed: bool = True) -> S
 
     @stage("soft_step", reads=READS, writes=WRITES)
     def studied(state: StepState) -> None:
-        push_piles(state, solve)
+        run_solver(state, solve)
 
     return studied
 

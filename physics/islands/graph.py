@@ -1,15 +1,56 @@
-"""The constraint graph: islands, substep classes and graph colours. A constraint is an edge (a, b) of two nodes.
+"""The constraint graph: islands, substep classes and graph colours of constraints of any kind.
 
-Islands are found by union-find over the edges in their canonical order, with the lowest node as the root. They are the
-same whichever broad phase found the edges (Catto, Box2D v3, Simulation Islands, 2023). Within one colour no two
-constraints share a dynamic node. So their order, and the number of lanes or threads that process them at once, does not
-change a bit of the result (Catto, SIMD Matters, 2024). Edges with a node of infinite mass get the last colours: they
-are solved last and prevail.
+An edge names a constraint by its kind and row, and its nodes, one to four bodies. Islands are found by union-find over
+the edges in their canonical order, with the lowest node as the root. They are the same whichever broad phase found the
+edges (Catto, Box2D v3, Simulation Islands, 2023). Within one colour no two edges share a dynamic node. So their order,
+and the number of lanes or threads that process them at once, does not change a bit of the result (Catto, SIMD Matters,
+2024). Edges with a node of infinite mass get the last colours: they are solved last and prevail.
 """
 
-from physics.jit import kernel, subkernel
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.jit import inlined, kernel, subkernel
 from physics.settings import COLORS
 from physics.tables.table import join_trees, root_of
+
+CONTACT_EDGE = 0  # kinds of constraints
+MOST_NODES = 4  # bodies that one constraint acts on
+NO_NODE = -1
+
+
+class Edges(NamedTuple):
+    """Constraints as edges of the graph."""
+
+    kinds: np.ndarray  # (edges) int32 kind of the constraint
+    rows: np.ndarray  # (edges) int32 its row in the table of its kind
+    nodes: np.ndarray  # (edges, MOST_NODES) int32 its bodies, NO_NODE after the last
+    impact_speeds: np.ndarray  # (edges) float64 [px/s] of an impact within the step; 0: none
+    resting: np.ndarray  # (edges) bool it carries a load without impact
+    keeps_awake: np.ndarray  # (edges) bool its bodies may not sleep
+
+
+def new_edges(room: int) -> Edges:
+    """Return room for that many edges."""
+    return Edges(
+        kinds=np.zeros(room, np.int32),
+        rows=np.zeros(room, np.int32),
+        nodes=np.full((room, MOST_NODES), NO_NODE, np.int32),
+        impact_speeds=np.zeros(room),
+        resting=np.zeros(room, np.bool_),
+        keeps_awake=np.zeros(room, np.bool_),
+    )
+
+
+@inlined
+def write_pair(edge, row, node_a, node_b, edges_out):
+    """Write the edge of a contact between two nodes; NO_NODE for a side that it does not act on."""
+    edges_out.kinds[edge] = CONTACT_EDGE
+    edges_out.rows[edge] = row
+    edges_out.nodes[edge, 0] = node_a
+    edges_out.nodes[edge, 1] = node_b
+    edges_out.nodes[edge, 2] = NO_NODE
 
 
 @kernel
@@ -20,9 +61,12 @@ def join(
     # write
     parents_inout,
 ):
-    """Join the islands of each edge's nodes. edges (count, 2) int32; parents_inout: union-find parents. O(count)."""
+    """Join the islands of the nodes of each edge. parents_inout: union-find parents. O(count)."""
     for i in range(count):
-        join_trees(edges[i, 0], edges[i, 1], parents_inout)
+        for k in range(1, MOST_NODES):
+            if edges.nodes[i, k] < 0:
+                break
+            join_trees(edges.nodes[i, 0], edges.nodes[i, k], parents_inout)
 
 
 @subkernel
@@ -30,19 +74,27 @@ def find_roots(
     # read
     edges,
     count,
-    joins,
+    links_islands,
     # write
     parents_out,
 ):
     """Write the root of its island, its lowest node, as parent of every node. O(nodes + count).
 
-    edges (count, 2) int32; joins (nodes) bool: other nodes belong to no island; parents_out (nodes) int32.
+    links_islands (nodes) bool: other nodes belong to no island; parents_out (nodes) int32.
     """
     for i in range(len(parents_out)):
         parents_out[i] = i
     for i in range(count):
-        if joins[edges[i, 0]] and joins[edges[i, 1]]:
-            join_trees(edges[i, 0], edges[i, 1], parents_out)
+        first = NO_NODE
+        for k in range(MOST_NODES):
+            node = edges.nodes[i, k]
+            if node < 0:
+                break
+            if links_islands[node]:
+                if first >= 0:
+                    join_trees(first, node, parents_out)
+                else:
+                    first = node
     for i in range(len(parents_out)):
         parents_out[i] = root_of(i, parents_out)
 
@@ -73,42 +125,40 @@ def color_edges(
     # read
     edges,
     count,
-    pushable,
+    has_finite_mass,
     # write
     taken_out,
     degrees_out,
     colors_out,
 ):
-    """Assign to every edge, in order, the first colour that neither of its dynamic nodes has yet.
+    """Assign to every edge, in order, the first colour that none of its dynamic nodes has yet.
 
-    edges (count, 2) int32 nodes; pushable (nodes) bool: has finite mass; taken_out (nodes) int64 bits of the colours of
-    a node, degrees_out (nodes) int64 its number of edges; colors_out (count) int32, -1 where no colour was free.
-    O(nodes + count).
+    has_finite_mass (nodes) bool; taken_out (nodes) int64 bits of the colours of a node, degrees_out (nodes) int64 its
+    number of edges; colors_out (count) int32, -1 where no colour was free. O(nodes + count).
     """
     for i in range(len(taken_out)):
         taken_out[i] = 0
         degrees_out[i] = 0
     for i in range(count):
-        a = edges[i, 0]
-        b = edges[i, 1]
         taken = 0
-        still = 0
-        if pushable[a]:
-            taken |= taken_out[a]
-        else:
-            still = 1
-        if pushable[b]:
-            taken |= taken_out[b]
-        else:
-            still = 1
-        degrees_out[a] += 1
-        degrees_out[b] += 1
-        color = free_color(taken, still)
+        fixed = 0
+        for k in range(MOST_NODES):
+            node = edges.nodes[i, k]
+            if node < 0:
+                break
+            if has_finite_mass[node]:
+                taken |= taken_out[node]
+            else:
+                fixed = 1
+            degrees_out[node] += 1
+        color = free_color(taken, fixed)
         colors_out[i] = color
         if color >= 0:
             bit = 1 << color
-            taken_out[a] |= bit
-            taken_out[b] |= bit
+            for k in range(MOST_NODES):
+                if edges.nodes[i, k] < 0:
+                    break
+                taken_out[edges.nodes[i, k]] |= bit
 
 
 @subkernel
@@ -116,7 +166,12 @@ def slot_of(edge, edges, colors, classes):
     """Return the slot of an edge: one for each colour of each class, edges without a colour first."""
     slot = colors[edge] + 1
     if len(classes) > 0:
-        slot += max(classes[edges[edge, 0]], classes[edges[edge, 1]]) * (COLORS + 1)
+        most = 0
+        for k in range(MOST_NODES):
+            if edges.nodes[edge, k] < 0:
+                break
+            most = max(most, classes[edges.nodes[edge, k]])
+        slot += most * (COLORS + 1)
     return slot
 
 

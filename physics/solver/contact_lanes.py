@@ -1,120 +1,304 @@
-"""Contacts in lanes: blocks are filled from contacts, and their impulses stored.
+"""Contacts as constraints in lanes: blocks are filled from CONTACT rows, and their impulses stored there.
 
-A CONSTRAINT row exists only while its lane is filled: rows of ten thousand contacts, written and read again, exceed the
-cache. Lanes with restitution, or with too much friction, become rows once more.
+Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c. A lane holds arms from the centres of mass at
+the start of the step, and a separation that follows from the motion of both sides since. Where two faces stick, the
+arms stay as they were at detection: arms that rotate with a leaning column give its load a torque, and the column
+buckles (Catto, Box2D v3: contact recycling).
 """
 
+import math
 from collections.abc import Callable
 
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
+from physics.settings import CROWD, STICKING_TURN
 from physics.solver import lanes as at
-from physics.solver.constraints import BOTH, PREPARE_ROW, ContactSet, Group, make_friction_limit
-from physics.solver.lanes import LANES, SIZE, Blocks, lanes_of, lay_out, pack_row, repack_impulses, unpack_row
+from physics.solver.lanes import (
+    LANES,
+    SIZE,
+    Blocks,
+    blocks_needed,
+    lanes_of,
+    lay_out,
+    make_blocks,
+    moment_arms,
+    next_lane,
+)
 from physics.solver.motions import Motions
-from physics.solver.restitution import restore_bounces
-from physics.solver.step_context import Pace
-from physics.tables.step_state import StepState
+from physics.solver.restitution import block_factor, make_impacts, restore_bounces
+from physics.solver.selection import Group, Selection, touches_slowly
+from physics.solver.step_context import StepContext
+from physics.tables.step_state import SOLVER_ROWS, TANGENT_ROWS, StepState
+
+BOTH = (False, True)
+
+# ---- prepare ---------------------------------------------------------------------------------------------------------
+# From contacts to lanes.
+
+
+@inlined
+def effective_mass(a, b, ax, ay, bx, by, x, y):
+    """Return the effective mass along a unit direction (x, y) at these arms; 0 if neither side has a finite mass."""
+    a_arm = ax * y - ay * x
+    b_arm = bx * y - by * x
+    k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
+    return 1.0 / k if k > 0.0 else 0.0
+
+
+@inlined
+def sticks(a, b, contact, distance):
+    """Return whether two faces stick: normal and moment arms may stay as they were when the contact was found.
+
+    They stick if they carry a load, neither shape is round, neither body (BODY rows) rotated by more than
+    STICKING_TURN, and their centres moved relative to each other by no more than distance [px]. An unloaded contact
+    never sticks, because it has to leave its overlap.
+    """
+    c = contact
+    x = b.center_x - a.center_x - c.apart_x
+    y = b.center_y - a.center_y - c.apart_y
+    return (
+        c.count == 2
+        and c.lead == 0.0
+        and (c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0)
+        and c.radius_a == 0.0
+        and c.radius_b == 0.0
+        and abs(a.angle - c.angle_a) <= STICKING_TURN
+        and abs(b.angle - c.angle_b) <= STICKING_TURN
+        and x * x + y * y <= distance * distance
+    )
+
+
+@inlined
+def write_softness(contact, sticking, a, b, degree_a, degree_b, context, lane, c_out):
+    """Write how a lane separates: its push-out share, spring and stiffness, and whether it rests, is loaded or bounces.
+
+    a, b: MOTION rows of its sides, with their numbers of constraints.
+    """
+    m = contact
+    limits = context.limits
+    against_static = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
+    # One contact below and one above.
+    sole_support = sticking and (a.inverse_mass == 0.0 or degree_a <= 2) and (b.inverse_mass == 0.0 or degree_b <= 2)
+    crowd = max(degree_a if a.inverse_mass > 0.0 else 0, degree_b if b.inverse_mass > 0.0 else 0)
+    share = CROWD / crowd if crowd > CROWD else 1.0
+    two = m.count == 2
+    approaching = m.speed_1 > limits.calm_speed or (two and m.speed_2 > limits.calm_speed)
+    loaded = m.normal_force_1 > 0.0 or (two and m.normal_force_2 > 0.0)
+    bouncing = m.speed_1 > limits.bounce_speed or (two and m.speed_2 > limits.bounce_speed)
+    resting = touches_slowly(m.separation_1, m.speed_1, limits) or (
+        two and touches_slowly(m.separation_2, m.speed_2, limits)
+    )
+    # A loaded contact oscillates as slowly as its load is heavy, so its spring may be stiffer with the same damping. A
+    # new contact may not.
+    stiffness = 1.0
+    if loaded and not bouncing:
+        stiffness = context.sole_support_stiffness if sole_support else context.loaded_stiffness
+    spring = context.static_spring if against_static else context.spring
+    impulses = context.h * m.normal_force_1 + (context.h * m.normal_force_2 if two else 0.0)
+    c = c_out
+    c[at.PUSH_OUT_SHARE + lane] = share if approaching else -share
+    c[at.RESTING + lane] = 1.0 if resting else 0.0
+    c[at.BIAS_RATE + lane] = spring.bias_rate
+    c[at.IMPULSE_SCALE + lane] = 1.0 / (1.0 + stiffness * spring.grip)
+    c[at.STRIKE_LIMIT + lane] = context.strike_factor * impulses if loaded and not against_static else math.inf
+    c[at.STIFFNESS + lane] = -stiffness if sole_support else stiffness
+    c[at.LOADED + lane] = 1.0 if loaded else 0.0
+    c[at.BOUNCING + lane] = 1.0 if bouncing else 0.0
+
+
+def make_write_point(second: bool) -> Callable:
+    """Return the function that writes the first or second point of a contact into a lane."""
+    arm_lines = (at.AX_2, at.AY_2, at.BX_2, at.BY_2) if second else (at.AX_1, at.AY_1, at.BX_1, at.BY_1)
+    ax_line, ay_line, bx_line, by_line = arm_lines
+    base_line, gap_line = (at.BASE_2, at.GAP_2) if second else (at.BASE_1, at.GAP_1)
+    mass_line, tangent_mass_line = (at.MASS_2, at.TANGENT_MASS_2) if second else (at.MASS_1, at.TANGENT_MASS_1)
+    normal_line, tangent_line = (at.NORMAL_2, at.TANGENT_2) if second else (at.NORMAL_1, at.TANGENT_1)
+    total_line, tangent_total_line = (at.TOTAL_2, at.TANGENT_TOTAL_2) if second else (at.TOTAL_1, at.TANGENT_TOTAL_1)
+
+    @inlined
+    def write_point(contact, p, q, sticking, a, b, h, lane, c_out):
+        """Write arms, separation, effective masses and the cached impulses for a substep of h [s].
+
+        p, q: BODY rows of the sides; a, b: their MOTION rows.
+        """
+        m = contact
+        c = c_out
+        nx = c[at.NX + lane]
+        ny = c[at.NY + lane]
+        x = m.x_2 if second else m.x_1
+        y = m.y_2 if second else m.y_1
+        ax = x - p.center_x
+        ay = y - p.center_y
+        bx = x - q.center_x + m.lead * ny  # the present position of B's point
+        by = y - q.center_y - m.lead * nx
+        if sticking:
+            ax = m.held_ax_2 if second else m.held_ax_1
+            ay = m.held_ay_2 if second else m.held_ay_1
+            bx = ax - m.apart_x
+            by = ay - m.apart_y
+        separation = m.separation_2 if second else m.separation_1
+        base = separation - ((bx - ax) * nx + (by - ay) * ny) - (m.radius_a + m.radius_b)
+        c[ax_line + lane] = ax
+        c[ay_line + lane] = ay
+        c[bx_line + lane] = bx
+        c[by_line + lane] = by
+        c[base_line + lane] = base
+        # At the start of the substeps nothing has moved; afterwards the relaxing pass measures.
+        c[gap_line + lane] = m.radius_a + m.radius_b + base + ((bx - ax) * nx + (by - ay) * ny)
+        c[mass_line + lane] = effective_mass(a, b, ax, ay, bx, by, nx, ny)
+        c[tangent_mass_line + lane] = effective_mass(a, b, ax, ay, bx, by, -ny, nx)
+        c[normal_line + lane] = h * (m.normal_force_2 if second else m.normal_force_1)
+        c[tangent_line + lane] = h * (m.tangent_force_2 if second else m.tangent_force_1)
+        c[total_line + lane] = 0.0
+        c[tangent_total_line + lane] = 0.0
+
+    return write_point
+
+
+write_first, write_second = make_write_point(False), make_write_point(True)
+
+
+@inlined
+def copy_first(lane, c_inout):
+    """Write the second point of a contact with one: a copy of the first without effective mass."""
+    c = c_inout
+    c[at.AX_2 + lane] = c[at.AX_1 + lane]
+    c[at.AY_2 + lane] = c[at.AY_1 + lane]
+    c[at.BX_2 + lane] = c[at.BX_1 + lane]
+    c[at.BY_2 + lane] = c[at.BY_1 + lane]
+    c[at.BASE_2 + lane] = c[at.BASE_1 + lane]
+    c[at.GAP_2 + lane] = c[at.GAP_1 + lane]
+    c[at.MASS_2 + lane] = 0.0
+    c[at.TANGENT_MASS_2 + lane] = 0.0
+    c[at.NORMAL_2 + lane] = 0.0
+    c[at.TANGENT_2 + lane] = 0.0
+    c[at.TOTAL_2 + lane] = 0.0
+    c[at.TANGENT_TOTAL_2 + lane] = 0.0
+    c[at.OFF_DIAGONAL_1 + lane] = 0.0
+    c[at.OFF_DIAGONAL_2 + lane] = 0.0
+    c[at.BLOCK_FACTOR + lane] = 0.0
+
+
+@inlined
+def write_block_factors(a, b, lane, c_inout):
+    """Write the off-diagonal terms of the block solver: how the two points of a lane affect each other."""
+    c = c_inout
+    a_1, b_1, a_2, b_2 = moment_arms(c, lane)
+    k_12 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
+    c[at.OFF_DIAGONAL_1 + lane] = c[at.MASS_1 + lane] * k_12
+    c[at.OFF_DIAGONAL_2 + lane] = c[at.MASS_2 + lane] * k_12
+    c[at.BLOCK_FACTOR + lane] = block_factor(c[at.OFF_DIAGONAL_1 + lane], c[at.OFF_DIAGONAL_2 + lane])
 
 
 def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
     """Return the pass from contacts to lanes for a world with these effects."""
-    prepare_row = PREPARE_ROW[friction, conveyor]
 
     @kernel
     def prepare_lanes(
         # read
         bodies,
         motions,
-        manifolds,
         plan,
-        edges,
-        starts,
-        pace,
-        limits,
+        group,
+        context,
         # write
-        anchors_inout,
-        constraints_inout,
+        contacts_inout,
         blocks_out,
         work_inout,
     ):
-        """Write the contacts of a group, among so many edges, into blocks of one colour each. Return the number of
-        blocks. O(edges).
+        """Write the contacts of a group into blocks of one colour each. Return the number of blocks. O(edges).
 
-        starts: see lay_out. constraints_inout: the first row is scratch. See prepare_row. Contacts are read in memory
-        order, for the prefetcher of the processor; the open blocks of all colours fit into its cache.
+        Contacts are read in memory order, for the prefetcher of the processor; the open blocks of all colours fit into
+        its cache.
         """
+        starts = group.starts
         count = lay_out(starts, blocks_out)
-        r = constraints_inout[0]
-        for edge in range(edges):
+        for edge in range(group.edges):
             place = plan.places[edge]
             if place < starts[0] or place >= starts[len(starts) - 1]:
                 continue  # of another group
-            slot = plan.colors[edge] + 1
-            block = blocks_out.block_of[slot]
-            lane = blocks_out.lane_of[slot]
-            last = slot == 0 or lane == LANES - 1
-            blocks_out.block_of[slot] = block + 1 if last else block
-            blocks_out.lane_of[slot] = 0 if last else lane + 1
-            prepare_row(bodies, motions, manifolds, plan, edge, pace.h, limits, anchors_inout, r, work_inout)
-            blocks_out.manifold[block, lane] = r.manifold
-            blocks_out.motion_a[block, lane] = r.motion_a
-            blocks_out.motion_b[block, lane] = r.motion_b
-            restitution = anchors_inout[r.manifold].restitution
+            row = plan.edges.rows[edge]
+            row_a = plan.edges.nodes[edge, 0]
+            row_b = plan.edges.nodes[edge, 1]
+            block, lane = next_lane(plan.colors[edge] + 1, blocks_out)
+            blocks_out.contact[block, lane] = row
+            blocks_out.motion_a[block, lane] = row_a
+            blocks_out.motion_b[block, lane] = row_b
             c = blocks_out.lines[block * SIZE : (block + 1) * SIZE]
-            pack_row(r, motions[r.motion_a], motions[r.motion_b], restitution, pace, lane, c)
+            m = contacts_inout[row]
+            m.color = plan.colors[edge]
+            a = motions[row_a]
+            b = motions[row_b]
+            p = bodies[m.body_row_a]
+            q = bodies[m.body_row_b]
+            sticking = sticks(p, q, m, context.limits.sticking)
+            c[at.NX + lane] = m.held_nx if sticking else m.normal_x
+            c[at.NY + lane] = m.held_ny if sticking else m.normal_y
+            c[at.IM_A + lane] = a.inverse_mass
+            c[at.II_A + lane] = a.inverse_inertia
+            c[at.IM_B + lane] = b.inverse_mass
+            c[at.II_B + lane] = b.inverse_inertia
+            write_softness(m, sticking, a, b, plan.degrees[row_a], plan.degrees[row_b], context, lane, c)
+            write_first(m, p, q, sticking, a, b, context.h, lane, c)
+            if m.count == 2:
+                write_second(m, p, q, sticking, a, b, context.h, lane, c)
+                write_block_factors(a, b, lane, c)
+            else:
+                copy_first(lane, c)
+            turning = a.inverse_inertia + b.inverse_inertia
+            c[at.RADIUS_A + lane] = m.radius_a
+            c[at.RADIUS_B + lane] = m.radius_b
+            c[at.ROLLING_LIMIT + lane] = m.rolling_resistance if friction else 0.0
+            c[at.ROLLING_MASS + lane] = 1.0 / turning if turning > 0.0 else 0.0
+            c[at.ROLLING + lane] = context.h * m.rolling_force
+            c[at.SURFACE + lane] = m.surface_speed if conveyor else 0.0
+            c[at.FRICTION + lane] = m.friction if friction else 0.0
+            c[at.RESTITUTION + lane] = m.restitution
+            work_inout[SOLVER_ROWS] += m.count
+            if friction and m.friction > 0.0:
+                work_inout[TANGENT_ROWS] += m.count
         return count
 
     return prepare_lanes
 
 
-@subkernel
-def take_out(blocks, block, lane, at_row, constraints_out):
-    """Unpack a lane into a CONSTRAINT row, which stores the place of the lane."""
-    r = constraints_out[at_row]
-    r.manifold = blocks.manifold[block, lane]
-    r.motion_a = blocks.motion_a[block, lane]
-    r.motion_b = blocks.motion_b[block, lane]
-    r.block = block
-    r.lane = lane
-    unpack_row(blocks.lines[block * SIZE : (block + 1) * SIZE], lane, r)
+# ---- store -----------------------------------------------------------------------------------------------------------
+# From lanes to contacts: restitution, the limit of friction, and the impulses.
 
 
-@subkernel
-def take_elastic(blocks, count, constraints_out):
-    """Unpack the lanes that may bounce and had an impulse in this step. Return their number. O(lanes)."""
-    found = 0
-    for block in range(count):
-        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-        for lane in range(lanes_of(blocks.manifold, block)):
-            if c[at.RESTITUTION + lane] > 0.0 and c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] > 0.0:
-                take_out(blocks, block, lane, found, constraints_out)
-                found += 1
-    return found
+def make_friction_limit(rotation: bool) -> Callable:
+    """Return the pass that limits friction to its final normal impulse."""
 
+    @subkernel
+    def limit_friction(count, motions_inout, blocks_inout):
+        """Remove friction beyond its share of the final normal impulse, over the step, of so many blocks. O(lanes)."""
+        for block in range(count):
+            c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+            for lane in range(lanes_of(blocks_inout.contact, block)):
+                for k in range(2):
+                    total = c[(at.TANGENT_TOTAL_1 if k == 0 else at.TANGENT_TOTAL_2) + lane]
+                    limit = c[at.FRICTION + lane] * c[(at.TOTAL_1 if k == 0 else at.TOTAL_2) + lane]
+                    if not abs(total) > limit:
+                        continue
+                    change = max(-limit, min(limit, total)) - total
+                    a = motions_inout[blocks_inout.motion_a[block, lane]]
+                    b = motions_inout[blocks_inout.motion_b[block, lane]]
+                    x = -change * c[at.NY + lane]
+                    y = change * c[at.NX + lane]
+                    a.vx -= a.inverse_mass * x
+                    a.vy -= a.inverse_mass * y
+                    b.vx += b.inverse_mass * x
+                    b.vy += b.inverse_mass * y
+                    c[(at.TANGENT_TOTAL_1 if k == 0 else at.TANGENT_TOTAL_2) + lane] = total + change
+                    c[(at.TANGENT_1 if k == 0 else at.TANGENT_2) + lane] += change
+                    if rotation:
+                        ax = c[(at.AX_1 if k == 0 else at.AX_2) + lane]
+                        ay = c[(at.AY_1 if k == 0 else at.AY_2) + lane]
+                        bx = c[(at.BX_1 if k == 0 else at.BX_2) + lane]
+                        by = c[(at.BY_1 if k == 0 else at.BY_2) + lane]
+                        a.angular_velocity -= a.inverse_inertia * (ax * y - ay * x)
+                        b.angular_velocity += b.inverse_inertia * (bx * y - by * x)
 
-@subkernel
-def take_rubbed(blocks, count, constraints_out):
-    """Unpack the lanes whose friction exceeds its share of the normal impulse. Return their number. O(lanes)."""
-    found = 0
-    for block in range(count):
-        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-        for lane in range(lanes_of(blocks.manifold, block)):
-            limit = c[at.FRICTION + lane]
-            if (
-                abs(c[at.TANGENT_TOTAL_1 + lane]) > limit * c[at.TOTAL_1 + lane]
-                or abs(c[at.TANGENT_TOTAL_2 + lane]) > limit * c[at.TOTAL_2 + lane]
-            ):
-                take_out(blocks, block, lane, found, constraints_out)
-                found += 1
-    return found
-
-
-@subkernel
-def put_back(constraints, count, blocks_inout):
-    """Write the impulses of unpacked rows back into their lanes."""
-    for i in range(count):
-        r = constraints[i]
-        repack_impulses(r, r.lane, blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE])
+    return limit_friction
 
 
 @subkernel
@@ -125,23 +309,26 @@ def store_lanes(
     inverse_h,
     share,
     # write
-    manifolds_inout,
-    anchors_inout,
+    contacts_inout,
 ):
-    """Store the impulses of lanes, as constraints.store_impulses does of rows. O(lanes)."""
+    """Write the impulses of the step, and the cached forces for the next one, back to the contacts. O(lanes).
+
+    share: weight of this step in the cached forces. A step of a thousandth of the last one's length says little about
+    forces: an impulse that stops a small motion in it would count as a thousand times the force in a step of usual
+    length.
+    """
     rest = 1.0 - share
     for block in range(count):
         s = blocks.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(LANES):
-            i = blocks.manifold[block, lane]
+            i = blocks.contact[block, lane]
             if i < 0:
                 continue
-            m = manifolds_inout[i]
-            c = anchors_inout[i]
-            m.normal_impulse_1 = s[at.TOTAL_1 + lane]
-            m.normal_impulse_2 = s[at.TOTAL_2 + lane]
-            m.tangent_impulse_1 = s[at.TANGENT_TOTAL_1 + lane]
-            m.tangent_impulse_2 = s[at.TANGENT_TOTAL_2 + lane]
+            c = contacts_inout[i]
+            c.normal_impulse_1 = s[at.TOTAL_1 + lane]
+            c.normal_impulse_2 = s[at.TOTAL_2 + lane]
+            c.tangent_impulse_1 = s[at.TANGENT_TOTAL_1 + lane]
+            c.tangent_impulse_2 = s[at.TANGENT_TOTAL_2 + lane]
             c.normal_force_1 = share * (inverse_h * s[at.NORMAL_1 + lane]) + rest * c.normal_force_1
             c.normal_force_2 = share * (inverse_h * s[at.NORMAL_2 + lane]) + rest * c.normal_force_2
             c.tangent_force_1 = share * (inverse_h * s[at.TANGENT_1 + lane]) + rest * c.tangent_force_1
@@ -157,30 +344,23 @@ def make_finish_lanes(restitution: bool, friction: bool, rotation: bool) -> Call
     def finish_lanes(
         # read
         count,
-        threshold,
-        dt,
-        inverse_h,
-        share,
+        context,
         # write
+        impacts_inout,
         motions_inout,
-        constraints_inout,
         blocks_inout,
-        manifolds_inout,
-        anchors_inout,
+        contacts_inout,
         work_inout,
     ):
-        """Finish so many blocks, as constraints.finish_constraints does rows. O(lanes). constraints_inout: scratch."""
+        """Apply restitution, limit friction, and write the impulses of so many blocks back. O(lanes).
+
+        impacts_inout: scratch, as long as the contacts.
+        """
         if restitution:
-            found = take_elastic(blocks_inout, count, constraints_inout)
-            restore_bounces(
-                manifolds_inout, anchors_inout, threshold, dt, found, motions_inout, constraints_inout, work_inout
-            )
-            put_back(constraints_inout, found, blocks_inout)
+            restore_bounces(contacts_inout, count, context, impacts_inout, motions_inout, blocks_inout, work_inout)
         if friction:
-            found = take_rubbed(blocks_inout, count, constraints_inout)
-            limit_friction(found, motions_inout, constraints_inout)
-            put_back(constraints_inout, found, blocks_inout)
-        store_lanes(blocks_inout, count, inverse_h, share, manifolds_inout, anchors_inout)
+            limit_friction(count, motions_inout, blocks_inout)
+        store_lanes(blocks_inout, count, context.inverse_h, context.share, contacts_inout)
 
     return finish_lanes
 
@@ -189,39 +369,30 @@ PREPARE = {(f, c): make_prepare_lanes(friction=f, conveyor=c) for f in BOTH for 
 FINISH = {(e, f, r): make_finish_lanes(restitution=e, friction=f, rotation=r) for e in BOTH for f in BOTH for r in BOTH}
 
 
-def prepare(state: StepState, contacts: ContactSet, motions: Motions, group: Group, pace: Pace) -> tuple[Blocks, int]:
-    """Fill the lanes of a group. Return them, and the number of blocks."""
-    blocks = contacts.blocks(group)
-    count = PREPARE[state.effects.friction, state.effects.conveyor](
-        state.bodies,
-        motions.used,
-        state.contact_rows,
-        contacts.selection.plan,
-        contacts.selection.count,
-        group.starts,
-        pace,
-        state.tolerances.limits,
-        state.contact_rows,
-        contacts.constraints,
-        blocks,
-        state.work,
-    )
-    return blocks, count
+class ContactLanes:
+    """The contacts of one world as constraints in lanes; its arrays grow and are reused."""
 
+    def __init__(self) -> None:
+        self.selection = Selection()
+        self.blocks = make_blocks(0)
+        self.impacts = make_impacts(16)
 
-def store(state: StepState, contacts: ContactSet, motions: Motions, blocks: Blocks, count: int, h: float) -> None:
-    """Apply restitution, limit friction, and write the impulses of so many blocks back."""
-    effects, threshold = state.effects, state.tolerances.restitution_speed
-    FINISH[effects.restitution, effects.friction, effects.rotation](
-        count,
-        threshold,
-        state.dt,
-        1.0 / h,
-        state.dt / state.span,
-        motions.used,
-        contacts.constraints,
-        blocks,
-        state.contact_rows,
-        state.contact_rows,
-        state.work,
-    )
+    def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
+        """Group the islands by substeps; 0: as many as each needs."""
+        return self.selection.choose(state, motions, substeps)
+
+    def prepare(self, state: StepState, motions: Motions, group: Group, context: StepContext) -> tuple[Blocks, int]:
+        """Fill the lanes of a group. Return them, and the number of blocks."""
+        needed = blocks_needed(group.count, group.uncolored)
+        if len(self.blocks.contact) < needed:
+            self.blocks = make_blocks(2 * needed)
+        prepare = PREPARE[state.effects.friction, state.effects.conveyor]
+        plan, contacts, blocks = self.selection.plan, state.contact_rows, self.blocks
+        return blocks, prepare(state.bodies, motions.used, plan, group, context, contacts, blocks, state.work)
+
+    def store(self, state: StepState, motions: Motions, count: int, context: StepContext) -> None:
+        """Apply restitution, limit friction, and write the impulses of so many blocks back."""
+        if len(self.impacts) < len(state.contact_rows):
+            self.impacts = make_impacts(2 * len(state.contact_rows))
+        finish = FINISH[state.effects.restitution, state.effects.friction, state.effects.rotation]
+        finish(count, context, self.impacts, motions.used, self.blocks, state.contact_rows, state.work)

@@ -1,6 +1,5 @@
-"""Constraints in lanes: rows of one colour side by side, and the motions of their bodies."""
+"""Constraints in lanes: contacts of one colour side by side, and the motions of their bodies."""
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -8,31 +7,30 @@ import numpy as np
 from physics.jit import inlined, subkernel
 from physics.jit.plain import JIT, Builtin, put_in
 from physics.settings import COLORS
-from physics.solver.step_context import firmness_of
 from physics.tables.table import zeros_in_lines
 
 # ---- lanes -----------------------------------------------------------------------------------------------------------
-# Constraints of a group in lanes: rows of one colour side by side, each field contiguous.
+# Contacts of a group in lanes: contacts of one colour side by side, each field contiguous.
 #
-# No two rows of a colour share a dynamic body, so all of them can be solved at once. The compiler vectorises a loop
-# over the lanes of a block that has no branches. Unused lanes hold a row between no bodies. The results equal those of
-# one row after the other, to the bit. Source: Catto, SIMD Matters, 2024.
+# No two contacts of a colour share a dynamic body, so all of them can be solved at once. The compiler vectorises a loop
+# over the lanes of a block that has no branches. Unused lanes hold a contact between no bodies. The results equal those
+# of one contact after the other, to the bit. Source: Catto, SIMD Matters, 2024.
 
-# The plain form solves one row after the other. Wide blocks are as fast in heaps, and slower with few boxes (measured
-# with 16).
+# The plain form solves one contact after the other. Wide blocks are as fast in heaps, and slower with few boxes
+# (measured with 16).
 LANES = 8 if JIT else 1
 
-# Offsets of the fields of a block: the values of a CONSTRAINT row and of its two MOTION rows that last for the step.
-# They are ordered by readers: the pass with bias alone, both passes, the relaxing pass, and the substep estimate.
+# Offsets of the fields of a block. They are ordered by readers: the pass with bias alone, both passes, the relaxing
+# pass, and the passes before and after the substeps.
 (
-    SHARE,
-    RESTS,
-    BIAS_RATE,
-    GIVE,
-    BLOW,
-    NX,
+    PUSH_OUT_SHARE,  # share of the push-out speed; negative: not approaching before the step
+    RESTING,  # 1: touching before the step, too slow to bounce; 0: not
+    BIAS_RATE,  # [1/s] see Softness
+    IMPULSE_SCALE,  # share of the accumulated impulse that a soft contact gives up
+    STRIKE_LIMIT,  # impulse above which the contact counts as struck
+    NX,  # unit normal
     NY,
-    AX_1,
+    AX_1,  # [px] moment arms of both points from the centres of mass
     AY_1,
     BX_1,
     BY_1,
@@ -40,29 +38,29 @@ LANES = 8 if JIT else 1
     AY_2,
     BX_2,
     BY_2,
-    MASS_1,
+    MASS_1,  # effective masses along the normal; of one point alone, the second is 0
     MASS_2,
-    COUPLE_1,
-    COUPLE_2,
-    SPLIT,
-    IM_A,
+    OFF_DIAGONAL_1,  # off-diagonal terms of the block solver, and its factor: see restitution.py
+    OFF_DIAGONAL_2,
+    BLOCK_FACTOR,
+    IM_A,  # inverse masses and inertias of both bodies
     II_A,
     IM_B,
     II_B,
-    GAP_1,
+    GAP_1,  # [px] separation at the present poses
     GAP_2,
-    NORMAL_1,
+    NORMAL_1,  # impulses of this substep
     NORMAL_2,
-    TOTAL_1,
+    TOTAL_1,  # impulses of the step
     TOTAL_2,
-    BASE_1,
+    BASE_1,  # [px] separation minus the part of the arms
     BASE_2,
-    RADIUS_A,
+    RADIUS_A,  # [px] separations are measured from core to core
     RADIUS_B,
-    ROLLING_LIMIT,
+    ROLLING_LIMIT,  # [px] torque per normal impulse
     ROLLING_MASS,
     ROLLING,
-    SURFACE,
+    SURFACE,  # [px/s] surface speed
     TANGENT_MASS_1,
     TANGENT_MASS_2,
     TANGENT_1,
@@ -71,27 +69,33 @@ LANES = 8 if JIT else 1
     TANGENT_TOTAL_1,
     TANGENT_TOTAL_2,
     RESTITUTION,
-    FIRMNESS,
+    STIFFNESS,  # factor on the stiffness; negative: the sole support of one side
+    LOADED,  # 1: had an impulse in the step before; 0: not
+    BOUNCING,  # 1: the sides approached fast enough to bounce; 0: not
+    PUSH_1,  # impulses of the pseudo-velocities, of sequential impulses
+    PUSH_2,
     SIZE,
-) = (line * LANES for line in range(48))
+) = (line * LANES for line in range(52))
 # Offsets of the values that a pass gathers from the motions of each block. They have an array of their own: among the
 # others they were a quarter of the memory traffic of a pass.
 (VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (
     line * LANES for line in range(16)
 )
-PRESSED, FREE = 1.0, 2.0  # outcomes of a lane: it bears or rests; it bears nothing, and is let out of its overlap
+# Pseudo-velocities, in the place of poses: no pass gathers both.
+PUSH_VX_A, PUSH_VY_A, PUSH_W_A, PUSH_VX_B, PUSH_VY_B, PUSH_W_B = DX_A, DY_A, COS_A, DX_B, DY_B, COS_B
+IN_CONTACT, UNLOADED = 1.0, 2.0  # outcomes of a lane: it has an impulse or rests; it is pushed out of its overlap
 
 
-def _lanes_in_use(manifolds, block):
+def _lanes_in_use(contacts, block):
     """Return the number of lanes of a block in use, which are the first ones. The plain form skips the others."""
     count = 0
-    while count < LANES and manifolds[block, count] >= 0:
+    while count < LANES and contacts[block, count] >= 0:
         count += 1
     return count
 
 
 def _make_all_lanes(count):
-    def all_lanes(manifolds, block):
+    def all_lanes(contacts, block):
         return count
 
     return all_lanes
@@ -102,135 +106,15 @@ ALL_LANES = _make_all_lanes(LANES)
 lanes_of: Any = Builtin(_lanes_in_use, put_in(ALL_LANES), ALL_LANES) if JIT else _lanes_in_use
 
 
-@subkernel
-def pack_nothing(lane, c_out):
-    """Write a row between no bodies, which yields no impulse."""
-    for at in range(lane, SIZE, LANES):
-        c_out[at] = 0.0
-
-
-@subkernel
-def gap_of(x, y, r):
-    """Return the distance along the normal of a CONSTRAINT row of two points that are (x, y) apart [px]."""
-    return x * r.normal_x + y * r.normal_y
-
-
-@inlined
-def pack_row(r, a, b, restitution, pace, lane, c_out):
-    """Write a CONSTRAINT row, the masses of its MOTION rows a, b and its restitution into a lane.
-
-    With one point, the second is a copy without effective mass.
-    """
-    two = r.count == 2
-    spring = pace.still_spring if r.still else pace.spring
-    c_out[NX + lane] = r.normal_x
-    c_out[NY + lane] = r.normal_y
-    c_out[FRICTION + lane] = r.friction
-    c_out[SURFACE + lane] = r.surface_speed
-    c_out[ROLLING_LIMIT + lane] = r.rolling_limit
-    c_out[ROLLING_MASS + lane] = r.rolling_mass
-    c_out[ROLLING + lane] = r.rolling_impulse
-    c_out[RADIUS_A + lane] = r.radius_a
-    c_out[RADIUS_B + lane] = r.radius_b
-    c_out[SHARE + lane] = -r.push_share if r.calm else r.push_share  # its sign: no approach before the step
-    c_out[RESTS + lane] = 1.0 if r.rests else 0.0
-    c_out[BIAS_RATE + lane] = spring.bias_rate
-    firmness = firmness_of(r, pace)
-    c_out[FIRMNESS + lane] = -firmness if r.alone else firmness  # its sign: see CONSTRAINT.alone
-    c_out[GIVE + lane] = 1.0 / (1.0 + firmness_of(r, pace) * spring.grip)
-    c_out[BLOW + lane] = pace.blow * (r.normal_impulse_1 + r.normal_impulse_2) if r.loaded and not r.still else math.inf
-    c_out[COUPLE_1 + lane] = r.couple_1
-    c_out[COUPLE_2 + lane] = r.couple_2
-    c_out[SPLIT + lane] = r.split
-    c_out[AX_1 + lane] = r.ax_1
-    c_out[AY_1 + lane] = r.ay_1
-    c_out[BX_1 + lane] = r.bx_1
-    c_out[BY_1 + lane] = r.by_1
-    c_out[BASE_1 + lane] = r.base_1
-    c_out[MASS_1 + lane] = r.normal_mass_1
-    c_out[TANGENT_MASS_1 + lane] = r.tangent_mass_1
-    c_out[NORMAL_1 + lane] = r.normal_impulse_1
-    c_out[TANGENT_1 + lane] = r.tangent_impulse_1
-    c_out[TOTAL_1 + lane] = r.normal_total_1
-    c_out[TANGENT_TOTAL_1 + lane] = r.tangent_total_1
-    c_out[AX_2 + lane] = r.ax_2 if two else r.ax_1
-    c_out[AY_2 + lane] = r.ay_2 if two else r.ay_1
-    c_out[BX_2 + lane] = r.bx_2 if two else r.bx_1
-    c_out[BY_2 + lane] = r.by_2 if two else r.by_1
-    c_out[BASE_2 + lane] = r.base_2 if two else r.base_1
-    c_out[MASS_2 + lane] = r.normal_mass_2 if two else 0.0
-    c_out[TANGENT_MASS_2 + lane] = r.tangent_mass_2 if two else 0.0
-    c_out[NORMAL_2 + lane] = r.normal_impulse_2
-    c_out[TANGENT_2 + lane] = r.tangent_impulse_2
-    c_out[TOTAL_2 + lane] = r.normal_total_2
-    c_out[TANGENT_TOTAL_2 + lane] = r.tangent_total_2
-    # At the start of the substeps nothing has moved; afterwards the relaxing pass measures.
-    c_out[GAP_1 + lane] = r.radius_a + r.radius_b + r.base_1 + gap_of(r.bx_1 - r.ax_1, r.by_1 - r.ay_1, r)
-    c_out[GAP_2 + lane] = c_out[GAP_1 + lane]
-    if two:
-        c_out[GAP_2 + lane] = r.radius_a + r.radius_b + r.base_2 + gap_of(r.bx_2 - r.ax_2, r.by_2 - r.ay_2, r)
-    c_out[IM_A + lane] = a.inverse_mass
-    c_out[II_A + lane] = a.inverse_inertia
-    c_out[IM_B + lane] = b.inverse_mass
-    c_out[II_B + lane] = b.inverse_inertia
-    c_out[RESTITUTION + lane] = restitution
-
-
-@subkernel
-def unpack_row(c, lane, row_out):
-    """Write the arms, masses and impulses of a lane into a CONSTRAINT row."""
-    r = row_out
-    r.count = 2 if c[MASS_2 + lane] > 0.0 else 1
-    r.still = c[IM_A + lane] == 0.0 or c[IM_B + lane] == 0.0
-    r.rests = c[RESTS + lane] > 0.0
-    r.normal_x = c[NX + lane]
-    r.normal_y = c[NY + lane]
-    r.friction = c[FRICTION + lane]
-    r.couple_1 = c[COUPLE_1 + lane]
-    r.couple_2 = c[COUPLE_2 + lane]
-    r.split = c[SPLIT + lane]
-    r.ax_1 = c[AX_1 + lane]
-    r.ay_1 = c[AY_1 + lane]
-    r.bx_1 = c[BX_1 + lane]
-    r.by_1 = c[BY_1 + lane]
-    r.ax_2 = c[AX_2 + lane]
-    r.ay_2 = c[AY_2 + lane]
-    r.bx_2 = c[BX_2 + lane]
-    r.by_2 = c[BY_2 + lane]
-    r.normal_mass_1 = c[MASS_1 + lane]
-    r.normal_mass_2 = c[MASS_2 + lane]
-    r.normal_impulse_1 = c[NORMAL_1 + lane]
-    r.normal_impulse_2 = c[NORMAL_2 + lane]
-    r.tangent_impulse_1 = c[TANGENT_1 + lane]
-    r.tangent_impulse_2 = c[TANGENT_2 + lane]
-    r.normal_total_1 = c[TOTAL_1 + lane]
-    r.normal_total_2 = c[TOTAL_2 + lane]
-    r.tangent_total_1 = c[TANGENT_TOTAL_1 + lane]
-    r.tangent_total_2 = c[TANGENT_TOTAL_2 + lane]
-
-
-@subkernel
-def repack_impulses(r, lane, c_out):
-    """Write the impulses of a CONSTRAINT row back into its lane."""
-    c_out[NORMAL_1 + lane] = r.normal_impulse_1
-    c_out[NORMAL_2 + lane] = r.normal_impulse_2
-    c_out[TANGENT_1 + lane] = r.tangent_impulse_1
-    c_out[TANGENT_2 + lane] = r.tangent_impulse_2
-    c_out[TOTAL_1 + lane] = r.normal_total_1
-    c_out[TOTAL_2 + lane] = r.normal_total_2
-    c_out[TANGENT_TOTAL_1 + lane] = r.tangent_total_1
-    c_out[TANGENT_TOTAL_2 + lane] = r.tangent_total_2
-
-
 class Blocks(NamedTuple):
     """Arrays for blocks of lanes."""
 
-    manifold: np.ndarray  # (blocks, LANES) int32 manifold of each lane, -1 for none
+    contact: np.ndarray  # (blocks, LANES) int32 contact of each lane, -1 for none
     motion_a: np.ndarray  # (blocks, LANES) uint32 its rows of MOTION, 0 for none
     motion_b: np.ndarray
     lines: np.ndarray  # SIZE numbers for each block
     gathered: np.ndarray  # GATHERED numbers of the current block of a pass
-    block_of: np.ndarray  # (colours + 1) place of the next row of each colour, rows without a colour first
+    block_of: np.ndarray  # (colours + 1) place of the next contact of each colour, those without a colour first
     lane_of: np.ndarray
 
 
@@ -238,7 +122,7 @@ def make_blocks(count: int) -> Blocks:
     """Return arrays for so many blocks."""
     lanes = (count, LANES)
     return Blocks(
-        manifold=np.zeros(lanes, np.int32),
+        contact=np.zeros(lanes, np.int32),
         motion_a=np.zeros(lanes, np.uint32),
         motion_b=np.zeros(lanes, np.uint32),
         lines=zeros_in_lines(count * SIZE, np.float64),
@@ -248,17 +132,17 @@ def make_blocks(count: int) -> Blocks:
     )
 
 
-def blocks_needed(rows: int, loose: int) -> int:
-    """Return the greatest number of blocks of so many rows, of which so many have no colour."""
-    return rows // LANES + COLORS + 1 + loose  # the last block of a colour may be partly empty
+def blocks_needed(contacts: int, uncolored: int) -> int:
+    """Return the greatest number of blocks of so many contacts, of which so many have no colour."""
+    return contacts // LANES + COLORS + 1 + uncolored  # the last block of a colour may be partly empty
 
 
 @subkernel
 def lay_out(starts, blocks_out):
-    """Assign blocks to the rows of each colour, and empty the unused lanes. Return the number of blocks. O(blocks).
+    """Assign blocks to the contacts of each colour, and empty the unused lanes. Return the number of blocks. O(blocks).
 
-    starts (colours + 2) int64: the first row of each colour, rows without a colour first, and the end of the last
-    colour. A row without a colour has a block of its own.
+    starts (colours + 2) int64: the first contact of each colour, those without a colour first, and the end of the last
+    colour. A contact without a colour has a block of its own.
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -268,13 +152,25 @@ def lay_out(starts, blocks_out):
         left = starts[slot + 1] - starts[slot]
         while left > 0:
             for lane in range(min(left, wide), LANES):
-                blocks_out.manifold[found, lane] = -1
+                blocks_out.contact[found, lane] = -1
                 blocks_out.motion_a[found, lane] = 0
                 blocks_out.motion_b[found, lane] = 0
-                pack_nothing(lane, blocks_out.lines[found * SIZE : (found + 1) * SIZE])
+                for at in range(found * SIZE + lane, (found + 1) * SIZE, LANES):
+                    blocks_out.lines[at] = 0.0
             left -= wide
             found += 1
     return found
+
+
+@inlined
+def next_lane(slot, blocks_inout):
+    """Return the block and lane of the next contact of a colour, and move its place on. slot: see lay_out."""
+    block = blocks_inout.block_of[slot]
+    lane = blocks_inout.lane_of[slot]
+    last = slot == 0 or lane == LANES - 1
+    blocks_inout.block_of[slot] = block + 1 if last else block
+    blocks_inout.lane_of[slot] = 0 if last else lane + 1
+    return block, lane
 
 
 # ---- lane motions ----------------------------------------------------------------------------------------------------
@@ -282,7 +178,7 @@ def lay_out(starts, blocks_out):
 
 
 @inlined
-def gather_speeds(a, b, lane, s_out):
+def gather_velocities(a, b, lane, s_out):
     """Copy the velocities of MOTION rows into a lane."""
     s_out[VX_A + lane] = a.vx
     s_out[VY_A + lane] = a.vy
@@ -306,7 +202,7 @@ def gather_poses(a, b, lane, s_out):
 
 
 @inlined
-def scatter_speeds(s, lane, a_out, b_out):
+def scatter_velocities(s, lane, a_out, b_out):
     """Write the velocities of a lane back to its MOTION rows."""
     a_out.vx = s[VX_A + lane]
     a_out.vy = s[VY_A + lane]
@@ -341,7 +237,7 @@ def measure_gaps(lane, s, c_inout):
 
 
 @inlined
-def levers_of(c, lane):
+def moment_arms(c, lane):
     """Return the moment arms of both points for an impulse along the normal: a_1, b_1, a_2, b_2 [px]."""
     nx = c[NX + lane]
     ny = c[NY + lane]
@@ -351,3 +247,55 @@ def levers_of(c, lane):
         c[AX_2 + lane] * ny - c[AY_2 + lane] * nx,
         c[BX_2 + lane] * ny - c[BY_2 + lane] * nx,
     )
+
+
+@inlined
+def clamp(impulse, limit):
+    """Return an impulse clamped to ± limit."""
+    impulse = impulse if impulse < limit else limit
+    return impulse if impulse > -limit else -limit
+
+
+def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
+    """Return the friction at one point of a lane, in a world with this effect. sums: the step has several substeps."""
+    ax_line, ay_line, bx_line, by_line = (AX_2, AY_2, BX_2, BY_2) if second else (AX_1, AY_1, BX_1, BY_1)
+    mass_line, impulse_line = (TANGENT_MASS_2, TANGENT_2) if second else (TANGENT_MASS_1, TANGENT_1)
+    total_line = TANGENT_TOTAL_2 if second else TANGENT_TOTAL_1
+
+    @inlined
+    def apply_friction(lane, vx, vy, wa, wb, normal_impulse, c_inout):
+        """Apply friction under a normal impulse. Return the impulse x, y on B, and the angular velocities after it.
+
+        vx, vy [px/s]: velocity of B's centre relative to A's. wa, wb [1/s]: angular velocities.
+        """
+        c = c_inout
+        nx = c[NX + lane]
+        ny = c[NY + lane]
+        ax = c[ax_line + lane]
+        ay = c[ay_line + lane]
+        bx = c[bx_line + lane]
+        by = c[by_line + lane]
+        old = c[impulse_line + lane]
+        speed = (vx + (wa * ay - wb * by)) * -ny + (vy + (wb * bx - wa * ax)) * nx - c[SURFACE + lane]
+        impulse = clamp(old - c[mass_line + lane] * speed, c[FRICTION + lane] * normal_impulse)
+        c[impulse_line + lane] = impulse
+        if sums:
+            c[total_line + lane] += impulse
+        x = (impulse - old) * -ny
+        y = (impulse - old) * nx
+        if rotation:
+            wa -= c[II_A + lane] * (ax * y - ay * x)
+            wb += c[II_B + lane] * (bx * y - by * x)
+        return x, y, wa, wb
+
+    return apply_friction
+
+
+@inlined
+def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
+    """Apply rolling resistance under a normal impulse. Return the angular velocities [1/s] after it."""
+    c = c_inout
+    old = c[ROLLING + lane]
+    impulse = clamp(old - c[ROLLING_MASS + lane] * (wb - wa), c[ROLLING_LIMIT + lane] * normal_impulse)
+    c[ROLLING + lane] = impulse
+    return wa - c[II_A + lane] * (impulse - old), wb + c[II_B + lane] * (impulse - old)

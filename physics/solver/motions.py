@@ -23,7 +23,7 @@ BOTH = (False, True)
 
 
 @subkernel
-def stand_still(motions_out, pushable_out, joins_out):
+def write_fixed(motions_out, lists_out):
     """Write row 0, which no impulse moves."""
     m = motions_out[0]
     m.vx = 0.0
@@ -32,9 +32,9 @@ def stand_still(motions_out, pushable_out, joins_out):
     m.free_vx = 0.0
     m.free_vy = 0.0
     m.free_w = 0.0
-    m.push_vx = 0.0
-    m.push_vy = 0.0
-    m.push_w = 0.0
+    m.pseudo_vx = 0.0
+    m.pseudo_vy = 0.0
+    m.pseudo_w = 0.0
     m.dx = 0.0
     m.dy = 0.0
     m.cosine = 1.0
@@ -45,18 +45,27 @@ def stand_still(motions_out, pushable_out, joins_out):
     m.acceleration_x = 0.0
     m.acceleration_y = 0.0
     m.angular_acceleration = 0.0
-    m.demand = 0.0
-    m.crowded = False
-    m.overloaded = False
-    m.eased = 0.0
+    m.estimate = 0.0
+    m.branching = False
+    m.capped = False
+    m.cooldown = 0.0
     m.substeps = 0
-    m.hits = 0
+    m.last_impact = 0
     m.moves = False
-    m.pushed = False
-    m.pressed = False
-    m.walks = False
-    pushable_out[0] = False
-    joins_out[0] = False
+    m.is_dynamic = False
+    m.in_contact = False
+    m.is_character = False
+    lists_out.has_finite_mass[0] = False
+    lists_out.links_islands[0] = False
+
+
+class MotionLists(NamedTuple):
+    """Arrays beside the MOTION rows."""
+
+    motion_of: np.ndarray  # (bodies) int32 the MOTION row of each body; 0: it does not move
+    has_finite_mass: np.ndarray  # (motions) bool an impulse changes its velocity
+    links_islands: np.ndarray  # (motions) bool
+    by_kind: np.ndarray  # (2, motions) int32 the MOTION rows of dynamic bodies, and of kinematic ones
 
 
 class Air(NamedTuple):
@@ -79,25 +88,20 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
         bodies,
         air,
         # write
-        motion_of_inout,
         motions_out,
-        pushable_out,
-        joins_out,
         lists_out,
         work_inout,
     ):
         """Write the motions of the bodies in these rows. Return the numbers of dynamic and of kinematic ones. O(rows).
 
-        air: see Air. motion_of_inout (bodies) int32: the MOTION row of each body. pushable_out (motions) bool: whether
-        an impulse changes its velocity. joins_out (motions) bool: whether it links islands. lists_out (2, motions)
-        int32: the MOTION rows of dynamic bodies, and of kinematic ones.
+        air: see Air; lists_out: see MotionLists.
         """
-        stand_still(motions_out, pushable_out, joins_out)
-        pushed = 0
-        driven = 0
+        write_fixed(motions_out, lists_out)
+        dynamic = 0
+        kinematic = 0
         for k in range(len(rows)):
             b = bodies[rows[k]]
-            motion_of_inout[rows[k]] = k + 1
+            lists_out.motion_of[rows[k]] = k + 1
             m = motions_out[k + 1]
             m.vx = b.vx
             m.vy = b.vy
@@ -105,40 +109,40 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.free_vx = m.vx
             m.free_vy = m.vy
             m.free_w = m.angular_velocity
-            m.push_vx = 0.0
-            m.push_vy = 0.0
-            m.push_w = 0.0
+            m.pseudo_vx = 0.0
+            m.pseudo_vy = 0.0
+            m.pseudo_w = 0.0
             m.dx = 0.0
             m.dy = 0.0
             m.cosine = 1.0
             m.sine = 0.0
             m.turn = 0.0
             m.moves = b.kind != STATIC and b.awake and not b.quarantined
-            m.pushed = m.moves and b.kind == DYNAMIC
-            m.pressed = False
-            m.walks = False
-            m.demand = 0.0
-            m.crowded = False
-            m.overloaded = False
-            m.hits = 0
+            m.is_dynamic = m.moves and b.kind == DYNAMIC
+            m.in_contact = False
+            m.is_character = False
+            m.estimate = 0.0
+            m.branching = False
+            m.capped = False
+            m.last_impact = 0
             m.substeps = b.substeps
-            m.eased = b.eased
-            joins_out[k + 1] = m.pushed
-            pushable_out[k + 1] = m.pushed and b.inverse_mass > 0.0
+            m.cooldown = b.cooldown
+            lists_out.links_islands[k + 1] = m.is_dynamic
+            lists_out.has_finite_mass[k + 1] = m.is_dynamic and b.inverse_mass > 0.0
             if m.moves:
                 work_inout[BODIES_INTEGRATED] += 1
-            if not m.pushed:
+            if not m.is_dynamic:
                 if m.moves:
-                    lists_out[1, driven] = k + 1
-                    driven += 1
+                    lists_out.by_kind[1, kinematic] = k + 1
+                    kinematic += 1
                 m.inverse_mass = 0.0
                 m.inverse_inertia = 0.0
                 m.acceleration_x = 0.0
                 m.acceleration_y = 0.0
                 m.angular_acceleration = 0.0
                 continue
-            lists_out[0, pushed] = k + 1
-            pushed += 1
+            lists_out.by_kind[0, dynamic] = k + 1
+            dynamic += 1
             m.inverse_mass = b.inverse_mass
             m.inverse_inertia = b.inverse_inertia if rotation else 0.0
             m.acceleration_x = b.inverse_mass * b.force_x
@@ -150,7 +154,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             if wind:
                 m.acceleration_x += air.drag * air.wind_x
                 m.acceleration_y += air.drag * air.wind_y
-        return pushed, driven
+        return dynamic, kinematic
 
     return gather_motions
 
@@ -175,7 +179,7 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
             m = motions_inout[members[i]]
-            m.pressed = False
+            m.in_contact = False
             given_x = m.vx - m.free_vx
             given_y = m.vy - m.free_vy
             m.vx += h * m.acceleration_x
@@ -221,19 +225,19 @@ def make_substep_positions(rotation: bool) -> Callable:
             m.dx += h * m.vx
             m.dy += h * m.vy
             turn = m.angular_velocity
-            if not m.pressed:
+            if not m.in_contact:
                 m.dx -= 0.5 * h * h * m.acceleration_x
                 m.dy -= 0.5 * h * h * m.acceleration_y
                 turn -= 0.5 * h * m.angular_acceleration
-            if m.push_vx != 0.0 or m.push_vy != 0.0 or m.push_w != 0.0:
-                fast = length_of(m.push_vx, m.push_vy)
+            if m.pseudo_vx != 0.0 or m.pseudo_vy != 0.0 or m.pseudo_w != 0.0:
+                fast = length_of(m.pseudo_vx, m.pseudo_vy)
                 share = push_speed / fast if fast > push_speed else 1.0
-                m.dx += h * share * m.push_vx
-                m.dy += h * share * m.push_vy
-                turn += share * m.push_w
-                m.push_vx = 0.0
-                m.push_vy = 0.0
-                m.push_w = 0.0
+                m.dx += h * share * m.pseudo_vx
+                m.dy += h * share * m.pseudo_vy
+                turn += share * m.pseudo_w
+                m.pseudo_vx = 0.0
+                m.pseudo_vy = 0.0
+                m.pseudo_w = 0.0
             if rotation and turn != 0.0:
                 m.turn += h * turn
                 m.cosine, m.sine = heading(m.turn)
@@ -242,12 +246,12 @@ def make_substep_positions(rotation: bool) -> Callable:
 
 
 @subkernel
-def move_driven(driven, time, motions_inout):
+def move_kinematic(kinematic, time, motions_inout):
     """Place kinematic bodies where they are at a time [s] since the start of the step, so that every island sees the
     same.
     """
-    for i in range(len(driven)):
-        m = motions_inout[driven[i]]
+    for i in range(len(kinematic)):
+        m = motions_inout[kinematic[i]]
         m.dx = time * m.vx
         m.dy = time * m.vy
         m.turn = time * m.angular_velocity
@@ -294,7 +298,7 @@ def scatter_motions(
         b.vy = m.vy
         b.angular_velocity = m.angular_velocity
         b.substeps = m.substeps
-        b.eased = m.eased
+        b.cooldown = m.cooldown
         b.center_x += m.dx
         b.center_y += m.dy
         if m.turn == 0.0:
@@ -320,37 +324,36 @@ class Motions:
     """The MOTION rows of one world; they grow and are reused."""
 
     def __init__(self) -> None:
-        self.motion_of = np.zeros(16, np.int32)
-        self._grow(16)
+        self._grow(16, np.zeros(16, np.int32))
 
-    def _grow(self, count):
-        self.rows, self.lists = zeros_in_lines(count, MOTION), np.zeros((2, count), np.int32)
-        self.pushable, self.joins = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-        self.used, self.movers, self.driven = self.rows[:0], self.lists[0, :0], self.lists[1, :0]
+    def _grow(self, count, motion_of):
+        self.rows = zeros_in_lines(count, MOTION)
+        finite, links = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
+        self.lists = MotionLists(motion_of, finite, links, np.zeros((2, count), np.int32))
+        self.used, self.island_bodies, self.kinematic = self.rows[:0], *self.lists.by_kind[:, :0]
 
     def gather(self, state: StepState) -> None:
         """Gather the awake bodies."""
         rows, bodies, effects = state.awake.bodies, state.bodies, state.effects
         if len(self.rows) < len(rows) + 1:
-            self._grow(2 * len(rows) + 1)
-        if len(self.motion_of) < len(bodies):
-            self.motion_of = np.zeros(2 * len(bodies), np.int32)
+            self._grow(2 * len(rows) + 1, self.lists.motion_of)
+        if len(self.lists.motion_of) < len(bodies):
+            self.lists = self.lists._replace(motion_of=np.zeros(2 * len(bodies), np.int32))
         if len(self.used) != len(rows) + 1:
             self.used = self.rows[: len(rows) + 1]
         air = Air(*state.gravity, state.drag, *state.wind)
         gather = GATHER[effects.gravity, effects.wind, effects.rotation]
-        pushed, driven = gather(
-            rows, bodies, air, self.motion_of, self.used, self.pushable, self.joins, self.lists, state.work
-        )
-        if (len(self.movers), len(self.driven)) != (pushed, driven):
-            self.movers, self.driven = self.lists[0, :pushed], self.lists[1, :driven]
+        dynamic, kinematic = gather(rows, bodies, air, self.used, self.lists, state.work)
+        if (len(self.island_bodies), len(self.kinematic)) != (dynamic, kinematic):
+            self.island_bodies, self.kinematic = self.lists.by_kind[0, :dynamic], self.lists.by_kind[1, :kinematic]
         if len(state.characters):
-            self.used["walks"][self.motion_of[state.characters["body_row"]]] = ~state.characters["wedged"]
+            characters = self.lists.motion_of[state.characters["body_row"]]
+            self.used["is_character"][characters] = ~state.characters["wedged"]
 
     def scatter(self, state: StepState) -> None:
         """Write the bodies back."""
         rows, bodies, limit = state.awake.bodies, state.bodies, state.tolerances.speed_limit
-        state.unsound = scatter_motions(rows, self.used, limit, self.motion_of, bodies)
+        state.unsound = scatter_motions(rows, self.used, limit, self.lists.motion_of, bodies)
         # A body that was rotated has an angle for which no raster was drawn ahead.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 
@@ -387,7 +390,7 @@ WRITES = (
 )
 
 
-def push_piles(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
+def run_solver(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
     """Run a stacking solver: gather the motions, call solve(state, contacts), and write the motions back."""
     if not len(state.awake.bodies):
         return

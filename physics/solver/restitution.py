@@ -2,7 +2,11 @@
 
 import math
 
+import numpy as np
+
 from physics.jit import inlined, subkernel
+from physics.solver import lanes as at
+from physics.solver.lanes import SIZE, lanes_of, moment_arms
 from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 
 # ---- impulses --------------------------------------------------------------------------------------------------------
@@ -10,18 +14,26 @@ from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 
 
 @subkernel
-def relative_speed(a, b, nx, ny, ax, ay, bx, by):
-    """Return the speed [px/s] of B relative to A along a normal at these arms; negative if they approach."""
+def relative_speed(c, lane, second, a, b):
+    """Return the speed [px/s] of B relative to A along the normal at a point of a lane; negative if they approach."""
+    ax = c[(at.AX_2 if second else at.AX_1) + lane]
+    ay = c[(at.AY_2 if second else at.AY_1) + lane]
+    bx = c[(at.BX_2 if second else at.BX_1) + lane]
+    by = c[(at.BY_2 if second else at.BY_1) + lane]
     vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
     vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
-    return vx * nx + vy * ny
+    return vx * c[at.NX + lane] + vy * c[at.NY + lane]
 
 
 @subkernel
-def push_pair(nx, ny, ax, ay, bx, by, impulse, a_inout, b_inout):
-    """Apply an impulse along the normal, to B forwards and to A backwards."""
-    x = impulse * nx
-    y = impulse * ny
+def push_pair(c, lane, second, impulse, a_inout, b_inout):
+    """Apply an impulse along the normal at a point of a lane, to B forwards and to A backwards."""
+    ax = c[(at.AX_2 if second else at.AX_1) + lane]
+    ay = c[(at.AY_2 if second else at.AY_1) + lane]
+    bx = c[(at.BX_2 if second else at.BX_1) + lane]
+    by = c[(at.BY_2 if second else at.BY_1) + lane]
+    x = impulse * c[at.NX + lane]
+    y = impulse * c[at.NY + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
     a_inout.angular_velocity -= a_inout.inverse_inertia * (ax * y - ay * x)
@@ -52,42 +64,43 @@ FLAT = 1e-3  # share of k_11 · k_22 below which the two points count as one
 
 
 @inlined
-def split_of(couple_1, couple_2):
-    """Return the factor of solve_two where both points press: 1 / (1 - couple_1 · couple_2); 0 where the points
-    coincide.
+def block_factor(off_diagonal_1, off_diagonal_2):
+    """Return the factor of solve_two where both points press, 1 / (1 - off_diagonal_1 · off_diagonal_2).
+
+    It is 0 where the points coincide.
     """
-    apart = 1.0 - couple_1 * couple_2
+    apart = 1.0 - off_diagonal_1 * off_diagonal_2
     return 1.0 / apart if apart > FLAT else 0.0
 
 
 @inlined
-def solve_two(change_1, change_2, couple_1, couple_2, split, old_1, old_2):
+def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1, old_2):
     """Return the impulses x >= 0 of two points such that each gets the velocity change it needs, or separates.
 
-    change: of each impulse if it were alone. couple: k_12 / k_11 and k_12 / k_22. split: see split_of. old: accumulated
-    impulses. The points are solved in sequence where they nearly coincide, or where rounding leaves no case. All cases
-    are computed side by side, so that the loop has no branch and vectorises.
+    change: of each impulse if it were alone. off_diagonal: k_12 / k_11 and k_12 / k_22. factor: see block_factor. old:
+    accumulated impulses. The points are solved in sequence where they nearly coincide, or where rounding leaves no
+    case. All cases are computed side by side, so that the loop has no branch and vectorises.
     """
-    only_1 = old_1 + change_1 + couple_1 * old_2
-    only_2 = old_2 + change_2 + couple_2 * old_1
-    both = (split > 0.0) & (only_1 >= couple_1 * only_2) & (only_2 >= couple_2 * only_1)
-    first = (only_1 >= 0.0) & (couple_2 * only_1 >= only_2)
-    second = (only_2 >= 0.0) & (couple_1 * only_2 >= only_1)
+    only_1 = old_1 + change_1 + off_diagonal_1 * old_2
+    only_2 = old_2 + change_2 + off_diagonal_2 * old_1
+    both = (factor > 0.0) & (only_1 >= off_diagonal_1 * only_2) & (only_2 >= off_diagonal_2 * only_1)
+    first = (only_1 >= 0.0) & (off_diagonal_2 * only_1 >= only_2)
+    second = (only_2 >= 0.0) & (off_diagonal_1 * only_2 >= only_1)
     neither = (only_1 <= 0.0) & (only_2 <= 0.0)
     x_1 = old_1 + change_1
     x_1 = x_1 if x_1 > 0.0 else 0.0
-    x_2 = old_2 + change_2 - couple_2 * (x_1 - old_1)
+    x_2 = old_2 + change_2 - off_diagonal_2 * (x_1 - old_1)
     x_2 = x_2 if x_2 > 0.0 else 0.0
     x_1 = 0.0 if second | neither else x_1
     x_2 = only_2 if second else (0.0 if neither else x_2)
     x_1 = only_1 if first else x_1
     x_2 = 0.0 if first else x_2
-    x_1 = split * (only_1 - couple_1 * only_2) if both else x_1
-    x_2 = split * (only_2 - couple_2 * only_1) if both else x_2
+    x_1 = factor * (only_1 - off_diagonal_1 * only_2) if both else x_1
+    x_2 = factor * (only_2 - off_diagonal_2 * only_1) if both else x_2
     return x_1, x_2
 
 
-# ---- hits ------------------------------------------------------------------------------------------------------------
+# ---- simultaneous impacts --------------------------------------------------------------------------------------------
 # Simultaneous impacts: several impacts of one body within a step, simulated in sequence.
 #
 # A flying body may hit a wall with one end, rotate, and hit it with the other end within the step, or hit the wall and
@@ -95,226 +108,304 @@ def solve_two(change_1, change_2, couple_1, couple_2, split, old_1, old_2):
 # substeps removed is not that of a bounce. So the impacts of such a body on static bodies are simulated from one to the
 # next, along straight lines. Each keeps the energy that Newton's law of restitution gives at the time of the impact.
 
-MOST_HITS = 16  # impacts of one body within a step; more are left to the next step, and counted in cap_hits
+MOST_IMPACTS = 16  # impacts of one body within a step; more are left to the next step, and counted in cap_hits
 TOGETHER = 1.0 / 64.0  # share of a step within which two points of a manifold hit at once
-NOBODY, CROWDED = 0, -1  # values of MOTION.hits: no row yet; not to be simulated
+NO_IMPACT, LEFT_OUT = 0, -1  # values of MOTION.last_impact: none yet; not to be simulated
+
+# A lane with an impulse that may bounce.
+IMPACT = np.dtype(
+    [
+        ("block", np.int32),
+        ("lane", np.int32),
+        ("before", np.int32),  # another impact of the same body, plus one; NO_IMPACT: none
+        ("simulated", np.bool_),
+        ("speed_1", np.float64),  # [px/s] predicted impact speed of each point
+        ("speed_2", np.float64),
+        ("gap_1", np.float64),  # [px] gap before that impact
+        ("gap_2", np.float64),
+        ("impulse_1", np.float64),
+        ("impulse_2", np.float64),
+    ],
+    align=True,
+)
+
+
+def make_impacts(room: int) -> np.ndarray:
+    """Return room for that many IMPACT rows."""
+    return np.zeros(room, IMPACT)
+
+
+@inlined
+def line_of(blocks, impact, line):
+    """Return the value of a line, such as lanes.NX, of the lane of an impact."""
+    return blocks.lines[impact.block * SIZE + line + impact.lane]
+
+
+@inlined
+def points_of(blocks, impact):
+    """Return the number of points of an impact."""
+    return 2 if line_of(blocks, impact, at.MASS_2) > 0.0 else 1
 
 
 @subkernel
-def mover_of(r, motions):
-    """Return the dynamic side of a CONSTRAINT row against a static body: its MOTION row, and 1.0 for B, -1.0 for A."""
-    if motions[r.motion_b].inverse_mass > 0.0:
-        return r.motion_b, 1.0
-    return r.motion_a, -1.0
+def list_impacts(blocks, count, impacts_out):
+    """List the lanes, of so many blocks, that may bounce and had an impulse in this step. Return their number."""
+    found = 0
+    for block in range(count):
+        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks.contact, block)):
+            if c[at.RESTITUTION + lane] > 0.0 and c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] > 0.0:
+                r = impacts_out[found]
+                r.block = block
+                r.lane = lane
+                r.simulated = False
+                found += 1
+    return found
 
 
 @subkernel
-def link_hits(anchors, count, constraints_inout, motions_inout):
-    """Link the rows of each body that may bounce: MOTION.hits is its last row plus one, CONSTRAINT.before the one
+def is_against_static(blocks, impact):
+    """Return whether one side of an impact has infinite mass."""
+    return line_of(blocks, impact, at.IM_A) == 0.0 or line_of(blocks, impact, at.IM_B) == 0.0
+
+
+@subkernel
+def mover_of(blocks, impact, motions):
+    """Return the dynamic side of an impact against a static body: its MOTION row, and 1.0 for B, -1.0 for A."""
+    row = blocks.motion_b[impact.block, impact.lane]
+    if motions[row].inverse_mass > 0.0:
+        return row, 1.0
+    return blocks.motion_a[impact.block, impact.lane], -1.0
+
+
+@subkernel
+def link_impacts(blocks, count, impacts_inout, motions_inout):
+    """Link the impacts of each body that may bounce: MOTION.last_impact is its last one plus one, IMPACT.before the one
     before.
 
-    A body that also has a resting contact, or hits a dynamic body, is left out: CROWDED. O(count).
+    A body that also has a resting contact, or hits a dynamic body, is left out. O(count).
     """
     for i in range(count):
-        r = constraints_inout[i]
-        r.played = False
-        r.linked = anchors[r.manifold].restitution > 0.0 and r.normal_total_1 + r.normal_total_2 > 0.0
-        if not r.linked:
-            continue
-        if r.still and not r.rests:
-            mover, _ = mover_of(r, motions_inout)
-            m = motions_inout[mover]
-            r.before = m.hits
-            if m.hits != CROWDED:
-                m.hits = i + 1
+        r = impacts_inout[i]
+        if is_against_static(blocks, r) and line_of(blocks, r, at.RESTING) == 0.0:
+            row, _ = mover_of(blocks, r, motions_inout)
+            m = motions_inout[row]
+            r.before = m.last_impact
+            if m.last_impact != LEFT_OUT:
+                m.last_impact = i + 1
         else:
             for side in range(2):
-                m = motions_inout[r.motion_a if side == 0 else r.motion_b]
+                rows = blocks.motion_a if side == 0 else blocks.motion_b
+                m = motions_inout[rows[r.block, r.lane]]
                 if m.inverse_mass > 0.0:
-                    m.hits = CROWDED
+                    m.last_impact = LEFT_OUT
 
 
 @subkernel
-def unlink_hits(constraints, count, motions_inout):
+def unlink_impacts(blocks, impacts, count, motions_inout):
     """Reset the links in the motions."""
     for i in range(count):
-        motions_inout[constraints[i].motion_a].hits = NOBODY
-        motions_inout[constraints[i].motion_b].hits = NOBODY
+        r = impacts[i]
+        motions_inout[blocks.motion_a[r.block, r.lane]].last_impact = NO_IMPACT
+        motions_inout[blocks.motion_b[r.block, r.lane]].last_impact = NO_IMPACT
 
 
 @subkernel
-def lever_of(r, second, sign):
+def arm_of(blocks, impact, second, sign):
     """Return the moment arm [px] of an impulse along the normal at a point of the mover."""
+    c = blocks.lines[impact.block * SIZE : (impact.block + 1) * SIZE]
+    a_1, b_1, a_2, b_2 = moment_arms(c, impact.lane)
     if sign > 0.0:
-        return (r.bx_2 * r.normal_y - r.by_2 * r.normal_x) if second else (r.bx_1 * r.normal_y - r.by_1 * r.normal_x)
-    return (r.ax_2 * r.normal_y - r.ay_2 * r.normal_x) if second else (r.ax_1 * r.normal_y - r.ay_1 * r.normal_x)
+        return b_2 if second else b_1
+    return a_2 if second else a_1
 
 
 @subkernel
-def is_played(constraints, last, manifolds, threshold):
-    """Return whether the impacts of a body, linked from row `last`, are to be simulated in sequence.
+def is_simulated(blocks, impacts, last, contacts, threshold):
+    """Return whether the impacts of a body, linked from `last`, are to be simulated in sequence.
 
     That is so if it has impacts at two points, other than the two of one manifold that both approached before.
     """
     points = 0
     rows = 0
     fast = 0
-    at = last
-    while at != NOBODY:
-        r = constraints[at - 1]
-        m = manifolds[r.manifold]
+    k = last
+    while k != NO_IMPACT:
+        r = impacts[k - 1]
+        c = contacts[blocks.contact[r.block, r.lane]]
         rows += 1
-        for k in range(r.count):
-            total = r.normal_total_1 if k == 0 else r.normal_total_2
-            speed = m.speed_1 if k == 0 else m.speed_2
+        for point in range(points_of(blocks, r)):
+            total = line_of(blocks, r, at.TOTAL_1 if point == 0 else at.TOTAL_2)
+            speed = c.speed_1 if point == 0 else c.speed_2
             points += int(total > 0.0)
             fast += int(total > 0.0 and speed > threshold)
-        at = r.before
+        k = r.before
     return fast > 0 and points > 1 and (rows > 1 or fast < points)
 
 
 @subkernel
-def speed_now(constraints, last, row, second, mover, motions):
+def speed_now(blocks, impacts, last, row, second, motions):
     """Return the approach speed [px/s] of a point after the impulses that its body got so far."""
-    r = constraints[row]
-    _, sign = mover_of(r, motions)
-    lever = lever_of(r, second, sign)
-    speed = r.met_2 if second else r.met_1
-    at = last
-    while at != NOBODY:
-        o = constraints[at - 1]
-        _, other = mover_of(o, motions)
-        along = r.normal_x * o.normal_x + r.normal_y * o.normal_y
-        for k in range(o.count):
-            impulse = o.push_impulse_1 if k == 0 else o.push_impulse_2
+    r = impacts[row]
+    mover_row, sign = mover_of(blocks, r, motions)
+    mover = motions[mover_row]
+    arm = arm_of(blocks, r, second, sign)
+    speed = r.speed_2 if second else r.speed_1
+    k = last
+    while k != NO_IMPACT:
+        o = impacts[k - 1]
+        _, other = mover_of(blocks, o, motions)
+        along = line_of(blocks, r, at.NX) * line_of(blocks, o, at.NX)
+        along += line_of(blocks, r, at.NY) * line_of(blocks, o, at.NY)
+        for point in range(points_of(blocks, o)):
+            impulse = o.impulse_1 if point == 0 else o.impulse_2
             if impulse > 0.0:
-                turn = mover.inverse_inertia * lever * lever_of(o, k == 1, other)
+                turn = mover.inverse_inertia * arm * arm_of(blocks, o, point == 1, other)
                 speed -= sign * other * (mover.inverse_mass * along + turn) * impulse
-        at = o.before
+        k = o.before
     return speed
 
 
 @subkernel
-def play_hits(last, manifolds, anchors, threshold, dt, mover, motions, constraints_inout):
-    """Simulate the impacts of a body, linked from `last`, over dt [s]: the impulse of each point goes to push_impulse.
+def predict_impact(blocks, contacts, motions, impact_inout):
+    """Write the predicted impact speeds and gaps of an impact, from the state before the step."""
+    r = impact_inout
+    c = contacts[blocks.contact[r.block, r.lane]]
+    a = motions[blocks.motion_a[r.block, r.lane]]
+    b = motions[blocks.motion_b[r.block, r.lane]]
+    two = points_of(blocks, r) == 2
+    acceleration = (a.acceleration_x - b.acceleration_x) * line_of(blocks, r, at.NX)
+    acceleration += (a.acceleration_y - b.acceleration_y) * line_of(blocks, r, at.NY)
+    r.impulse_1, r.impulse_2 = 0.0, 0.0
+    r.speed_1 = speed_of_impact(c.speed_1, c.separation_1, acceleration)
+    r.speed_2 = speed_of_impact(c.speed_2, c.separation_2, acceleration) if two else 0.0
+    r.gap_1 = max(c.separation_1, 0.0)
+    r.gap_2 = max(c.separation_2, 0.0) if two else 0.0
 
-    mover: its MOTION row. Return whether MOST_HITS was enough.
+
+@subkernel
+def soonest_impact(blocks, impacts, last, threshold, motions):
+    """Return the next impact of a body: its time [s], row plus one, whether it is the second point, approach speed."""
+    soonest = math.inf
+    hit = NO_IMPACT
+    second = False
+    hit_speed = 0.0
+    k = last
+    while k != NO_IMPACT:
+        r = impacts[k - 1]
+        for point in range(points_of(blocks, r)):
+            speed = speed_now(blocks, impacts, last, k - 1, point == 1, motions)
+            gap = r.gap_1 if point == 0 else r.gap_2
+            if speed > threshold and gap < soonest * speed:
+                soonest = gap / speed
+                hit = k
+                second = point == 1
+                hit_speed = speed
+        k = r.before
+    return soonest, hit, second, hit_speed
+
+
+@subkernel
+def simulate_impacts(blocks, last, threshold, dt, contacts, motions, impacts_inout):
+    """Simulate the impacts of a body, linked from `last`, over dt [s]: the impulse of each point goes to its IMPACT.
+
+    Return whether MOST_IMPACTS was enough.
     """
-    at = last
-    while at != NOBODY:
-        r = constraints_inout[at - 1]
-        m = manifolds[r.manifold]
-        a = motions[r.motion_a]
-        b = motions[r.motion_b]
-        nearing = (a.acceleration_x - b.acceleration_x) * r.normal_x
-        nearing += (a.acceleration_y - b.acceleration_y) * r.normal_y
-        r.push_impulse_1, r.push_impulse_2 = 0.0, 0.0
-        r.met_1 = speed_of_impact(m.speed_1, m.separation_1, nearing)
-        r.met_2 = speed_of_impact(m.speed_2, m.separation_2, nearing) if r.count == 2 else 0.0
-        r.gap_1 = max(m.separation_1, 0.0)
-        r.gap_2 = max(m.separation_2, 0.0) if r.count == 2 else 0.0
-        at = r.before
+    k = last
+    while k != NO_IMPACT:
+        predict_impact(blocks, contacts, motions, impacts_inout[k - 1])
+        k = impacts_inout[k - 1].before
     left = dt
-    for _ in range(MOST_HITS):
-        soonest = math.inf
-        hit = NOBODY
-        second = False
-        hit_speed = 0.0
-        at = last
-        while at != NOBODY:
-            r = constraints_inout[at - 1]
-            for k in range(r.count):
-                speed = speed_now(constraints_inout, last, at - 1, k == 1, mover, motions)
-                gap = r.gap_1 if k == 0 else r.gap_2
-                if speed > threshold and gap < soonest * speed:
-                    soonest = gap / speed
-                    hit = at
-                    second = k == 1
-                    hit_speed = speed
-            at = r.before
-        if hit == NOBODY or soonest > left:
+    for _ in range(MOST_IMPACTS):
+        soonest, hit, second, hit_speed = soonest_impact(blocks, impacts_inout, last, threshold, motions)
+        if hit == NO_IMPACT or soonest > left:
             return True
         left -= soonest
-        at = last
-        while at != NOBODY:
-            r = constraints_inout[at - 1]
-            r.gap_1 = max(r.gap_1 - soonest * speed_now(constraints_inout, last, at - 1, False, mover, motions), 0.0)
-            if r.count == 2:
-                r.gap_2 = max(r.gap_2 - soonest * speed_now(constraints_inout, last, at - 1, True, mover, motions), 0.0)
-            at = r.before
-        r = constraints_inout[hit - 1]
-        back = 1.0 + anchors[r.manifold].restitution
+        k = last
+        while k != NO_IMPACT:
+            r = impacts_inout[k - 1]
+            r.gap_1 = max(r.gap_1 - soonest * speed_now(blocks, impacts_inout, last, k - 1, False, motions), 0.0)
+            if points_of(blocks, r) == 2:
+                r.gap_2 = max(r.gap_2 - soonest * speed_now(blocks, impacts_inout, last, k - 1, True, motions), 0.0)
+            k = r.before
+        r = impacts_inout[hit - 1]
+        back = 1.0 + line_of(blocks, r, at.RESTITUTION)
         other_speed = 0.0
-        if r.count == 2:
-            other_speed = speed_now(constraints_inout, last, hit - 1, not second, mover, motions)
+        if points_of(blocks, r) == 2:
+            other_speed = speed_now(blocks, impacts_inout, last, hit - 1, not second, motions)
         # Two points that hit nearly at the same time hit together, otherwise a flat landing would start a rotation.
         together = other_speed > threshold and (r.gap_1 if second else r.gap_2) <= TOGETHER * dt * other_speed
         speed_1 = hit_speed if not second else (other_speed if together else 0.0)
         speed_2 = hit_speed if second else (other_speed if together else 0.0)
-        change_1 = r.normal_mass_1 * back * speed_1
-        change_2 = r.normal_mass_2 * back * speed_2
+        change_1 = line_of(blocks, r, at.MASS_1) * back * speed_1
+        change_2 = line_of(blocks, r, at.MASS_2) * back * speed_2
         if together:
-            change_1, change_2 = solve_two(change_1, change_2, r.couple_1, r.couple_2, r.split, 0.0, 0.0)
-        r.push_impulse_1 += change_1
-        r.push_impulse_2 += change_2
+            factors = (
+                line_of(blocks, r, at.OFF_DIAGONAL_1),
+                line_of(blocks, r, at.OFF_DIAGONAL_2),
+                line_of(blocks, r, at.BLOCK_FACTOR),
+            )
+            change_1, change_2 = solve_two(change_1, change_2, factors[0], factors[1], factors[2], 0.0, 0.0)
+        r.impulse_1 += change_1
+        r.impulse_2 += change_2
     return False
 
 
 @subkernel
-def take_hits(last, constraints_inout, motions_inout):
+def apply_simulated(last, impacts_inout, motions_inout, blocks_inout):
     """Replace the impulses of the substeps by those of the simulated impacts. They are no cached forces for the next
     step.
     """
-    at = last
-    while at != NOBODY:
-        r = constraints_inout[at - 1]
-        a = motions_inout[r.motion_a]
-        b = motions_inout[r.motion_b]
-        change = r.push_impulse_1 - r.normal_total_1
-        push_pair(r.normal_x, r.normal_y, r.ax_1, r.ay_1, r.bx_1, r.by_1, change, a, b)
-        r.normal_impulse_1 = 0.0
-        r.normal_total_1 = r.push_impulse_1
-        if r.count == 2:
-            change = r.push_impulse_2 - r.normal_total_2
-            push_pair(r.normal_x, r.normal_y, r.ax_2, r.ay_2, r.bx_2, r.by_2, change, a, b)
-            r.normal_impulse_2 = 0.0
-            r.normal_total_2 = r.push_impulse_2
-        r.push_impulse_1, r.push_impulse_2 = 0.0, 0.0
-        r.played = True
-        at = r.before
+    k = last
+    while k != NO_IMPACT:
+        r = impacts_inout[k - 1]
+        lane = r.lane
+        c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
+        a = motions_inout[blocks_inout.motion_a[r.block, lane]]
+        b = motions_inout[blocks_inout.motion_b[r.block, lane]]
+        push_pair(c, lane, False, r.impulse_1 - c[at.TOTAL_1 + lane], a, b)
+        c[at.NORMAL_1 + lane] = 0.0
+        c[at.TOTAL_1 + lane] = r.impulse_1
+        if points_of(blocks_inout, r) == 2:
+            push_pair(c, lane, True, r.impulse_2 - c[at.TOTAL_2 + lane], a, b)
+            c[at.NORMAL_2 + lane] = 0.0
+            c[at.TOTAL_2 + lane] = r.impulse_2
+        r.simulated = True
+        k = r.before
 
 
 @subkernel
-def play_all_hits(
+def solve_simultaneous(
     # read
-    manifolds,
-    anchors,
+    contacts,
+    count,
     threshold,
     dt,
-    count,
     # write
+    impacts_inout,
     motions_inout,
-    constraints_inout,
+    blocks_inout,
     work_inout,
 ):
     """Apply simultaneous impacts: flying bodies that hit static ones several times within a step of dt [s].
 
-    They are among so many CONSTRAINT rows with restitution and an impulse; their rows are then `played`. threshold
-    [px/s]: slower impacts do not bounce. O(count + hits · points² of such a body).
+    They are among so many IMPACT rows, which are then `simulated`. threshold [px/s]: slower impacts do not bounce.
+    O(count + impacts · points² of such a body).
     """
-    link_hits(anchors, count, constraints_inout, motions_inout)
+    link_impacts(blocks_inout, count, impacts_inout, motions_inout)
     for i in range(count):
-        r = constraints_inout[i]
-        if not r.linked or not r.still or r.rests:
+        r = impacts_inout[i]
+        if not is_against_static(blocks_inout, r) or line_of(blocks_inout, r, at.RESTING) > 0.0:
             continue
-        row, _ = mover_of(r, motions_inout)
-        mover = motions_inout[row]
-        # The last row represents the body.
-        if mover.hits == i + 1 and is_played(constraints_inout, i + 1, manifolds, threshold):
-            if not play_hits(i + 1, manifolds, anchors, threshold, dt, mover, motions_inout, constraints_inout):
+        row, _ = mover_of(blocks_inout, r, motions_inout)
+        # The last impact represents the body.
+        if motions_inout[row].last_impact != i + 1:
+            continue
+        if is_simulated(blocks_inout, impacts_inout, i + 1, contacts, threshold):
+            if not simulate_impacts(blocks_inout, i + 1, threshold, dt, contacts, motions_inout, impacts_inout):
                 work_inout[CAP_HITS] += 1
-            take_hits(i + 1, constraints_inout, motions_inout)
-    unlink_hits(constraints_inout, count, motions_inout)
+            apply_simulated(i + 1, impacts_inout, motions_inout, blocks_inout)
+    unlink_impacts(blocks_inout, impacts_inout, count, motions_inout)
 
 
 # ---- bounce ----------------------------------------------------------------------------------------------------------
@@ -322,8 +413,7 @@ def play_all_hits(
 #
 # It uses the approach speed at the moment of impact, by the parabola from before the step. So a speculative contact
 # that slowed the body does not reduce the bounce (Rapier #919, #974), and no height is lost by the length of steps. Two
-# points of one manifold are solved together, otherwise a box that lands flat would rotate. For several impacts in one
-# step see "hits" above.
+# points of one manifold are solved together, otherwise a box that lands flat would rotate.
 
 
 @subkernel
@@ -333,88 +423,85 @@ def bounces(speed, threshold, total):
 
 
 @subkernel
-def bounce_once(wanted, nx, ny, ax, ay, bx, by, mass, impulse, a_inout, b_inout):
-    """Apply restitution at one point, for a separation speed [px/s]. Return the change of its impulse."""
-    missing = wanted - relative_speed(a_inout, b_inout, nx, ny, ax, ay, bx, by)
-    change = max(impulse + mass * missing, 0.0) - impulse
-    push_pair(nx, ny, ax, ay, bx, by, change, a_inout, b_inout)
+def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
+    """Apply restitution at one point of a lane, for a separation speed [px/s]. Return the change of its impulse.
+
+    total: the impulse of the point so far.
+    """
+    mass = c[(at.MASS_2 if second else at.MASS_1) + lane]
+    missing = wanted - relative_speed(c, lane, second, a_inout, b_inout)
+    change = max(total + mass * missing, 0.0) - total
+    push_pair(c, lane, second, change, a_inout, b_inout)
     return change
 
 
 @subkernel
-def bounce_together(wanted_1, wanted_2, r, a_inout, b_inout):
+def bounce_together(wanted_1, wanted_2, c, lane, a_inout, b_inout):
     """Apply restitution at two points at once, for separation speeds [px/s], by the 2 x 2 system. Return the changes of
     their impulses.
     """
-    nx = r.normal_x
-    ny = r.normal_y
-    missing_1 = wanted_1 - relative_speed(a_inout, b_inout, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1)
-    missing_2 = wanted_2 - relative_speed(a_inout, b_inout, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2)
-    old_1 = r.normal_total_1
-    old_2 = r.normal_total_2
+    missing_1 = wanted_1 - relative_speed(c, lane, False, a_inout, b_inout)
+    missing_2 = wanted_2 - relative_speed(c, lane, True, a_inout, b_inout)
+    old_1 = c[at.TOTAL_1 + lane]
+    old_2 = c[at.TOTAL_2 + lane]
     x_1, x_2 = solve_two(
-        r.normal_mass_1 * missing_1, r.normal_mass_2 * missing_2, r.couple_1, r.couple_2, r.split, old_1, old_2
+        c[at.MASS_1 + lane] * missing_1,
+        c[at.MASS_2 + lane] * missing_2,
+        c[at.OFF_DIAGONAL_1 + lane],
+        c[at.OFF_DIAGONAL_2 + lane],
+        c[at.BLOCK_FACTOR + lane],
+        old_1,
+        old_2,
     )
-    push_pair(nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, x_1 - old_1, a_inout, b_inout)
-    push_pair(nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, x_2 - old_2, a_inout, b_inout)
+    push_pair(c, lane, False, x_1 - old_1, a_inout, b_inout)
+    push_pair(c, lane, True, x_2 - old_2, a_inout, b_inout)
     return x_1 - old_1, x_2 - old_2
 
 
 @subkernel
 def restore_bounces(
     # read
-    manifolds,
-    anchors,
-    threshold,
-    dt,
+    contacts,
     count,
+    context,
     # write
+    impacts_inout,
     motions_inout,
-    constraints_inout,
+    blocks_inout,
     work_inout,
 ):
-    """Set the separation speed of points with an impulse to restitution times the approach speed. O(count).
+    """Set the separation speed of points with an impulse to restitution times the approach speed. O(lanes).
 
-    dt [s] of the step. threshold [px/s]: slower impacts do not bounce. CONTACT, ANCHOR and MOTION rows, and so many
-    CONSTRAINT rows.
+    count: number of blocks; context: see StepContext; impacts_inout: scratch.
     """
-    play_all_hits(manifolds, anchors, threshold, dt, count, motions_inout, constraints_inout, work_inout)
-    for i in range(count):
-        r = constraints_inout[i]
-        if r.played:
-            work_inout[RESTITUTION_ROWS] += int(r.normal_total_1 > 0.0) + int(r.normal_total_2 > 0.0)
+    threshold = context.restitution_speed
+    found = list_impacts(blocks_inout, count, impacts_inout)
+    solve_simultaneous(contacts, found, threshold, context.dt, impacts_inout, motions_inout, blocks_inout, work_inout)
+    for i in range(found):
+        r = impacts_inout[i]
+        lane = r.lane
+        c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
+        if r.simulated:
+            work_inout[RESTITUTION_ROWS] += int(c[at.TOTAL_1 + lane] > 0.0) + int(c[at.TOTAL_2 + lane] > 0.0)
             continue
-        m = manifolds[r.manifold]
-        restitution = anchors[r.manifold].restitution
-        if restitution <= 0.0:
-            continue
-        a = motions_inout[r.motion_a]
-        b = motions_inout[r.motion_b]
-        nearing = (a.acceleration_x - b.acceleration_x) * r.normal_x
-        nearing += (a.acceleration_y - b.acceleration_y) * r.normal_y
-        speed_1 = speed_of_impact(m.speed_1, m.separation_1, nearing)
-        speed_2 = speed_of_impact(m.speed_2, m.separation_2, nearing) if r.count == 2 else 0.0
-        first = bounces(speed_1, threshold, r.normal_total_1)
-        second = r.count == 2 and bounces(speed_2, threshold, r.normal_total_2)
+        predict_impact(blocks_inout, contacts, motions_inout, r)
+        first = bounces(r.speed_1, threshold, c[at.TOTAL_1 + lane])
+        second = points_of(blocks_inout, r) == 2 and bounces(r.speed_2, threshold, c[at.TOTAL_2 + lane])
         if not (first or second):
             continue
         work_inout[RESTITUTION_ROWS] += int(first) + int(second)
+        a = motions_inout[blocks_inout.motion_a[r.block, lane]]
+        b = motions_inout[blocks_inout.motion_b[r.block, lane]]
+        wanted_1 = c[at.RESTITUTION + lane] * r.speed_1
+        wanted_2 = c[at.RESTITUTION + lane] * r.speed_2
         change_1 = 0.0
         change_2 = 0.0
-        wanted_1 = restitution * speed_1
-        wanted_2 = restitution * speed_2
-        nx = r.normal_x
-        ny = r.normal_y
         if first and second:
-            change_1, change_2 = bounce_together(wanted_1, wanted_2, r, a, b)
+            change_1, change_2 = bounce_together(wanted_1, wanted_2, c, lane, a, b)
         elif first:
-            change_1 = bounce_once(
-                wanted_1, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_total_1, a, b
-            )
+            change_1 = bounce_once(wanted_1, c, lane, False, c[at.TOTAL_1 + lane], a, b)
         else:
-            change_2 = bounce_once(
-                wanted_2, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_total_2, a, b
-            )
+            change_2 = bounce_once(wanted_2, c, lane, True, c[at.TOTAL_2 + lane], a, b)
         # It is no cached force for the next step.
-        r.normal_total_1 += change_1
-        r.normal_total_2 += change_2
+        c[at.TOTAL_1 + lane] += change_1
+        c[at.TOTAL_2 + lane] += change_2

@@ -12,248 +12,261 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, separate, subkernel
 from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
-from physics.solver.constraints import WARM_START, ContactSet
-from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
+from physics.solver import lanes as at
+from physics.solver.contact_lanes import ContactLanes
+from physics.solver.lanes import (
+    SIZE,
+    gather_velocities,
+    lanes_of,
+    make_friction,
+    moment_arms,
+    resist_rolling,
+    scatter_velocities,
+)
+from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_kinematic, run_solver
 from physics.solver.restitution import bounce_once, relative_speed, solve_two
-from physics.solver.step_context import wanted_apart
+from physics.solver.soft_step import WARM_LANES, clear_impulses
+from physics.solver.step_context import context_of, separation_speed
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
-# impulses of a CONSTRAINT row with which the passes of a step start
-IMPULSES = ("normal_impulse_1", "normal_impulse_2", "tangent_impulse_1", "tangent_impulse_2", "rolling_impulse")
 
 
-class Pace(NamedTuple):
+class Passes(NamedTuple):
     """The constants of all passes of a step."""
 
-    passes: int
-    dt: float  # [s]
-    inverse_dt: float
-    inverse_span: float  # [1/s] of a step that is no shorter than those before: a short step separates no faster
-    drag: float  # [1/s]
-    push_speed: float  # [px/s]
+    count: int
+    warm: bool  # they start from the cached impulses
+    bias_rate: float  # [1/s] separation speed per overlap of a loaded contact beyond the slop, …
+    bias_speed: float  # [px/s] … and its bound
+    push_rate: float  # [1/s] the same of an unloaded contact; its bound is the context's push_speed
 
 
-@subkernel
-def push_wanted(separation, inverse_h, slop, rate, push_speed):
-    """Return the separation speed [px/s] of an overlapping point; negative: the speed at which a gap may close."""
-    if separation > 0.0:
-        return -separation * inverse_h
-    return min(rate * max(-separation - slop, 0.0), push_speed)
+@inlined
+def bias_speed(gap, inverse_h, slop, rate, most):
+    """Return the separation speed [px/s] of a loaded point; negative: the speed at which a gap may close."""
+    beyond = -gap - slop
+    speed = rate * (beyond if beyond > 0.0 else 0.0)
+    speed = speed if speed < most else most
+    return -gap * inverse_h if gap > 0.0 else speed
 
 
 def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
-    """Return one pass over the constraints of a world with these effects, with the block solver for two points."""
+    """Return one pass over the lanes of a world with these effects, with the block solver for two points."""
+    friction_1, friction_2 = make_friction(False, rotation, False), make_friction(True, rotation, False)
 
-    @subkernel
+    @separate
     def solve_sequential(
         # read, scalars
-        inverse_h,
-        slow,
-        slop,
-        rate,
+        count,
+        context,
+        passes,
         # write
         motions_inout,
-        constraints_inout,
+        blocks_inout,
     ):
-        """Solve every constraint once, friction first, in the order of the rows. O(constraints).
+        """Solve every lane of so many blocks once, friction first. O(count).
 
-        A loaded contact separates as in push_overlaps, as far as that takes no more than slow [px/s]: in all passes and
-        with warm start, otherwise columns would sag. rate [1/s]: share of the overlap beyond the slop that is removed.
+        A loaded contact separates by the velocities of its bodies: in all passes and with warm start, otherwise columns
+        would sag. context: see StepContext; passes: see Passes.
         """
-        for i in range(len(constraints_inout)):
-            r = constraints_inout[i]
-            a = motions_inout[r.motion_a]
-            b = motions_inout[r.motion_b]
-            nx = r.normal_x
-            ny = r.normal_y
-            masses = a.inverse_mass + b.inverse_mass
-            vx = b.vx - a.vx
-            vy = b.vy - a.vy
-            wa = a.angular_velocity
-            wb = b.angular_velocity
-            x = 0.0
-            y = 0.0
-            if friction and rotation and r.rolling_limit > 0.0:
-                limit = r.rolling_limit * (r.normal_impulse_1 + r.normal_impulse_2)
-                impulse = max(-limit, min(limit, r.rolling_impulse - r.rolling_mass * (wb - wa)))
-                change = impulse - r.rolling_impulse
-                r.rolling_impulse = impulse
-                wa -= a.inverse_inertia * change
-                wb += b.inverse_inertia * change
-            for k in range(r.count if friction and r.friction > 0.0 else 0):
-                ax = r.ax_1 if k == 0 else r.ax_2
-                ay = r.ay_1 if k == 0 else r.ay_2
-                bx = r.bx_1 if k == 0 else r.bx_2
-                by = r.by_1 if k == 0 else r.by_2
-                old = r.tangent_impulse_1 if k == 0 else r.tangent_impulse_2
-                mass = r.tangent_mass_1 if k == 0 else r.tangent_mass_2
-                limit = r.friction * (r.normal_impulse_1 if k == 0 else r.normal_impulse_2)
-                speed = vy * nx - vx * ny - r.surface_speed
+        s = blocks_inout.gathered
+        for block in range(count):
+            c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+            wide = lanes_of(blocks_inout.contact, block)
+            for lane in range(wide):
+                a = motions_inout[blocks_inout.motion_a[block, lane]]
+                b = motions_inout[blocks_inout.motion_b[block, lane]]
+                gather_velocities(a, b, lane, s)
+            for lane in range(wide):
+                nx = c[at.NX + lane]
+                ny = c[at.NY + lane]
+                ii_a = c[at.II_A + lane]
+                ii_b = c[at.II_B + lane]
+                masses = c[at.IM_A + lane] + c[at.IM_B + lane]
+                a_1, b_1, a_2, b_2 = moment_arms(c, lane)
+                old_1 = c[at.NORMAL_1 + lane]
+                old_2 = c[at.NORMAL_2 + lane]
+                wa = s[at.W_A + lane]
+                wb = s[at.W_B + lane]
+                vx = s[at.VX_B + lane] - s[at.VX_A + lane]
+                vy = s[at.VY_B + lane] - s[at.VY_A + lane]
+                x = 0.0
+                y = 0.0
+                if friction:
+                    if rotation:
+                        wa, wb = resist_rolling(lane, wa, wb, old_1 + old_2, c)
+                    x, y, wa, wb = friction_1(lane, vx, vy, wa, wb, old_1, c)
+                    vx += masses * x
+                    vy += masses * y
+                    dx, dy, wa, wb = friction_2(lane, vx, vy, wa, wb, old_2, c)
+                    vx += masses * dx
+                    vy += masses * dy
+                    x += dx
+                    y += dy
+                speed_1 = vx * nx + vy * ny
+                speed_2 = speed_1
                 if rotation:
-                    speed += (wb * bx - wa * ax) * nx - (wa * ay - wb * by) * ny
-                impulse = max(-limit, min(limit, old - mass * speed))
-                px = (old - impulse) * ny
-                py = (impulse - old) * nx
-                x += px
-                y += py
-                vx += masses * px
-                vy += masses * py
+                    speed_1 += wb * b_1 - wa * a_1
+                    speed_2 += wb * b_2 - wa * a_2
+                most = passes.bias_speed * c[at.LOADED + lane]
+                wanted_1 = bias_speed(c[at.GAP_1 + lane], context.inverse_h, context.slop, passes.bias_rate, most)
+                wanted_2 = bias_speed(c[at.GAP_2 + lane], context.inverse_h, context.slop, passes.bias_rate, most)
+                impulse_1, impulse_2 = solve_two(
+                    c[at.MASS_1 + lane] * (wanted_1 - speed_1),
+                    c[at.MASS_2 + lane] * (wanted_2 - speed_2),
+                    c[at.OFF_DIAGONAL_1 + lane],
+                    c[at.OFF_DIAGONAL_2 + lane],
+                    c[at.BLOCK_FACTOR + lane],
+                    old_1,
+                    old_2,
+                )
+                c[at.NORMAL_1 + lane] = impulse_1
+                c[at.NORMAL_2 + lane] = impulse_2
+                change = impulse_1 - old_1 + impulse_2 - old_2
+                x += change * nx
+                y += change * ny
+                s[at.VX_A + lane] -= c[at.IM_A + lane] * x
+                s[at.VY_A + lane] -= c[at.IM_A + lane] * y
+                s[at.VX_B + lane] += c[at.IM_B + lane] * x
+                s[at.VY_B + lane] += c[at.IM_B + lane] * y
                 if rotation:
-                    wa -= a.inverse_inertia * (ax * py - ay * px)
-                    wb += b.inverse_inertia * (bx * py - by * px)
-                if k == 0:
-                    r.tangent_impulse_1 = impulse
-                else:
-                    r.tangent_impulse_2 = impulse
-            speed_1 = vx * nx + vy * ny
-            speed_2 = speed_1
-            if rotation:
-                speed_1 += (wa * r.ay_1 - wb * r.by_1) * nx + (wb * r.bx_1 - wa * r.ax_1) * ny
-                speed_2 += (wa * r.ay_2 - wb * r.by_2) * nx + (wb * r.bx_2 - wa * r.ax_2) * ny
-            core = r.radius_a + r.radius_b
-            gap = core + r.base_1 + (r.bx_1 - r.ax_1) * nx + (r.by_1 - r.ay_1) * ny
-            most = slow if r.loaded else 0.0
-            wanted_1 = push_wanted(gap, inverse_h, slop, rate, most) - speed_1
-            old_1 = r.normal_impulse_1
-            old_2 = r.normal_impulse_2
-            if r.count == 1:
-                impulse_1 = max(old_1 + r.normal_mass_1 * wanted_1, 0.0)
-                impulse_2 = old_2
-            else:
-                gap = core + r.base_2 + (r.bx_2 - r.ax_2) * nx + (r.by_2 - r.ay_2) * ny
-                wanted_2 = push_wanted(gap, inverse_h, slop, rate, most) - speed_2
-                change_1 = r.normal_mass_1 * wanted_1
-                change_2 = r.normal_mass_2 * wanted_2
-                impulse_1, impulse_2 = solve_two(change_1, change_2, r.couple_1, r.couple_2, r.split, old_1, old_2)
-            r.normal_impulse_1 = impulse_1
-            r.normal_impulse_2 = impulse_2
-            if r.rests or impulse_1 + impulse_2 > 0.0:
-                a.pressed = True
-                b.pressed = True
-            change = impulse_1 - old_1 + impulse_2 - old_2
-            x += change * nx
-            y += change * ny
-            if rotation:
-                wa -= a.inverse_inertia * (
-                    (impulse_1 - old_1) * (r.ax_1 * ny - r.ay_1 * nx)
-                    + (impulse_2 - old_2) * (r.ax_2 * ny - r.ay_2 * nx)
-                )
-                wb += b.inverse_inertia * (
-                    (impulse_1 - old_1) * (r.bx_1 * ny - r.by_1 * nx)
-                    + (impulse_2 - old_2) * (r.bx_2 * ny - r.by_2 * nx)
-                )
-            a.vx -= a.inverse_mass * x
-            a.vy -= a.inverse_mass * y
-            b.vx += b.inverse_mass * x
-            b.vy += b.inverse_mass * y
-            if rotation:
-                a.angular_velocity = wa
-                b.angular_velocity = wb
+                    s[at.W_A + lane] = wa - ii_a * ((impulse_1 - old_1) * a_1 + (impulse_2 - old_2) * a_2)
+                    s[at.W_B + lane] = wb + ii_b * ((impulse_1 - old_1) * b_1 + (impulse_2 - old_2) * b_2)
+                s[at.OUTCOME + lane] = c[at.RESTING + lane] + impulse_1 + impulse_2
+            for lane in range(wide):
+                a = motions_inout[blocks_inout.motion_a[block, lane]]
+                b = motions_inout[blocks_inout.motion_b[block, lane]]
+                if s[at.OUTCOME + lane] > 0.0:
+                    a.in_contact = True
+                    b.in_contact = True
+                scatter_velocities(s, lane, a, b)
 
     return solve_sequential
 
 
-def make_push_pass(rotation: bool) -> Callable:
-    """Return one pass of push-out over the constraints of a world with this effect."""
+def make_push_point(second: bool, rotation: bool) -> Callable:
+    """Return the push-out at one point of a lane in a world with this effect."""
+    gap_line, push_line = (at.GAP_2, at.PUSH_2) if second else (at.GAP_1, at.PUSH_1)
+    mass_line = at.MASS_2 if second else at.MASS_1
 
-    @subkernel
+    @inlined
+    def push_point(lane, a_arm, b_arm, context, rate, s_inout, c_inout):
+        """Change the pseudo-velocities of a lane such that one point of an unloaded contact separates.
+
+        a_arm, b_arm [px]: moment arms of the normal impulse. rate [1/s]: see separation_speed.
+        """
+        c = c_inout
+        s = s_inout
+        nx = c[at.NX + lane]
+        ny = c[at.NY + lane]
+        old = c[push_line + lane]
+        pushed = (s[at.PUSH_VX_B + lane] - s[at.PUSH_VX_A + lane]) * nx
+        pushed += (s[at.PUSH_VY_B + lane] - s[at.PUSH_VY_A + lane]) * ny
+        speed = (s[at.VX_B + lane] - s[at.VX_A + lane]) * nx + (s[at.VY_B + lane] - s[at.VY_A + lane]) * ny
+        if rotation:
+            pushed += s[at.PUSH_W_B + lane] * b_arm - s[at.PUSH_W_A + lane] * a_arm
+            speed += s[at.W_B + lane] * b_arm - s[at.W_A + lane] * a_arm
+        wanted = separation_speed(c[gap_line + lane], context.inverse_h, context.slop, rate, context.push_speed)
+        impulse = old + c[mass_line + lane] * (wanted - speed - pushed)
+        impulse = impulse if impulse > 0.0 else 0.0
+        # A point that needs no push-out, and got none, is left to the contact's own impulses.
+        idle = (c[at.LOADED + lane] > 0.0) | ((old == 0.0) & (pushed >= 0.0) & (wanted <= 0.0))
+        impulse = old if idle else impulse
+        c[push_line + lane] = impulse
+        change = impulse - old
+        s[at.PUSH_VX_A + lane] -= c[at.IM_A + lane] * change * nx
+        s[at.PUSH_VY_A + lane] -= c[at.IM_A + lane] * change * ny
+        s[at.PUSH_VX_B + lane] += c[at.IM_B + lane] * change * nx
+        s[at.PUSH_VY_B + lane] += c[at.IM_B + lane] * change * ny
+        if rotation:
+            s[at.PUSH_W_A + lane] -= c[at.II_A + lane] * change * a_arm
+            s[at.PUSH_W_B + lane] += c[at.II_B + lane] * change * b_arm
+
+    return push_point
+
+
+def make_push_pass(rotation: bool) -> Callable:
+    """Return one pass of push-out over the lanes of a world with this effect."""
+    push_first, push_second = make_push_point(False, rotation), make_push_point(True, rotation)
+
+    @separate
     def push_overlaps(
         # read, scalars
-        inverse_h,
-        push_speed,
-        slop,
+        count,
+        context,
         rate,
         # write
         motions_inout,
-        constraints_inout,
+        blocks_inout,
     ):
-        """Give the bodies pseudo-velocities that separate unloaded contacts, in the order of the rows. O(constraints).
+        """Give the bodies pseudo-velocities that separate unloaded contacts, of so many blocks. O(count).
 
-        slop [px], rate [1/s], push_speed [px/s]: see wanted_apart. The impulses of these velocities accumulate apart
-        from those of the contacts.
+        rate [1/s]: see separation_speed. The impulses of these velocities accumulate apart from those of the contacts.
         """
-        for i in range(len(constraints_inout)):
-            r = constraints_inout[i]
-            a = motions_inout[r.motion_a]
-            b = motions_inout[r.motion_b]
-            nx = r.normal_x
-            ny = r.normal_y
-            if r.loaded:
-                continue
-            core = r.radius_a + r.radius_b
-            for k in range(r.count):
-                ax = r.ax_1 if k == 0 else r.ax_2
-                ay = r.ay_1 if k == 0 else r.ay_2
-                bx = r.bx_1 if k == 0 else r.bx_2
-                by = r.by_1 if k == 0 else r.by_2
-                gap = core + (r.base_1 if k == 0 else r.base_2) + (bx - ax) * nx + (by - ay) * ny
-                old = r.push_impulse_1 if k == 0 else r.push_impulse_2
-                a_arm = ax * ny - ay * nx
-                b_arm = bx * ny - by * nx
-                pushed = (b.push_vx - a.push_vx) * nx + (b.push_vy - a.push_vy) * ny
-                if rotation:
-                    pushed += b.push_w * b_arm - a.push_w * a_arm
-                wanted = wanted_apart(gap, inverse_h, slop, rate, push_speed)
-                if old == 0.0 and pushed >= 0.0 and wanted <= 0.0:
-                    continue
-                speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
-                if rotation:
-                    speed += b.angular_velocity * b_arm - a.angular_velocity * a_arm
-                mass = r.normal_mass_1 if k == 0 else r.normal_mass_2
-                impulse = max(old + mass * (wanted - speed - pushed), 0.0)
-                change = impulse - old
-                if k == 0:
-                    r.push_impulse_1 = impulse
-                else:
-                    r.push_impulse_2 = impulse
-                a.push_vx -= a.inverse_mass * change * nx
-                a.push_vy -= a.inverse_mass * change * ny
-                b.push_vx += b.inverse_mass * change * nx
-                b.push_vy += b.inverse_mass * change * ny
-                if rotation:
-                    a.push_w -= a.inverse_inertia * change * a_arm
-                    b.push_w += b.inverse_inertia * change * b_arm
+        s = blocks_inout.gathered
+        for block in range(count):
+            c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+            wide = lanes_of(blocks_inout.contact, block)
+            for lane in range(wide):
+                a = motions_inout[blocks_inout.motion_a[block, lane]]
+                b = motions_inout[blocks_inout.motion_b[block, lane]]
+                gather_velocities(a, b, lane, s)
+                s[at.PUSH_VX_A + lane] = a.pseudo_vx
+                s[at.PUSH_VY_A + lane] = a.pseudo_vy
+                s[at.PUSH_W_A + lane] = a.pseudo_w
+                s[at.PUSH_VX_B + lane] = b.pseudo_vx
+                s[at.PUSH_VY_B + lane] = b.pseudo_vy
+                s[at.PUSH_W_B + lane] = b.pseudo_w
+            for lane in range(wide):
+                a_1, b_1, a_2, b_2 = moment_arms(c, lane)
+                push_first(lane, a_1, b_1, context, rate, s, c)
+                push_second(lane, a_2, b_2, context, rate, s, c)
+            for lane in range(wide):
+                a = motions_inout[blocks_inout.motion_a[block, lane]]
+                b = motions_inout[blocks_inout.motion_b[block, lane]]
+                a.pseudo_vx = s[at.PUSH_VX_A + lane]
+                a.pseudo_vy = s[at.PUSH_VY_A + lane]
+                a.pseudo_w = s[at.PUSH_W_A + lane]
+                b.pseudo_vx = s[at.PUSH_VX_B + lane]
+                b.pseudo_vy = s[at.PUSH_VY_B + lane]
+                b.pseudo_w = s[at.PUSH_W_B + lane]
 
     return push_overlaps
 
 
 @subkernel
-def stop_met(constraints_inout, motions_inout):
-    """Remove from contacts that met in this step the speed with which they closed their gaps. O(constraints).
+def stop_impacts(count, motions_inout, blocks_inout):
+    """Remove from contacts that met in this step the speed with which they closed their gaps. O(lanes).
 
     Otherwise they would meet again in the next step. Slow approaches are left out: the passes leave some speed in
     loaded stacks, which the next step removes.
     """
-    for i in range(len(constraints_inout)):
-        r = constraints_inout[i]
-        if not r.meets:
-            continue
-        a = motions_inout[r.motion_a]
-        b = motions_inout[r.motion_b]
-        nx = r.normal_x
-        ny = r.normal_y
-        if r.normal_impulse_1 > 0.0 and relative_speed(a, b, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1) < 0.0:
-            r.normal_impulse_1 += bounce_once(
-                0.0, nx, ny, r.ax_1, r.ay_1, r.bx_1, r.by_1, r.normal_mass_1, r.normal_impulse_1, a, b
-            )
-        if r.normal_impulse_2 > 0.0 and relative_speed(a, b, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2) < 0.0:
-            r.normal_impulse_2 += bounce_once(
-                0.0, nx, ny, r.ax_2, r.ay_2, r.bx_2, r.by_2, r.normal_mass_2, r.normal_impulse_2, a, b
-            )
+    for block in range(count):
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks_inout.contact, block)):
+            if c[at.BOUNCING + lane] == 0.0:
+                continue
+            a = motions_inout[blocks_inout.motion_a[block, lane]]
+            b = motions_inout[blocks_inout.motion_b[block, lane]]
+            for point in range(2):
+                line = (at.NORMAL_1 if point == 0 else at.NORMAL_2) + lane
+                if c[line] > 0.0 and relative_speed(c, lane, point == 1, a, b) < 0.0:
+                    c[line] += bounce_once(0.0, c, lane, point == 1, c[line], a, b)
 
 
 @subkernel
-def sum_up(constraints_inout):
-    """Copy the impulses of the one substep to those of the step. O(constraints)."""
-    for i in range(len(constraints_inout)):
-        r = constraints_inout[i]
-        r.normal_total_1 = r.normal_impulse_1
-        r.tangent_total_1 = r.tangent_impulse_1
-        r.normal_total_2 = r.normal_impulse_2
-        r.tangent_total_2 = r.tangent_impulse_2
+def sum_up(count, blocks_inout):
+    """Copy the impulses of the one substep to those of the step, of so many blocks. O(lanes)."""
+    for block in range(count):
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks_inout.contact, block)):
+            c[at.TOTAL_1 + lane] = c[at.NORMAL_1 + lane]
+            c[at.TOTAL_2 + lane] = c[at.NORMAL_2 + lane]
+            c[at.TANGENT_TOTAL_1 + lane] = c[at.TANGENT_1 + lane]
+            c[at.TANGENT_TOTAL_2 + lane] = c[at.TANGENT_2 + lane]
 
 
 SOLVE = {(r, f): make_sequential_pass(rotation=r, friction=f) for r in BOTH for f in BOTH}
@@ -263,36 +276,41 @@ PUSH_OUT = {r: make_push_pass(rotation=r) for r in BOTH}
 def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
     """Return all passes of a step in a world with these effects."""
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
-    warm_start, solve_all, push_out = WARM_START[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
+    warm_start, solve_all, push_out = WARM_LANES[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
 
     @kernel
     def run_passes(
         # read
         members,
-        driven,
-        pace,
-        slow,
-        slop,
+        kinematic,
+        count,
+        context,
+        passes,
         # write
         motions_inout,
-        constraints_inout,
+        blocks_inout,
     ):
-        """Advance island bodies and kinematic ones, rows of MOTION, by a step under the constraints. pace: see Pace.
+        """Advance island bodies and kinematic ones, rows of MOTION, by a step under so many blocks of constraints.
 
-        O(members + passes · constraints).
+        context: see StepContext; passes: see Passes. O(members + passes · constraints).
         """
-        velocities(members, pace.dt, pace.drag, motions_inout)
-        warm_start(constraints_inout, motions_inout)
-        for _ in range(pace.passes):
-            solve_all(pace.inverse_dt, slow, slop, BAUMGARTE * pace.inverse_span, motions_inout, constraints_inout)
+        if not passes.warm:
+            clear_impulses(members, count, motions_inout, blocks_inout)
+        velocities(members, context.h, context.drag, motions_inout)
+        warm_start(count, motions_inout, blocks_inout)
+        for _ in range(passes.count):
+            solve_all(count, context, passes, motions_inout, blocks_inout)
+        for block in range(count):
+            c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+            for lane in range(lanes_of(blocks_inout.contact, block)):
+                c[at.PUSH_1 + lane] = 0.0
+                c[at.PUSH_2 + lane] = 0.0
         for _ in range(PUSH_PASSES):
-            push_out(
-                pace.inverse_dt, pace.push_speed, slop, PUSH_SHARE * pace.inverse_span, motions_inout, constraints_inout
-            )
-        positions(members, pace.dt, pace.push_speed, motions_inout)
-        move_driven(driven, pace.dt, motions_inout)
-        stop_met(constraints_inout, motions_inout)
-        sum_up(constraints_inout)
+            push_out(count, context, passes.push_rate, motions_inout, blocks_inout)
+        positions(members, context.h, context.push_speed, motions_inout)
+        move_kinematic(kinematic, context.h, motions_inout)
+        stop_impacts(count, motions_inout, blocks_inout)
+        sum_up(count, blocks_inout)
 
     return run_passes
 
@@ -300,29 +318,31 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
 PASSES = {(d, r, f): make_passes(drag=d, rotation=r, friction=f) for d in BOTH for r in BOTH for f in BOTH}
 
 
-def solve(state: StepState, contacts: ContactSet, passes: int | None = None, warm: bool = True) -> float:
+def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, warm: bool = True) -> float:
     """Advance the motions by a step under the contacts. Return the step [s] to which the impulses belong.
 
     For measurements (studied_solvers.py): passes, None for those of the substeps; warm: whether they start from the
     cached impulses.
     """
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
-    # A loaded contact separates by the velocities of its bodies, by as much at a time.
-    slow = BAUMGARTE / state.span * tolerances.speculative
     run = PASSES[effects.drag, effects.rotation, effects.friction]
+    context = context_of(1, False, dt, state.span, state.drag, tolerances)
+    bias_rate = BAUMGARTE / state.span  # a step shorter than those before separates no faster
     for group in contacts.choose(state, motions, state.substeps or AUTO_SUBSTEPS[0]):
-        rows = contacts.prepare(state, motions, group, dt)
-        if not warm:
-            for name in IMPULSES:
-                rows[name] = 0.0
-        count = passes or math.ceil(ITERATIONS_PER_SUBSTEP * group.substeps)
-        pace = Pace(count, dt, 1.0 / dt, 1.0 / state.span, state.drag, tolerances.push_speed)
-        run(group.members, motions.driven, pace, slow, tolerances.slop, motions.used, rows)
-        contacts.store(state, motions, rows, dt)
+        blocks, count = contacts.prepare(state, motions, group, context)
+        settings = Passes(
+            count=passes or math.ceil(ITERATIONS_PER_SUBSTEP * group.substeps),
+            warm=warm,
+            bias_rate=bias_rate,
+            bias_speed=bias_rate * tolerances.speculative,
+            push_rate=PUSH_SHARE / state.span,
+        )
+        run(group.members, motions.kinematic, count, context, settings, motions.used, blocks)
+        contacts.store(state, motions, count, context)
     return dt
 
 
 @stage("sequential_impulse", reads=READS, writes=WRITES)
 def sequential_impulse(state: StepState) -> None:
     """Solve the contacts and move the bodies of a world that stacks."""
-    push_piles(state, solve)
+    run_solver(state, solve)

@@ -5,23 +5,24 @@ from collections.abc import Callable, Mapping
 from physics.jit import inlined, kernel, separate, subkernel
 from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
-from physics.solver.constraints import ContactSet
-from physics.solver.contact_lanes import prepare, store
+from physics.solver.contact_lanes import ContactLanes
 from physics.solver.lanes import (
-    FREE,
-    PRESSED,
+    IN_CONTACT,
     SIZE,
+    UNLOADED,
     gather_poses,
-    gather_speeds,
+    gather_velocities,
     lanes_of,
-    levers_of,
+    make_friction,
     measure_gaps,
-    scatter_speeds,
+    moment_arms,
+    resist_rolling,
+    scatter_velocities,
 )
-from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_driven, push_piles
+from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_kinematic, run_solver
 from physics.solver.restitution import solve_two
-from physics.solver.step_context import pace_of, wanted_apart
-from physics.solver.substeps import ask_for_substeps
+from physics.solver.step_context import context_of, separation_speed
+from physics.solver.substeps import estimate_substeps
 from physics.tables.step_state import StepState, stage
 
 # ---- soft pass -------------------------------------------------------------------------------------------------------
@@ -34,7 +35,7 @@ BOTH = (False, True)
 
 
 @subkernel
-def let_out_both(c, lane, pace, rotation, a_inout, b_inout):
+def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
     """Separate two bodies at the points of an unloaded lane, by pseudo-velocities.
 
     a_inout, b_inout: MOTION rows, with the velocities of the lane's solution.
@@ -43,7 +44,7 @@ def let_out_both(c, lane, pace, rotation, a_inout, b_inout):
     ny = c[at.NY + lane]
     a = a_inout
     b = b_inout
-    a_1, b_1, a_2, b_2 = levers_of(c, lane)
+    a_1, b_1, a_2, b_2 = moment_arms(c, lane)
     speed_1 = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
     speed_2 = speed_1
     k_12 = c[at.IM_A + lane] + c[at.IM_B + lane]
@@ -51,101 +52,62 @@ def let_out_both(c, lane, pace, rotation, a_inout, b_inout):
         speed_1 += b.angular_velocity * b_1 - a.angular_velocity * a_1
         speed_2 += b.angular_velocity * b_2 - a.angular_velocity * a_2
         k_12 += c[at.II_A + lane] * a_1 * a_2 + c[at.II_B + lane] * b_1 * b_2
-    pushed = (b.push_vx - a.push_vx) * nx + (b.push_vy - a.push_vy) * ny
+    pushed = (b.pseudo_vx - a.pseudo_vx) * nx + (b.pseudo_vy - a.pseudo_vy) * ny
     total = speed_1 + pushed
     if rotation:
-        total += b.push_w * b_1 - a.push_w * a_1
-    wanted = wanted_apart(c[at.GAP_1 + lane], pace.inverse_h, pace.slop, pace.push_rate, pace.push_speed)
+        total += b.pseudo_w * b_1 - a.pseudo_w * a_1
+    wanted = separation_speed(
+        c[at.GAP_1 + lane], context.inverse_h, context.slop, context.push_rate, context.push_speed
+    )
     push_1 = max(c[at.MASS_1 + lane] * (wanted - total), 0.0)
     total = speed_2 + pushed + k_12 * push_1
     if rotation:
-        total += b.push_w * b_2 - a.push_w * a_2
-    wanted = wanted_apart(c[at.GAP_2 + lane], pace.inverse_h, pace.slop, pace.push_rate, pace.push_speed)
+        total += b.pseudo_w * b_2 - a.pseudo_w * a_2
+    wanted = separation_speed(
+        c[at.GAP_2 + lane], context.inverse_h, context.slop, context.push_rate, context.push_speed
+    )
     push_2 = max(c[at.MASS_2 + lane] * (wanted - total), 0.0)
     if push_1 + push_2 > 0.0:
         x = (push_1 + push_2) * nx
         y = (push_1 + push_2) * ny
-        a_inout.push_vx -= a.inverse_mass * x
-        a_inout.push_vy -= a.inverse_mass * y
-        b_inout.push_vx += b.inverse_mass * x
-        b_inout.push_vy += b.inverse_mass * y
+        a_inout.pseudo_vx -= a.inverse_mass * x
+        a_inout.pseudo_vy -= a.inverse_mass * y
+        b_inout.pseudo_vx += b.inverse_mass * x
+        b_inout.pseudo_vy += b.inverse_mass * y
         if rotation:
-            a_inout.push_w -= a.inverse_inertia * (push_1 * a_1 + push_2 * a_2)
-            b_inout.push_w += b.inverse_inertia * (push_1 * b_1 + push_2 * b_2)
+            a_inout.pseudo_w -= a.inverse_inertia * (push_1 * a_1 + push_2 * a_2)
+            b_inout.pseudo_w += b.inverse_inertia * (push_1 * b_1 + push_2 * b_2)
 
 
 @inlined
-def stopping(speed, gap, mass, inverse_h):
+def rigid_change(speed, gap, mass, inverse_h):
     """Return the change of an impulse that stops an approach; across a gap, that closes it exactly in this substep."""
     return -mass * (speed + gap * inverse_h if gap > 0.0 else speed)
 
 
 @inlined
-def springing(speed, gap, mass, old, bias_rate, give, most):
+def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
     """Return the change of an impulse of a soft contact without a dead zone.
 
-    It separates at `most` [px/s] at most. bias_rate, give: see Softness.
+    It separates at `most` [px/s] at most. bias_rate, impulse_scale: see Softness.
     """
-    grip = 1.0 - give
+    grip = 1.0 - impulse_scale
     bias = grip * bias_rate * gap
     bias = -most if bias < -most else bias
-    return -mass * (grip * speed + bias) - give * old
+    return -mass * (grip * speed + bias) - impulse_scale * old
 
 
 @inlined
-def most_of(c, lane, gap_1, gap_2, pace):
+def greatest_separation_speed(c, lane, gap_1, gap_2, context):
     """Return the greatest separation speed [px/s] of a lane.
 
     With many substeps a deep overlap separates as slowly as with the fewest; a shallow one may carry a load.
     """
-    most = pace.push_speed * abs(c[at.SHARE + lane])
+    most = context.push_speed * abs(c[at.PUSH_OUT_SHARE + lane])
     deep = -gap_2 if gap_2 < gap_1 else -gap_1
-    slow = pace.deep_rate * deep
-    slow = slow if slow > pace.shallow_speed else pace.shallow_speed
-    return slow if (pace.deep_rate > 0.0) & (slow < most) else most
-
-
-@inlined
-def within(impulse, limit):
-    """Return an impulse clamped to ± limit."""
-    impulse = impulse if impulse < limit else limit
-    return impulse if impulse > -limit else -limit
-
-
-def make_rub(second: bool, rotation: bool) -> Callable:
-    """Return the friction at one point of a lane, in a world with this effect."""
-    ax_line, ay_line, bx_line, by_line = (
-        (at.AX_2, at.AY_2, at.BX_2, at.BY_2) if second else (at.AX_1, at.AY_1, at.BX_1, at.BY_1)
-    )
-    mass_line, impulse_line = (at.TANGENT_MASS_2, at.TANGENT_2) if second else (at.TANGENT_MASS_1, at.TANGENT_1)
-    total_line = at.TANGENT_TOTAL_2 if second else at.TANGENT_TOTAL_1
-
-    @inlined
-    def rub(lane, vx, vy, wa, wb, normal_impulse, c_inout):
-        """Apply friction under a normal impulse. Return the impulse x, y on B, and the angular velocities after it.
-
-        vx, vy [px/s]: velocity of B's centre relative to A's. wa, wb [1/s]: angular velocities.
-        """
-        c = c_inout
-        nx = c[at.NX + lane]
-        ny = c[at.NY + lane]
-        ax = c[ax_line + lane]
-        ay = c[ay_line + lane]
-        bx = c[bx_line + lane]
-        by = c[by_line + lane]
-        old = c[impulse_line + lane]
-        speed = (vx + (wa * ay - wb * by)) * -ny + (vy + (wb * bx - wa * ax)) * nx - c[at.SURFACE + lane]
-        impulse = within(old - c[mass_line + lane] * speed, c[at.FRICTION + lane] * normal_impulse)
-        c[impulse_line + lane] = impulse
-        c[total_line + lane] += impulse
-        x = (impulse - old) * -ny
-        y = (impulse - old) * nx
-        if rotation:
-            wa -= c[at.II_A + lane] * (ax * y - ay * x)
-            wb += c[at.II_B + lane] * (bx * y - by * x)
-        return x, y, wa, wb
-
-    return rub
+    slow = context.deep_rate * deep
+    slow = slow if slow > context.shallow_speed else context.shallow_speed
+    return slow if (context.deep_rate > 0.0) & (slow < most) else most
 
 
 def make_warm_lanes(rotation: bool) -> Callable:
@@ -163,9 +125,9 @@ def make_warm_lanes(rotation: bool) -> Callable:
         s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-            wide = lanes_of(blocks_inout.manifold, block)
+            wide = lanes_of(blocks_inout.contact, block)
             for lane in range(wide):
-                gather_speeds(
+                gather_velocities(
                     motions_inout[blocks_inout.motion_a[block, lane]],
                     motions_inout[blocks_inout.motion_b[block, lane]],
                     lane,
@@ -190,7 +152,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
                 s[at.VX_B + lane] += c[at.IM_B + lane] * (x + u)
                 s[at.VY_B + lane] += c[at.IM_B + lane] * (y + v)
             for lane in range(wide):
-                scatter_speeds(
+                scatter_velocities(
                     s,
                     lane,
                     motions_inout[blocks_inout.motion_a[block, lane]],
@@ -201,7 +163,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
 
 
 @subkernel
-def forget_impulses(members, count, motions_inout, blocks_inout):
+def clear_impulses(members, count, motions_inout, blocks_inout):
     """Start a substep without impulses, to measure the worth of warm starting. O(members + count)."""
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -210,7 +172,7 @@ def forget_impulses(members, count, motions_inout, blocks_inout):
         m.free_w = m.angular_velocity
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-        wide = lanes_of(blocks_inout.manifold, block)
+        wide = lanes_of(blocks_inout.contact, block)
         for lane in range(wide):
             c[at.NORMAL_1 + lane] = 0.0
             c[at.TANGENT_1 + lane] = 0.0
@@ -226,27 +188,27 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
     """
     last = alone or not biased
     rubs = friction and last
-    rub_1, rub_2 = make_rub(False, rotation), make_rub(True, rotation)
+    friction_1, friction_2 = make_friction(False, rotation, True), make_friction(True, rotation, True)
 
     @separate
     def solve_soft(
         # read, scalars
         count,
-        pace,
+        context,
         # write
         motions_inout,
         blocks_inout,
     ):
-        """Solve every lane of so many blocks once. pace: see Pace. O(count)."""
-        calm_speed = CALM_SHARE * pace.push_speed
+        """Solve every lane of so many blocks once. context: see StepContext. O(count)."""
+        calm_speed = CALM_SHARE * context.push_speed
         s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-            wide = lanes_of(blocks_inout.manifold, block)
+            wide = lanes_of(blocks_inout.contact, block)
             for lane in range(wide):
                 a = motions_inout[blocks_inout.motion_a[block, lane]]
                 b = motions_inout[blocks_inout.motion_b[block, lane]]
-                gather_speeds(a, b, lane, s)
+                gather_velocities(a, b, lane, s)
                 if last:
                     gather_poses(a, b, lane, s)
             for lane in range(wide):
@@ -255,7 +217,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 ii_a = c[at.II_A + lane]
                 ii_b = c[at.II_B + lane]
                 masses = c[at.IM_A + lane] + c[at.IM_B + lane]
-                a_1, b_1, a_2, b_2 = levers_of(c, lane)
+                a_1, b_1, a_2, b_2 = moment_arms(c, lane)
                 if last:
                     measure_gaps(lane, s, c)
                 gap_1 = c[at.GAP_1 + lane]
@@ -273,42 +235,50 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 old_2 = c[at.NORMAL_2 + lane]
                 mass_1 = c[at.MASS_1 + lane]
                 mass_2 = c[at.MASS_2 + lane]
-                change_1 = stopping(speed_1, gap_1, mass_1, pace.inverse_h)
-                change_2 = stopping(speed_2, gap_2, mass_2, pace.inverse_h)
-                free = False
+                change_1 = rigid_change(speed_1, gap_1, mass_1, context.inverse_h)
+                change_2 = rigid_change(speed_2, gap_2, mass_2, context.inverse_h)
+                unloaded = False
                 if biased:
                     # A soft contact would let a fast impact through, so a new contact is rigid first and soft
                     # afterwards.
-                    bears = (old_1 > calm_speed * mass_1) | (old_2 > calm_speed * mass_2)
-                    calm = (speed_1 >= -calm_speed) & (speed_2 >= -calm_speed)
+                    loaded = (old_1 > calm_speed * mass_1) | (old_2 > calm_speed * mass_2)
+                    not_approaching = (speed_1 >= -calm_speed) & (speed_2 >= -calm_speed)
                     rate = c[at.BIAS_RATE + lane]
-                    give = c[at.GIVE + lane]
+                    impulse_scale = c[at.IMPULSE_SCALE + lane]
                     # An impact impulse that is kept whole from substep to substep returns as a bounce.
-                    give = give + BLOW_GIVE if old_1 + old_2 > c[at.BLOW + lane] else give
-                    most = most_of(c, lane, gap_1, gap_2, pace)
-                    soft_1 = springing(speed_1, gap_1, mass_1, old_1, rate, give, most)
-                    soft_2 = springing(speed_2, gap_2, mass_2, old_2, rate, give, most)
-                    change_1 = soft_1 if (calm | bears) & (gap_1 <= 0.0) else change_1
-                    change_2 = soft_2 if (calm | bears) & (gap_2 <= 0.0) else change_2
+                    impulse_scale = (
+                        impulse_scale + BLOW_GIVE if old_1 + old_2 > c[at.STRIKE_LIMIT + lane] else impulse_scale
+                    )
+                    most = greatest_separation_speed(c, lane, gap_1, gap_2, context)
+                    soft_1 = soft_change(speed_1, gap_1, mass_1, old_1, rate, impulse_scale, most)
+                    soft_2 = soft_change(speed_2, gap_2, mass_2, old_2, rate, impulse_scale, most)
+                    change_1 = soft_1 if (not_approaching | loaded) & (gap_1 <= 0.0) else change_1
+                    change_2 = soft_2 if (not_approaching | loaded) & (gap_2 <= 0.0) else change_2
                     # An unloaded contact that is not new separates by pseudo-velocity, and gains no velocity.
-                    free = calm & (not bears) & (c[at.SHARE + lane] < 0.0)
+                    unloaded = not_approaching & (not loaded) & (c[at.PUSH_OUT_SHARE + lane] < 0.0)
                 else:
                     # A gap that closes is the task of the next substep.
-                    borne = old_1 + old_2 + c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane]
-                    apart = (gap_1 > 0.0) & (gap_2 > 0.0) & (borne == 0.0)
+                    carried = old_1 + old_2 + c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane]
+                    apart = (gap_1 > 0.0) & (gap_2 > 0.0) & (carried == 0.0)
                     change_1 = 0.0 if apart else change_1
                     change_2 = 0.0 if apart else change_2
                 # Both points together, otherwise the first would rotate the body, and a box on its base would lean.
                 impulse_1, impulse_2 = solve_two(
-                    change_1, change_2, c[at.COUPLE_1 + lane], c[at.COUPLE_2 + lane], c[at.SPLIT + lane], old_1, old_2
+                    change_1,
+                    change_2,
+                    c[at.OFF_DIAGONAL_1 + lane],
+                    c[at.OFF_DIAGONAL_2 + lane],
+                    c[at.BLOCK_FACTOR + lane],
+                    old_1,
+                    old_2,
                 )
-                impulse_1 = 0.0 if free else impulse_1
-                impulse_2 = 0.0 if free else impulse_2
+                impulse_1 = 0.0 if unloaded else impulse_1
+                impulse_2 = 0.0 if unloaded else impulse_2
                 c[at.NORMAL_1 + lane] = impulse_1
                 c[at.NORMAL_2 + lane] = impulse_2
                 if biased:
-                    presses = (c[at.RESTS + lane] > 0.0) | (impulse_1 + impulse_2 > 0.0)
-                    s[at.OUTCOME + lane] = (PRESSED if presses else 0.0) + (FREE if free else 0.0)
+                    in_contact = (c[at.RESTING + lane] > 0.0) | (impulse_1 + impulse_2 > 0.0)
+                    s[at.OUTCOME + lane] = (IN_CONTACT if in_contact else 0.0) + (UNLOADED if unloaded else 0.0)
                 if last:
                     c[at.TOTAL_1 + lane] += impulse_1
                     c[at.TOTAL_2 + lane] += impulse_2
@@ -323,16 +293,11 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 # After the normal impulses: relaxing has removed the excess of the bias, which is no pressure.
                 if rubs:
                     if rotation:
-                        old = c[at.ROLLING + lane]
-                        limit = c[at.ROLLING_LIMIT + lane] * (impulse_1 + impulse_2)
-                        impulse = within(old - c[at.ROLLING_MASS + lane] * (wb - wa), limit)
-                        c[at.ROLLING + lane] = impulse
-                        wa -= ii_a * (impulse - old)
-                        wb += ii_b * (impulse - old)
-                    dx, dy, wa, wb = rub_1(lane, vx, vy, wa, wb, impulse_1, c)
+                        wa, wb = resist_rolling(lane, wa, wb, impulse_1 + impulse_2, c)
+                    dx, dy, wa, wb = friction_1(lane, vx, vy, wa, wb, impulse_1, c)
                     vx += masses * dx
                     vy += masses * dy
-                    dx_2, dy_2, wa, wb = rub_2(lane, vx, vy, wa, wb, impulse_2, c)
+                    dx_2, dy_2, wa, wb = friction_2(lane, vx, vy, wa, wb, impulse_2, c)
                     x = x + dx + dx_2
                     y = y + dy + dy_2
                 s[at.VX_A + lane] -= c[at.IM_A + lane] * x
@@ -346,12 +311,12 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 a = motions_inout[blocks_inout.motion_a[block, lane]]
                 b = motions_inout[blocks_inout.motion_b[block, lane]]
                 if biased and s[at.OUTCOME + lane] > 0.0:
-                    if s[at.OUTCOME + lane] >= FREE:
-                        let_out_both(c, lane, pace, rotation, a, b)
-                    if s[at.OUTCOME + lane] != FREE:
-                        a.pressed = True
-                        b.pressed = True
-                scatter_speeds(s, lane, a, b)
+                    if s[at.OUTCOME + lane] >= UNLOADED:
+                        push_out_unloaded(c, lane, context, rotation, a, b)
+                    if s[at.OUTCOME + lane] != UNLOADED:
+                        a.in_contact = True
+                        b.in_contact = True
+                scatter_velocities(s, lane, a, b)
 
     return solve_soft
 
@@ -388,32 +353,32 @@ def make_substeps(
     def run_substeps(
         # read
         members,
-        driven,
+        kinematic,
         count,
-        pace,
+        context,
         # write
         motions_inout,
         blocks_inout,
     ):
         """Advance island bodies by substeps under so many blocks of constraints, and kinematic bodies beside them.
 
-        pace: see Pace. Bodies are rows of MOTION. One kernel holds all substeps: with ten boxes five sixths of a
-        substep were calls from Python. O(substeps · (members + constraints)).
+        context: see StepContext. Bodies are rows of MOTION. One kernel holds all substeps: with ten boxes five sixths
+        of a substep were calls from Python. O(substeps · (members + constraints)).
         """
-        h = pace.h
-        move_driven(driven, 0.0, motions_inout)
-        for n in range(pace.substeps):
+        h = context.h
+        move_kinematic(kinematic, 0.0, motions_inout)
+        for n in range(context.substeps):
             if not warm:
-                forget_impulses(members, count, motions_inout, blocks_inout)
-            velocities(members, h, pace.drag, motions_inout)
+                clear_impulses(members, count, motions_inout, blocks_inout)
+            velocities(members, h, context.drag, motions_inout)
             if warm and n == 0:
                 warm_start(count, motions_inout, blocks_inout)
             for _ in range(iterations):
-                push_out(count, pace, motions_inout, blocks_inout)
-            positions(members, h, pace.push_speed, motions_inout)
-            move_driven(driven, (n + 1) * h, motions_inout)
+                push_out(count, context, motions_inout, blocks_inout)
+            positions(members, h, context.push_speed, motions_inout)
+            move_kinematic(kinematic, (n + 1) * h, motions_inout)
             if relaxed:
-                relax(count, pace, motions_inout, blocks_inout)
+                relax(count, context, motions_inout, blocks_inout)
 
     return run_substeps
 
@@ -421,32 +386,23 @@ def make_substeps(
 SUBSTEPS = {(d, r, f): make_substeps(drag=d, rotation=r, friction=f) for d in BOTH for r in BOTH for f in BOTH}
 
 
-def solve(state: StepState, contacts: ContactSet, kernels: Mapping = SUBSTEPS) -> float:
+def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS) -> float:
     """Advance the motions by a step under the contacts, group by group. Return the shortest substep [s]."""
-    effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
+    effects, motions, dt = state.effects, state.workspace.motions, state.dt
     run, h = kernels[effects.drag, effects.rotation, effects.friction], dt
-    asked = state.substeps == 0
+    by_load = state.substeps == 0
     for group in contacts.choose(state, motions, state.substeps):
-        pace = pace_of(
-            group.substeps,
-            asked,
-            dt,
-            state.span,
-            state.drag,
-            tolerances.push_speed,
-            tolerances.slop,
-            tolerances.speculative,
-        )
-        h = pace.h
-        blocks, count = prepare(state, contacts, motions, group, pace)
-        run(group.members, motions.driven, count, pace, motions.used, blocks)
-        if asked:
-            ask_for_substeps(state, motions, contacts.selection, group, blocks, count)
-        store(state, contacts, motions, blocks, count, h)
+        context = context_of(group.substeps, by_load, dt, state.span, state.drag, state.tolerances)
+        h = context.h
+        blocks, count = contacts.prepare(state, motions, group, context)
+        run(group.members, motions.kinematic, count, context, motions.used, blocks)
+        if by_load:
+            estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count)
+        contacts.store(state, motions, count, context)
     return h
 
 
 @stage("soft_step", reads=READS, writes=WRITES)
 def soft_step(state: StepState) -> None:
     """Solve the contacts and move the bodies of a world that stacks."""
-    push_piles(state, solve)
+    run_solver(state, solve)

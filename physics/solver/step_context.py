@@ -4,7 +4,7 @@ import math
 from functools import lru_cache
 from typing import NamedTuple
 
-from physics.jit import inlined, subkernel
+from physics.jit import inlined
 from physics.settings import (
     AUTO_SUBSTEPS,
     BLOW,
@@ -16,9 +16,11 @@ from physics.settings import (
     HERTZ_SHARE,
     PUSH_SHARE,
     STILL_STIFFNESS,
+    Limits,
+    Tolerances,
 )
 
-# ---- pace ------------------------------------------------------------------------------------------------------------
+# ---- context ---------------------------------------------------------------------------------------------------------
 # Constants of the substeps of a group of islands: their length, the softness of contacts, the push-out. Source of the
 # springs: Catto, Soft Constraints, GDC 2011.
 
@@ -30,23 +32,27 @@ class Softness(NamedTuple):
     grip: float  # weight of the relative velocity against the accumulated impulse: softness 1 / (1 + grip)
 
 
-class Pace(NamedTuple):
+class StepContext(NamedTuple):
     """The constants of all substeps of a group of islands."""
 
     substeps: int
-    h: float  # [s]
+    dt: float  # [s] of the step …
+    h: float  # [s] … and of a substep
     inverse_h: float
+    share: float  # weight of this step in the cached contact forces
     drag: float  # [1/s]
+    restitution_speed: float  # [px/s] slower impacts do not bounce
     push_speed: float  # [px/s]
     push_rate: float  # [1/s] rate for the overlap of an unloaded contact above …
     slop: float  # [px] … the overlap that may stay
     deep_rate: float  # [1/s] rate for a deep one, 0: no limit, above …
     shallow_speed: float  # [px/s] … the separation speed of a shallow one
     spring: Softness  # of contacts between dynamic bodies …
-    still_spring: Softness  # … and with static or kinematic ones
-    firm: float  # factor on the grip of a loaded contact …
-    firm_alone: float  # … and of a sole support
-    blow: float  # factor on the load before the step above which it counts as struck, and yields
+    static_spring: Softness  # … and with static or kinematic ones
+    loaded_stiffness: float  # factor on the grip of a loaded contact …
+    sole_support_stiffness: float  # … and of a sole support
+    strike_factor: float  # factor on the load before the step above which it counts as struck, and yields
+    limits: Limits
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
@@ -56,49 +62,41 @@ def softness(hertz: float, damping: float, h: float) -> Softness:
     return Softness(omega / rate, h * omega * rate)
 
 
-@subkernel
-def firmness_of(r, pace):
-    """Return the factor on the stiffness of a CONSTRAINT row.
-
-    A loaded contact oscillates as slowly as its load is heavy, so its spring may be stiffer with the same damping. A
-    new contact may not.
-    """
-    if not r.loaded or r.meets:
-        return 1.0
-    return pace.firm_alone if r.alone else pace.firm
-
-
 @lru_cache(maxsize=64)
-def pace_of(
-    substeps: int, asked: bool, dt: float, span: float, drag: float, push_speed: float, slop: float, speculative: float
-) -> Pace:
+def context_of(
+    substeps: int, by_load: bool, dt: float, span: float, drag: float, tolerances: Tolerances
+) -> StepContext:
     """Return the constants of so many substeps of a step of dt [s].
 
-    asked: whether the substeps follow from the loads. span [s]: at least dt, the step that springs are tuned for: in a
-    shorter step they push no faster.
+    by_load: whether the substeps follow from the loads. span [s]: at least dt, the step that springs are tuned for: in
+    a shorter step they push no faster.
     """
     h = dt / substeps
     # With substeps by load, springs are as stiff as the substeps allow.
     hertz = HERTZ_SHARE / (span / substeps)
-    hertz = hertz if asked else min(CONTACT_HERTZ, hertz)
+    hertz = hertz if by_load else min(CONTACT_HERTZ, hertz)
     spring = softness(hertz, CONTACT_DAMPING, h)
     slowest = span / AUTO_SUBSTEPS[0]
-    return Pace(
+    return StepContext(
         substeps=substeps,
+        dt=dt,
         h=h,
         inverse_h=1.0 / h,
+        share=dt / span,
         drag=drag,
-        push_speed=push_speed,
+        restitution_speed=tolerances.restitution_speed,
+        push_speed=tolerances.push_speed,
         # More substeps do not separate faster.
         push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / span,
-        slop=slop,
-        deep_rate=softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if asked else 0.0,
-        shallow_speed=spring.bias_rate * speculative,
+        slop=tolerances.slop,
+        deep_rate=softness(HERTZ_SHARE / slowest, CONTACT_DAMPING, slowest).bias_rate if by_load else 0.0,
+        shallow_speed=spring.bias_rate * tolerances.speculative,
         spring=spring,
-        still_spring=softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h),
-        firm=FIRM,
-        firm_alone=FIRM_ALONE,
-        blow=BLOW if asked else math.inf,
+        static_spring=softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h),
+        loaded_stiffness=FIRM,
+        sole_support_stiffness=FIRM_ALONE,
+        strike_factor=BLOW if by_load else math.inf,
+        limits=tolerances.limits,
     )
 
 
@@ -107,7 +105,7 @@ def pace_of(
 
 
 @inlined
-def wanted_apart(separation, inverse_h, slop, rate, push_speed):
+def separation_speed(separation, inverse_h, slop, rate, push_speed):
     """Return the separation speed [px/s] of an overlapping point; negative: the speed at which a gap may still close.
 
     rate [1/s]: share of the overlap beyond half a slop. Shapes may overlap by a slop (Jolt's penetration slop): without

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -9,9 +10,9 @@ from physics.islands.graph import find_roots
 from physics.jit import kernel, subkernel
 from physics.settings import AUTO_SUBSTEPS, BLOW, EASE_TIME, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
-from physics.solver.constraints import Group, Selection, demand_rate
 from physics.solver.lanes import Blocks
 from physics.solver.motions import Motions
+from physics.solver.selection import Group, Plan, estimate_rate
 from physics.tables.step_state import CAP_HITS, StepState, WorldTables
 from physics.tables.table import rows_of
 
@@ -57,7 +58,7 @@ def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
         contacts[name][borne] = 0.0
 
 
-# ---- demand ----------------------------------------------------------------------------------------------------------
+# ---- estimate --------------------------------------------------------------------------------------------------------
 # Substep estimate of an island: as many as keep the sag of its contacts within the accuracy.
 #
 # A contact is a spring whose frequency is a share of the substeps per second: under a force F it sags by F / (m ω²), a
@@ -68,98 +69,85 @@ def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
 # Constraints, GDC 2011.
 
 
+class LoadRules(NamedTuple):
+    """How the substeps of an island follow from its loads."""
+
+    rate: float  # square of the substeps per speed that the impulses of the step give [s/px], between bodies …
+    rate_static: float  # … and against static ones, without the factor on the stiffness (see StepContext)
+    least: int  # fewest substeps
+    most_by_load: int  # most substeps of a load …
+    most: int  # … and of a leaning stack
+    dt: float  # [s]
+    patience: float  # [s] for which fewer must have been enough
+
+
 @subkernel
-def add_demands(
-    # read
-    blocks,
-    count,
-    rate,
-    rate_still,
-    substeps,
-    most_by_load,
-    most,
-    # write
-    motions_inout,
-):
+def add_estimates(blocks, count, substeps, rules, motions_inout):
     """Write to both motions of each constraint the square of the substeps that it needs, if it is greater.
 
     Also write whether its load would need more than these `substeps` and than a load may take. blocks: so many blocks
-    of lanes, see lanes.py. rate, rate_still: that square per speed that the impulses of the step give [s/px], between
-    bodies and against static ones, without firmness (see Pace). most_by_load, most: the most substeps of a load, and of
-    a leaning stack. O(constraints).
+    of lanes, see lanes.py. O(constraints).
     """
-    reach = max(substeps, most_by_load)
+    reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)
     # Half of the square keeps the present number, and lets a lean that took twice as many come down to it.
-    by_load = 0.5 * float(most_by_load * most_by_load)
+    by_load = 0.5 * float(rules.most_by_load * rules.most_by_load)
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
         for lane in range(at.LANES):
-            if blocks.manifold[block, lane] < 0:
+            if blocks.contact[block, lane] < 0:
                 continue
-            still = c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
-            per_speed = (rate_still if still else rate) / abs(c[at.FIRMNESS + lane])
+            static = c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
+            per_speed = (rules.rate_static if static else rules.rate) / abs(c[at.STIFFNESS + lane])
             lean = 1.0
-            demand = per_speed * c[at.TOTAL_1 + lane] / c[at.MASS_1 + lane]
+            estimate = per_speed * c[at.TOTAL_1 + lane] / c[at.MASS_1 + lane]
             if c[at.MASS_2 + lane] > 0.0:
                 other = per_speed * c[at.TOTAL_2 + lane] / c[at.MASS_2 + lane]
-                least = min(demand, other)
-                demand = max(demand, other)
-                if c[at.FIRMNESS + lane] < 0.0 and least > 0.0:
+                least = min(estimate, other)
+                estimate = max(estimate, other)
+                if c[at.STIFFNESS + lane] < 0.0 and least > 0.0:
                     # A body on one sole support leans by the difference of its points, and the rest of the face is its
                     # margin.
-                    lean = min(demand / least, LEAN)
-            overloaded = demand > reach_squared
-            demand = min(lean * min(demand, by_load), float(most * most))
+                    lean = min(estimate / least, LEAN)
+            capped = estimate > reach_squared
+            estimate = min(lean * min(estimate, by_load), float(rules.most * rules.most))
             a = motions_inout[blocks.motion_a[block, lane]]
             b = motions_inout[blocks.motion_b[block, lane]]
-            a.overloaded = a.overloaded or overloaded
-            b.overloaded = b.overloaded or overloaded
-            a.demand = max(a.demand, demand)
-            b.demand = max(b.demand, demand)
+            a.capped = a.capped or capped
+            b.capped = b.capped or capped
+            a.estimate = max(a.estimate, estimate)
+            b.estimate = max(b.estimate, estimate)
 
 
 @subkernel
-def choose_substeps(
-    # read
-    members,
-    degrees,
-    substeps,
-    least,
-    most_by_load,
-    most,
-    dt,
-    patience,
-    # write
-    motions_inout,
-):
+def choose_substeps(members, degrees, substeps, rules, motions_inout):
     """Write the substeps that each island body needs after a step of so many. Return whether all need the present
-    number. See ask_by_load. O(members).
+    number. O(members).
     """
     content = True
     for k in range(len(members)):
         i = members[k]
         m = motions_inout[i]
-        m.crowded = degrees[i] > 2
-        demand = m.demand
+        m.branching = degrees[i] > 2
+        estimate = m.estimate
         wanted = substeps
-        eased = 0.0
-        if m.overloaded and substeps >= most_by_load:
-            eased = min(m.eased, 0.0) - dt
-            if eased <= -patience:
-                m.demand = math.inf
+        cooldown = 0.0
+        if m.capped and substeps >= rules.most_by_load:
+            cooldown = min(m.cooldown, 0.0) - rules.dt
+            if cooldown <= -rules.patience:
+                m.estimate = math.inf
                 content = False
-        if demand > substeps * substeps:
-            while wanted < most and wanted * wanted < demand:
+        if estimate > substeps * substeps:
+            while wanted < rules.most and wanted * wanted < estimate:
                 wanted *= 2
-        elif substeps > least and 8.0 * demand <= substeps * substeps:
-            if not m.overloaded:
-                eased = min(m.eased + dt, patience)
-            if abs(eased) >= patience:
+        elif substeps > rules.least and 8.0 * estimate <= substeps * substeps:
+            if not m.capped:
+                cooldown = min(m.cooldown + rules.dt, rules.patience)
+            if abs(cooldown) >= rules.patience:
                 wanted = substeps // 2
-        m.eased = eased
+        m.cooldown = cooldown
         m.substeps = wanted
-        content = content and wanted == substeps and not (m.crowded and substeps > most_by_load)
+        content = content and wanted == substeps and not (m.branching and substeps > rules.most_by_load)
     return content
 
 
@@ -182,81 +170,55 @@ def share_substeps(
         m = motions_inout[members[k]]
         root = motions_inout[parents[members[k]]]
         root.substeps = max(root.substeps, m.substeps)
-        root.demand = max(root.demand, m.demand)
-        root.crowded = root.crowded or m.crowded
+        root.estimate = max(root.estimate, m.estimate)
+        root.branching = root.branching or m.branching
     capped = 0
     for k in range(len(members)):
         i = members[k]
         m = motions_inout[i]
         root = motions_inout[parents[i]]
-        m.substeps = min(root.substeps, most_by_load) if root.crowded else root.substeps
+        m.substeps = min(root.substeps, most_by_load) if root.branching else root.substeps
         if m.substeps != substeps:
-            m.eased = 0.0
-        capped += int(parents[i] == i and root.demand == math.inf)
+            m.cooldown = 0.0
+        capped += int(parents[i] == i and root.estimate == math.inf)
     return capped
 
 
 @kernel
-def ask_by_load(
+def choose_by_load(
     # read
     blocks,
     count,
-    rate,
-    rate_still,
-    members,
-    degrees,
-    joins,
-    edges,
-    constraints,
-    substeps,
-    least,
-    most_by_load,
-    most,
-    dt,
-    patience,
+    group,
+    links_islands,
+    rules,
     # write
-    parents_inout,
-    joined_inout,
+    plan_inout,
     motions_inout,
 ):
     """Write the substeps of the islands after a step of so many.
 
     Return the number of islands that needed more than they may take for `patience` [s], which leaves out impacts.
-    members: rows of MOTION, ascending. degrees, joins, edges, constraints, parents_inout, joined_inout: see find_roots
-    and Plan. Islands are found only if the bodies differ. See add_demands. O(members + constraints).
+    blocks: so many blocks of lanes; group, plan_inout: see selection.py; links_islands: see find_roots. Islands are
+    found only if the bodies differ. O(members + constraints).
     """
-    add_demands(blocks, count, rate, rate_still, substeps, most_by_load, most, motions_inout)
-    if choose_substeps(members, degrees, substeps, least, most_by_load, most, dt, patience, motions_inout):
+    plan = plan_inout
+    substeps = group.substeps
+    add_estimates(blocks, count, substeps, rules, motions_inout)
+    if choose_substeps(group.members, plan.degrees, substeps, rules, motions_inout):
         return 0
-    if not joined_inout[0]:
-        find_roots(edges, constraints, joins, parents_inout[: len(motions_inout)])
-        joined_inout[0] = True
-    return share_substeps(members, parents_inout, substeps, most_by_load, motions_inout)
+    parents = plan.parents[: len(motions_inout)]
+    if not plan.joined[0]:
+        find_roots(plan.edges, group.edges, links_islands, parents)
+        plan.joined[0] = True
+    return share_substeps(group.members, parents, substeps, rules.most_by_load, motions_inout)
 
 
-def ask_for_substeps(
-    state: StepState, motions: Motions, selection: Selection, group: Group, blocks: Blocks, count: int
-) -> None:
+def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
     """Estimate the substeps of the next step from the contacts of a group, so many blocks."""
-    plan = selection.plan
-    rate = demand_rate(state)
-    state.work[CAP_HITS] += ask_by_load(
-        blocks,
-        count,
-        rate,
-        rate / STILL_STIFFNESS**2,
-        group.members,
-        plan.degrees,
-        motions.joins,
-        plan.edges,
-        selection.count,
-        group.substeps,
-        AUTO_SUBSTEPS[0],
-        LOAD_SUBSTEPS,
-        AUTO_SUBSTEPS[-1],
-        state.dt,
-        EASE_TIME,
-        plan.parents,
-        plan.joined,
-        motions.used,
+    rate = estimate_rate(state)
+    rules = LoadRules(
+        rate, rate / STILL_STIFFNESS**2, AUTO_SUBSTEPS[0], LOAD_SUBSTEPS, AUTO_SUBSTEPS[-1], state.dt, EASE_TIME
     )
+    links = motions.lists.links_islands
+    state.work[CAP_HITS] += choose_by_load(blocks, count, group, links, rules, plan, motions.used)

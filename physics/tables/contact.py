@@ -140,8 +140,8 @@ CONTACT = in_lines(
 MANIFOLD_BYTES: int = CONTACT.fields["normal_force_1"][1]  # type: ignore[index]  # size of the manifold in a row
 
 
-# ---- constraint ------------------------------------------------------------------------------------------------------
-# Solver rows: the motions of bodies and the constraints between them.
+# ---- solver rows -----------------------------------------------------------------------------------------------------
+# Solver rows: the motions of bodies, and the contacts of solvers without a contact cache.
 
 # One row per awake body, preceded by one row for all static bodies. Solvers read and write it in their substeps. A row
 # is three cache lines; the first holds the fields that every pass over the constraints needs.
@@ -155,9 +155,9 @@ MOTION = in_lines(
         ("cosine", np.float64),
         ("sine", np.float64),  # of the turn since the step began
         ("moves", np.bool_),
-        ("pushed", np.bool_),  # dynamic: integrated, with drag and acceleration
-        ("pressed", np.bool_),  # a contact acts on it in this substep, or supports it: it is not in free flight
-        ("walks", np.bool_),  # a character: the ground supports it, and it does not hold the ground down
+        ("is_dynamic", np.bool_),  # integrated, with drag and acceleration
+        ("in_contact", np.bool_),  # a contact acts on it in this substep, or supports it: it is not in free flight
+        ("is_character", np.bool_),  # the ground supports it, and it does not hold the ground down
         ("inverse_mass", np.float64),
         ("inverse_inertia", np.float64),  # 0: infinite in this step
         ("free_vx", np.float64),  # the velocity in this substep before any contact acted
@@ -167,78 +167,16 @@ MOTION = in_lines(
         ("acceleration_y", np.float64),
         ("angular_acceleration", np.float64),
         ("turn", np.float64),  # [rad]
-        ("push_vx", np.float64),  # pseudo-velocity of push-out: moves the body in this substep only
-        ("push_vy", np.float64),
-        ("push_w", np.float64),
-        ("demand", np.float64),  # square of the substeps that would keep its contacts within the accuracy
-        ("eased", np.float64),  # [s] cooldown: > 0 while fewer substeps would do, < 0 while the most were too few
+        ("pseudo_vx", np.float64),  # pseudo-velocity of push-out: moves the body in this substep only
+        ("pseudo_vy", np.float64),
+        ("pseudo_w", np.float64),
+        ("estimate", np.float64),  # square of the substeps that would keep its contacts within the accuracy
+        ("cooldown", np.float64),  # [s] > 0 while fewer substeps would do, < 0 while the most were too few
         ("substeps", np.int64),  # of its island: in this step, then in the next one
-        ("hits", np.int64),  # see solver/restitution.py
-        ("crowded", np.bool_),  # branching: a body of its island has more than two contacts
-        ("overloaded", np.bool_),  # a load needs more substeps than it may have
+        ("last_impact", np.int64),  # see solver/restitution.py
+        ("branching", np.bool_),  # a body of its island has more than two contacts
+        ("capped", np.bool_),  # a load needs more substeps than it may have
     ]
-)
-
-CONSTRAINT = np.dtype(
-    [  # one per manifold, in the order of colours: up to two points on one normal
-        ("motion_a", np.int32),  # rows of MOTION
-        ("motion_b", np.int32),
-        ("manifold", np.int32),  # its row, and the number of its points
-        ("count", np.int32),
-        ("block", np.int32),  # block and lane of the row, see solver/contact_lanes.py
-        ("lane", np.int32),
-        ("before", np.int32),  # another row of the same body, see solver/restitution.py …
-        ("linked", np.bool_),
-        ("played", np.bool_),  # … and whether its impacts were resolved there
-        ("met_1", np.float64),  # [px/s] predicted impact speed of each point
-        ("met_2", np.float64),
-        ("gap_1", np.float64),  # [px] gap before that impact
-        ("gap_2", np.float64),
-        ("normal_x", np.float64),
-        ("normal_y", np.float64),
-        ("friction", np.float64),
-        ("surface_speed", np.float64),
-        ("rolling_limit", np.float64),  # [px] torque per normal impulse
-        ("rolling_mass", np.float64),
-        ("rolling_impulse", np.float64),
-        ("radius_a", np.float64),
-        ("radius_b", np.float64),  # [px] separations are measured from core to core
-        ("push_share", np.float64),  # share of the push-out speed
-        ("calm", np.bool_),  # not approaching before the step
-        ("loaded", np.bool_),  # had an impulse in the step before
-        ("meets", np.bool_),  # the sides approach fast enough to bounce
-        ("rests", np.bool_),  # resting: touching before the step, too slow to bounce
-        ("alone", np.bool_),  # its faces stick, and each dynamic side has at most one more contact
-        ("still", np.bool_),  # one side has infinite mass: the contact is twice as stiff
-        ("couple_1", np.float64),  # off-diagonal: change of the first impulse per second one, and …
-        ("couple_2", np.float64),  # … of the second per first, at equal speeds; 0 for one point
-        ("split", np.float64),  # factor of the block solver, see solver/restitution.py
-        ("ax_1", np.float64),
-        ("ay_1", np.float64),
-        ("bx_1", np.float64),
-        ("by_1", np.float64),  # [px] moment arms from the centres of mass
-        ("base_1", np.float64),  # [px] separation minus the part of the arms
-        ("normal_mass_1", np.float64),
-        ("tangent_mass_1", np.float64),
-        ("normal_impulse_1", np.float64),
-        ("tangent_impulse_1", np.float64),  # of this substep
-        ("push_impulse_1", np.float64),
-        ("normal_total_1", np.float64),
-        ("tangent_total_1", np.float64),  # of the step
-        ("ax_2", np.float64),
-        ("ay_2", np.float64),
-        ("bx_2", np.float64),
-        ("by_2", np.float64),
-        ("base_2", np.float64),
-        ("normal_mass_2", np.float64),
-        ("tangent_mass_2", np.float64),
-        ("normal_impulse_2", np.float64),
-        ("tangent_impulse_2", np.float64),
-        ("push_impulse_2", np.float64),
-        ("normal_total_2", np.float64),
-        ("tangent_total_2", np.float64),
-    ],
-    align=True,
 )
 
 PUSH = np.dtype(

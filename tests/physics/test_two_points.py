@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from physics.solver.restitution import solve_two, split_of
+from physics.solver.restitution import block_factor, solve_two
 
 
 def exact(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2):
@@ -29,7 +29,7 @@ def exact(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2):
 
 def solved(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2):
     couple_1, couple_2 = k_12 / k_11, k_12 / k_22
-    split = split_of(couple_1, couple_2)
+    split = block_factor(couple_1, couple_2)
     return solve_two(wanted_1 / k_11, wanted_2 / k_22, couple_1, couple_2, split, old_1, old_2)
 
 

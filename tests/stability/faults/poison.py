@@ -31,7 +31,7 @@ WRITTEN_ANEW = {
     "bodies": {
         *(f"{when}_{axis}" for when in ("previous", "settled", "still") for axis in ("x", "y", "angle")),
         "sleep_time",
-        "eased",
+        "cooldown",
     },
     "shapes": {"density", "min_x", "min_y", "max_x", "max_y"},
     "proxies": set(floats_of(PROXY)),
