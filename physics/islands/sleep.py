@@ -7,8 +7,8 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.islands.awake import is_active, list_active, wakes
-from physics.islands.graph import join
-from physics.jit import kernel, subkernel
+from physics.islands.graph import MOST_NODES, NO_NODE, join, new_edges, write_pair
+from physics.jit import inlined, kernel
 from physics.math2d import length_of
 from physics.settings import SLEEP_TIME
 from physics.tables.body import DYNAMIC, KINEMATIC
@@ -382,42 +382,60 @@ def wake_disturbed(state: StepState) -> None:
 COUNTED = 2.0**62  # more sleep periods than this are not an exact integer in a kernel
 
 
+@inlined
+def is_touching(contact):
+    """Return whether two sides overlap or pressed on each other in the last substep."""
+    c = contact
+    if c.separation_1 <= 0.0 or c.normal_force_1 > 0.0:
+        return True
+    return c.count == 2 and (c.separation_2 <= 0.0 or c.normal_force_2 > 0.0)
+
+
+@inlined
+def is_pressed(contact):
+    """Return whether two sides touch or have a normal impulse; a speculative contact may have neither."""
+    c = contact
+    if c.separation_1 <= 0.0 or c.normal_impulse_1 > 0.0:
+        return True
+    return c.count == 2 and (c.separation_2 <= 0.0 or c.normal_impulse_2 > 0.0)
+
+
 @kernel
-def list_edges(
+def list_contact_edges(
     # read
     bodies,
     contacts,
+    conveyor,
     # write
     edges_out,
 ):
-    """List the rows (a, b) of awake dynamic bodies that touch. Return their number. O(manifolds).
+    """List the contacts that link bodies, or that keep one awake, as edges between rows of BODY. Return their number.
 
-    edges_out (manifolds, 2) int32.
+    Contacts link awake dynamic bodies that touch. A body beside a moving kinematic one stays awake, and so does, with
+    conveyor 1, a body on a moving surface. edges_out: room for two edges a contact. O(contacts).
     """
     found = 0
     for i in range(len(contacts)):
-        m = contacts[i]
-        a = bodies[m.body_row_a]
-        b = bodies[m.body_row_b]
-        if m.sensor or a.kind != DYNAMIC or b.kind != DYNAMIC or not (a.awake and b.awake):
+        c = contacts[i]
+        if c.sensor:
             continue
-        touches = m.separation_1 <= 0.0 or m.normal_force_1 > 0.0
-        if m.count == 2:
-            touches = touches or m.separation_2 <= 0.0 or m.normal_force_2 > 0.0
-        if touches:
-            edges_out[found, 0] = m.body_row_a
-            edges_out[found, 1] = m.body_row_b
+        a = bodies[c.body_row_a]
+        b = bodies[c.body_row_b]
+        carried = conveyor == 1 and c.surface_speed != 0.0 and is_pressed(c)
+        if a.kind == DYNAMIC and b.kind == DYNAMIC and a.awake and b.awake and is_touching(c):
+            write_pair(found, i, c.body_row_a, c.body_row_b, edges_out)
+            edges_out.keeps_awake[found] = carried
+            found += 1
+            continue
+        if carried or (b.kind != DYNAMIC and is_active(b)):
+            write_pair(found, i, c.body_row_a, NO_NODE, edges_out)
+            edges_out.keeps_awake[found] = True
+            found += 1
+        if carried or (a.kind != DYNAMIC and is_active(a)):
+            write_pair(found, i, c.body_row_b, NO_NODE, edges_out)
+            edges_out.keeps_awake[found] = True
             found += 1
     return found
-
-
-@subkernel
-def is_pressed(manifold):
-    """Return whether two sides touch or have a normal impulse; a speculative contact may have neither."""
-    m = manifold
-    if m.separation_1 <= 0.0 or m.normal_impulse_1 > 0.0:
-        return True
-    return m.count == 2 and (m.separation_2 <= 0.0 or m.normal_impulse_2 > 0.0)
 
 
 @kernel
@@ -431,23 +449,23 @@ def start_islands(rows, parents_out):
 def fall_asleep(
     # read
     rows,
-    contacts,
+    edges,
+    count,
     dt,
     slow,
     patience,
-    conveyor,
     # write
     parents_inout,
     least_out,
     excess_out,
     bodies_inout,
 ):
-    """Put islands to sleep. Return (islands of awake dynamic bodies, bodies that fell asleep). O(rows + manifolds).
+    """Put islands to sleep. Return (islands of awake dynamic bodies, bodies that fell asleep). O(rows + count).
 
     No body of the island may have moved further in `patience` [s] than at speed `slow` [px/s], and the mean square
     speed of the island must not exceed that of `slow` now. So a few bodies may tremble, and an island that has just
-    begun to fall, or was pushed, stays awake. Bodies that touch a moving kinematic body or, with conveyor 1, a moving
-    surface stay awake. rows: the awake ones; parents_inout: see graph.join; least_out, excess_out (bodies): scratch.
+    begun to fall, or was pushed, stays awake. Bodies of an edge that keeps them awake stay so. rows: the awake ones;
+    edges, count, parents_inout: see graph.join; least_out, excess_out (bodies): scratch.
     """
     distance = slow * patience
     islands = 0
@@ -471,19 +489,13 @@ def fall_asleep(
             b.still_y = b.y
             b.still_angle = b.angle
         b.island = bodies_inout[parents_inout[i]].id
-    for i in range(len(contacts)):
-        m = contacts[i]
-        a = bodies_inout[m.body_row_a]
-        b = bodies_inout[m.body_row_b]
-        if m.sensor:
+    for i in range(count):
+        if not edges.keeps_awake[i]:
             continue
-        if a.kind != DYNAMIC and is_active(a):
-            b.sleep_time = 0.0
-        if b.kind != DYNAMIC and is_active(b):
-            a.sleep_time = 0.0
-        if conveyor == 1 and m.surface_speed != 0.0 and is_pressed(m):
-            a.sleep_time = 0.0
-            b.sleep_time = 0.0
+        for k in range(MOST_NODES):
+            if edges.nodes[i, k] < 0:
+                break
+            bodies_inout[edges.nodes[i, k]].sleep_time = 0.0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
         root = parents_inout[rows[k]]
@@ -513,15 +525,15 @@ class IslandWorkspace:
 
     def __init__(self) -> None:
         self.parents, self.least, self.excess = np.zeros(16, np.int32), np.zeros(16), np.zeros(16)
-        self.edges = np.zeros((16, 2), np.int32)
+        self.edges = new_edges(32)
 
-    def grow(self, bodies: int, manifolds: int) -> None:
+    def grow(self, bodies: int, contacts: int) -> None:
         """Enlarge the arrays; their contents are lost."""
         if len(self.parents) < bodies:
             self.parents = np.zeros(2 * bodies, np.int32)
             self.least, self.excess = np.zeros(2 * bodies), np.zeros(2 * bodies)
-        if len(self.edges) < manifolds:
-            self.edges = np.zeros((2 * manifolds, 2), np.int32)
+        if len(self.edges.kinds) < 2 * contacts:
+            self.edges = new_edges(4 * contacts)
 
 
 @stage(
@@ -569,14 +581,15 @@ def rest(state: StepState) -> None:
     rows = awake.bodies
     search.grow(len(bodies), len(contacts))
     start_islands(rows, search.parents)
-    join(search.edges, list_edges(bodies, contacts, search.edges), search.parents)
+    count = list_contact_edges(bodies, contacts, int(state.effects.conveyor), search.edges)
+    join(search.edges, count, search.parents)
     state.work[ISLANDS], slept = fall_asleep(
         rows,
-        contacts,
+        search.edges,
+        count,
         state.dt,
         state.tolerances.sleep_speed,
         SLEEP_TIME,
-        int(state.effects.conveyor),
         search.parents,
         search.least,
         search.excess,

@@ -1,7 +1,7 @@
 """Contacts as constraints in lanes: blocks are filled from CONTACT rows, and their impulses stored there.
 
-Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c. A lane holds arms from the centres of mass at
-the start of the step, and a separation that follows from the motion of both sides since. Where two faces stick, the
+Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c. A lane holds arms from the centres of mass
+at the start of the step, and a separation that follows from the motion of both sides since. Where two faces stick, the
 arms stay as they were at detection: arms that rotate with a leaning column give its load a torque, and the column
 buckles (Catto, Box2D v3: contact recycling).
 """
