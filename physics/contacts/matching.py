@@ -278,7 +278,9 @@ class ContactCache:
             self.tables[0] = zeros_in_lines(2 * count, CONTACT)
         return self.tables[0]
 
-    def find(self, narrow: NarrowPhase, batch: Batch, previous: np.ndarray, distance: float, work) -> Found | None:
+    def find(
+        self, narrow: NarrowPhase, batch: Batch, previous: np.ndarray, distance: float, work: np.ndarray
+    ) -> Found | None:
         """Return the contacts of solid pairs, but recycle those whose points moved by at most `distance` [px].
 
         previous: the contacts of the last step; recycled ones are updated in place. Return the new contacts and the
