@@ -146,7 +146,7 @@ def compare_pairs(
             i += 1
             continue
         m = contacts[j]
-        if sensors == 0 and (m.owner_a != m.shape_a or m.owner_b != m.shape_b):
+        if sensors == 0 and m.of_child:
             return False
         last = j
         while last < len(contacts) and contacts[last].shape_a == m.shape_a and contacts[last].shape_b == m.shape_b:

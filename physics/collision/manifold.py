@@ -24,7 +24,7 @@ def are_whole(manifolds):
     """Return whether no side of any manifold is a part of another shape. O(manifolds)."""
     for i in range(len(manifolds)):
         m = manifolds[i]
-        if m.owner_a != m.shape_a or m.owner_b != m.shape_b:
+        if m.of_child:
             return False
     return True
 
@@ -40,7 +40,7 @@ def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     a, b = manifolds["owner_a"], manifolds["owner_b"]
     order = np.lexsort((np.maximum(a, b), np.minimum(a, b)))
     found = manifolds[order]
-    found["shape_a"], found["shape_b"] = found["owner_a"], found["owner_b"]
+    found["shape_a"], found["shape_b"], found["of_child"] = found["owner_a"], found["owner_b"], False
     turned = np.flatnonzero(found["owner_a"] > found["owner_b"])
     if len(turned):
         for name in SIDES:
@@ -166,6 +166,7 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.shape_b = b.id
     m.owner_a = a.owner
     m.owner_b = b.owner
+    m.of_child = a.owner != a.id or b.owner != b.id
     m.body_row_a = a.body_row
     m.body_row_b = b.body_row
     m.row_a = row_a

@@ -56,19 +56,18 @@ CONTACT = in_lines(
     [
         ("shape_a", np.int64),  # ids; A is the shape with the smaller id
         ("shape_b", np.int64),
+        ("body_a", np.int64),
+        ("body_b", np.int64),
         ("body_row_a", np.int32),  # rows of BODY and SHAPE in this step
         ("body_row_b", np.int32),
         ("row_a", np.int32),
         ("row_b", np.int32),
         ("candidate", np.int32),  # row of the candidate pair
-        ("previous", np.int32),  # recycled: row of this manifold in the step before; -1: detected anew
-        ("count", np.int64),  # number of points
-        ("lead", np.float64),  # [px] tangential offset: B slides along (-ny, nx) before contact; see hull_pairs.py
+        ("previous", np.int32),  # recycled: row of this contact in the step before; -1: detected anew
+        ("count", np.int32),  # number of points
         ("sensor", np.bool_),
         ("swept", np.bool_),  # found by the sweep, not at the final poses
-        ("persisted_1", np.bool_),  # the same feature was in contact in the step before
-        ("persisted_2", np.bool_),
-        ("again", np.bool_),  # can be recycled in the next step while both bodies keep the poses at the end of this one
+        ("of_child", np.bool_),  # a side is a part of another shape
         # Geometry.
         ("normal_x", np.float64),  # unit, from A to B
         ("normal_y", np.float64),
@@ -85,11 +84,13 @@ CONTACT = in_lines(
         ("tangent_impulse_1", np.float64),
         ("normal_impulse_2", np.float64),
         ("tangent_impulse_2", np.float64),
+        ("lead", np.float64),  # [px] tangential offset: B slides along (-ny, nx) before contact; see hull_pairs.py
+        ("persisted_1", np.bool_),  # the same feature was in contact in the step before
+        ("persisted_2", np.bool_),
+        ("again", np.bool_),  # can be recycled in the next step while both bodies keep the poses at the end of this one
+        # Report.
         ("feature_1", np.int64),  # feature id of the corner, edge, tile or pixel; see collision/hulls.py
         ("feature_2", np.int64),
-        # Report.
-        ("body_a", np.int64),  # ids
-        ("body_b", np.int64),
         ("owner_a", np.int64),  # parent ids: the shapes that these are parts of
         ("owner_b", np.int64),
         ("area_1", np.float64),  # [px2] area shared by two masks; 0 for other shapes
