@@ -88,6 +88,8 @@ class Limits(NamedTuple):
     sticking: float  # [px] see rows.sticks
     slop: float  # [px] see rows.touches_slowly
     bounce_speed: float  # [px/s] slower impacts do not bounce
+    push_speed: float  # [px/s]
+    deep: float  # [px] overlap with a body of infinite mass from which a body may be without room
 
 
 @dataclass(frozen=True)
@@ -124,5 +126,7 @@ def tolerances(pixels_per_meter: float) -> Tolerances:
             STICKING_SHARE * (SPECULATIVE_DISTANCE * scale),
             LINEAR_SLOP * scale,
             RESTITUTION_SPEED * scale,
+            PUSH_SPEED * scale,
+            SPECULATIVE_DISTANCE * scale,
         ),
     )

@@ -29,6 +29,8 @@ class Edges(NamedTuple):
     impact_speeds: np.ndarray  # (edges) float64 [px/s] of an impact within the step; 0: none
     resting: np.ndarray  # (edges) bool it carries a load without impact
     keeps_awake: np.ndarray  # (edges) bool its bodies may not sleep
+    overlaps: np.ndarray  # (edges) float64 [px]
+    deep: np.ndarray  # (edges, 2) float64 normal of a deep overlap with a body of infinite mass, out of it; 0: none
 
 
 def new_edges(room: int) -> Edges:
@@ -40,6 +42,8 @@ def new_edges(room: int) -> Edges:
         impact_speeds=np.zeros(room),
         resting=np.zeros(room, np.bool_),
         keeps_awake=np.zeros(room, np.bool_),
+        overlaps=np.zeros(room),
+        deep=np.zeros((room, 2)),
     )
 
 
@@ -148,7 +152,7 @@ def color_edges(
                 break
             if has_finite_mass[node]:
                 taken |= taken_out[node]
-            else:
+            elif node == 0:
                 fixed = 1
             degrees_out[node] += 1
         color = free_color(taken, fixed)

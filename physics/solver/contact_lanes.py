@@ -245,6 +245,15 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             else:
                 copy_first(lane, c)
             turning = a.inverse_inertia + b.inverse_inertia
+            speed = max(a.squeeze_speed, b.squeeze_speed)
+            most = math.inf
+            if speed > 0.0:
+                if row_a == 0 or row_b == 0:
+                    speed += max(a.squeeze_static, b.squeeze_static)
+                most = speed * max(c[at.MASS_1 + lane], c[at.MASS_2 + lane]) + context.h * max(a.squeeze_force, b.squeeze_force)
+                c[at.NORMAL_1 + lane] = min(c[at.NORMAL_1 + lane], most)
+                c[at.NORMAL_2 + lane] = min(c[at.NORMAL_2 + lane], most)
+            c[at.MOST + lane] = most
             c[at.RADIUS_A + lane] = m.radius_a
             c[at.RADIUS_B + lane] = m.radius_b
             c[at.ROLLING_LIMIT + lane] = m.rolling_resistance if friction else 0.0

@@ -46,6 +46,12 @@ def write_fixed(motions_out, lists_out):
     m.acceleration_y = 0.0
     m.angular_acceleration = 0.0
     m.estimate = 0.0
+    m.squeeze_speed = 0.0
+    m.squeeze_depth = 0.0
+    m.squeeze_nx = 0.0
+    m.squeeze_ny = 0.0
+    m.squeeze_force = 0.0
+    m.squeeze_static = 0.0
     m.branching = False
     m.capped = False
     m.cooldown = 0.0
@@ -122,6 +128,12 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.in_contact = False
             m.is_character = False
             m.estimate = 0.0
+            m.squeeze_speed = 0.0
+            m.squeeze_depth = 0.0
+            m.squeeze_nx = 0.0
+            m.squeeze_ny = 0.0
+            m.squeeze_force = 0.0
+            m.squeeze_static = 0.0
             m.branching = False
             m.capped = False
             m.last_impact = 0
@@ -148,6 +160,11 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.acceleration_x = b.inverse_mass * b.force_x
             m.acceleration_y = b.inverse_mass * b.force_y
             m.angular_acceleration = m.inverse_inertia * b.torque
+            m.energy = 0.0
+            if m.inverse_mass > 0.0:
+                m.energy = 0.5 * (m.vx * m.vx + m.vy * m.vy) / m.inverse_mass
+                if m.inverse_inertia > 0.0:
+                    m.energy += 0.5 * m.angular_velocity * m.angular_velocity / m.inverse_inertia
             if gravity:
                 m.acceleration_x += b.gravity_scale * air.gravity_x
                 m.acceleration_y += b.gravity_scale * air.gravity_y

@@ -21,6 +21,7 @@ from physics.islands.graph import (
     write_pair,
 )
 from physics.jit import kernel, subkernel
+from physics.math2d import length_of
 from physics.settings import AUTO_SUBSTEPS, COLORS, HERTZ_SHARE, LOAD_SUBSTEPS
 from physics.solver.motions import Motions
 from physics.tables.step_state import StepState
@@ -120,6 +121,12 @@ def list_contact_edges(
             speed = max(speed, c.speed_2)
         edges_out.impact_speeds[found] = speed
         edges_out.resting[found] = touches_slowly(c.separation_1, c.speed_1, limits)
+        overlap = -(min(c.separation_1, c.separation_2) if c.count == 2 else c.separation_1)
+        sign = 1.0 if a.inverse_mass == 0.0 else -1.0
+        is_deep = overlap > limits.slop and (a.inverse_mass == 0.0 or b.inverse_mass == 0.0)
+        edges_out.deep[found, 0] = sign * c.normal_x if is_deep else 0.0
+        edges_out.deep[found, 1] = sign * c.normal_y if is_deep else 0.0
+        edges_out.overlaps[found] = overlap
         found += 1
     return found
 
@@ -234,6 +241,57 @@ def are_mixed(links_islands, degrees, classes):
 
 
 @subkernel
+def find_squeezed(edges, count, lists, push_speed, deep, parents_out, motions_inout):
+    """Bound the impulses in islands without room: overlaps with bodies of infinite mass oppose one another. O(count)."""
+    first = -1
+    squeezed = False
+    for i in range(count):
+        x = edges.deep[i, 0]
+        y = edges.deep[i, 1]
+        if x == 0.0 and y == 0.0:
+            continue
+        if first < 0:
+            first = i
+            find_roots(edges, count, lists.links_islands, parents_out)
+        node = edges.nodes[i, 0] if lists.links_islands[edges.nodes[i, 0]] else edges.nodes[i, 1]
+        root = motions_inout[parents_out[node]]
+        root.squeeze_depth = max(root.squeeze_depth, edges.overlaps[i])
+        if root.squeeze_nx == 0.0 and root.squeeze_ny == 0.0:
+            root.squeeze_nx = x
+            root.squeeze_ny = y
+        elif x * root.squeeze_nx + y * root.squeeze_ny < 0.0:
+            root.squeeze_speed = push_speed
+            squeezed = True
+    if not squeezed:
+        return
+    for i in range(len(motions_inout)):
+        m = motions_inout[i]
+        if lists.links_islands[i]:
+            root = motions_inout[parents_out[i]]
+            if root.squeeze_depth <= deep:
+                root.squeeze_speed = 0.0
+            if root.squeeze_speed > 0.0 and m.inverse_mass > 0.0:
+                root.squeeze_force += length_of(m.acceleration_x, m.acceleration_y) / m.inverse_mass
+    for i in range(count):
+        a = motions_inout[edges.nodes[i, 0]]
+        b = motions_inout[edges.nodes[i, 1]]
+        if edges.deep[i, 0] != 0.0 or edges.deep[i, 1] != 0.0:
+            a_moves = lists.links_islands[edges.nodes[i, 0]]
+            root = motions_inout[parents_out[edges.nodes[i, 0] if a_moves else edges.nodes[i, 1]]]
+            o = b if a_moves else a
+            if root.squeeze_speed > 0.0:
+                root.squeeze_speed = max(root.squeeze_speed, push_speed + length_of(o.vx, o.vy))
+                if o.moves:
+                    root.squeeze_static = root.squeeze_speed
+    for i in range(len(motions_inout)):
+        if lists.links_islands[i]:
+            root = motions_inout[parents_out[i]]
+            motions_inout[i].squeeze_speed = root.squeeze_speed
+            motions_inout[i].squeeze_force = root.squeeze_force
+            motions_inout[i].squeeze_static = root.squeeze_static
+
+
+@subkernel
 def list_and_color(
     # read
     contacts,
@@ -253,6 +311,9 @@ def list_and_color(
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
     color_edges(plan_out.edges, count, lists.has_finite_mass, taken, degrees, plan_out.colors)
+    find_squeezed(
+        plan_out.edges, count, lists, limits.push_speed, limits.deep, plan_out.parents[:nodes], motions
+    )
     return count
 
 

@@ -6,6 +6,7 @@ from physics.jit import inlined, kernel, separate, subkernel
 from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes
+from physics.solver.energy import limit_energy
 from physics.solver.lanes import (
     IN_CONTACT,
     SIZE,
@@ -272,6 +273,8 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                     old_1,
                     old_2,
                 )
+                impulse_1 = impulse_1 if impulse_1 < c[at.MOST + lane] else c[at.MOST + lane]
+                impulse_2 = impulse_2 if impulse_2 < c[at.MOST + lane] else c[at.MOST + lane]
                 impulse_1 = 0.0 if unloaded else impulse_1
                 impulse_2 = 0.0 if unloaded else impulse_2
                 c[at.NORMAL_1 + lane] = impulse_1
@@ -399,6 +402,15 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
         if by_load:
             estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count)
         contacts.store(state, motions, count, context)
+        limit_energy(
+            blocks,
+            count,
+            group,
+            motions.lists.links_islands,
+            state.tolerances.limits,
+            contacts.selection.plan,
+            motions.used,
+        )
     return h
 
 

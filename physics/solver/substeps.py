@@ -95,7 +95,7 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
         for lane in range(at.LANES):
-            if blocks.contact[block, lane] < 0:
+            if blocks.contact[block, lane] < 0 or c[at.MOST + lane] < math.inf:
                 continue
             static = c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
             per_speed = (rules.rate_static if static else rules.rate) / abs(c[at.STIFFNESS + lane])

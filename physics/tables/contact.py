@@ -173,6 +173,15 @@ MOTION = in_lines(
         ("pseudo_w", np.float64),
         ("estimate", np.float64),  # square of the substeps that would keep its contacts within the accuracy
         ("cooldown", np.float64),  # [s] > 0 while fewer substeps would do, < 0 while the most were too few
+        ("energy", np.float64),  # kinetic energy before the step
+        ("energy_now", np.float64),
+        ("energy_excess", np.float64),
+        ("squeeze_speed", np.float64),  # [px/s] bound of the impulses per effective mass of a body without room; 0: none …
+        ("squeeze_static", np.float64),
+        ("squeeze_depth", np.float64),
+        ("squeeze_nx", np.float64),
+        ("squeeze_ny", np.float64),
+        ("squeeze_force", np.float64),  # … and what is added to it, impulse per second
         ("substeps", np.int64),  # of its island: in this step, then in the next one
         ("last_impact", np.int64),  # see solver/restitution.py
         ("branching", np.bool_),  # a body of its island has more than two contacts

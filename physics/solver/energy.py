@@ -1,0 +1,118 @@
+"""The bound of energy: contacts of an island add none, beyond the work of kinematic and moving surfaces.
+
+Contacts that separate overlaps, springs that ring, and moment arms that are fixed for a step may add kinetic energy. After
+a step the kinetic energy of an island is compared with that before, plus the work of gravity, forces and surfaces along the
+motion of the step. An excess is removed by scaling the velocities of the island.
+"""
+
+import math
+
+from physics.islands.graph import find_roots
+from physics.jit import kernel, subkernel
+from physics.solver import lanes as at
+from physics.solver.lanes import SIZE, lanes_of
+
+
+@subkernel
+def kinetic_energy(motion):
+    """Return the kinetic energy of a MOTION row of finite mass."""
+    m = motion
+    energy = 0.5 * (m.vx * m.vx + m.vy * m.vy) / m.inverse_mass
+    if m.inverse_inertia > 0.0:
+        energy += 0.5 * m.angular_velocity * m.angular_velocity / m.inverse_inertia
+    return energy
+
+
+@subkernel
+def work_of_surfaces(blocks, block, lane, motions):
+    """Return the work of the impulses of a lane by surfaces that move: kinematic bodies and conveyors."""
+    c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+    a = motions[blocks.motion_a[block, lane]]
+    b = motions[blocks.motion_b[block, lane]]
+    nx = c[at.NX + lane]
+    ny = c[at.NY + lane]
+    work = abs(c[at.SURFACE + lane] * (c[at.TANGENT_TOTAL_1 + lane] + c[at.TANGENT_TOTAL_2 + lane]))
+    for side in range(2):
+        o = a if side == 0 else b
+        if o.inverse_mass > 0.0 or not o.moves:
+            continue
+        sign = -1.0 if side == 0 else 1.0
+        for point in range(2):
+            normal = c[(at.TOTAL_1 if point == 0 else at.TOTAL_2) + lane]
+            tangent = c[(at.TANGENT_TOTAL_1 if point == 0 else at.TANGENT_TOTAL_2) + lane]
+            if side == 0:
+                x = c[(at.AX_1 if point == 0 else at.AX_2) + lane]
+                y = c[(at.AY_1 if point == 0 else at.AY_2) + lane]
+            else:
+                x = c[(at.BX_1 if point == 0 else at.BX_2) + lane]
+                y = c[(at.BY_1 if point == 0 else at.BY_2) + lane]
+            vx = o.vx - o.angular_velocity * y
+            vy = o.vy + o.angular_velocity * x
+            work -= sign * ((normal * nx - tangent * ny) * vx + (normal * ny + tangent * nx) * vy)
+    return work
+
+
+@kernel
+def limit_energy(
+    # read
+    blocks,
+    count,
+    group,
+    links_islands,
+    limits,
+    # write
+    plan_inout,
+    motions_inout,
+):
+    """Remove the energy that the contacts of a group have added to its islands. Return the number of such islands.
+
+    O(members + lanes).
+    """
+    plan = plan_inout
+    suspect = False
+    for k in range(len(group.members)):
+        m = motions_inout[group.members[k]]
+        if m.inverse_mass == 0.0:
+            continue
+        now = kinetic_energy(m)
+        work = (m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
+        if m.inverse_inertia > 0.0:
+            work += m.angular_acceleration * m.turn / m.inverse_inertia
+        m.energy_now = now
+        m.energy_excess = now - m.energy - work
+        floor = 0.5 * limits.calm_speed * limits.calm_speed / m.inverse_mass
+        suspect = suspect or (plan.degrees[group.members[k]] > 0 and m.energy_excess > floor)
+    if not suspect:
+        return 0
+    parents = plan.parents[: len(motions_inout)]
+    if not plan.joined[0]:
+        find_roots(plan.edges, group.edges, links_islands, parents)
+        plan.joined[0] = True
+    for block in range(count):
+        for lane in range(lanes_of(blocks.contact, block)):
+            if blocks.contact[block, lane] < 0:
+                continue
+            work = work_of_surfaces(blocks, block, lane, motions_inout)
+            if work != 0.0:
+                row_a = blocks.motion_a[block, lane]
+                row = row_a if links_islands[row_a] else blocks.motion_b[block, lane]
+                motions_inout[parents[row]].energy_excess -= work
+    for k in range(len(group.members)):
+        i = group.members[k]
+        root = parents[i]
+        if root != i and motions_inout[i].inverse_mass > 0.0:
+            motions_inout[root].energy_excess += motions_inout[i].energy_excess
+            motions_inout[root].energy_now += motions_inout[i].energy_now
+    found = 0
+    for k in range(len(group.members)):
+        i = group.members[k]
+        m = motions_inout[i]
+        root = motions_inout[parents[i]]
+        if root.energy_excess > 0.0 and root.energy_now > 0.0 and m.inverse_mass > 0.0:
+            found += int(parents[i] == i)
+            share = 1.0 - root.energy_excess / root.energy_now
+            scale = math.sqrt(share) if share > 0.0 else 0.0
+            m.vx *= scale
+            m.vy *= scale
+            m.angular_velocity *= scale
+    return found
