@@ -20,28 +20,21 @@ from physics.solver.lanes import (
     lanes_of,
     lay_out,
     make_blocks,
-    moment_arms,
     next_lane,
+    write_arms,
+    write_masses,
 )
 from physics.solver.motions import Motions
-from physics.solver.restitution import block_factor, make_impacts, restore_bounces
+from physics.solver.restitution import make_impacts, restore_bounces
 from physics.solver.selection import Group, Selection, touches_slowly
 from physics.solver.step_context import StepContext
 from physics.tables.step_state import SOLVER_ROWS, TANGENT_ROWS, StepState
 
 BOTH = (False, True)
+TURNING = 1e-3  # [rad] turn in a step from which the moment arms of a round contact follow it
 
 # ---- prepare ---------------------------------------------------------------------------------------------------------
 # From contacts to lanes.
-
-
-@inlined
-def effective_mass(a, b, ax, ay, bx, by, x, y):
-    """Return the effective mass along a unit direction (x, y) at these arms; 0 if neither side has a finite mass."""
-    a_arm = ax * y - ay * x
-    b_arm = bx * y - by * x
-    k = a.inverse_mass + b.inverse_mass + a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
-    return 1.0 / k if k > 0.0 else 0.0
 
 
 @inlined
@@ -110,15 +103,12 @@ def make_write_point(second: bool) -> Callable:
     arm_lines = (at.AX_2, at.AY_2, at.BX_2, at.BY_2) if second else (at.AX_1, at.AY_1, at.BX_1, at.BY_1)
     ax_line, ay_line, bx_line, by_line = arm_lines
     base_line, gap_line = (at.BASE_2, at.GAP_2) if second else (at.BASE_1, at.GAP_1)
-    mass_line, tangent_mass_line = (at.MASS_2, at.TANGENT_MASS_2) if second else (at.MASS_1, at.TANGENT_MASS_1)
     normal_line, tangent_line = (at.NORMAL_2, at.TANGENT_2) if second else (at.NORMAL_1, at.TANGENT_1)
     total_line, tangent_total_line = (at.TOTAL_2, at.TANGENT_TOTAL_2) if second else (at.TOTAL_1, at.TANGENT_TOTAL_1)
 
     @inlined
-    def write_point(contact, p, q, sticking, a, b, h, lane, c_out):
-        """Write arms, separation, effective masses and the cached impulses for a substep of h [s].
-
-        p, q: BODY rows of the sides; a, b: their MOTION rows.
+    def write_point(contact, p, q, sticking, h, lane, c_out):
+        """Write point, separation and the cached impulses for a substep of h [s]. p, q: BODY rows of the sides.
         """
         m = contact
         c = c_out
@@ -144,8 +134,6 @@ def make_write_point(second: bool) -> Callable:
         c[base_line + lane] = base
         # At the start of the substeps nothing has moved; afterwards the relaxing pass measures.
         c[gap_line + lane] = m.radius_a + m.radius_b + base + ((bx - ax) * nx + (by - ay) * ny)
-        c[mass_line + lane] = effective_mass(a, b, ax, ay, bx, by, nx, ny)
-        c[tangent_mass_line + lane] = effective_mass(a, b, ax, ay, bx, by, -ny, nx)
         c[normal_line + lane] = h * (m.normal_force_2 if second else m.normal_force_1)
         c[tangent_line + lane] = h * (m.tangent_force_2 if second else m.tangent_force_1)
         c[total_line + lane] = 0.0
@@ -167,26 +155,10 @@ def copy_first(lane, c_inout):
     c[at.BY_2 + lane] = c[at.BY_1 + lane]
     c[at.BASE_2 + lane] = c[at.BASE_1 + lane]
     c[at.GAP_2 + lane] = c[at.GAP_1 + lane]
-    c[at.MASS_2 + lane] = 0.0
-    c[at.TANGENT_MASS_2 + lane] = 0.0
     c[at.NORMAL_2 + lane] = 0.0
     c[at.TANGENT_2 + lane] = 0.0
     c[at.TOTAL_2 + lane] = 0.0
     c[at.TANGENT_TOTAL_2 + lane] = 0.0
-    c[at.OFF_DIAGONAL_1 + lane] = 0.0
-    c[at.OFF_DIAGONAL_2 + lane] = 0.0
-    c[at.BLOCK_FACTOR + lane] = 0.0
-
-
-@inlined
-def write_block_factors(a, b, lane, c_inout):
-    """Write the off-diagonal terms of the block solver: how the two points of a lane affect each other."""
-    c = c_inout
-    a_1, b_1, a_2, b_2 = moment_arms(c, lane)
-    k_12 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * a_1 * a_2 + b.inverse_inertia * b_1 * b_2
-    c[at.OFF_DIAGONAL_1 + lane] = c[at.MASS_1 + lane] * k_12
-    c[at.OFF_DIAGONAL_2 + lane] = c[at.MASS_2 + lane] * k_12
-    c[at.BLOCK_FACTOR + lane] = block_factor(c[at.OFF_DIAGONAL_1 + lane], c[at.OFF_DIAGONAL_2 + lane])
 
 
 def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
@@ -237,13 +209,20 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c[at.II_A + lane] = a.inverse_inertia
             c[at.IM_B + lane] = b.inverse_mass
             c[at.II_B + lane] = b.inverse_inertia
+            c[at.RADIUS_A + lane] = m.radius_a
+            c[at.RADIUS_B + lane] = m.radius_b
             write_softness(m, sticking, a, b, plan.degrees[row_a], plan.degrees[row_b], context, lane, c)
-            write_first(m, p, q, sticking, a, b, context.h, lane, c)
+            write_first(m, p, q, sticking, context.h, lane, c)
             if m.count == 2:
-                write_second(m, p, q, sticking, a, b, context.h, lane, c)
-                write_block_factors(a, b, lane, c)
+                write_second(m, p, q, sticking, context.h, lane, c)
             else:
                 copy_first(lane, c)
+            c[at.MASS_2 + lane] = 1.0 if m.count == 2 else 0.0
+            write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
+            write_masses(lane, c)
+            if m.radius_a > 0.0 or m.radius_b > 0.0:
+                turn = context.dt * max(abs(a.angular_velocity), abs(b.angular_velocity))
+                blocks_out.turns[block] = blocks_out.turns[block] or turn > TURNING
             turning = a.inverse_inertia + b.inverse_inertia
             speed = max(a.squeeze_speed, b.squeeze_speed)
             most = math.inf
@@ -254,8 +233,6 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
                 c[at.NORMAL_1 + lane] = min(c[at.NORMAL_1 + lane], most)
                 c[at.NORMAL_2 + lane] = min(c[at.NORMAL_2 + lane], most)
             c[at.MOST + lane] = most
-            c[at.RADIUS_A + lane] = m.radius_a
-            c[at.RADIUS_B + lane] = m.radius_b
             c[at.ROLLING_LIMIT + lane] = m.rolling_resistance if friction else 0.0
             c[at.ROLLING_MASS + lane] = 1.0 / turning if turning > 0.0 else 0.0
             c[at.ROLLING + lane] = context.h * m.rolling_force
@@ -300,12 +277,10 @@ def make_friction_limit(rotation: bool) -> Callable:
                     c[(at.TANGENT_TOTAL_1 if k == 0 else at.TANGENT_TOTAL_2) + lane] = total + change
                     c[(at.TANGENT_1 if k == 0 else at.TANGENT_2) + lane] += change
                     if rotation:
-                        ax = c[(at.AX_1 if k == 0 else at.AX_2) + lane]
-                        ay = c[(at.AY_1 if k == 0 else at.AY_2) + lane]
-                        bx = c[(at.BX_1 if k == 0 else at.BX_2) + lane]
-                        by = c[(at.BY_1 if k == 0 else at.BY_2) + lane]
-                        a.angular_velocity -= a.inverse_inertia * (ax * y - ay * x)
-                        b.angular_velocity += b.inverse_inertia * (bx * y - by * x)
+                        ta = c[(at.TANGENT_A_1 if k == 0 else at.TANGENT_A_2) + lane]
+                        tb = c[(at.TANGENT_B_1 if k == 0 else at.TANGENT_B_2) + lane]
+                        a.angular_velocity -= a.inverse_inertia * ta * change
+                        b.angular_velocity += b.inverse_inertia * tb * change
 
     return limit_friction
 

@@ -30,14 +30,10 @@ LANES = 8 if JIT else 1
     STRIKE_LIMIT,  # impulse above which the contact counts as struck
     NX,  # unit normal
     NY,
-    AX_1,  # [px] moment arms of both points from the centres of mass
-    AY_1,
-    BX_1,
-    BY_1,
-    AX_2,
-    AY_2,
-    BX_2,
-    BY_2,
+    A_1,  # [px] moment arms of impulses along the normal, of both points, at the present poses
+    B_1,
+    A_2,
+    B_2,
     MASS_1,  # effective masses along the normal; of one point alone, the second is 0
     MASS_2,
     OFF_DIAGONAL_1,  # off-diagonal terms of the block solver, and its factor: see restitution.py
@@ -53,7 +49,15 @@ LANES = 8 if JIT else 1
     NORMAL_2,
     TOTAL_1,  # impulses of the step
     TOTAL_2,
-    BASE_1,  # [px] separation minus the part of the arms
+    AX_1,  # [px] both points from the centres of mass, at the start of the step
+    AY_1,
+    BX_1,
+    BY_1,
+    AX_2,
+    AY_2,
+    BX_2,
+    BY_2,
+    BASE_1,  # [px] separation minus the part of the points
     BASE_2,
     RADIUS_A,  # [px] separations are measured from core to core
     RADIUS_B,
@@ -61,6 +65,10 @@ LANES = 8 if JIT else 1
     ROLLING_MASS,
     ROLLING,
     SURFACE,  # [px/s] surface speed
+    TANGENT_A_1,  # [px] moment arms of impulses along the tangent
+    TANGENT_B_1,
+    TANGENT_A_2,
+    TANGENT_B_2,
     TANGENT_MASS_1,
     TANGENT_MASS_2,
     TANGENT_1,
@@ -76,7 +84,7 @@ LANES = 8 if JIT else 1
     PUSH_2,
     MOST,  # greatest normal impulse of a substep at one point
     SIZE,
-) = (line * LANES for line in range(53))
+) = (line * LANES for line in range(61))
 # Offsets of the values that a pass gathers from the motions of each block. They have an array of their own: among the
 # others they were a quarter of the memory traffic of a pass.
 (VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (
@@ -113,6 +121,7 @@ class Blocks(NamedTuple):
     contact: np.ndarray  # (blocks, LANES) int32 contact of each lane, -1 for none
     motion_a: np.ndarray  # (blocks, LANES) uint32 its rows of MOTION, 0 for none
     motion_b: np.ndarray
+    turns: np.ndarray  # (blocks) bool moment arms of round contacts turn in this step
     lines: np.ndarray  # SIZE numbers for each block
     gathered: np.ndarray  # GATHERED numbers of the current block of a pass
     block_of: np.ndarray  # (colours + 1) place of the next contact of each colour, those without a colour first
@@ -126,6 +135,7 @@ def make_blocks(count: int) -> Blocks:
         contact=np.zeros(lanes, np.int32),
         motion_a=np.zeros(lanes, np.uint32),
         motion_b=np.zeros(lanes, np.uint32),
+        turns=np.zeros(count, np.bool_),
         lines=zeros_in_lines(count * SIZE, np.float64),
         gathered=zeros_in_lines(GATHERED, np.float64),
         block_of=np.zeros(COLORS + 1, np.int64),
@@ -152,6 +162,7 @@ def lay_out(starts, blocks_out):
         wide = 1 if slot == 0 else LANES
         left = starts[slot + 1] - starts[slot]
         while left > 0:
+            blocks_out.turns[found] = False
             for lane in range(min(left, wide), LANES):
                 blocks_out.contact[found, lane] = -1
                 blocks_out.motion_a[found, lane] = 0
@@ -172,6 +183,53 @@ def next_lane(slot, blocks_inout):
     blocks_inout.block_of[slot] = block + 1 if last else block
     blocks_inout.lane_of[slot] = 0 if last else lane + 1
     return block, lane
+
+
+# ---- two points ------------------------------------------------------------------------------------------------------
+# Block solver for two contact points: the linear complementarity problem of two variables, by trying its four cases.
+#
+# Solving one point after the other lets a body rock from corner to corner. The problem is written in impulses and in
+# ratios that last for the step, so that there is no division. Source: Catto, Modeling and Solving Constraints, GDC 2007
+# (block solver).
+
+FLAT = 1e-3  # share of k_11 · k_22 below which the two points count as one
+
+
+@inlined
+def block_factor(off_diagonal_1, off_diagonal_2):
+    """Return the factor of solve_two where both points press, 1 / (1 - off_diagonal_1 · off_diagonal_2).
+
+    It is 0 where the points coincide.
+    """
+    apart = 1.0 - off_diagonal_1 * off_diagonal_2
+    return 1.0 / apart if apart > FLAT else 0.0
+
+
+@inlined
+def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1, old_2):
+    """Return the impulses x >= 0 of two points such that each gets the velocity change it needs, or separates.
+
+    change: of each impulse if it were alone. off_diagonal: k_12 / k_11 and k_12 / k_22. factor: see block_factor. old:
+    accumulated impulses. The points are solved in sequence where they nearly coincide, or where rounding leaves no
+    case. All cases are computed side by side, so that the loop has no branch and vectorises.
+    """
+    only_1 = old_1 + change_1 + off_diagonal_1 * old_2
+    only_2 = old_2 + change_2 + off_diagonal_2 * old_1
+    both = (factor > 0.0) & (only_1 >= off_diagonal_1 * only_2) & (only_2 >= off_diagonal_2 * only_1)
+    first = (only_1 >= 0.0) & (off_diagonal_2 * only_1 >= only_2)
+    second = (only_2 >= 0.0) & (off_diagonal_1 * only_2 >= only_1)
+    neither = (only_1 <= 0.0) & (only_2 <= 0.0)
+    x_1 = old_1 + change_1
+    x_1 = x_1 if x_1 > 0.0 else 0.0
+    x_2 = old_2 + change_2 - off_diagonal_2 * (x_1 - old_1)
+    x_2 = x_2 if x_2 > 0.0 else 0.0
+    x_1 = 0.0 if second | neither else x_1
+    x_2 = only_2 if second else (0.0 if neither else x_2)
+    x_1 = only_1 if first else x_1
+    x_2 = 0.0 if first else x_2
+    x_1 = factor * (only_1 - off_diagonal_1 * only_2) if both else x_1
+    x_2 = factor * (only_2 - off_diagonal_2 * only_1) if both else x_2
+    return x_1, x_2
 
 
 # ---- lane motions ----------------------------------------------------------------------------------------------------
@@ -238,16 +296,70 @@ def measure_gaps(lane, s, c_inout):
 
 
 @inlined
-def moment_arms(c, lane):
-    """Return the moment arms of both points for an impulse along the normal: a_1, b_1, a_2, b_2 [px]."""
+def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
+    """Write the moment arms of both points, for bodies turned by these angles since the start of the step.
+
+    A point stays at its place on the core of a shape; the radius from there to the surface does not turn.
+    """
+    c = c_inout
     nx = c[NX + lane]
     ny = c[NY + lane]
-    return (
-        c[AX_1 + lane] * ny - c[AY_1 + lane] * nx,
-        c[BX_1 + lane] * ny - c[BY_1 + lane] * nx,
-        c[AX_2 + lane] * ny - c[AY_2 + lane] * nx,
-        c[BX_2 + lane] * ny - c[BY_2 + lane] * nx,
-    )
+    ra = c[RADIUS_A + lane]
+    rb = c[RADIUS_B + lane]
+    x = c[AX_1 + lane] - ra * nx
+    y = c[AY_1 + lane] - ra * ny
+    u = cos_a * x - sin_a * y
+    v = sin_a * x + cos_a * y
+    c[A_1 + lane] = u * ny - v * nx
+    c[TANGENT_A_1 + lane] = u * nx + v * ny + ra
+    x = c[BX_1 + lane] + rb * nx
+    y = c[BY_1 + lane] + rb * ny
+    u = cos_b * x - sin_b * y
+    v = sin_b * x + cos_b * y
+    c[B_1 + lane] = u * ny - v * nx
+    c[TANGENT_B_1 + lane] = u * nx + v * ny - rb
+    x = c[AX_2 + lane] - ra * nx
+    y = c[AY_2 + lane] - ra * ny
+    u = cos_a * x - sin_a * y
+    v = sin_a * x + cos_a * y
+    c[A_2 + lane] = u * ny - v * nx
+    c[TANGENT_A_2 + lane] = u * nx + v * ny + ra
+    x = c[BX_2 + lane] + rb * nx
+    y = c[BY_2 + lane] + rb * ny
+    u = cos_b * x - sin_b * y
+    v = sin_b * x + cos_b * y
+    c[B_2 + lane] = u * ny - v * nx
+    c[TANGENT_B_2 + lane] = u * nx + v * ny - rb
+
+
+@inlined
+def write_masses(lane, c_inout):
+    """Write the effective masses at the present moment arms, and the factors of the block solver."""
+    c = c_inout
+    masses = c[IM_A + lane] + c[IM_B + lane]
+    ii_a = c[II_A + lane]
+    ii_b = c[II_B + lane]
+    two = c[MASS_2 + lane] > 0.0
+    a_1 = c[A_1 + lane]
+    b_1 = c[B_1 + lane]
+    a_2 = c[A_2 + lane]
+    b_2 = c[B_2 + lane]
+    k_1 = masses + ii_a * a_1 * a_1 + ii_b * b_1 * b_1
+    k_2 = masses + ii_a * a_2 * a_2 + ii_b * b_2 * b_2
+    k_12 = masses + ii_a * a_1 * a_2 + ii_b * b_1 * b_2
+    c[MASS_1 + lane] = 1.0 / k_1 if k_1 > 0.0 else 0.0
+    c[MASS_2 + lane] = 1.0 / k_2 if two & (k_2 > 0.0) else 0.0
+    c[OFF_DIAGONAL_1 + lane] = c[MASS_1 + lane] * k_12 if two else 0.0
+    c[OFF_DIAGONAL_2 + lane] = c[MASS_2 + lane] * k_12 if two else 0.0
+    c[BLOCK_FACTOR + lane] = block_factor(c[OFF_DIAGONAL_1 + lane], c[OFF_DIAGONAL_2 + lane]) if two else 0.0
+    a_1 = c[TANGENT_A_1 + lane]
+    b_1 = c[TANGENT_B_1 + lane]
+    a_2 = c[TANGENT_A_2 + lane]
+    b_2 = c[TANGENT_B_2 + lane]
+    k_1 = masses + ii_a * a_1 * a_1 + ii_b * b_1 * b_1
+    k_2 = masses + ii_a * a_2 * a_2 + ii_b * b_2 * b_2
+    c[TANGENT_MASS_1 + lane] = 1.0 / k_1 if k_1 > 0.0 else 0.0
+    c[TANGENT_MASS_2 + lane] = 1.0 / k_2 if two & (k_2 > 0.0) else 0.0
 
 
 @inlined
@@ -259,7 +371,7 @@ def clamp(impulse, limit):
 
 def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
     """Return the friction at one point of a lane, in a world with this effect. sums: the step has several substeps."""
-    ax_line, ay_line, bx_line, by_line = (AX_2, AY_2, BX_2, BY_2) if second else (AX_1, AY_1, BX_1, BY_1)
+    a_line, b_line = (TANGENT_A_2, TANGENT_B_2) if second else (TANGENT_A_1, TANGENT_B_1)
     mass_line, impulse_line = (TANGENT_MASS_2, TANGENT_2) if second else (TANGENT_MASS_1, TANGENT_1)
     total_line = TANGENT_TOTAL_2 if second else TANGENT_TOTAL_1
 
@@ -272,22 +384,19 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
         c = c_inout
         nx = c[NX + lane]
         ny = c[NY + lane]
-        ax = c[ax_line + lane]
-        ay = c[ay_line + lane]
-        bx = c[bx_line + lane]
-        by = c[by_line + lane]
+        a = c[a_line + lane]
+        b = c[b_line + lane]
         old = c[impulse_line + lane]
-        speed = (vx + (wa * ay - wb * by)) * -ny + (vy + (wb * bx - wa * ax)) * nx - c[SURFACE + lane]
+        speed = vy * nx - vx * ny + (wb * b - wa * a) - c[SURFACE + lane]
         impulse = clamp(old - c[mass_line + lane] * speed, c[FRICTION + lane] * normal_impulse)
         c[impulse_line + lane] = impulse
         if sums:
             c[total_line + lane] += impulse
-        x = (impulse - old) * -ny
-        y = (impulse - old) * nx
+        change = impulse - old
         if rotation:
-            wa -= c[II_A + lane] * (ax * y - ay * x)
-            wb += c[II_B + lane] * (bx * y - by * x)
-        return x, y, wa, wb
+            wa -= c[II_A + lane] * a * change
+            wb += c[II_B + lane] * b * change
+        return change * -ny, change * nx, wa, wb
 
     return apply_friction
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from physics.jit import inlined, subkernel
 from physics.solver import lanes as at
-from physics.solver.lanes import SIZE, lanes_of, moment_arms
+from physics.solver.lanes import SIZE, lanes_of, solve_two
 from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 
 # ---- impulses --------------------------------------------------------------------------------------------------------
@@ -16,30 +16,22 @@ from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 @subkernel
 def relative_speed(c, lane, second, a, b):
     """Return the speed [px/s] of B relative to A along the normal at a point of a lane; negative if they approach."""
-    ax = c[(at.AX_2 if second else at.AX_1) + lane]
-    ay = c[(at.AY_2 if second else at.AY_1) + lane]
-    bx = c[(at.BX_2 if second else at.BX_1) + lane]
-    by = c[(at.BY_2 if second else at.BY_1) + lane]
-    vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
-    vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
-    return vx * c[at.NX + lane] + vy * c[at.NY + lane]
+    speed = (b.vx - a.vx) * c[at.NX + lane] + (b.vy - a.vy) * c[at.NY + lane]
+    speed += b.angular_velocity * c[(at.B_2 if second else at.B_1) + lane]
+    return speed - a.angular_velocity * c[(at.A_2 if second else at.A_1) + lane]
 
 
 @subkernel
 def push_pair(c, lane, second, impulse, a_inout, b_inout):
     """Apply an impulse along the normal at a point of a lane, to B forwards and to A backwards."""
-    ax = c[(at.AX_2 if second else at.AX_1) + lane]
-    ay = c[(at.AY_2 if second else at.AY_1) + lane]
-    bx = c[(at.BX_2 if second else at.BX_1) + lane]
-    by = c[(at.BY_2 if second else at.BY_1) + lane]
     x = impulse * c[at.NX + lane]
     y = impulse * c[at.NY + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
-    a_inout.angular_velocity -= a_inout.inverse_inertia * (ax * y - ay * x)
+    a_inout.angular_velocity -= a_inout.inverse_inertia * impulse * c[(at.A_2 if second else at.A_1) + lane]
     b_inout.vx += b_inout.inverse_mass * x
     b_inout.vy += b_inout.inverse_mass * y
-    b_inout.angular_velocity += b_inout.inverse_inertia * (bx * y - by * x)
+    b_inout.angular_velocity += b_inout.inverse_inertia * impulse * c[(at.B_2 if second else at.B_1) + lane]
 
 
 @subkernel
@@ -51,53 +43,6 @@ def speed_of_impact(speed, separation, acceleration):
     if speed <= 0.0 or separation <= 0.0:
         return speed
     return math.sqrt(max(speed * speed + 2.0 * acceleration * separation, 0.0))
-
-
-# ---- two points ------------------------------------------------------------------------------------------------------
-# Block solver for two contact points: the linear complementarity problem of two variables, by trying its four cases.
-#
-# Solving one point after the other lets a body rock from corner to corner. The problem is written in impulses and in
-# ratios that last for the step, so that there is no division. Source: Catto, Modeling and Solving Constraints, GDC 2007
-# (block solver).
-
-FLAT = 1e-3  # share of k_11 · k_22 below which the two points count as one
-
-
-@inlined
-def block_factor(off_diagonal_1, off_diagonal_2):
-    """Return the factor of solve_two where both points press, 1 / (1 - off_diagonal_1 · off_diagonal_2).
-
-    It is 0 where the points coincide.
-    """
-    apart = 1.0 - off_diagonal_1 * off_diagonal_2
-    return 1.0 / apart if apart > FLAT else 0.0
-
-
-@inlined
-def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1, old_2):
-    """Return the impulses x >= 0 of two points such that each gets the velocity change it needs, or separates.
-
-    change: of each impulse if it were alone. off_diagonal: k_12 / k_11 and k_12 / k_22. factor: see block_factor. old:
-    accumulated impulses. The points are solved in sequence where they nearly coincide, or where rounding leaves no
-    case. All cases are computed side by side, so that the loop has no branch and vectorises.
-    """
-    only_1 = old_1 + change_1 + off_diagonal_1 * old_2
-    only_2 = old_2 + change_2 + off_diagonal_2 * old_1
-    both = (factor > 0.0) & (only_1 >= off_diagonal_1 * only_2) & (only_2 >= off_diagonal_2 * only_1)
-    first = (only_1 >= 0.0) & (off_diagonal_2 * only_1 >= only_2)
-    second = (only_2 >= 0.0) & (off_diagonal_1 * only_2 >= only_1)
-    neither = (only_1 <= 0.0) & (only_2 <= 0.0)
-    x_1 = old_1 + change_1
-    x_1 = x_1 if x_1 > 0.0 else 0.0
-    x_2 = old_2 + change_2 - off_diagonal_2 * (x_1 - old_1)
-    x_2 = x_2 if x_2 > 0.0 else 0.0
-    x_1 = 0.0 if second | neither else x_1
-    x_2 = only_2 if second else (0.0 if neither else x_2)
-    x_1 = only_1 if first else x_1
-    x_2 = 0.0 if first else x_2
-    x_1 = factor * (only_1 - off_diagonal_1 * only_2) if both else x_1
-    x_2 = factor * (only_2 - off_diagonal_2 * only_1) if both else x_2
-    return x_1, x_2
 
 
 # ---- simultaneous impacts --------------------------------------------------------------------------------------------
@@ -213,11 +158,9 @@ def unlink_impacts(blocks, impacts, count, motions_inout):
 @subkernel
 def arm_of(blocks, impact, second, sign):
     """Return the moment arm [px] of an impulse along the normal at a point of the mover."""
-    c = blocks.lines[impact.block * SIZE : (impact.block + 1) * SIZE]
-    a_1, b_1, a_2, b_2 = moment_arms(c, impact.lane)
     if sign > 0.0:
-        return b_2 if second else b_1
-    return a_2 if second else a_1
+        return line_of(blocks, impact, at.B_2 if second else at.B_1)
+    return line_of(blocks, impact, at.A_2 if second else at.A_1)
 
 
 @subkernel

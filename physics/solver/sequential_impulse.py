@@ -21,12 +21,12 @@ from physics.solver.lanes import (
     gather_velocities,
     lanes_of,
     make_friction,
-    moment_arms,
     resist_rolling,
     scatter_velocities,
+    solve_two,
 )
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_kinematic, run_solver
-from physics.solver.restitution import bounce_once, relative_speed, solve_two
+from physics.solver.restitution import bounce_once, relative_speed
 from physics.solver.soft_step import WARM_LANES, clear_impulses
 from physics.solver.step_context import context_of, separation_speed
 from physics.tables.step_state import StepState, stage
@@ -86,7 +86,7 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
                 ii_a = c[at.II_A + lane]
                 ii_b = c[at.II_B + lane]
                 masses = c[at.IM_A + lane] + c[at.IM_B + lane]
-                a_1, b_1, a_2, b_2 = moment_arms(c, lane)
+                a_1, b_1, a_2, b_2 = c[at.A_1 + lane], c[at.B_1 + lane], c[at.A_2 + lane], c[at.B_2 + lane]
                 old_1 = c[at.NORMAL_1 + lane]
                 old_2 = c[at.NORMAL_2 + lane]
                 wa = s[at.W_A + lane]
@@ -221,7 +221,7 @@ def make_push_pass(rotation: bool) -> Callable:
                 s[at.PUSH_VY_B + lane] = b.pseudo_vy
                 s[at.PUSH_W_B + lane] = b.pseudo_w
             for lane in range(wide):
-                a_1, b_1, a_2, b_2 = moment_arms(c, lane)
+                a_1, b_1, a_2, b_2 = c[at.A_1 + lane], c[at.B_1 + lane], c[at.A_2 + lane], c[at.B_2 + lane]
                 push_first(lane, a_1, b_1, context, rate, s, c)
                 push_second(lane, a_2, b_2, context, rate, s, c)
             for lane in range(wide):

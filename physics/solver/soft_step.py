@@ -16,12 +16,13 @@ from physics.solver.lanes import (
     lanes_of,
     make_friction,
     measure_gaps,
-    moment_arms,
     resist_rolling,
     scatter_velocities,
+    solve_two,
+    write_arms,
+    write_masses,
 )
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_kinematic, run_solver
-from physics.solver.restitution import solve_two
 from physics.solver.step_context import context_of, separation_speed
 from physics.solver.substeps import estimate_substeps
 from physics.tables.step_state import StepState, stage
@@ -45,7 +46,7 @@ def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
     ny = c[at.NY + lane]
     a = a_inout
     b = b_inout
-    a_1, b_1, a_2, b_2 = moment_arms(c, lane)
+    a_1, b_1, a_2, b_2 = c[at.A_1 + lane], c[at.B_1 + lane], c[at.A_2 + lane], c[at.B_2 + lane]
     speed_1 = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
     speed_2 = speed_1
     k_12 = c[at.IM_A + lane] + c[at.IM_B + lane]
@@ -111,6 +112,20 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
     return slow if (context.deep_rate > 0.0) & (slow < most) else most
 
 
+@inlined
+def angular_impulses(lane, c):
+    """Return the angular impulses of a lane on its bodies A and B, but for rolling resistance."""
+    n_1 = c[at.NORMAL_1 + lane]
+    n_2 = c[at.NORMAL_2 + lane]
+    t_1 = c[at.TANGENT_1 + lane]
+    t_2 = c[at.TANGENT_2 + lane]
+    on_a = n_1 * c[at.A_1 + lane] + t_1 * c[at.TANGENT_A_1 + lane]
+    on_b = n_1 * c[at.B_1 + lane] + t_1 * c[at.TANGENT_B_1 + lane]
+    on_a += n_2 * c[at.A_2 + lane] + t_2 * c[at.TANGENT_A_2 + lane]
+    on_b += n_2 * c[at.B_2 + lane] + t_2 * c[at.TANGENT_B_2 + lane]
+    return on_a, on_b
+
+
 def make_warm_lanes(rotation: bool) -> Callable:
     """Return the pass over blocks that applies the impulses with which a substep starts."""
 
@@ -142,10 +157,9 @@ def make_warm_lanes(rotation: bool) -> Callable:
                 u = c[at.NORMAL_2 + lane] * nx - c[at.TANGENT_2 + lane] * ny
                 v = c[at.NORMAL_2 + lane] * ny + c[at.TANGENT_2 + lane] * nx
                 if rotation:
-                    a_turn = c[at.AX_1 + lane] * y - c[at.AY_1 + lane] * x + c[at.ROLLING + lane]
-                    b_turn = c[at.BX_1 + lane] * y - c[at.BY_1 + lane] * x + c[at.ROLLING + lane]
-                    a_turn += c[at.AX_2 + lane] * v - c[at.AY_2 + lane] * u
-                    b_turn += c[at.BX_2 + lane] * v - c[at.BY_2 + lane] * u
+                    a_turn, b_turn = angular_impulses(lane, c)
+                    a_turn += c[at.ROLLING + lane]
+                    b_turn += c[at.ROLLING + lane]
                     s[at.W_A + lane] -= c[at.II_A + lane] * a_turn
                     s[at.W_B + lane] += c[at.II_B + lane] * b_turn
                 s[at.VX_A + lane] -= c[at.IM_A + lane] * (x + u)
@@ -218,7 +232,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 ii_a = c[at.II_A + lane]
                 ii_b = c[at.II_B + lane]
                 masses = c[at.IM_A + lane] + c[at.IM_B + lane]
-                a_1, b_1, a_2, b_2 = moment_arms(c, lane)
+                a_1, b_1, a_2, b_2 = c[at.A_1 + lane], c[at.B_1 + lane], c[at.A_2 + lane], c[at.B_2 + lane]
                 if last:
                     measure_gaps(lane, s, c)
                 gap_1 = c[at.GAP_1 + lane]
@@ -329,6 +343,39 @@ RELAX = {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in B
 WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 
 
+@separate
+def turn_arms(count, motions_inout, blocks_inout):
+    """Write the moment arms of round contacts at the present poses, and the effective masses there. O(count).
+
+    The impulses with which the next substep starts act at the new arms: arms of the substep before would let the torque
+    lag, and a lag adds energy.
+    """
+    s = blocks_inout.gathered
+    for block in range(count):
+        if not blocks_inout.turns[block]:
+            continue
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        wide = lanes_of(blocks_inout.contact, block)
+        for lane in range(wide):
+            a = motions_inout[blocks_inout.motion_a[block, lane]]
+            b = motions_inout[blocks_inout.motion_b[block, lane]]
+            is_round = c[at.RADIUS_A + lane] + c[at.RADIUS_B + lane] > 0.0
+            s[at.COS_A + lane] = a.cosine if is_round else 1.0
+            s[at.SIN_A + lane] = a.sine if is_round else 0.0
+            s[at.COS_B + lane] = b.cosine if is_round else 1.0
+            s[at.SIN_B + lane] = b.sine if is_round else 0.0
+        for lane in range(wide):
+            before_a, before_b = angular_impulses(lane, c)
+            write_arms(lane, s[at.COS_A + lane], s[at.SIN_A + lane], s[at.COS_B + lane], s[at.SIN_B + lane], c)
+            write_masses(lane, c)
+            on_a, on_b = angular_impulses(lane, c)
+            s[at.W_A + lane] = c[at.II_A + lane] * (on_a - before_a)
+            s[at.W_B + lane] = c[at.II_B + lane] * (on_b - before_b)
+        for lane in range(wide):
+            motions_inout[blocks_inout.motion_a[block, lane]].free_w += s[at.W_A + lane]
+            motions_inout[blocks_inout.motion_b[block, lane]].free_w -= s[at.W_B + lane]
+
+
 # ---- soft step -------------------------------------------------------------------------------------------------------
 # Small substeps with soft contacts: each substep is solved once with a spring that separates overlaps, and then
 # relaxed.
@@ -380,6 +427,8 @@ def make_substeps(
                 push_out(count, context, motions_inout, blocks_inout)
             positions(members, h, context.push_speed, motions_inout)
             move_kinematic(kinematic, (n + 1) * h, motions_inout)
+            if rotation:
+                turn_arms(count, motions_inout, blocks_inout)
             if relaxed:
                 relax(count, context, motions_inout, blocks_inout)
 
