@@ -13,6 +13,10 @@ from physics.solver import lanes as at
 from physics.solver.lanes import SIZE, lanes_of
 
 
+RESERVE_TIME = 10.0  # [s] in which an island forgets the energy that it has lost
+SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
+
+
 @subkernel
 def kinetic_energy(motion):
     """Return the kinetic energy of a MOTION row of finite mass."""
@@ -59,7 +63,7 @@ def limit_energy(
     count,
     group,
     links_islands,
-    limits,
+    context,
     # write
     plan_inout,
     motions_inout,
@@ -69,20 +73,26 @@ def limit_energy(
     O(members + lanes).
     """
     plan = plan_inout
+    floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
+    keep = 1.0 / (1.0 + context.dt / RESERVE_TIME)
     suspect = False
     for k in range(len(group.members)):
         m = motions_inout[group.members[k]]
         if m.inverse_mass == 0.0:
             continue
-        now = kinetic_energy(m)
         work = (m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
         if m.inverse_inertia > 0.0:
             work += m.angular_acceleration * m.turn / m.inverse_inertia
-        m.energy_now = now
-        m.energy_excess = now - m.energy - work
-        floor = 0.5 * limits.calm_speed * limits.calm_speed / m.inverse_mass
-        suspect = suspect or (plan.degrees[group.members[k]] > 0 and m.energy_excess > floor)
+        m.energy_now = kinetic_energy(m)
+        m.energy_excess = m.energy_now - m.energy - work
+        m.energy += abs(work)
+        m.reserve *= keep
+        if plan.degrees[group.members[k]] > 0:
+            suspect = suspect or m.energy_excess * m.inverse_mass > floor
     if not suspect:
+        for k in range(len(group.members)):
+            m = motions_inout[group.members[k]]
+            m.reserve -= min(m.energy_excess, 0.0)
         return 0
     parents = plan.parents[: len(motions_inout)]
     if not plan.joined[0]:
@@ -99,20 +109,43 @@ def limit_energy(
                 motions_inout[parents[row]].energy_excess -= work
     for k in range(len(group.members)):
         i = group.members[k]
-        root = parents[i]
-        if root != i and motions_inout[i].inverse_mass > 0.0:
-            motions_inout[root].energy_excess += motions_inout[i].energy_excess
-            motions_inout[root].energy_now += motions_inout[i].energy_now
+        m = motions_inout[i]
+        root = motions_inout[parents[i]]
+        if m.inverse_mass > 0.0:
+            root.island_mass += 1.0 / m.inverse_mass
+            if parents[i] != i:
+                root.energy += m.energy
+                root.energy_excess += m.energy_excess
+                root.energy_now += m.energy_now
+                root.reserve += m.reserve
     found = 0
+    for k in range(len(group.members)):
+        i = group.members[k]
+        if parents[i] != i:
+            continue
+        root = motions_inout[i]
+        # Errors of the integrator alternate: what an island has lost before it may take back, slowly.
+        allowed = min(root.reserve, SHARE_BACK * root.energy)
+        root.energy_scale = 1.0
+        if root.energy_excess > allowed:
+            found += 1
+            share = 1.0 - (root.energy_excess - allowed) / root.energy_now if root.energy_now > 0.0 else 1.0
+            root.energy_scale = math.sqrt(share) if share > 0.0 else 0.0
+        root.reserve = max(root.reserve - min(root.energy_excess, allowed), 0.0)
     for k in range(len(group.members)):
         i = group.members[k]
         m = motions_inout[i]
         root = motions_inout[parents[i]]
-        if root.energy_excess > 0.0 and root.energy_now > 0.0 and m.inverse_mass > 0.0:
-            found += int(parents[i] == i)
-            share = 1.0 - root.energy_excess / root.energy_now
-            scale = math.sqrt(share) if share > 0.0 else 0.0
-            m.vx *= scale
-            m.vy *= scale
-            m.angular_velocity *= scale
+        if m.inverse_mass > 0.0:
+            m.vx *= root.energy_scale
+            m.vy *= root.energy_scale
+            m.angular_velocity *= root.energy_scale
+            share = 1.0 / (m.inverse_mass * root.island_mass)
+            if parents[i] != i:
+                m.reserve = share * root.reserve
+    for k in range(len(group.members)):
+        i = group.members[k]
+        m = motions_inout[i]
+        if parents[i] == i and m.inverse_mass > 0.0:
+            m.reserve *= 1.0 / (m.inverse_mass * m.island_mass)
     return found

@@ -139,6 +139,8 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.last_impact = 0
             m.substeps = b.substeps
             m.cooldown = b.cooldown
+            m.reserve = b.reserve
+            m.island_mass = 0.0
             lists_out.links_islands[k + 1] = m.is_dynamic
             lists_out.has_finite_mass[k + 1] = m.is_dynamic and b.inverse_mass > 0.0
             if m.moves:
@@ -316,6 +318,7 @@ def scatter_motions(
         b.angular_velocity = m.angular_velocity
         b.substeps = m.substeps
         b.cooldown = m.cooldown
+        b.reserve = m.reserve
         b.center_x += m.dx
         b.center_y += m.dy
         if m.turn == 0.0:

@@ -456,7 +456,7 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
             count,
             group,
             motions.lists.links_islands,
-            state.tolerances.limits,
+            context,
             contacts.selection.plan,
             motions.used,
         )

@@ -57,6 +57,7 @@ BODY = in_lines(
         ("still_angle", np.float64),
         ("sleep_time", np.float64),  # [s] time spent near that pose
         ("island", np.int64),  # lowest body id of its island; -1: none
+        ("reserve", np.float64),  # energy that its contacts have taken of late
         ("cooldown", np.float64),  # [s] > 0 while fewer substeps would do, < 0 while the most were too few
         ("substeps", np.int64),  # adaptive substeps of its island in the next step; 0: not known yet
     ]

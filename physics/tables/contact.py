@@ -176,6 +176,9 @@ MOTION = in_lines(
         ("energy", np.float64),  # kinetic energy before the step
         ("energy_now", np.float64),
         ("energy_excess", np.float64),
+        ("energy_scale", np.float64),
+        ("island_mass", np.float64),
+        ("reserve", np.float64),  # energy that it has lost and may take back
         ("squeeze_speed", np.float64),  # [px/s] bound of the impulses per effective mass of a body without room; 0: none …
         ("squeeze_static", np.float64),
         ("squeeze_depth", np.float64),
