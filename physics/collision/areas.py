@@ -9,7 +9,7 @@ import numpy as np
 
 from physics.collision.chains import BACKING, link_at
 from physics.collision.hulls import ALL_EDGES, part_of
-from physics.collision.manifold import by_owner, circle_at, copy_manifold, corners_of
+from physics.collision.manifold import by_parent, circle_at, copy_manifold, corners_of
 from physics.collision.masks import (
     collide_mask_circle,
     collide_mask_line,
@@ -129,13 +129,13 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
     the whole pair; against tiles and chains it reports the area in its own run or link. Without contact response a step
     only tests whether two masks overlap. In that case their point, normal and depth are computed here too.
     """
-    whole, _ = by_owner(manifolds)
+    whole, _ = by_parent(manifolds)
     shapes = tables.shapes
     if not tables.library.masks or not len(whole):
         return whole
     if not tables.effects.response:
         return _told_in_full(tables, whole) if tables.effects.narrowphase else whole
-    row_a, row_b = rows_of(shapes, whole["owner_a"]), rows_of(shapes, whole["owner_b"])
+    row_a, row_b = rows_of(shapes, whole["parent_a"]), rows_of(shapes, whole["parent_b"])
     masked = ((shapes["role"][row_a] == PIXELS) | (shapes["role"][row_b] == PIXELS)) & (row_a >= 0) & (row_b >= 0)
     some = whole[masked]
     if not len(some):

@@ -29,7 +29,7 @@ from physics.collision.manifold import (
     leave,
 )
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import length_of
+from physics.math2d import norm
 from physics.shapes.placement import polygon_at, rounding
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import BOUNDS, CIRCLE
@@ -61,7 +61,7 @@ def nearing(a, b):
     x = a.center_x if a.extent < b.extent else b.center_x
     y = a.center_y if a.extent < b.extent else b.center_y
     vx, vy = closing(a, b, x, y, x, y)
-    return vx, vy, length_of(vx, vy)
+    return vx, vy, norm(vx, vy)
 
 
 @subkernel
@@ -73,15 +73,15 @@ def most_nearing(a, b):
 
 
 @inlined
-def closing_speed(a, b, x, y, nx, ny, lead):
+def closing_speed(a, b, x, y, nx, ny, tangential_offset):
     """Return the closing speed [px/s] of B and A at a point [px] along the normal; negative when they separate.
 
     a, b: BODY rows; lead [px]: the tangential offset, see CONTACT.
     """
     ax = x - a.center_x
     ay = y - a.center_y
-    bx = x - b.center_x + lead * ny
-    by = y - b.center_y - lead * nx
+    bx = x - b.center_x + tangential_offset * ny
+    by = y - b.center_y - tangential_offset * nx
     vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
     vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
     return -(nx * vx + ny * vy)
@@ -91,9 +91,9 @@ def closing_speed(a, b, x, y, nx, ny, lead):
 def approach(a, b, manifold_inout):
     """Write the closing speed of both points of a CONTACT row of two bodies, BODY rows, before any response."""
     m = manifold_inout
-    m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.lead)
+    m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.tangential_offset)
     if m.count == 2:
-        m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y, m.lead)
+        m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y, m.tangential_offset)
 
 
 @kernel
@@ -122,7 +122,7 @@ def is_swept(body, way):
 
     Such a body is left to continuous collision detection, or passes through where there is none.
     """
-    return body.kind != STATIC and way > body.thin_half
+    return body.kind != STATIC and way > body.inradius
 
 
 @subkernel
@@ -131,7 +131,7 @@ def reach_of(a, b, speed, margin, ahead):
 
     It is the margin, or the distance closed in `ahead` [s], also if one of the two is stopped.
     """
-    way = ahead * max(speed, length_of(a.vx, a.vy), length_of(b.vx, b.vy))
+    way = ahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if is_swept(a, way) or is_swept(b, way) else max(margin, way)
 
 
@@ -266,14 +266,14 @@ def set_back(time, vx, vy, points_inout):
     """
     nx = points_inout[1]
     ny = points_inout[2]
-    way, lead = way_back(time, vx, vy, nx, ny)
+    way, tangential_offset = way_back(time, vx, vy, nx, ny)
     for k in range(int(points_inout[0])):
         at = 3 + 4 * k
         # Midway between the two surfaces at their present positions.
         points_inout[at] += 0.5 * way * nx
         points_inout[at + 1] += 0.5 * way * ny
         points_inout[at + 2] += way
-    return lead
+    return tangential_offset
 
 
 # ---- hull pairs ------------------------------------------------------------------------------------------------------
@@ -283,10 +283,10 @@ def set_back(time, vx, vy, points_inout):
 
 
 @subkernel
-def lead_on(before, found, lead, manifolds_out):
+def lead_on(before, found, tangential_offset, manifolds_out):
     """Write the tangential offset [px] to the manifold added since there were `before`, if one was added."""
     if before < found <= len(manifolds_out):
-        manifolds_out[before].lead = lead
+        manifolds_out[before].tangential_offset = tangential_offset
 
 
 @kernel
@@ -311,7 +311,7 @@ def collide_circle_pairs(
         ax, ay, a_radius = circle_at(bodies, shapes, candidates[i, 0])
         bx, by, b_radius = circle_at(bodies, shapes, candidates[i, 1])
         nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
-        lead = 0.0
+        tangential_offset = 0.0
         if separation > 0.0:
             p = bodies[shapes[candidates[i, 0]].body_row]
             q = bodies[shapes[candidates[i, 1]].body_row]
@@ -327,13 +327,13 @@ def collide_circle_pairs(
             # Pairs that touch in the next step are included: their present normal would deflect them in this one.
             if 0.0 < time <= 2.0 * batch.ahead:
                 nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx + time * vx, by + time * vy, b_radius)
-                way, lead = way_back(time, vx, vy, nx, ny)
+                way, tangential_offset = way_back(time, vx, vy, nx, ny)
                 x += 0.5 * way * nx
                 y += 0.5 * way * ny
                 separation += way
         before = found
         found = add_point(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, manifolds_out)
-        lead_on(before, found, lead, manifolds_out)
+        lead_on(before, found, tangential_offset, manifolds_out)
     return found
 
 
@@ -396,14 +396,14 @@ def collide_polygon_circle_pairs(
             if passes_by(workspace.a, n, workspace.b, 1, rounding(shapes, polygon) + radius, wx, wy):
                 continue
         if hit and separation <= reach:
-            way, lead = way_back(time, vx, vy, nx, ny)
+            way, tangential_offset = way_back(time, vx, vy, nx, ny)
             # Midway between the present surfaces, measured on the polygon's side.
             px += 0.5 * way * nx
             py += 0.5 * way * ny
             if sign < 0.0:
                 # A is the disc: move the point to where the polygon is now.
-                px += lead * ny
-                py -= lead * nx
+                px += tangential_offset * ny
+                py -= tangential_offset * nx
             before = found
             found = add_point(
                 shapes,
@@ -419,7 +419,7 @@ def collide_polygon_circle_pairs(
                 feature,
                 manifolds_out,
             )
-            lead_on(before, found, lead, manifolds_out)
+            lead_on(before, found, tangential_offset, manifolds_out)
     return found
 
 
@@ -504,8 +504,8 @@ def collide_polygon_pairs(
             continue
         if manifold[0] == LEFT:
             leave(i, workspace.left)
-        lead = set_back(time, vx, vy, manifold) if points > 0 and time > 0.0 else 0.0
+        tangential_offset = set_back(time, vx, vy, manifold) if points > 0 and time > 0.0 else 0.0
         before = found
         found = add_points(shapes, candidates, i, found, 1.0, manifold, points, 0, manifolds_out)
-        lead_on(before, found, lead, manifolds_out)
+        lead_on(before, found, tangential_offset, manifolds_out)
     return found

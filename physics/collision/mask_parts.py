@@ -194,7 +194,7 @@ def find_deep(
     for i in range(count):
         m = manifolds[i]
         flags_out[i] = (
-            (m.owner_a != m.shape_a or m.owner_b != m.shape_b)
+            (m.parent_a != m.shape_a or m.parent_b != m.shape_b)
             and depth_of(m) > deep
             and (bodies[m.body_row_a].kind == DYNAMIC or bodies[m.body_row_b].kind == DYNAMIC)
         )
@@ -221,8 +221,8 @@ def drop_against(
         end = first + 1
         while (
             end < count
-            and manifolds_inout[order[end]].owner_a == head.owner_a
-            and manifolds_inout[order[end]].owner_b == head.owner_b
+            and manifolds_inout[order[end]].parent_a == head.parent_a
+            and manifolds_inout[order[end]].parent_b == head.parent_b
         ):
             end += 1
         for k in range(first, end):
@@ -255,7 +255,7 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
     used = manifolds[:count]
-    return drop_against(np.lexsort((used["owner_b"], used["owner_a"])), flags, used)
+    return drop_against(np.lexsort((used["parent_b"], used["parent_a"])), flags, used)
 
 
 def settle_left(batch: Batch, told: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
@@ -283,7 +283,7 @@ def settle_left(batch: Batch, told: np.ndarray, previous: np.ndarray, workspace:
     if not len(due):
         return told[:0]
     before = previous[previous["separation_1"] < 0.0]
-    ways = {(a, b): (x, y) for a, b, x, y in before[["owner_a", "owner_b", "normal_x", "normal_y"]].tolist()}
+    ways = {(a, b): (x, y) for a, b, x, y in before[["parent_a", "parent_b", "normal_x", "normal_y"]].tolist()}
     found, count = np.zeros(len(due), CONTACT), 0
     for pair in pairs[due].tolist():
         candidates, rows = left[parts == pair], over[touching == pair]

@@ -7,7 +7,7 @@ from physics.collision.hulls import ALL_EDGES, edge_gap, edge_normal, nearest_on
 from physics.collision.manifold import BLOCK, MASK_CIRCLE, MASK_POLYGON, MASKS, add_manifold, circle_at, corners_of
 from physics.jit import kernel, subkernel
 from physics.jit.plain import word
-from physics.math2d import length_of, unit
+from physics.math2d import norm, unit
 from physics.raster.bits import (
     first_pixel,
     is_set,
@@ -122,7 +122,7 @@ def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_
     slope_y = float(more_y)
     axis_x, axis_y, least = least_axis(a, b, dx, dy)
     nx, ny = unit(slope_x, slope_y, 0.0, 0.0)
-    if length_of(slope_x, slope_y) == 0.0:
+    if norm(slope_x, slope_y) == 0.0:
         nx, ny = center_normal(a, b, dx, dy)
         if b.set_left + b.set_right + 2 * dx == a.set_left + a.set_right and (
             b.set_top + b.set_bottom + 2 * dy == a.set_top + a.set_bottom
@@ -388,7 +388,7 @@ def square_gap(corners, count, x, y):
             )
         beside = max(max(x - corners[k, 0], corners[k, 0] - x - 1.0), 0.0)
         above = max(max(y - corners[k, 1], corners[k, 1] - y - 1.0), 0.0)
-        gap = min(gap, length_of(beside, above))
+        gap = min(gap, norm(beside, above))
     return gap
 
 
@@ -403,8 +403,8 @@ def way_to_core(corners, count, x, y):
         t = nearest_on_edge(corners[k, 0], corners[k, 1], corners[n, 0], corners[n, 1], x, y)
         px = corners[k, 0] + t * (corners[n, 0] - corners[k, 0]) - x
         py = corners[k, 1] + t * (corners[n, 1] - corners[k, 1]) - y
-        if length_of(px, py) < best:
-            best = length_of(px, py)
+        if norm(px, py) < best:
+            best = norm(px, py)
             dx = px
             dy = py
     return unit(dx, dy, 0.0, -1.0)

@@ -7,7 +7,7 @@ from physics.collision.hulls import ALL_EDGES, edge_normal, pixel_feature, uprig
 from physics.collision.manifold import MASK_HULL_EXACT, MASKS_EXACT, add_point
 from physics.collision.masks import collide_mask_circle, collide_mask_line, collide_mask_polygon, collide_mask_rounded
 from physics.jit import kernel, subkernel
-from physics.math2d import cosine_and_sine, length_of, turned, unit
+from physics.math2d import cosine_and_sine, norm, rotate, unit
 from physics.raster.bits import is_set
 from physics.raster.exact import (
     ROUNDED,
@@ -156,7 +156,7 @@ def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
     x, y = into_raster(r, b, cosine, sine, p.x, p.y)
     cosine, sine = cosine_and_sine(p.angle - b.angle, max(abs(p.angle), abs(b.angle)))
     if o.kind == CIRCLE:
-        u, v = turned(o.local_x, o.local_y, cosine, sine)
+        u, v = rotate(o.local_x, o.local_y, cosine, sine)
         corners_out[0, 0] = x + u
         corners_out[0, 1] = y + v
         return 1
@@ -199,7 +199,7 @@ def meet_in_raster(rasters, words, mask, corners, count, radius, edges, depths_o
 def out_of_mask(geometry, body, shape, nx, ny, x, y):
     """Return a normal and a point in the raster of a mask that is not snapped, transformed to the world."""
     cosine, sine = cosine_and_sine(body.angle, body.angle)
-    wx, wy = turned(nx, ny, cosine, sine)
+    wx, wy = rotate(nx, ny, cosine, sine)
     px, py = out_of_raster(geometry.rasters[raster_of_shape(geometry, shape)], body, cosine, sine, x, y)
     return wx, wy, px, py
 
@@ -293,7 +293,7 @@ def area_normal(rasters, words, mask_a, mask_b, u, v, cosine, sine, area):
     above, _, _ = shared_squares(rasters, words, mask_a, mask_b, u, v - 1.0, cosine, sine)
     below, _, _ = shared_squares(rasters, words, mask_a, mask_b, u, v + 1.0, cosine, sine)
     nx, ny = unit(before - behind, above - below, 1.0, 0.0)
-    return nx, ny, length_of(before - behind, above - below) > NOISE * area
+    return nx, ny, norm(before - behind, above - below) > NOISE * area
 
 
 @subkernel
@@ -308,17 +308,17 @@ def exact_contact(rasters, words, mask_a, mask_b, u, v, cosine, sine, a, b, turn
     area = max(area, slack * slack)
     axis_x, axis_y, least = boxes_axis(a, b)
     nx, ny, is_sloped = area_normal(rasters, words, mask_a, mask_b, u, v, cosine, sine, area)
-    nx, ny = turned(nx, ny, turn_cosine, turn_sine)
+    nx, ny = rotate(nx, ny, turn_cosine, turn_sine)
     if not is_sloped:
         nx, ny, is_sloped = boxes_normal(a, b)
     depth = math.inf
     if is_sloped:
-        rx, ry = turned(nx, ny, turn_cosine, -turn_sine)
+        rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
         depth = squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, rx, ry, least)
     if depth > least:
         nx = axis_x
         ny = axis_y
-        rx, ry = turned(nx, ny, turn_cosine, -turn_sine)
+        rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
         depth = squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, rx, ry, least)
     return area, x / area, y / area, nx, ny, -depth
 

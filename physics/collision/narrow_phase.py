@@ -127,7 +127,7 @@ def collide_boxes(
 # The kind of each candidate pair, and which pairs a pass reads.
 
 # Counters after the kinds of pairs: pairs with a part, and pairs with a mask whose raster is drawn for the test.
-PARTED, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
+WITH_CHILD, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
 
 
 @inlined
@@ -201,7 +201,7 @@ def kind_asked(bodies, a, b, margin, ahead, which):
 
 
 @inlined
-def is_of_part(a, b):
+def is_of_child(a, b):
     """Return whether a side of a pair of SHAPE rows is a part of another shape."""
     return a.owner != a.id or b.owner != b.id
 
@@ -237,7 +237,7 @@ def classify(
         kind_out[i] = kind
         counts_out[kind] += 1
         if kind != NOTHING:
-            counts_out[PARTED] += int(is_of_part(a, b))
+            counts_out[WITH_CHILD] += int(is_of_child(a, b))
             counts_out[DRAWN_PAIRS] += int(is_drawn_when_asked(a) or is_drawn_when_asked(b))
             sensors += int(a.sensor or b.sensor)
     work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
@@ -365,7 +365,7 @@ class NarrowPhase:
         """Return the contacts of the candidates from their AABBs alone; see is_asked."""
         return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
 
-    def complete(self, batch: Batch, previous: np.ndarray | None, again: int, work: np.ndarray) -> np.ndarray:
+    def complete(self, batch: Batch, previous: np.ndarray | None, can_recycle: int, work: np.ndarray) -> np.ndarray:
         """Return the manifolds of all pairs whose kinds are counted, in the order of the candidates.
 
         again: number of manifolds that are in self.raw already.
@@ -376,11 +376,11 @@ class NarrowPhase:
             workspace = self._remember(batch, previous) if remembered else workspace
             if counts[SURFACE_ANY]:
                 admit_to_surfaces(batch, remembered, workspace, self.kinds, counts)
-        counts, found, orders = counts.tolist(), again, int(again > 0)
+        counts, found, orders = counts.tolist(), can_recycle, int(can_recycle > 0)
         if any(counts[:NOTHING]):
-            found, parts = self._detect(batch, workspace, previous, counts, again, work)
+            found, parts = self._detect(batch, workspace, previous, counts, can_recycle, work)
             orders += parts
-        if counts[PARTED] and (counts[POLYGONS] or again):
+        if counts[WITH_CHILD] and (counts[POLYGONS] or can_recycle):
             found = drop_opposed(batch.bodies, found, batch.margin, self._deep_for(found), self.raw)
         if orders < 2:
             return self.raw[:found]
@@ -389,8 +389,8 @@ class NarrowPhase:
         place_in_order(self.raw, found, batch.count, self.kinds, self.ordered)
         return self.ordered[:found]
 
-    def _detect(self, batch, workspace, previous, counts, again, work) -> tuple[int, int]:
-        """Add the manifolds of the pairs whose kinds are counted after the first `again`.
+    def _detect(self, batch, workspace, previous, counts, can_recycle, work) -> tuple[int, int]:
+        """Add the manifolds of the pairs whose kinds are counted after the first `can_recycle`.
 
         Return their number, with the first ones, and the number of runs added, each in the order of the candidates.
         """
@@ -400,7 +400,7 @@ class NarrowPhase:
             self.workspace = self.workspace._replace(left=workspace.left)
 
         def run_all():
-            found = again
+            found = can_recycle
             workspace.left[0] = 0
             for run in used:
                 found = run(batch, workspace, self.raw, found, work)
@@ -499,7 +499,7 @@ def detect(state: StepState) -> np.ndarray:
     return manifolds
 
 
-def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
+def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
     """Write points, normals and separations of manifolds found by a sweep, at the poses it has set."""
     found = state.workspace.narrow.collide(
         state.library,

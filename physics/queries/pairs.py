@@ -14,7 +14,7 @@ from physics.checks import Pose
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
 from physics.collision.narrow_phase import exact_narrow_phase, kind_of_pair, no_work
-from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate, separate_parts
+from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, noalias, separate_parts
 from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
 from physics.shapes.kinds import SHAPES, Shape
@@ -350,7 +350,7 @@ def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out,
     count_b = hull_at(geometry, shapes, 1, b.x - x, b.y - y, b.angle, corners_b_out)
     radius_a = rounding(shapes, 0)
     radius_b = rounding(shapes, 1)
-    separation = separate(corners_a_out, count_a, radius_a, corners_b_out, count_b, radius_b, 0, 0, workspace)
+    separation = noalias(corners_a_out, count_a, radius_a, corners_b_out, count_b, radius_b, 0, 0, workspace)
     size = max(size_of(corners_a_out, count_a, radius_a), size_of(corners_b_out, count_b, radius_b))
     return separation, size, workspace.state[ROUNDS]
 
@@ -525,9 +525,9 @@ def _box_at(shape, angle) -> Parts:
     """Return the box around a shape rotated by an angle; around a mask's pixels as drawn at that angle."""
     parts = _boxed_parts(shape)
     if isinstance(shape, PixelMask) and shape.snap and shape.area:
-        turned = shape.turned(angle)
-        rows, columns = np.nonzero(turned.solid)
-        x, y = turned.origin
+        rotate = shape.rotate(angle)
+        rows, columns = np.nonzero(rotate.solid)
+        x, y = rotate.origin
         return parts_of([rectangle(columns.min() - x, rows.min() - y, columns.max() + 1 - x, rows.max() + 1 - y)])
     if not len(parts.counts):
         return parts

@@ -506,7 +506,7 @@ def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
     return Mass(mass, found.center, found.inertia * (mass / found.mass) if found.mass > 0.0 else 0.0)
 
 
-def thin_half(shape: Shape, in_parts: bool) -> float:
+def inradius(shape: Shape, in_parts: bool) -> float:
     """Return the inradius [px] of a shape at its thinnest part; in_parts: masks are represented by the parts of their
     outline.
 
@@ -514,8 +514,8 @@ def thin_half(shape: Shape, in_parts: bool) -> float:
     walls at half their size per step. Parts thinner than a pixel count as 1 px, because they lie beside a thicker one.
     """
     if not (in_parts and isinstance(shape, PixelMask)):
-        return shape.smallest_half
-    return min((max(0.5, part.shape.smallest_half) for part in outline_of(shape)), default=shape.smallest_half)
+        return shape.min_half_extent
+    return min((max(0.5, part.shape.min_half_extent) for part in outline_of(shape)), default=shape.min_half_extent)
 
 
 def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
@@ -527,8 +527,8 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
     turns = moves & (mass.inertia > 0.0) & ~rows["fixed_rotation"]
     rows["inverse_mass"] = np.where(moves, 1.0 / mass.mass if mass.mass > 0.0 else 0.0, 0.0)
     rows["inverse_inertia"] = np.where(turns, 1.0 / mass.inertia if mass.inertia > 0.0 else 0.0, 0.0)
-    rows["smallest_half"] = min((shape.smallest_half for shape in shapes), default=0.0)
-    rows["thin_half"] = min((thin_half(shape, in_parts) for shape in shapes), default=0.0)
+    rows["min_half_extent"] = min((shape.min_half_extent for shape in shapes), default=0.0)
+    rows["inradius"] = min((inradius(shape, in_parts) for shape in shapes), default=0.0)
     rows["extent"] = max((shape.reach(*mass.center) for shape in shapes), default=0.0)
 
 

@@ -223,7 +223,7 @@ class PixelMask(OwnValues):
         origin = (self.origin[0] * factor, self.origin[1] * factor)
         return PixelMask(self.solid[np.ix_(rows, columns)], origin, self.snap, self.smooth).with_values_of(self)
 
-    def turned(self, angle: float = 0.0) -> Turned:
+    def rotate(self, angle: float = 0.0) -> Turned:
         """Return the mask at the angle bucket nearest to `angle` [rad], always rotated from the source.
 
         Cached; of large masks only the latest angles are. Raises TypeError and ValueError for an invalid angle.
@@ -231,7 +231,7 @@ class PixelMask(OwnValues):
         return self.turned_to(self.bucket_at(angle))
 
     def bucket_at(self, angle: float) -> int:
-        """Return the angle bucket (of 128 in a full turn) nearest to `angle` [rad]. Raises as `turned`."""
+        """Return the angle bucket (of 128 in a full turn) nearest to `angle` [rad]. Raises as `rotate`."""
         return bucket_of(checks.number("angle", angle), MASK_ANGLE_BUCKETS)
 
     def turned_to(self, bucket: int) -> Turned:
@@ -311,7 +311,7 @@ class PixelMask(OwnValues):
         return tuple(part.shape for part in outline_of(self))
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         if self.bounds is None:
             return 0.5
         return min(self.bounds[2] - self.bounds[0], self.bounds[3] - self.bounds[1]) / 2.0
@@ -365,8 +365,8 @@ class Bounds(EqualByValue):
             vars(self).update(vars(copy.copy(self).with_values_of(inner)))
 
     @property
-    def smallest_half(self) -> float:
-        return self.shape.smallest_half
+    def min_half_extent(self) -> float:
+        return self.shape.min_half_extent
 
     def mass_of(self, density: float) -> Mass:
         return self.shape.mass_of(density)

@@ -234,7 +234,7 @@ class Circle(EqualByValue):
         object.__setattr__(self, "center", checks.vector("center", self.center))
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         return self.radius
 
     def mass_of(self, density: float) -> Mass:
@@ -273,7 +273,7 @@ class Capsule(EqualByValue):
         return self.a, self.b
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         return self.radius
 
     def mass_of(self, density: float) -> Mass:
@@ -352,7 +352,7 @@ class Polygon(EqualByValue):
         return cls(tuple((x + cosine * u - sine * v, y + sine * u + cosine * v) for u, v in corners))
 
     @cached_property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         """Inradius [px]: distance from the centre of mass to the nearest edge, plus the radius; half the shorter side
         of a box.
         """
@@ -442,7 +442,7 @@ class TileGrid(OwnValues):
         return not (self.solid.any() or self.one_way.any() or (self.slopes > 0.0).any())
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         return self.tile_size / 2.0
 
     def mass_of(self, density: float) -> Mass:
@@ -512,7 +512,7 @@ class Segment(EqualByValue):
         return self.a, self.b
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         return 0.0
 
     def mass_of(self, density: float) -> Mass:
@@ -594,7 +594,7 @@ class Chain(EqualByValue):
         return len(self.points) if self.loop else len(self.points) - 1
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         return 0.0
 
     def mass_of(self, density: float) -> Mass:

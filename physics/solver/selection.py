@@ -21,7 +21,7 @@ from physics.islands.graph import (
     write_pair,
 )
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of
+from physics.math2d import norm
 from physics.settings import AUTO_SUBSTEPS, COLORS, HERTZ_SHARE, LOAD_SUBSTEPS
 from physics.solver.motions import Motions
 from physics.tables.step_state import StepState
@@ -271,7 +271,7 @@ def find_squeezed(edges, count, lists, push_speed, deep, parents_out, motions_in
             if root.squeeze_depth <= deep:
                 root.squeeze_speed = 0.0
             if root.squeeze_speed > 0.0 and m.inverse_mass > 0.0:
-                root.squeeze_force += length_of(m.acceleration_x, m.acceleration_y) / m.inverse_mass
+                root.squeeze_force += norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
     for i in range(count):
         a = motions_inout[edges.nodes[i, 0]]
         b = motions_inout[edges.nodes[i, 1]]
@@ -280,7 +280,7 @@ def find_squeezed(edges, count, lists, push_speed, deep, parents_out, motions_in
             root = motions_inout[parents_out[edges.nodes[i, 0] if a_moves else edges.nodes[i, 1]]]
             o = b if a_moves else a
             if root.squeeze_speed > 0.0:
-                root.squeeze_speed = max(root.squeeze_speed, push_speed + length_of(o.vx, o.vy))
+                root.squeeze_speed = max(root.squeeze_speed, push_speed + norm(o.vx, o.vy))
                 if o.moves:
                     root.squeeze_static = root.squeeze_speed
     for i in range(len(motions_inout)):

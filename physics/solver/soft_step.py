@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from physics.jit import inlined, kernel, separate, subkernel
+from physics.jit import inlined, kernel, noalias, subkernel
 from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes
@@ -129,7 +129,7 @@ def angular_impulses(lane, c):
 def make_warm_lanes(rotation: bool) -> Callable:
     """Return the pass over blocks that applies the impulses with which a substep starts."""
 
-    @separate
+    @noalias
     def warm_lanes(
         # read
         count,
@@ -205,7 +205,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
     rubs = friction and last
     friction_1, friction_2 = make_friction(False, rotation, True), make_friction(True, rotation, True)
 
-    @separate
+    @noalias
     def solve_soft(
         # read, scalars
         count,
@@ -343,7 +343,7 @@ RELAX = {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in B
 WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 
 
-@separate
+@noalias
 def turn_arms(count, motions_inout, blocks_inout):
     """Write the moment arms of round contacts at the present poses, and the effective masses there. O(count).
 
