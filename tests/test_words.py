@@ -13,7 +13,7 @@ import pytest
 
 from tests.architecture import ROOT, TOPS, sources
 
-PLAIN = ("physics", "game", "scenes")  # folders that hold to all rules
+PLAIN = ("physics", "game", "scenes", "assets")  # folders that hold to all rules
 FIRST = re.compile(r"(What|Who|Whoever|Whom|Whose|Nobody|Somebody|Nothing|Everything|That which)\b")
 PERSONS = re.compile(r"\b(whoever|whomever|nobody|somebody|anybody|everybody)\b", re.IGNORECASE)
 ABSENT = re.compile(r"\bhard_cases\b|\bdesign\.md\b|\bapi\.md\b")  # pages that a reader of the repository cannot open
