@@ -83,12 +83,12 @@ def merged(reports: list[dict]) -> dict[str, dict]:
 
 
 def kept() -> dict[str, dict]:
-    """What was measured last, as `merged` has it."""
+    """Return the last measurement, in the form of `merged`."""
     return json.loads(KEPT.read_text(encoding="utf-8"))
 
 
 def why(path: str, text: str) -> str | None:
-    """Why no test runs a line; None where nobody has said."""
+    """Return the reason why no test runs a line; None without one."""
     return next((reason for where, what, reason in EXPLAINED if path.startswith(where) and re.search(what, text)), None)
 
 
@@ -99,7 +99,7 @@ def share(files: dict[str, dict]) -> float:
 
 
 def unexplained(files: dict[str, dict]) -> list[str]:
-    """path:number: text of lines that nothing runs and nobody explains."""
+    """Return path:number: text of the lines that no test runs and no reason covers."""
     return [
         f"{path}:{number}: {text}"
         for path, file in files.items()

@@ -45,7 +45,7 @@ def words(text):
 
 
 def sweeps_lead():
-    """How much slower than the sweep the next strategy is, where everything moves, over layouts and sizes."""
+    """Return the ratio of the next strategy's time to the sweep's if everything moves, over layouts and sizes."""
     shipped = ratios("broadphase", r"(\d+) bodies (.*), all moving: (sweep|hash|tree) / brute")
     leads = {}
     for place in {(size, layout) for size, layout, _ in shipped}:
@@ -92,7 +92,7 @@ def crater():
 
 
 def sinks():
-    """What stands, and how deep it is in, by load and with four substeps."""
+    """Return which piles stand, and their overlap, by load and with four substeps."""
     rows = kept("study.json")["rows"]
     heavy, column = (rows["ratio_1000_on_1"]["engines"]["auto"], rows["crooked_40"]["engines"]["hb4"])
     assert heavy["fell"] is None and column["stood"] == column["seeds"] > 1

@@ -61,7 +61,7 @@ def rows_of(kept: dict, chart: Chart) -> list:
 
 
 def dots(kept: dict, chart: Chart) -> list[Dot]:
-    """What the chart's plot of the story shows."""
+    """Return the dots of the story's plot in the chart."""
     return dots_of(panel_of(chart, rows_of(kept, chart)), rows_of(kept, chart))
 
 
@@ -78,7 +78,7 @@ def text(kept: dict) -> str:
     for chart in charts():
         rows = rows_of(kept, chart)
         claims = chart.claims(rows)
-        # What somebody claims goes first, then what is sure.
+        # Claims of papers come first, then certain ones.
         told = sorted(claims, key=lambda claim: (not claim.source, claim.verdict == TIE))
         lines = [f"| {claim.text} | {claim.figure} | {claim.verdict} | {claim.source} |" for claim in told[:MOST]]
         table = "\n".join(["| claim | measured | verdict | whose |", "|---|---|---|---|", *lines]) if lines else ""
@@ -94,5 +94,5 @@ def text(kept: dict) -> str:
 
 
 def read(path: Path = KEPT) -> dict:
-    """What is kept."""
+    """Return the stored report."""
     return json.loads(path.read_text(encoding="utf-8"))
