@@ -65,7 +65,7 @@ def fours():
     both = ratios("broadphase", r"(.*, (?:all moving|2 % moving.*)): (tree|tree of four) / brute")
     steps = [both[case, "tree of four"] / both[case, "tree"] for case in {case for case, _ in both}]
     return (
-        f"pairs are found {min(found):.1f} to {max(found):.1f} times as fast, and what moves keeps the fours: "
+        f"pairs are found {min(found):.1f} to {max(found):.1f} times as fast, and moving bodies keep the nodes: "
         f"a step takes {min(steps):.1f} to {max(steps):.1f} of `DynamicTree()`"
     )
 
@@ -97,7 +97,7 @@ def sinks():
     heavy, column = (rows["ratio_1000_on_1"]["engines"]["auto"], rows["crooked_40"]["engines"]["hb4"])
     assert heavy["fell"] is None and column["stood"] == column["seeds"] > 1
     return [
-        f"a body 1,000 times as heavy as what it lies on sinks in by {heavy['figure']:.1f} mm",
+        f"a body 1,000 times as heavy as its support sinks in by {heavy['figure']:.1f} mm",
         f"with four, columns 2 cm askew stand forty high, {column['figure']:.0f} mm in one another",
     ]
 

@@ -1,4 +1,4 @@
-"""Worlds that stop at AABBs told of sensors as of what is solid, and of what sleeps as of what is awake."""
+"""Worlds without narrow phase reported sensors like solids, and sleeping bodies like awake ones."""
 
 import numpy as np
 import pytest

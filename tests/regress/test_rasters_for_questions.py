@@ -1,4 +1,4 @@
-"""Questions about turned masks left numbers of rasters that were gone with them; tidying up stumbled on those."""
+"""Queries about rotated masks left ids of rasters that were freed with them; the clean-up failed on those."""
 
 from math import pi
 

@@ -231,8 +231,8 @@ CHART = Chart(
     8,
     "broadphases",
     "Broad phases over the number of bodies",
-    "What does it cost to find who may touch, and how many pairs are left that do not?",
-    "all pairs of boxes; no strategy may lose one, so what is left to compare is how many too many it keeps",
+    "How much time does a broad phase take, and how many false pairs does it leave?",
+    "all pairs of boxes; no strategy may lose one, so they are compared by their number of false pairs",
     (
         *(_panel(layout, moving) for layout in LAYOUTS for moving in MOVERS),
         Panel(

@@ -85,8 +85,8 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 CHART = Chart(
     11,
     "chaos",
-    "How long a run can be foretold",
-    f"Runs that begin {NUDGE:g} px apart: when do they part by a pixel, and how far do they come apart?",
+    "Predictability of a run",
+    f"Runs that begin {NUDGE:g} px apart: when do they differ by a pixel, and how far do they diverge?",
     "none: chaos has no reference; bars reach from the 5th to the 95th percentile of the runs",
     (
         Panel(

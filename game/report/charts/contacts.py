@@ -129,7 +129,7 @@ CHART = Chart(
     2,
     "contacts",
     "Contacts: normals and depths over their time",
-    "Which way, and how far, does a tier push what its sprite touches?",
+    "In which direction, and how far, does a tier push a touching body?",
     "closed forms of discs and squares; the bars reach from the 5th to the 95th percentile of the poses",
     tuple(
         Panel(

@@ -212,9 +212,9 @@ _missed = Axis("missed hits [%]", percent("missed"), log=False)
 CHART = Chart(
     6,
     "continuous",
-    "Fast bodies: what passes unseen",
-    "How many hits are missed as bodies fly further in a step, and how late are the others told?",
-    "a straight way past an upright plate, in closed form",
+    "Fast bodies: missed hits",
+    "How many hits are missed as bodies move further in a step, and how late are the others reported?",
+    "a straight path past an upright plate, in closed form",
     (
         Panel("missed", Axis("v dt / size", value("ratio")), _missed, lambda r: r["panel"] == "miss", "series"),
         Panel(
@@ -238,8 +238,8 @@ CHART = Chart(
 TIME_CHART = Chart(
     7,
     "continuous-time",
-    "Fast bodies: what seeing them costs",
-    "What does a step take with discs at ten sizes a step, and how many does it miss?",
+    "Fast bodies: the cost of sweeps",
+    "How long is a step with discs at ten sizes a step, and how many hits does it miss?",
     "as chart 6",
     tuple(
         Panel(

@@ -72,9 +72,9 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 CHART = Chart(
     10,
     "effects",
-    "What each effect buys, and what it takes",
-    "How far does a run go astray without an effect, and how much time does that save? What would an idle one take?",
-    "the same scene, played by the same keys beside it; figures are of 2 s after the two part",
+    "Benefit and cost of each effect",
+    "How far does a run deviate without an effect, and how much time does that save? What would an idle one cost?",
+    "the same scene, played by the same keys beside it; figures are of 2 s after the two differ",
     (
         Panel(
             "declared: taken out",

@@ -91,8 +91,8 @@ CHART = Chart(
     9,
     "far",
     "Far from the origin",
-    "How far out do a pile's boxes lie where they lie at the origin?",
-    f"the same {BOXES} boxes at the origin, two seconds later; dots are what a float32, a float64 can tell apart",
+    "Up to what distance does a pile behave as it does at the origin?",
+    f"the same {BOXES} boxes at the origin, two seconds later; dots are the resolution of float32 and float64",
     (
         Panel(
             "boxes",

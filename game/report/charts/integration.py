@@ -149,7 +149,7 @@ CHART = Chart(
     5,
     "integration",
     "Lengths of a step",
-    "What does a second of motion cost, and how far does it end from where it should?",
+    "How much time does a second of motion take, and how large is its error at the end?",
     "closed forms of fall, sliding, rolling and bouncing",
     tuple(
         Panel(f"{case}: {word}", x, Axis("off after 1 s by [px]", value("error"), mark=1.0), panel_is(case), line)

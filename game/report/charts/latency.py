@@ -105,7 +105,7 @@ CHART = Chart(
     12,
     "latency",
     "The slowest step of every scene",
-    "How long do steps take, the usual and the slowest, and how much do they allocate?",
+    "How long are the steps, typical and slowest, and how much memory do they allocate?",
     "the least of three runs of the same step; bars reach from the median to the slowest, dots are the 95th percentile",
     (
         Panel(

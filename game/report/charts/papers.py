@@ -131,8 +131,8 @@ CHART = Chart(
     15,
     "papers",
     "What papers claim",
-    "Do edges, iterations and events cost what is said of them?",
-    "counts and times: nothing here can be wrong, only slow",
+    "Do edges, iterations and events cost what papers claim?",
+    "counts and times, without errors",
     (
         Panel(
             "corners of two polygons",

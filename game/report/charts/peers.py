@@ -224,7 +224,7 @@ CHART = Chart(
     14,
     "peers",
     "Beside pygame and pymunk",
-    "What does the same work cost with the ways people use today, and is it as exact?",
+    "What does the same work cost with common libraries, and is it as exact?",
     "sprites: which masks share a pixel, asked for every pair; piles: no box overlaps another",
     _panels,
     _jobs,

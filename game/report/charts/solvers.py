@@ -96,7 +96,7 @@ CHART = Chart(
     4,
     "solvers",
     "Solvers and substeps",
-    "What does it cost a step that a pile stands, and how deep do its boxes sink into each other?",
+    "How long is a step of a standing pile, and how deep do its boxes overlap?",
     "rest: a stacked box stays in place, so each pixel off, up or down, or of overlap, is an error",
     tuple(panel for pile in PILES for panel in _panels_of(pile)),
     _jobs,

@@ -146,8 +146,8 @@ CHART = Chart(
     1,
     "tiers",
     "Tiers: wrong verdicts over the time of a pair",
-    "How often does a cheaper shape say hit where no pixels meet, and miss where they do, and what does it save?",
-    "the exact test of the sprites' pixel squares at their poses, turned and between pixels",
+    "How often does a cheaper shape report a false hit or miss a true one, and how much time does it save?",
+    "the exact test of the sprites' pixel squares at their poses, rotated and between pixels",
     tuple(
         _rates(kind, wrong, word, panel)
         for panel in (AROUND, NEAR)
@@ -159,8 +159,8 @@ CHART = Chart(
 FIT_CHART = Chart(
     3,
     "fit",
-    "Tiers: what they weigh, and how well they fit",
-    "How many bytes and how much time to make buy how close a shape?",
+    "Tiers: memory and fit",
+    "How close is a shape, for its bytes and its time to build?",
     "the union of the sprite's pixel squares; areas, centres, moments and distances by exact geometry",
     (
         Panel(
