@@ -145,8 +145,9 @@ class Sounds:
         self.report(f"{self.silent_because}; the game goes on in silence")
 
     def _voice_for(self, name, rank):
-        """Return the voice to start on: a free one, the oldest of this sound, or one of lowest rank; None if there is
-        none.
+        """Return the voice to start on: a free one, the oldest of this sound, or one of the lowest rank up to `rank`.
+
+        Return None if all busy voices have higher ranks.
         """
         busy = [voice for voice in self.voices if voice.channel.get_busy()]
         same = [voice for voice in busy if voice.name == name]

@@ -93,7 +93,7 @@ def build_load(side):
 
 
 def take_away(side):
-    """Remove the load after three seconds; with cached forces, by moving it away without a report."""
+    """Remove the load after three seconds; with FORCES_KEPT, move it away by writing its column x."""
     if side.steps != GONE:
         return
     load = side.kept["load"]
