@@ -1,4 +1,4 @@
-"""What the tree promises, checked from the source: who imports whom, how large files are, what nobody writes."""
+"""Rules of the tree, checked from the source: imports, file sizes, forbidden constructs."""
 
 import ast
 import re
@@ -19,7 +19,7 @@ from tests.architecture import (
     sources,
 )
 
-# Who stands left of whom (design, section 3): each imports what stands to its left, nothing else, without exceptions.
+# Import order: each package imports those to its left and nothing else, without exceptions.
 ORDER = ("assets", "physics", "game", "scenes", "main")
 APART = {"physics": set(), "assets": set(), "game": {"physics"}, "scenes": {"physics", "game", "assets"}}
 # Within game/, from the inside out: input knows no screens, screens know no command line.

@@ -1,4 +1,4 @@
-"""Which pixels of a picture shapes cover: those whose centres lie in one of them."""
+"""Coverage of the pixels of a picture by shapes: a pixel is covered if its centre lies in one of them."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ from physics import Bounds, Capsule, Circle, PixelMask, Polygon
 
 
 def covered(shapes, x, y):
-    """Bool array: whether each centre (x, y) [px], in body space, lies in one of the shapes."""
+    """Return a bool array: whether each centre (x, y) [px], in body space, lies in one of the shapes."""
     found = np.zeros(np.shape(x), bool)
     for shape in shapes:
         found |= _inside(shape, x, y)
@@ -45,7 +45,7 @@ def _in_polygon(shape, x, y):
 
 
 def _to_segment(x, y, a, b):
-    """Distances of points from a segment."""
+    """Return the distances of points from a segment."""
     along = np.array([b[0] - a[0], b[1] - a[1]], float)
     length = float(along @ along)
     share = ((x - a[0]) * along[0] + (y - a[1]) * along[1]) / length if length > 0.0 else np.zeros(np.shape(x))

@@ -1,7 +1,6 @@
-"""How a world's bodies look: pieces in the game's style where they are large enough, plain shapes where they are tiny.
+"""Drawing of a world's bodies: pieces in the game's style if they are large enough, plain shapes if they are tiny.
 
-Pieces are drawn on the canvas; what would be smaller than a few canvas pixels there, and pixels of masks, are drawn at
-window resolution.
+Pieces are drawn on the canvas; shapes of a few canvas pixels, and pixels of masks, are drawn at window resolution.
 """
 
 from functools import lru_cache
@@ -15,20 +14,20 @@ from game.drawing.rotated import poses_between
 from physics import Capsule, Chain, Circle, PixelMask
 from scenes.lab.pieces import RAMPS, hull, placed, scaled, turning
 
-LEAST, MOST = 8.0, 120.0  # [canvas px] outside of which a shape is drawn plain
+LEAST, MOST = 8.0, 120.0  # [canvas px] range of pieces; others are drawn plain
 ORDER = ("wood", "gold", "teal", "coral", "violet")
 ASLEEP = "steel"
-STREAK = 12.0  # [canvas px] further than this in a step, and the way is drawn
+STREAK = 12.0  # [canvas px] motion per step from which the path is drawn
 GROUND, RIM = (66, 60, 92), (150, 146, 182)
 NEAR = 100  # [canvas px] around the view
 
 
 class Looks:
-    """The bodies of one world, seen through one camera."""
+    """The bodies of one world, drawn through one camera."""
 
     def __init__(self, world, camera):
         self.world, self.camera = world, camera
-        self.known = {}  # body id -> (shapes, ramp or None of what stands still, whether it is a sensor)
+        self.known = {}  # body id -> (shapes, ramp or None if static, whether it is a sensor)
 
     def _of(self, identity):
         if identity not in self.known:
@@ -41,7 +40,7 @@ class Looks:
         return self.known[identity]
 
     def draw(self, canvas, alpha):
-        """Grounds and pieces, between the last two steps, clipped to the view."""
+        """Draw grounds and pieces, interpolated between the last two steps, clipped to the view."""
         bodies, zoom = self.world.bodies, self.camera.zoom
         x, y, angle = poses_between(bodies, alpha)
         x, y = self.camera.to_canvas(x, y, alpha)
@@ -59,7 +58,7 @@ class Looks:
         canvas.surface.set_clip(None)
 
     def draw_on_frame(self, frame):
-        """What is tiny, and pixels, at the poses of the last step; the ways of what is fast."""
+        """Draw tiny shapes and pixels at the poses of the last step, and the paths of fast bodies."""
         bodies, lens = self.world.bodies, frame.lens(self.camera)
         surface = frame.surface
         surface.set_clip(lens.clip)
@@ -88,7 +87,7 @@ class Looks:
 
 @lru_cache(maxsize=256)
 def is_piece(shape, zoom):
-    """Whether a shape is large enough, and not too large, for a picture of its own."""
+    """Return whether the size of a shape suits a picture of its own."""
     if isinstance(shape, (PixelMask, Chain)):
         return False
     points, radius = hull(shape)
@@ -97,7 +96,7 @@ def is_piece(shape, zoom):
 
 
 def draw_ground(surface, shape, zoom, pose, sensor):
-    """What stands still, on the canvas; a sensor is a bare colour."""
+    """Draw a static shape on the canvas; a sensor in one colour."""
     if isinstance(shape, PixelMask):
         return
     points = placed(shape, zoom, pose)
@@ -116,7 +115,7 @@ def draw_ground(surface, shape, zoom, pose, sensor):
 
 
 def draw_plain(surface, shape, zoom, pose, ramp):
-    """A tiny, or a huge, convex shape in two colours."""
+    """Draw a tiny, or a huge, convex shape in two colours."""
     rim, inside, *_ = ramp
     points = placed(shape, zoom, pose)
     if isinstance(shape, Circle):
@@ -138,7 +137,7 @@ def draw_plain(surface, shape, zoom, pose, ramp):
 
 
 def draw_mask(surface, mask, zoom, place, ramp):
-    """The pixels of a mask that does not turn; what stands still is darker."""
+    """Draw the pixels of a mask that does not rotate; static ones are darker."""
     picture = mask_picture(mask, RIM if ramp is None else RAMPS[ramp][1])
     width, height = picture.get_size()
     size = (max(1, round(width * zoom)), max(1, round(height * zoom)))
@@ -148,7 +147,7 @@ def draw_mask(surface, mask, zoom, place, ramp):
 
 @lru_cache(maxsize=32)
 def mask_picture(mask, color):
-    """The solid pixels in one colour, see-through so that an overlap shows."""
+    """Return the solid pixels in one colour, half transparent so that an overlap shows."""
     solid = mask.solid
     picture = pygame.Surface((solid.shape[1], solid.shape[0]), pygame.SRCALPHA, 32)
     picture.fill((*color, 0))

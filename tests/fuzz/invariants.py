@@ -1,6 +1,6 @@
-"""What holds after every line of every program (hard_cases section 1): numbers, normals, handles, events, contacts.
+"""Invariants after every line of every program: numbers, normals, handles, events, contacts.
 
-Reads the tables and asks the public functions; knows nothing of how a step is made.
+They read the tables and call the public functions; they are independent of the implementation of a step.
 """
 
 import numpy as np
@@ -36,7 +36,7 @@ class Watch:
         self.kept = None  # the two, when the snapshot was taken
 
     def before(self):
-        """What a wrong call must not change."""
+        """Record the state that a wrong call must not change."""
         return self.world.digest()
 
     def unchanged(self, before, error):
@@ -152,7 +152,7 @@ class Watch:
         return list(zip(rows["shape_a"].tolist(), rows["shape_b"].tolist(), strict=True))
 
     def contacts_begin(self):
-        """Who overlaps, or is pushed, has begun to touch."""
+        """Check that every overlapping or pushed pair has begun to touch."""
         rows = self.world.contacts
         rows = rows[(rows["separation"] <= 0.0) | (rows["normal_impulse"] > 0.0)]
         found = set(zip(rows["shape_a"].tolist(), rows["shape_b"].tolist(), strict=True))

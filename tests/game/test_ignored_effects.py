@@ -1,4 +1,4 @@
-"""What a solver ignores is told where it runs: in the HUD, in --json, in the panel and in the report."""
+"""Effects that a solver ignores are reported where it runs: in the HUD, in --json, in the panel and in the report."""
 
 import json
 

@@ -27,7 +27,7 @@ SPRITES = (
     ("hero", "idle_0"),
     ("planes", "dart_0"),
 )
-NEAR = 0.71 + 0.01  # [px] an edge may leave the pixels' by: api.md says smooth + 0.21
+NEAR = 0.71 + 0.01  # [px] greatest distance of an edge from the pixels': smooth + 0.21, plus rounding
 
 
 def turned(points, pose):
@@ -96,7 +96,7 @@ def test_worlds_without_response_have_no_outlines():
 
 
 def test_masks_are_shown_where_they_are_where_bodies_are_pushed():
-    """Where bodies are pushed nobody draws a mask at its angle until he is asked: all lay at (0, 0), and met there."""
+    """With response no mask is drawn at its angle before it is needed: all were at (0, 0), and met there."""
     world = World(Effects.rigid_bodies(), gravity=(0.0, 0.0))
     mask = PixelMask.from_array(np.ones((8, 30), bool))
     for x in (40.0, 66.0):

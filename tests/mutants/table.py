@@ -17,7 +17,7 @@ class Mutant:
 
     @property
     def key(self):
-        """What operators.change asks for."""
+        """Arguments of operators.change."""
         return self.kernel, self.kind, self.seed
 
     def __str__(self):

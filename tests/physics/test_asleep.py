@@ -1,4 +1,4 @@
-"""What sleeps is out of every loop, is still told, and comes back when something is done to it."""
+"""Sleeping bodies are in no loop, are still reported, and wake when they are changed."""
 
 import numpy as np
 import pytest
@@ -235,7 +235,7 @@ def test_what_was_in_an_island_and_now_stands_is_ground():
 
 @pytest.mark.parametrize("strategy", BROADPHASES)
 def test_falling_asleep_leaves_each_pair_once(strategy):
-    """Nothing changed but what is awake: sweep and prune was asked all the same, by what had changed before."""
+    """Only the set of awake bodies changed: sweep and prune was queried again, by the previous changes."""
     world = World(broadphase=BROADPHASES[strategy]())
     floor(world)
     boxes = [world.add_body(BOX, position=(40.0 * k - 60, -8 - 16 * j)) for k in range(3) for j in range(2)]

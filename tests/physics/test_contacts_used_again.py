@@ -59,7 +59,7 @@ def follow(make, edit):
 
 
 def leave(world, step, memory):
-    """Nothing is done by hand."""
+    """Leave the world unchanged."""
 
 
 def move_floor(world, step, memory):
@@ -129,7 +129,7 @@ def test_a_heap_that_hands_move(edit, effects):
 
 
 def test_contacts_that_sleep_are_asked_when_they_wake():
-    """Where the other side stood in the last step tells nothing about who was asleep in it."""
+    """The places of the other side in the last step say nothing about a body that was asleep in it."""
     world, _, bodies = heap(Effects.rigid_bodies(), shapes=(Polygon.box(24, 24),))
     for _ in range(120):
         world.step()

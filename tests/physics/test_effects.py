@@ -1,4 +1,4 @@
-"""Only what a scene calls for exists: stages, counters, tables, compiled kernels (hard_cases M1 to M4)."""
+"""Only declared effects exist: stages, counters, tables, compiled kernels."""
 
 import json
 import os

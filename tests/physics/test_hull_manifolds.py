@@ -1,5 +1,6 @@
-"""Every pair of rounded hulls against an independent truth: the origin's distance from their Minkowski difference
-(hard_cases B1, B2, B5, B6, B8 to B11, U2, U7, U8, U10)."""
+"""Every pair of rounded hulls against an independent truth: the origin's distance from their Minkowski difference (U2,
+U7, U8, U10).
+"""
 
 import itertools
 import math

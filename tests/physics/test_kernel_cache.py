@@ -242,7 +242,7 @@ def test_every_kernel_of_the_package_has_a_content_of_its_own():
 
 
 def test_plain_twins_call_plain_twins_alone():
-    """Nothing inside a plain kernel is a Kernel any more, however deep."""
+    """A plain kernel contains no Kernel, at any depth."""
     from physics.jit.kernels import Kernel
     from physics.jit.plain import Builtin, globals_of
 

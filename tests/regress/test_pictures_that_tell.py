@@ -1,4 +1,6 @@
-"""What the eye met: overlays over the score, keys across the picture, figures of one slow step, names in bits."""
+"""Faults that were visible: overlays over the score, keys across the picture, figures of one slow step, names in
+bits.
+"""
 
 import re
 

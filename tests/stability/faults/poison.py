@@ -142,7 +142,7 @@ def fields_of(world, table):
 
 
 def same(found, wanted, rows):
-    """Whether bodies of these rows are at the same places with the same velocities, to the bit."""
+    """Return whether bodies of these rows are at the same places with the same velocities, to the bit."""
     names = ("x", "y", "angle", "vx", "vy", "angular_velocity")
     return all(np.array_equal(found[name][rows], wanted[name][rows]) for name in names)
 
