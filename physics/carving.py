@@ -1,7 +1,6 @@
 """Carving: pixels of a body's masks are removed, and pieces that come loose become bodies."""
 
 import math
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -76,17 +75,14 @@ def _tool_in(mask, frame, shape, pose):
     box = min(across) - radius, min(down) - radius, max(across) + radius, max(down) + radius
     if not shape._is_convex:
         return _mask_tool(mask, frame, shape, pose), box
-    return partial(_find_in_hull, np.array(seen, np.float64), radius), box
+    points = np.array(seen, np.float64)
+    return lambda words, left, top, found: find_in_hull(words, left, top, points, radius, found), box
 
 
 def _in_raster(mask, frame, x, y):
     """Return a world point in the raster of a body's mask [px]."""
     u, v = turned(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
     return u + mask.origin[0], v + mask.origin[1]
-
-
-def _find_in_hull(points, radius, words, left, top, found):
-    return find_in_hull(words, left, top, points, radius, found)
 
 
 def _mask_tool(mask, frame, shape, pose) -> Tool:

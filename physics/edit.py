@@ -13,7 +13,8 @@ from physics.collision.kept_forces import KeptForces
 from physics.dynamics.integrate import refresh_centers
 from physics.islands import sleep
 from physics.shapes.approximate import fit
-from physics.shapes.library import check_shapes, find_equal, rounding_of, rows_in_tiles, set_mass, weigh
+from physics.shapes.kinds import check_shapes
+from physics.shapes.library import find_equal, rounding_of, rows_in_tiles, set_mass, weigh
 from physics.shapes.mask import PixelMask
 from physics.shapes.outline import is_tiled, keep_tiles, polygons, tiled_parts
 from physics.shapes.shape import Filter, Material, Shape

@@ -27,8 +27,8 @@ from physics.distance.gjk import (
     write_depth,
     write_nearest,
 )
-from physics.queries.pairs import checked, parts_of_pair
-from physics.shapes.kinds import SHAPES, Bounds
+from physics.queries.pairs import parts_of_pair
+from physics.shapes.kinds import SHAPES, Bounds, checked_pose
 from physics.shapes.shape import Shape
 from physics.shapes.values import Convex, Polygon
 
@@ -85,7 +85,7 @@ def _core(name, shape, pose_name, pose):
         hulls = sorted((each for each in SHAPES if issubclass(each, Convex)), key=lambda each: each is Polygon)
         names = ", ".join(each.__name__ for each in hulls)
         raise TypeError(f"{name} must be a {names} or Bounds of one (got {checks.shown(shape)})")
-    pose = checked(name, shape, pose_name, pose)
+    pose = checked_pose(name, shape, pose_name, pose)
     parts = parts_of_pair(shape, pose, shape, pose, 0.0, 0.0)[0]
     return parts.corners[0, : parts.counts[0]], float(parts.radii[0])
 
@@ -99,7 +99,8 @@ def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> lis
 
     Points are relative to the origin of A. Raises TypeError for shapes that are not convex, ValueError.
     """
-    pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
+    pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
+    pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
     for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
         if not isinstance(shape, (Convex, Bounds)):
             raise TypeError(f"{name} must be a convex shape (got {checks.shown(shape)})")

@@ -36,7 +36,7 @@ from physics.math2d import Vec2
 from physics.queries.index import AskedWorld, IndexedWorld
 from physics.queries.rays import cast_on_disc, cast_on_hull, cast_on_shape
 from physics.settings import DRAWN, MASK_ANGLE_BUCKETS, POSITION_LIMIT
-from physics.shapes.kinds import checked_pose, checked_shape
+from physics.shapes.kinds import checked_pose
 from physics.shapes.library import draw_masks, place
 from physics.shapes.placement import hull_at, is_hull, refresh_aabbs, rounding
 from physics.shapes.shape import Filter, Parts, Placed, Shape, parts_near, parts_of
@@ -382,7 +382,7 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
     the exact pose, and a grazing contact is no hit. A Chain is hit from its front, a one-way tile or mask from above.
     Raises TypeError, ValueError.
     """
-    pose, filter = checked_pose("pose", pose, checked_shape("shape", shape)), _checked(filter)
+    pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
     dx, dy = checks.vector("translation", translation)
     index = world.queries
     index.begin(world)
@@ -537,7 +537,7 @@ def query_point(world: AskedWorld, point: Pair) -> list:
 
 def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list:
     """Return the bodies that a shape at a pose overlaps, sensors included. Raises TypeError, ValueError."""
-    pose, filter = checked_pose("pose", pose, checked_shape("shape", shape)), _checked(filter)
+    pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
     world.queries.begin(world)
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)

@@ -1,9 +1,10 @@
 """Two shapes without a world: collide, distance and time_of_impact."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from struct import Struct
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from physics.collision.narrow_phase import exact_narrow_phase, kind_of_pair, no_
 from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate, separate_parts
 from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
-from physics.shapes.kinds import checked_pose, checked_shape, rank_of
+from physics.shapes.kinds import checked_pose, rank_of
 from physics.shapes.library import Library, place, rounding_of
 from physics.shapes.placement import hull_at, refresh_aabbs, rounding
 from physics.shapes.shape import Parts, Placed, Shape, turned_parts
@@ -33,6 +34,7 @@ from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, SHAPE
 # their corners; a concave shape gets a library of its own.
 
 At = tuple[float, float, float]  # x, y, angle
+Kept = TypeVar("Kept")
 
 
 class PairRows(NamedTuple):
@@ -52,20 +54,21 @@ class HullRow(NamedTuple):
     count: int  # of them
 
 
-def _kept(shape, name, make) -> Any:
-    """Return the result of `make` for a shape, cached with the shape."""
-    kept = vars(shape.bare)
-    if name not in kept:
-        kept[name] = make(shape.bare)
-    return kept[name]
+def kept_with_shape(make: Callable[[Shape], Kept]) -> Callable[[Shape], Kept]:
+    """Return a function of a shape whose result is cached with the shape, one for all that differ in own values."""
+
+    def find(shape: Shape) -> Kept:
+        kept = vars(shape.bare)
+        if make.__name__ not in kept:
+            kept[make.__name__] = make(shape.bare)
+        return kept[make.__name__]
+
+    return find
 
 
+@kept_with_shape
 def hull_row(shape: Shape) -> HullRow | None:
     """Return the row of a convex shape without its pose; None for a mask, tiles, a chain, and a Bounds."""
-    return _kept(shape, "_hull_row", _make_hull_row)
-
-
-def _make_hull_row(shape) -> HullRow | None:
     if not shape._is_convex or shape._kind == BOUNDS:
         return None
     rows = np.zeros(2, SHAPE)
@@ -77,19 +80,17 @@ def _make_hull_row(shape) -> HullRow | None:
     return HullRow(rows[:1].tobytes(), rows[1:].tobytes(), points.tobytes(), len(points))
 
 
+@kept_with_shape
 def order_of(shape: Shape) -> tuple:
     """Return a sort key of a shape. The order of two shapes then changes only the signs of a result."""
-    return _kept(shape, "_order", _make_order)
-
-
-def _make_order(shape) -> tuple:
     inside = () if shape._inner is shape else (rank_of(shape._inner),)
     return (rank_of(shape), *inside, *shape._inner._key)
 
 
+@kept_with_shape
 def name_of(shape: Shape) -> tuple:
     """Return another sort key, from the constructor of a shape."""
-    return _kept(shape, "_name", lambda bare: (rank_of(bare), repr(bare), order_of(bare)))
+    return rank_of(shape), repr(shape), order_of(shape)
 
 
 NOTHING = Library().tables  # empty tables that a pair of hulls does not use
@@ -160,10 +161,8 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
     or a Chain the points of all tiles or links are listed, with the normal of the deepest one; two of these never
     collide. Raises TypeError, ValueError.
     """
-    for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
-        checked_shape(name, shape)
+    poses = [checked_pose("shape_a", shape_a, "pose_a", pose_a), checked_pose("shape_b", shape_b, "pose_b", pose_b)]
     margin = checks.number("margin", margin, low=0.0)
-    poses = [checked_pose("pose_a", pose_a, shape_a), checked_pose("pose_b", pose_b, shape_b)]
     key_a, key_b = name_of(shape_a), name_of(shape_b)
     swapped = (*key_b[:2], poses[1], key_b[2]) < (*key_a[:2], poses[0], key_a[2])
     row_a, row_b = hull_row(shape_a), hull_row(shape_b)
@@ -254,7 +253,8 @@ def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Dist
     measured by its pixels, a snapped one as it is drawn on the pixel grid. To an empty shape the distance is infinite,
     with the normal (1, 0). Raises TypeError, ValueError.
     """
-    pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
+    pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
+    pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
     if (*order_of(shape_b), *pose_b) < (*order_of(shape_a), *pose_a):
         found = _measure(shape_b, pose_b, shape_a, pose_a)
         return Distance(
@@ -352,11 +352,6 @@ def parts_of_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At, x: flo
     )
 
 
-def checked(shape_name: str, shape: Any, pose_name: str, pose: Any) -> tuple[float, float, float]:
-    """Return the pose as numbers. Raises TypeError or ValueError that names the argument."""
-    return checked_pose(pose_name, pose, checked_shape(shape_name, shape))
-
-
 # ---- pair impact -----------------------------------------------------------------------------------------------------
 # time_of_impact: the first contact of two moving shapes.
 
@@ -392,7 +387,7 @@ def time_of_impact(
     collide with each other. Raises TypeError, ValueError.
     """
     moves = [
-        [checked(f"shape_{side}", shape, f"{when}_{side}", pose) for when, pose in (("start", start), ("end", end))]
+        [checked_pose(f"shape_{side}", shape, f"{when}_{side}", at) for when, at in (("start", start), ("end", end))]
         for side, shape, start, end in (("a", shape_a, start_a, end_a), ("b", shape_b, start_b, end_b))
     ]
     ground = [each._is_ground for each in (shape_a, shape_b)]

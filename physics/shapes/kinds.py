@@ -2,11 +2,12 @@
 
 import copy
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.checks import Pose
@@ -14,6 +15,7 @@ from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass, weighed_once
 from physics.shapes.shape import EqualByValue, Parts, Placed, Shape, parts_of, rectangle
 from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, TileGrid
+from physics.tables.body import DYNAMIC
 from physics.tables.shape import BOUNDS
 
 
@@ -94,13 +96,6 @@ def names_of(types: Iterable[type[Shape]]) -> str:
     return f"{', '.join(most)} or {last}" if most else last
 
 
-def checked_shape(name: str, value: Any) -> Shape:
-    """Return a shape. Raises TypeError."""
-    if not isinstance(value, tuple(SHAPES)):
-        raise TypeError(f"{name} must be a shape such as Circle(8) (got {checks.shown(value)})")
-    return value
-
-
 def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
     """Return shapes. Raises TypeError."""
     values, types = tuple(values), tuple(SHAPES)
@@ -110,12 +105,25 @@ def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
     return values
 
 
-def checked_pose(name: str, value: Pose, shape: Shape) -> tuple[float, float, float]:
-    """Return the pose (x, y, angle) of a shape. Raises TypeError, ValueError."""
-    pose = checks.pose(name, value)
-    if pose[2] != 0.0 and not shape._may_turn:
-        raise ValueError(f"{name} must have angle 0 for a {type(shape).__name__} (got {pose[2]})")
-    return pose
+def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tuple[float, float, float]:
+    """Return the pose (x, y, angle) of a shape. Raises TypeError or ValueError that names the argument."""
+    if not isinstance(shape, tuple(SHAPES)):
+        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
+    found = checks.pose(pose_name, pose)
+    if found[2] != 0.0 and not shape._may_turn:
+        raise ValueError(f"{pose_name} must have angle 0 for a {type(shape).__name__} (got {found[2]})")
+    return found
+
+
+def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
+    """Raise TypeError for values that are no shapes, ValueError for shapes that a body of this kind cannot have."""
+    for shape in checked_shapes("shapes", shapes):
+        shape._check_body(kind, angles)
+    if kind == DYNAMIC and shapes and not any(shape._has_mass for shape in shapes):
+        raise ValueError(
+            f"shapes of a dynamic body must hold one with mass, a {type(shapes[0]).__name__} has none "
+            f"(got {checks.shown(shapes)})"
+        )
 
 
 def rank_of(shape: Shape) -> int:

@@ -9,13 +9,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks
 from physics.jit import kernel
 from physics.outline.simple_shapes import mask_hull
 from physics.raster.bits import bucket_of, halo, packed
 from physics.raster.pixel_tiles import TILE
 from physics.settings import MASK_ANGLE_BUCKETS, POSITION_LIMIT
-from physics.shapes.kinds import Bounds, checked_shapes, mass_of
+from physics.shapes.kinds import Bounds, mass_of
 from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass
 from physics.shapes.outline import is_tiled
@@ -344,9 +343,8 @@ class Library:
         if geometry < 0:
             shape = Circle(float(row["radius"]), (float(row["local_x"]), float(row["local_y"])))
         else:
-            shape = {TILES: self.tile_grids, MASK: self.masks, CHAIN: self.chain_shapes}.get(inner, self.outlines)[
-                geometry
-            ]
+            known = {TILES: self.tile_grids, MASK: self.masks, CHAIN: self.chain_shapes}
+            shape = known.get(inner, self.outlines)[geometry]
         return Bounds(shape) if kind == BOUNDS else shape
 
     @contextmanager
@@ -444,17 +442,6 @@ def _draw(library, rows, bodies, shapes):
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
 # Table rows of shapes: SHAPE rows, masses, extents.
-
-
-def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
-    """Raise TypeError for values that are no shapes, ValueError for shapes that a body of this kind cannot have."""
-    for shape in checked_shapes("shapes", shapes):
-        shape._check_body(kind, angles)
-    if kind == DYNAMIC and shapes and not any(shape._has_mass for shape in shapes):
-        raise ValueError(
-            f"shapes of a dynamic body must hold one with mass, a {type(shapes[0]).__name__} has none "
-            f"(got {checks.shown(shapes)})"
-        )
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:

@@ -72,10 +72,9 @@ class PixelMask(Shape):
 
     def with_tiles(self, tiles: PixelTiles) -> "PixelMask":
         """Return the same mask with other pixels in a raster of the same size, as after carving."""
-        found = copy.copy(self.bare)
-        for name in ("words", "_sums", "solid_box", "bounds", "centroid", "fingerprint", "outline", "_order", "_name"):
-            vars(found).pop(name, None)
-        found.tiles, found.carved, found._solid = tiles, True, None
+        found = object.__new__(PixelMask)
+        kept = {name: vars(self)[name] for name in ("snap", "smooth", "one_way", "size", "origin")}
+        vars(found).update(kept, tiles=tiles, carved=True, _solid=None)
         found._forget()
         return found.with_values_of(self)
 
