@@ -38,7 +38,7 @@ class Convex(EqualByValue):
     or a segment, with more as a polygon.
     """
 
-    radius = 0.0
+    radius = 0.0  # a field `radius` without a default is declared with field(), or this would be its default
     _is_convex = True
     _has_mass = True  # False for a line
 
