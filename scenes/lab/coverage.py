@@ -24,6 +24,8 @@ def _inside(shape, x, y):
         there = (column >= 0) & (column < width) & (row >= 0) & (row < height)
         return there & shape.solid[np.clip(row, 0, height - 1), np.clip(column, 0, width - 1)]
     if not isinstance(shape, Bounds):
-        raise TypeError(f"shapes must be Circle, Capsule, Polygon, all that is convex, Bounds or PixelMask (got {shape!r})")
+        raise TypeError(
+            f"shapes must be Circle, Capsule, Polygon, all that is convex, Bounds or PixelMask (got {shape!r})"
+        )
     left, top, right, bottom = shape.bounds or (0.0, 0.0, -1.0, -1.0)
     return (x >= left) & (x <= right) & (y >= top) & (y <= bottom)
