@@ -135,10 +135,10 @@ def test_unused_geometry_goes_and_what_is_used_stays(twins):
     new, _ = twins
     world = World(Effects())
     keeps = world.add_body(new, Bounds(new) if new._has_mass else new, kind="static")
-    for k in range(400):
+    for k in range(120):
         world.remove_body(world.add_body(Polygon.box(4.0 + k, 3.0), kind="static"))
     assert world.library.shape_of(world.shapes[0]) == new and keeps.shapes[0] == new
-    assert len(world.library.shapes) < 300, "it was tidied"
+    assert len(world.library.shapes) < 100, "it was tidied"
 
 
 def test_a_character_is_one_where_it_has_an_area(twins):
