@@ -329,7 +329,7 @@ def test_it_carves_and_stands_for_a_sprite(twins):
 
 
 def test_it_needs_no_kernel_of_its_own(diamond):
-    """What is warmed up for polygons is all that it calls."""
+    """The kernels that are warmed up for polygons are all that it calls."""
     calls = []
     for shape in (Polygon(diamond(8.0, 6.0).points), diamond(8.0, 6.0)):
         with tiers.collecting(all_calls=True) as found:
