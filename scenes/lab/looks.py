@@ -97,7 +97,7 @@ def is_piece(shape, zoom):
 
 
 def is_round(shape):
-    """Whether a shape is a disc."""
+    """Return whether a shape is a disc."""
     return isinstance(shape, Convex) and len(shape.points) == 1
 
 
