@@ -18,14 +18,24 @@ from physics.collision.hulls import (
     support_manifold,
     upright_corners,
 )
-from physics.collision.manifold import CHAIN_ANY, NOTHING, SURFACE_ANY, add_point, add_points
+from physics.collision.manifold import (
+    CHAIN_ANY,
+    NOTHING,
+    SURFACE_ANY,
+    Point,
+    add_point,
+    add_points,
+    hull_of,
+    make_pass,
+    sides_by_kind,
+)
 from physics.collision.masks import thick_line
-from physics.collision.masks_exact import meet_polygon
-from physics.jit import kernel, subkernel
+from physics.collision.masks_exact import box_of_tested, meet_polygon
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import length_of, turned, unit
-from physics.shapes.placement import box_as_tested, hull_at, polygon_at, rounding
+from physics.shapes.placement import hull_at, rounding
 from physics.tables.geometry import BLOCK_LINKS
-from physics.tables.shape import BOUNDS, CHAIN, MASK, POLYGON
+from physics.tables.shape import BOUNDS, CHAIN, MASK
 from physics.tables.step_state import MASK_TESTS
 
 # ---- chains ----------------------------------------------------------------------------------------------------------
@@ -351,17 +361,9 @@ def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
     return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
 
 
-@kernel
-def collide_chain_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of a chain and a hull or mask from `found` on. Return the new count.
+@inlined
+def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+    """Append the contacts of a chain and a hull or mask, link by link. Return the new count.
 
     O(links near the other shape).
     """
@@ -369,116 +371,73 @@ def collide_chain_pairs(
     bodies = batch.bodies
     shapes = batch.shapes
     candidates = batch.candidates
-    kinds = batch.kinds
     margin = batch.margin
     links = geometry.links
-    polygons = geometry.polygons
-    table = geometry.corners
     points = workspace.a
-    manifold = workspace.points
-    for i in range(batch.count):
-        if kinds[i] != CHAIN_ANY:
-            continue
-        sign = 1.0 if shapes[candidates[i, 0]].kind == CHAIN else -1.0
-        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
-        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-        o = shapes[other]
-        p = bodies[shapes[row].body_row]
-        q = bodies[o.body_row]
-        span = geometry.chains[shapes[row].geometry]
-        cosine = math.cos(p.angle)
-        sine = math.sin(p.angle)
-        min_x = o.min_x
-        min_y = o.min_y
-        max_x = o.max_x
-        max_y = o.max_y
-        if o.kind == MASK:
-            min_x, min_y, max_x, max_y = box_as_tested(geometry, o)
-        n = 0
-        if o.kind == POLYGON:
-            n = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b)
-        elif o.kind == BOUNDS:
-            n = upright_corners(o, workspace.b)
-        elif o.kind != MASK:
-            n = hull_at(geometry, shapes, other, q.x, q.y, q.angle, workspace.b)
-        middle_x = 0.5 * (min_x + max_x)
-        middle_y = 0.5 * (min_y + max_y)
-        # Slightly more than the margin: rounding of the rotated box must not lose a contact.
-        rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
-        min_x, min_y, max_x, max_y = box_in_body(
-            min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine
-        )
-        radius = 0.0
-        if o.kind == MASK:
-            work_inout[MASK_TESTS] += 1
-        else:
-            radius = rounding(shapes, other)
-        start = found
-        near = 0
-        for attempt in range(2):
-            # Second pass, for a hull that every link left to its neighbour: only links that overlap it.
-            if attempt == 1 and (near == 0 or found > start):
-                break
-            reach = margin if attempt == 0 else 0.0
-            for block in range(span.blocks):
-                box = geometry.link_blocks[span.first_block + block]
-                if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
+    sign, row, other = sides_by_kind(batch, pair, CHAIN)
+    o = shapes[other]
+    p = bodies[shapes[row].body_row]
+    q = bodies[o.body_row]
+    span = geometry.chains[shapes[row].geometry]
+    cosine = math.cos(p.angle)
+    sine = math.sin(p.angle)
+    min_x, min_y, max_x, max_y = box_of_tested(geometry, o)
+    middle_x = 0.5 * (min_x + max_x)
+    middle_y = 0.5 * (min_y + max_y)
+    # Slightly more than the margin: rounding of the rotated box must not lose a contact.
+    rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
+    min_x, min_y, max_x, max_y = box_in_body(min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine)
+    n = 0
+    radius = 0.0
+    if o.kind == MASK:
+        work_inout[MASK_TESTS] += 1
+    else:
+        n, radius = hull_of(geometry, bodies, shapes, other, workspace.b)
+    start = found
+    near = 0
+    for attempt in range(2):
+        # Second pass, for a hull that every link left to its neighbour: only links that overlap it.
+        if attempt == 1 and (near == 0 or found > start):
+            break
+        reach = margin if attempt == 0 else 0.0
+        for block in range(span.blocks):
+            box = geometry.link_blocks[span.first_block + block]
+            if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
+                continue
+            for k in range(block * BLOCK_LINKS, min(span.count, (block + 1) * BLOCK_LINKS)):
+                link = links[span.offset + k]
+                if misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
                     continue
-                for k in range(block * BLOCK_LINKS, min(span.count, (block + 1) * BLOCK_LINKS)):
-                    link = links[span.offset + k]
-                    if misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
+                link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
+                if o.kind == MASK:
+                    if in_front(points, 0, 1, middle_x, middle_y) < 0.0:
                         continue
-                    link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
-                    if o.kind == MASK:
-                        if in_front(points, 0, 1, middle_x, middle_y) < 0.0:
-                            continue
-                        thick_line(points, 0.0, BACKING, workspace.b)
-                        area, nx, ny, x, y, separation, which = meet_polygon(
-                            geometry, q, o, workspace.b, 4, 1, points, workspace.depths
-                        )
-                        if area > 0.0:
-                            found = add_point(
-                                shapes,
-                                candidates,
-                                i,
-                                found,
-                                -sign * nx,
-                                -sign * ny,
-                                x,
-                                y,
-                                separation,
-                                area,
-                                part_feature(k, 0),
-                                manifolds_out,
-                            )
-                    elif n == 1:
-                        hit, nx, ny, x, y, separation, which = collide_link_circle(
-                            link, points, workspace.b[0, 0], workspace.b[0, 1], radius
-                        )
-                        if hit and separation <= margin:
-                            found = add_point(
-                                shapes,
-                                candidates,
-                                i,
-                                found,
-                                sign * nx,
-                                sign * ny,
-                                x,
-                                y,
-                                separation,
-                                0.0,
-                                part_feature(k, which),
-                                manifolds_out,
-                            )
-                    else:
-                        near += 1
-                        met = collide_link_hull(
-                            link, points, workspace.b, n, radius, reach, batch.bias, attempt == 1, manifold
-                        )
-                        found = add_points(
-                            shapes, candidates, i, found, sign, manifold, met, part_feature(k, 0), manifolds_out
-                        )
+                    thick_line(points, 0.0, BACKING, workspace.b)
+                    area, nx, ny, x, y, separation, _ = meet_polygon(
+                        geometry, q, o, workspace.b, 4, 1, points, workspace.depths
+                    )
+                    if area > 0.0:
+                        point = Point(-sign * nx, -sign * ny, x, y, separation, area, part_feature(k, 0))
+                        found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                elif n == 1:
+                    hit, nx, ny, x, y, separation, feature = collide_link_circle(
+                        link, points, workspace.b[0, 0], workspace.b[0, 1], radius
+                    )
+                    if hit and separation <= margin:
+                        point = Point(sign * nx, sign * ny, x, y, separation, 0.0, part_feature(k, feature))
+                        found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                else:
+                    near += 1
+                    collide_link_hull(
+                        link, points, workspace.b, n, radius, reach, batch.bias, attempt == 1, workspace.points
+                    )
+                    found = add_points(
+                        shapes, candidates, pair, sign, workspace.points, part_feature(k, 0), manifolds_out, found
+                    )
     return found
+
+
+collide_chain_pairs = make_pass(CHAIN_ANY, collide_chain_pair)
 
 
 # ---- surfaces --------------------------------------------------------------------------------------------------------
@@ -605,9 +564,7 @@ def admit_to_surfaces(
             continue
         kind = CHAIN_ANY
         if not (known and workspace.memory[i, 1] > 0):
-            first = batch.shapes[batch.candidates[i, 0]].kind == CHAIN
-            surface = batch.candidates[i, 0] if first else batch.candidates[i, 1]
-            other = batch.candidates[i, 1] if first else batch.candidates[i, 0]
+            _, surface, other = sides_by_kind(batch, i, CHAIN)
             if was_across(batch, surface, other, batch.margin, workspace):
                 kind = NOTHING
         kinds_inout[i] = kind

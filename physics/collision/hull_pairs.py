@@ -22,15 +22,17 @@ from physics.collision.manifold import (
     CIRCLES,
     POLYGON_CIRCLE,
     POLYGONS,
-    add_point,
+    Point,
+    add_manifold,
     add_points,
     circle_at,
-    corners_of,
+    hull_of,
     leave,
+    make_pass,
+    sides_by_kind,
 )
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import length_of
-from physics.shapes.placement import polygon_at, rounding
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import BOUNDS, CIRCLE
 
@@ -277,9 +279,7 @@ def set_back(time, vx, vy, points_inout):
 
 
 # ---- hull pairs ------------------------------------------------------------------------------------------------------
-# Passes over the candidate pairs of circles and other hulls.
-#
-# Each pass runs through all candidates and takes those of its kind, so contacts come in the order of the candidates.
+# Pairs of circles and other hulls.
 
 
 @subkernel
@@ -289,137 +289,94 @@ def lead_on(before, found, lead, manifolds_out):
         manifolds_out[before].lead = lead
 
 
-@kernel
-def collide_circle_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of circles from `found` on. Return the new count."""
+@inlined
+def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+    """Append the contact of two circles. Return the new count."""
     bodies = batch.bodies
     shapes = batch.shapes
-    candidates = batch.candidates
-    kinds = batch.kinds
-    margin = batch.margin
-    for i in range(batch.count):
-        if kinds[i] != CIRCLES:
-            continue
-        ax, ay, a_radius = circle_at(bodies, shapes, candidates[i, 0])
-        bx, by, b_radius = circle_at(bodies, shapes, candidates[i, 1])
-        nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
-        lead = 0.0
-        if separation > 0.0:
-            p = bodies[shapes[candidates[i, 0]].body_row]
-            q = bodies[shapes[candidates[i, 1]].body_row]
-            if separation > margin:
-                _, _, speed = nearing(p, q)
-                if separation > reach_of(p, q, speed, margin, batch.ahead):
-                    continue
-            vx, vy = closing(p, q, ax, ay, bx, by)
-            time = time_of_discs(bx - ax, by - ay, a_radius + b_radius, vx, vy)
-            if time < 0.0:
-                # Least distance: a deflection must not drive the bodies into each other.
-                time = time_of_nearest(bx - ax, by - ay, vx, vy)
-            # Pairs that touch in the next step are included: their present normal would deflect them in this one.
-            if 0.0 < time <= 2.0 * batch.ahead:
-                nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx + time * vx, by + time * vy, b_radius)
-                way, lead = way_back(time, vx, vy, nx, ny)
-                x += 0.5 * way * nx
-                y += 0.5 * way * ny
-                separation += way
-        before = found
-        found = add_point(shapes, candidates, i, found, nx, ny, x, y, separation, 0.0, 0, manifolds_out)
-        lead_on(before, found, lead, manifolds_out)
+    row_a = batch.candidates[pair, 0]
+    row_b = batch.candidates[pair, 1]
+    ax, ay, a_radius = circle_at(bodies, shapes, row_a)
+    bx, by, b_radius = circle_at(bodies, shapes, row_b)
+    nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
+    lead = 0.0
+    if separation > 0.0:
+        p = bodies[shapes[row_a].body_row]
+        q = bodies[shapes[row_b].body_row]
+        if separation > batch.margin:
+            _, _, speed = nearing(p, q)
+            if separation > reach_of(p, q, speed, batch.margin, batch.ahead):
+                return found
+        vx, vy = closing(p, q, ax, ay, bx, by)
+        time = time_of_discs(bx - ax, by - ay, a_radius + b_radius, vx, vy)
+        if time < 0.0:
+            # Least distance: a deflection must not drive the bodies into each other.
+            time = time_of_nearest(bx - ax, by - ay, vx, vy)
+        # Pairs that touch in the next step are included: their present normal would deflect them in this one.
+        if 0.0 < time <= 2.0 * batch.ahead:
+            nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx + time * vx, by + time * vy, b_radius)
+            way, lead = way_back(time, vx, vy, nx, ny)
+            x += 0.5 * way * nx
+            y += 0.5 * way * ny
+            separation += way
+    before = found
+    point = Point(nx, ny, x, y, separation, 0.0, 0)
+    found = add_manifold(shapes, batch.candidates, pair, point, manifolds_out, found)
+    lead_on(before, found, lead, manifolds_out)
     return found
 
 
-@kernel
-def collide_polygon_circle_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of a hull of two or more corners and a circle. Return the new count."""
-    geometry = batch.geometry
+@inlined
+def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+    """Append the contact of a hull of two or more corners and a circle. Return the new count."""
     bodies = batch.bodies
     shapes = batch.shapes
-    candidates = batch.candidates
-    kinds = batch.kinds
     margin = batch.margin
-    polygons = geometry.polygons
-    table = geometry.corners
-    for i in range(batch.count):
-        if kinds[i] != POLYGON_CIRCLE:
-            continue
-        sign = -1.0 if shapes[candidates[i, 0]].kind == CIRCLE else 1.0
-        polygon = candidates[i, 1] if sign < 0.0 else candidates[i, 0]
-        circle = candidates[i, 0] if sign < 0.0 else candidates[i, 1]
-        s = shapes[polygon]
-        p = bodies[s.body_row]
-        if s.kind == BOUNDS:
-            n = corners_of(geometry, bodies, shapes, polygon, workspace.a)
-        else:
-            n = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), workspace.a)
-        x, y, radius = circle_at(bodies, shapes, circle)
-        time = 0.0
-        vx = 0.0
-        vy = 0.0
-        reach = margin
-        q = bodies[shapes[circle].body_row]
-        if batch.ahead > 0.0:
-            _, _, speed = nearing(p, q)
-            reach = reach_of(p, q, speed, margin, batch.ahead)
-            if reach > margin and batch.ahead * speed > margin:
-                vx, vy = closing(p, q, x, y, x, y)
-                time = time_of_disc(
-                    workspace.a, n, rounding(shapes, polygon), x, y, radius, vx, vy, margin, batch.ahead
-                )
-                if time < 0.0:
-                    continue
-        hit, nx, ny, px, py, separation, feature = collide_hull_circle(
-            workspace.a, n, ALL_EDGES ^ s.inner, rounding(shapes, polygon), x + time * vx, y + time * vy, radius
-        )
-        if not hit and feature == COVERED:
-            leave(i, workspace.left)
-        if hit and batch.graze < separation <= reach and feature >= CIRCLE_CORNER:
-            wx, wy = closing(p, q, px, py, x, y)
-            workspace.b[0, 0] = x
-            workspace.b[0, 1] = y
-            if passes_by(workspace.a, n, workspace.b, 1, rounding(shapes, polygon) + radius, wx, wy):
-                continue
-        if hit and separation <= reach:
-            way, lead = way_back(time, vx, vy, nx, ny)
-            # Midway between the present surfaces, measured on the polygon's side.
-            px += 0.5 * way * nx
-            py += 0.5 * way * ny
-            if sign < 0.0:
-                # A is the disc: move the point to where the polygon is now.
-                px += lead * ny
-                py -= lead * nx
-            before = found
-            found = add_point(
-                shapes,
-                candidates,
-                i,
-                found,
-                sign * nx,
-                sign * ny,
-                px,
-                py,
-                separation + way,
-                0.0,
-                feature,
-                manifolds_out,
-            )
-            lead_on(before, found, lead, manifolds_out)
+    corners = workspace.a
+    side, circle, polygon = sides_by_kind(batch, pair, CIRCLE)
+    sign = -side
+    s = shapes[polygon]
+    p = bodies[s.body_row]
+    q = bodies[shapes[circle].body_row]
+    n, rounding = hull_of(batch.geometry, batch.bodies, batch.shapes, polygon, corners)
+    x, y, radius = circle_at(bodies, shapes, circle)
+    time = 0.0
+    vx = 0.0
+    vy = 0.0
+    reach = margin
+    if batch.ahead > 0.0:
+        _, _, speed = nearing(p, q)
+        reach = reach_of(p, q, speed, margin, batch.ahead)
+        if reach > margin and batch.ahead * speed > margin:
+            vx, vy = closing(p, q, x, y, x, y)
+            time = time_of_disc(corners, n, rounding, x, y, radius, vx, vy, margin, batch.ahead)
+            if time < 0.0:
+                return found
+    hit, nx, ny, px, py, separation, feature = collide_hull_circle(
+        corners, n, ALL_EDGES ^ s.inner, rounding, x + time * vx, y + time * vy, radius
+    )
+    if not hit and feature == COVERED:
+        leave(pair, workspace.left)
+    if not hit or separation > reach:
+        return found
+    if separation > batch.graze and feature >= CIRCLE_CORNER:
+        wx, wy = closing(p, q, px, py, x, y)
+        workspace.b[0, 0] = x
+        workspace.b[0, 1] = y
+        if passes_by(corners, n, workspace.b, 1, rounding + radius, wx, wy):
+            return found
+    way, lead = way_back(time, vx, vy, nx, ny)
+    # Midway between the present surfaces, measured on the polygon's side.
+    px += 0.5 * way * nx
+    py += 0.5 * way * ny
+    if sign < 0.0:
+        # A is the disc: move the point to where the polygon is now.
+        px += lead * ny
+        py -= lead * nx
+    before = found
+    point = Point(sign * nx, sign * ny, px, py, separation + way, 0.0, feature)
+    found = add_manifold(shapes, batch.candidates, pair, point, manifolds_out, found)
+    lead_on(before, found, lead, manifolds_out)
     return found
 
 
@@ -443,69 +400,52 @@ def slides_by(a, na, b, nb, rounding, graze, p, q, manifold):
     return 2.0 * along * along > vx * vx + vy * vy and passes_by(a, na, b, nb, rounding - graze, vx, vy)
 
 
-@kernel
-def collide_polygon_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of hulls of two or more corners from `found` on. Return the new count."""
-    geometry = batch.geometry
+@inlined
+def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+    """Append the contact of two hulls of two or more corners. Return the new count."""
     bodies = batch.bodies
     shapes = batch.shapes
     candidates = batch.candidates
-    kinds = batch.kinds
     margin = batch.margin
     manifold = workspace.points
     a = workspace.a
     b = workspace.b
-    polygons = geometry.polygons
-    table = geometry.corners
-    for i in range(batch.count):
-        if kinds[i] != POLYGONS:
-            continue
-        s = shapes[candidates[i, 0]]
-        o = shapes[candidates[i, 1]]
-        p = bodies[s.body_row]
-        q = bodies[o.body_row]
-        if s.kind == BOUNDS and o.kind == BOUNDS:
-            points = collide_upright(s, o, margin, manifold)
-            if points == 1 and manifold[5] > 0.0:
-                vx, vy = closing(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
-                if passes_by(a, upright_corners(s, a), b, upright_corners(o, b), 0.0, vx, vy):
-                    continue
-            found = add_points(shapes, candidates, i, found, 1.0, manifold, points, 0, manifolds_out)
-            continue
-        if s.kind == BOUNDS or o.kind == BOUNDS:
-            na = corners_of(geometry, bodies, shapes, candidates[i, 0], a)
-            nb = corners_of(geometry, bodies, shapes, candidates[i, 1], b)
-        else:
-            na = polygon_at(polygons, table, s.geometry, p.x, p.y, math.cos(p.angle), math.sin(p.angle), a)
-            nb = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), b)
-        a_radius = 0.0 if s.kind == BOUNDS else s.radius
-        b_radius = 0.0 if o.kind == BOUNDS else o.radius
-        a_edges = ALL_EDGES
-        b_edges = ALL_EDGES
-        deepest = math.inf
-        if s.inner != 0 or o.inner != 0:
-            a_edges = (ALL_EDGES ^ s.inner) & faces_of(a, na, b, nb, ALL_EDGES ^ o.inner)
-            b_edges = (ALL_EDGES ^ o.inner) & faces_of(b, nb, a, na, ALL_EDGES ^ s.inner)
-            # Without a dynamic body there is no response: the contact of any part will do.
-            deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
-        time, vx, vy, reach = bring_together(margin, batch.ahead, p, q, a, na, nb, a_radius + b_radius, b)
-        if time < 0.0:
-            continue
-        points = collide_hulls(a, na, a_radius, a_edges, b, nb, b_radius, b_edges, reach, batch.bias, deepest, manifold)
-        if points > 0 and slides_by(a, na, b, nb, a_radius + b_radius, batch.graze, p, q, manifold):
-            continue
-        if manifold[0] == LEFT:
-            leave(i, workspace.left)
-        lead = set_back(time, vx, vy, manifold) if points > 0 and time > 0.0 else 0.0
-        before = found
-        found = add_points(shapes, candidates, i, found, 1.0, manifold, points, 0, manifolds_out)
-        lead_on(before, found, lead, manifolds_out)
+    s = shapes[candidates[pair, 0]]
+    o = shapes[candidates[pair, 1]]
+    p = bodies[s.body_row]
+    q = bodies[o.body_row]
+    if s.kind == BOUNDS and o.kind == BOUNDS:
+        points = collide_upright(s, o, margin, manifold)
+        if points == 1 and manifold[5] > 0.0:
+            vx, vy = closing(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
+            if passes_by(a, upright_corners(s, a), b, upright_corners(o, b), 0.0, vx, vy):
+                return found
+        return add_points(shapes, candidates, pair, 1.0, manifold, 0, manifolds_out, found)
+    na, a_radius = hull_of(batch.geometry, batch.bodies, batch.shapes, candidates[pair, 0], a)
+    nb, b_radius = hull_of(batch.geometry, batch.bodies, batch.shapes, candidates[pair, 1], b)
+    a_edges = ALL_EDGES
+    b_edges = ALL_EDGES
+    deepest = math.inf
+    if s.inner != 0 or o.inner != 0:
+        a_edges = (ALL_EDGES ^ s.inner) & faces_of(a, na, b, nb, ALL_EDGES ^ o.inner)
+        b_edges = (ALL_EDGES ^ o.inner) & faces_of(b, nb, a, na, ALL_EDGES ^ s.inner)
+        # Without a dynamic body there is no response: the contact of any part will do.
+        deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
+    time, vx, vy, reach = bring_together(margin, batch.ahead, p, q, a, na, nb, a_radius + b_radius, b)
+    if time < 0.0:
+        return found
+    points = collide_hulls(a, na, a_radius, a_edges, b, nb, b_radius, b_edges, reach, batch.bias, deepest, manifold)
+    if manifold[0] == LEFT:
+        leave(pair, workspace.left)
+    if points == 0 or slides_by(a, na, b, nb, a_radius + b_radius, batch.graze, p, q, manifold):
+        return found
+    lead = set_back(time, vx, vy, manifold) if time > 0.0 else 0.0
+    before = found
+    found = add_points(shapes, candidates, pair, 1.0, manifold, 0, manifolds_out, found)
+    lead_on(before, found, lead, manifolds_out)
     return found
+
+
+collide_circle_pairs = make_pass(CIRCLES, collide_circle_pair)
+collide_polygon_circle_pairs = make_pass(POLYGON_CIRCLE, collide_polygon_circle_pair)
+collide_polygon_pairs = make_pass(POLYGONS, collide_polygon_pair)

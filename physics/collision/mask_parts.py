@@ -5,12 +5,10 @@ import math
 import numpy as np
 
 from physics.collision.hulls import ALL_EDGES, clip_edges, edge_normal, least_separation, support_manifold
-from physics.collision.manifold import Batch, Workspace, add_points, circle_at, copy_manifold, corners_of
+from physics.collision.manifold import Batch, Workspace, add_points, copy_manifold, hull_of
 from physics.jit import kernel, subkernel
-from physics.shapes.placement import rounding
 from physics.tables.body import DYNAMIC
 from physics.tables.contact import MANIFOLD
-from physics.tables.shape import CIRCLE
 from physics.tables.table import rows_of
 
 # ---- ways out --------------------------------------------------------------------------------------------------------
@@ -24,17 +22,6 @@ DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH = range(
     4
 )  # of a face: unit, from A to B; how deep the other is behind it [px]
 ALONG = 0.5  # cosine of directions that go the same way
-
-
-@subkernel
-def world_hull(batch, row, corners_out):
-    """Write the world corners [px] of a hull, or the centre of a disc. Return (their number, rounding radius [px])."""
-    if batch.shapes[row].kind == CIRCLE:
-        x, y, radius = circle_at(batch.bodies, batch.shapes, row)
-        corners_out[0, 0] = x
-        corners_out[0, 1] = y
-        return 1, radius
-    return corners_of(batch.geometry, batch.bodies, batch.shapes, row, corners_out), rounding(batch.shapes, row)
 
 
 @subkernel
@@ -138,8 +125,8 @@ def lead_out(
     for k in range(len(pairs)):
         row_a = candidates[pairs[k], 0]
         row_b = candidates[pairs[k], 1]
-        na, a_radius = world_hull(batch, row_a, a)
-        nb, b_radius = world_hull(batch, row_b, b)
+        na, a_radius = hull_of(batch.geometry, batch.bodies, batch.shapes, row_a, a)
+        nb, b_radius = hull_of(batch.geometry, batch.bodies, batch.shapes, row_b, b)
         radii = a_radius + b_radius
         end = write_faces(a, na, ALL_EDGES ^ shapes[row_a].inner, b, nb, radii, 1.0, starts_out[k], faces_out)
         starts_out[k + 1] = write_faces(b, nb, ALL_EDGES ^ shapes[row_b].inner, a, na, radii, -1.0, end, faces_out)
@@ -148,16 +135,16 @@ def lead_out(
         return 0
     row_a = candidates[pairs[part], 0]
     row_b = candidates[pairs[part], 1]
-    na, a_radius = world_hull(batch, row_a, a)
-    nb, b_radius = world_hull(batch, row_b, b)
+    na, a_radius = hull_of(batch.geometry, batch.bodies, batch.shapes, row_a, a)
+    nb, b_radius = hull_of(batch.geometry, batch.bodies, batch.shapes, row_b, b)
     edge = face - starts_out[part]
     faces_of_a = na if na > 1 else 0
     if edge < faces_of_a:
-        points = push_by_face(a, na, a_radius, edge, b, nb, b_radius, False, batch.margin, workspace.points)
+        push_by_face(a, na, a_radius, edge, b, nb, b_radius, False, batch.margin, workspace.points)
     else:
         edge -= faces_of_a
-        points = push_by_face(b, nb, b_radius, edge, a, na, a_radius, True, batch.margin, workspace.points)
-    return add_points(shapes, candidates, pairs[part], 0, 1.0, workspace.points, points, 0, manifolds_out)
+        push_by_face(b, nb, b_radius, edge, a, na, a_radius, True, batch.margin, workspace.points)
+    return add_points(shapes, candidates, pairs[part], 1.0, workspace.points, 0, manifolds_out, 0)
 
 
 # ---- left over -------------------------------------------------------------------------------------------------------

@@ -1,11 +1,11 @@
 """Snapped masks: mask against mask by AND of their words, and mask against discs, hulls and bounds."""
 
 import math
-from collections.abc import Callable
+from typing import Any
 
-from physics.collision.hulls import ALL_EDGES, edge_gap, edge_normal, nearest_on_edge, pixel_feature
-from physics.collision.manifold import BLOCK, MASK_CIRCLE, MASK_POLYGON, MASKS, add_manifold, circle_at, corners_of
-from physics.jit import kernel, subkernel
+from physics.collision.hulls import edge_gap, edge_normal, nearest_on_edge, pixel_feature
+from physics.collision.manifold import MASKS, Point, add_manifold, make_pass
+from physics.jit import inlined, subkernel
 from physics.jit.plain import word
 from physics.math2d import length_of, unit
 from physics.raster.bits import (
@@ -19,8 +19,6 @@ from physics.raster.bits import (
     shared_rectangle,
     shared_row,
 )
-from physics.shapes.placement import rounding
-from physics.tables.shape import MASK
 from physics.tables.step_state import MASK_TESTS
 
 # ---- mask depth ------------------------------------------------------------------------------------------------------
@@ -487,203 +485,95 @@ def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius
     return area, best_x, best_y, point_x, point_y, -depth, first
 
 
-# ---- mask pairs ------------------------------------------------------------------------------------------------------
-# Passes over the candidate pairs with snapped masks: mask against mask by AND; mask against circle, polygon and bounds.
-
-
 @subkernel
-def list_near(rasters, shapes, candidates, kinds, start, end, near_out):
-    """List the mask candidates from start up to end whose solid bounds overlap as drawn. Return their number.
+def collide_mask_hull(rasters, words, mask, left, top, corners, count, radius, edges, depths_out):
+    """Return (area in whole pixels, normal from the mask, point, separation, first pixel number) of a mask and a hull.
 
-    near_out (BLOCK, 6) int64: candidate; first word of the shared rectangle in A and in B; its first column in A and in
-    B; its rows, -1 where a raster has several words per row. The loop has no branch and is separate from the search for
-    a shared pixel, so a mispredicted branch costs one wait with all operands at hand. O(candidates).
+    corners (n, 2) [px], grown by radius [px], in the space in which the raster is at left, top: one corner is a disc,
+    two are a line or a capsule. edges: bits of the edges that may be touched; depths_out (16,): scratch.
     """
-    found = 0
-    for i in range(start, end):
-        if kinds[i] == MASKS:
-            a = shapes[candidates[i, 0]]
-            b = shapes[candidates[i, 1]]
-            dx = b.left - a.left
-            dy = b.top - a.top
-            r = rasters[a.raster]
-            s = rasters[b.raster]
-            left, top, right, bottom = shared_rectangle(r, s, dx, dy)
-            near_out[found, 0] = i
-            near_out[found, 1] = r.offset + top
-            near_out[found, 2] = s.offset + top - dy
-            near_out[found, 3] = left
-            near_out[found, 4] = left - dx
-            near_out[found, 5] = bottom - top if r.stride == 1 and s.stride == 1 else -1
-            found += int((left < right) & (top < bottom))
-    return found
+    if count == 1:
+        return collide_mask_circle(rasters, words, mask, left, top, corners[0, 0], corners[0, 1], radius)
+    if radius > 0.0:
+        return collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius)
+    if count == 2:
+        return collide_mask_line(rasters, words, mask, left, top, corners, depths_out)
+    return collide_mask_polygon(rasters, words, mask, left, top, corners, count, edges, depths_out)
 
 
-def make_mask_pass(full: bool) -> Callable:
-    """Return the pass over mask pairs: with area, centroid, normal and depth, or with the first shared pixel alone.
+# ---- mask pairs ------------------------------------------------------------------------------------------------------
+# Pairs with snapped masks: mask against mask by AND.
+
+
+@inlined
+def bounds_overlap(batch, pair):
+    """Return whether the solid bounds of two masks overlap as drawn."""
+    a = batch.shapes[batch.candidates[pair, 0]]
+    b = batch.shapes[batch.candidates[pair, 1]]
+    rasters = batch.geometry.rasters
+    left, top, right, bottom = shared_rectangle(rasters[a.raster], rasters[b.raster], b.left - a.left, b.top - a.top)
+    return (left < right) & (top < bottom)
+
+
+def make_mask_pass(full: bool) -> Any:
+    """Return the pass over pairs of snapped masks: with area, centroid, normal and depth, or the first shared pixel.
 
     In the second form the normal is the direction between the centres and the separation is -1.
     """
 
-    @kernel
-    def collide_mask_pairs(
-        # read
-        batch,
-        # write
-        workspace,
-        manifolds_out,
-        found,
-        work_inout,
-    ):
-        """Append the contacts of all pairs of masks as drawn, by AND of words, from `found` on. Return the new
-        count."""
-        geometry = batch.geometry
-        bodies = batch.bodies
+    @inlined
+    def collide_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+        """Append the contact of two masks as drawn, by AND of words. Return the new count."""
         shapes = batch.shapes
         candidates = batch.candidates
-        kinds = batch.kinds
-        near = workspace.near
-        for start in range(0, batch.count, BLOCK):
-            count = list_near(geometry.rasters, shapes, candidates, kinds, start, min(start + BLOCK, batch.count), near)
-            work_inout[MASK_TESTS] += count
-            for k in range(count):
-                i = near[k, 0]
-                row = 0
-                shared = word(0)
-                if near[k, 5] >= 0:
-                    # Sprites up to 64 px wide: one word per row, so both shifts are the same in every row.
-                    row, shared = shared_row(geometry.words, near[k, 1], near[k, 3], near[k, 2], near[k, 4], near[k, 5])
-                    if shared == word(0):
-                        continue
-                a = shapes[candidates[i, 0]]
-                b = shapes[candidates[i, 1]]
-                left = a.left
-                top = a.top
-                dx = b.left - left
-                dy = b.top - top
-                r = geometry.rasters[a.raster]
-                s = geometry.rasters[b.raster]
-                if near[k, 5] >= 0:
-                    x = near[k, 3] + lowest_bit(shared)
-                    y = near[k, 1] - r.offset + row
-                else:
-                    hit, x, y = first_pixel(geometry.rasters, geometry.words, a.raster, b.raster, dx, dy)
-                    if not hit:
-                        continue
-                feature = pixel_feature(y, x, r.width)
-                if full:
-                    q = bodies[b.body_row]
-                    p = bodies[a.body_row]
-                    area, px, py, nx, ny, separation = mask_contact(
-                        geometry.rasters,
-                        geometry.words,
-                        a.raster,
-                        b.raster,
-                        dx,
-                        dy,
-                        p.x - r.origin_x + 0.5 - a.left,
-                        p.y - r.origin_y + 0.5 - a.top,
-                        q.x - s.origin_x + 0.5 - b.left,
-                        q.y - s.origin_y + 0.5 - b.top,
-                    )
-                    found = add_manifold(
-                        shapes,
-                        candidates,
-                        i,
-                        found,
-                        nx,
-                        ny,
-                        left + px,
-                        top + py,
-                        separation,
-                        float(area),
-                        feature,
-                        manifolds_out,
-                    )
-                else:
-                    nx, ny = center_normal(r, s, dx, dy)
-                    found = add_manifold(
-                        shapes,
-                        candidates,
-                        i,
-                        found,
-                        nx,
-                        ny,
-                        left + x + 0.5,
-                        top + y + 0.5,
-                        -1.0,
-                        0.0,
-                        feature,
-                        manifolds_out,
-                    )
-        return found
+        rasters = batch.geometry.rasters
+        words = batch.geometry.words
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        dx = b.left - a.left
+        dy = b.top - a.top
+        r = rasters[a.raster]
+        s = rasters[b.raster]
+        left, top, right, bottom = shared_rectangle(r, s, dx, dy)
+        work_inout[MASK_TESTS] += 1
+        if r.stride == 1 and s.stride == 1:
+            # Sprites up to 64 px wide: one word per row, so both shifts are the same in every row.
+            row, shared = shared_row(words, r.offset + top, left, s.offset + top - dy, left - dx, bottom - top)
+            if shared == word(0):
+                return found
+            x = left + lowest_bit(shared)
+            y = top + row
+        else:
+            hit, x, y = first_pixel(rasters, words, a.raster, b.raster, dx, dy)
+            if not hit:
+                return found
+        area = 0.0
+        px = x + 0.5
+        py = y + 0.5
+        separation = -1.0
+        if full:
+            p = batch.bodies[a.body_row]
+            q = batch.bodies[b.body_row]
+            pixels, px, py, nx, ny, separation = mask_contact(
+                rasters,
+                words,
+                a.raster,
+                b.raster,
+                dx,
+                dy,
+                p.x - r.origin_x + 0.5 - a.left,
+                p.y - r.origin_y + 0.5 - a.top,
+                q.x - s.origin_x + 0.5 - b.left,
+                q.y - s.origin_y + 0.5 - b.top,
+            )
+            area = float(pixels)
+        else:
+            nx, ny = center_normal(r, s, dx, dy)
+        point = Point(nx, ny, a.left + px, a.top + py, separation, area, pixel_feature(y, x, r.width))
+        return add_manifold(shapes, candidates, pair, point, manifolds_out, found)
 
-    return collide_mask_pairs
+    return make_pass(MASKS, collide_mask_pair, bounds_overlap)
 
 
 collide_mask_pairs_full = make_mask_pass(full=True)
 collide_mask_pairs_hit = make_mask_pass(full=False)
-
-
-@kernel
-def collide_mask_shape_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of a snapped mask and a hull from `found` on. Return the new count."""
-    geometry = batch.geometry
-    bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    kinds = batch.kinds
-    for i in range(batch.count):
-        if kinds[i] != MASK_CIRCLE and kinds[i] != MASK_POLYGON:
-            continue
-        work_inout[MASK_TESTS] += 1
-        sign = 1.0 if shapes[candidates[i, 0]].kind == MASK else -1.0
-        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
-        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-        mask = shapes[row].raster
-        left = shapes[row].left
-        top = shapes[row].top
-        if kinds[i] == MASK_CIRCLE:
-            cx, cy, radius = circle_at(bodies, shapes, other)
-            area, nx, ny, x, y, separation, feature = collide_mask_circle(
-                geometry.rasters, geometry.words, mask, left, top, cx, cy, radius
-            )
-        else:
-            n = corners_of(geometry, bodies, shapes, other, workspace.a)
-            radius = rounding(shapes, other)
-        if kinds[i] == MASK_POLYGON and radius > 0.0:
-            area, nx, ny, x, y, separation, feature = collide_mask_rounded(
-                geometry.rasters, geometry.words, mask, left, top, workspace.a, n, radius
-            )
-        elif kinds[i] == MASK_POLYGON and n == 2:
-            area, nx, ny, x, y, separation, feature = collide_mask_line(
-                geometry.rasters, geometry.words, mask, left, top, workspace.a, workspace.depths
-            )
-        elif kinds[i] == MASK_POLYGON:
-            area, nx, ny, x, y, separation, feature = collide_mask_polygon(
-                geometry.rasters, geometry.words, mask, left, top, workspace.a, n, ALL_EDGES, workspace.depths
-            )
-        if area > 0:
-            found = add_manifold(
-                shapes,
-                candidates,
-                i,
-                found,
-                sign * nx,
-                sign * ny,
-                x,
-                y,
-                separation,
-                float(area),
-                feature,
-                manifolds_out,
-            )
-    return found

@@ -1,12 +1,12 @@
 """Masks that are not snapped, at their exact poses, against masks, hulls and tiles."""
 
 import math
-from collections.abc import Callable
+from typing import Any
 
 from physics.collision.hulls import ALL_EDGES, edge_normal, pixel_feature, upright_corners
-from physics.collision.manifold import MASK_HULL_EXACT, MASKS_EXACT, add_point
-from physics.collision.masks import collide_mask_circle, collide_mask_line, collide_mask_polygon, collide_mask_rounded
-from physics.jit import kernel, subkernel
+from physics.collision.manifold import MASK_HULL, MASKS_EXACT, Point, add_manifold, hull_of, make_pass, sides_by_kind
+from physics.collision.masks import collide_mask_hull, collide_mask_polygon
+from physics.jit import inlined, subkernel
 from physics.math2d import cosine_and_sine, length_of, turned, unit
 from physics.raster.bits import is_set
 from physics.raster.exact import (
@@ -170,23 +170,11 @@ def meet_in_raster(rasters, words, mask, corners, count, radius, edges, depths_o
 
     edges: bits of the edges that may be touched; depths_out (16,): scratch. The area is 0 without overlap.
     """
-    if count == 1:
-        pixels, nx, ny, x, y, separation, first = collide_mask_circle(
-            rasters, words, mask, 0, 0, corners[0, 0], corners[0, 1], radius
-        )
-    elif radius > 0.0:
-        pixels, nx, ny, x, y, separation, first = collide_mask_rounded(
-            rasters, words, mask, 0, 0, corners, count, radius
-        )
-    elif count == 2:
-        pixels, nx, ny, x, y, separation, first = collide_mask_line(rasters, words, mask, 0, 0, corners, depths_out)
+    pixels, nx, ny, x, y, separation, first = collide_mask_hull(
+        rasters, words, mask, 0, 0, corners, count, radius, edges, depths_out
+    )
+    if pixels == 0 or (count == 2 and radius == 0.0):
         return float(pixels), nx, ny, x, y, separation, first
-    else:
-        pixels, nx, ny, x, y, separation, first = collide_mask_polygon(
-            rasters, words, mask, 0, 0, corners, count, edges, depths_out
-        )
-    if pixels == 0:
-        return 0.0, nx, ny, x, y, separation, first
     area, moment_x, moment_y = shared_with_hull(rasters, words, mask, corners, count, radius)
     least = least_area(rasters[mask])
     if area > least:
@@ -229,20 +217,29 @@ def meet_polygon(geometry, body, shape, corners, count, edges, scratch, depths_o
 
 
 @subkernel
-def exact_area(geometry, bodies, shapes, mask, other, radius, corners_out, depths_out):
-    """Return the area [px2] that a mask that is not snapped shares with a hull, rows of SHAPE, of this rounding
-    [px]."""
-    count = hull_in_raster(geometry, bodies, shapes, mask, other, corners_out)
-    return meet_in_raster(
-        geometry.rasters,
-        geometry.words,
-        raster_of_shape(geometry, shapes[mask]),
-        corners_out,
-        count,
-        radius,
-        ALL_EDGES,
-        depths_out,
-    )[0]
+def meet_hull(geometry, bodies, shapes, mask, other, workspace):
+    """Return the result of meet_in_raster, in world space, for a mask, snapped or not, and a hull, rows of SHAPE.
+
+    A snapped mask is tested as drawn, and its area is the number of its pixels that the hull touches.
+    """
+    s = shapes[mask]
+    rasters = geometry.rasters
+    words = geometry.words
+    corners = workspace.a
+    if s.snap:
+        count, radius = hull_of(geometry, bodies, shapes, other, corners)
+        pixels, nx, ny, x, y, separation, first = collide_mask_hull(
+            rasters, words, s.raster, s.left, s.top, corners, count, radius, ALL_EDGES, workspace.depths
+        )
+        return float(pixels), nx, ny, x, y, separation, first
+    raster = raster_of_shape(geometry, s)
+    count = hull_in_raster(geometry, bodies, shapes, mask, other, corners)
+    radius = rounding(shapes, other)
+    area, nx, ny, x, y, separation, first = meet_in_raster(
+        rasters, words, raster, corners, count, radius, ALL_EDGES, workspace.depths
+    )
+    nx, ny, x, y = out_of_mask(geometry, bodies[s.body_row], s, nx, ny, x, y)
+    return area, nx, ny, x, y, separation, first
 
 
 # ---- mask exact depth ------------------------------------------------------------------------------------------------
@@ -328,6 +325,14 @@ def exact_contact(rasters, words, mask_a, mask_b, u, v, cosine, sine, a, b, turn
 
 
 @subkernel
+def box_of_tested(geometry, shape):
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] by which a SHAPE row is tested: of a mask see box_as_tested."""
+    if shape.kind == MASK:
+        return box_as_tested(geometry, shape)
+    return shape.min_x, shape.min_y, shape.max_x, shape.max_y
+
+
+@subkernel
 def share_no_area(geometry, a, b):
     """Return whether the tested boxes of two MASK rows touch at most."""
     left, top, right, bottom = box_as_tested(geometry, a)
@@ -360,111 +365,75 @@ def exact_mask_area(geometry, bodies, a, b):
     return area
 
 
-def make_exact_mask_pass(full: bool) -> Callable:
-    """Return the pass over mask pairs: with area, centroid, normal and depth, or with two overlapping pixel squares
-    alone.
+def make_exact_mask_pass(full: bool) -> Any:
+    """Return the pass over mask pairs: with area, centroid, normal and depth, or with two overlapping pixel squares.
 
     In the second form the normal is the direction between the centres of the boxes and the separation is -1.
     """
 
-    @kernel
-    def collide_exact_mask_pairs(
-        # read
-        batch,
-        # write
-        workspace,
-        manifolds_out,
-        found,
-        work_inout,
-    ):
-        """Append the contacts of all pairs of masks at exact poses from `found` on. Return the new count."""
+    @inlined
+    def collide_exact_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+        """Append the contact of two masks at their exact poses. Return the new count."""
         geometry = batch.geometry
         bodies = batch.bodies
         shapes = batch.shapes
         candidates = batch.candidates
-        kinds = batch.kinds
         rasters = geometry.rasters
         words = geometry.words
-        for i in range(batch.count):
-            if kinds[i] != MASKS_EXACT:
-                continue
-            work_inout[MASK_TESTS] += 1
-            a = shapes[candidates[i, 0]]
-            b = shapes[candidates[i, 1]]
-            if share_no_area(geometry, a, b):
-                continue
-            first = is_first_the_frame(geometry, a, b)
-            f = a if first else b
-            o = b if first else a
-            p = bodies[f.body_row]
-            frame = raster_of_shape(geometry, f)
-            other = raster_of_shape(geometry, o)
-            u, v, cosine, sine = raster_in_raster(geometry, p, f, bodies[o.body_row], o)
-            hit, x, y, column, row = first_squares(rasters, words, frame, other, u, v, cosine, sine)
-            if not hit:
-                continue
-            if first:
-                feature = pixel_feature(y, x, rasters[frame].width)
-            else:
-                feature = pixel_feature(row, column, rasters[other].width)
-            turn_cosine, turn_sine = cosine_and_sine(p.angle, p.angle)
-            px = x + 0.5
-            py = y + 0.5
-            area = 0.0
-            separation = -1.0
-            if full:
-                area, px, py, nx, ny, separation = exact_contact(
-                    rasters, words, frame, other, u, v, cosine, sine, f, o, turn_cosine, turn_sine
-                )
-            else:
-                nx, ny, _ = boxes_normal(f, o)
-            px, py = out_of_raster(rasters[frame], p, turn_cosine, turn_sine, px, py)
-            sign = 1.0 if first else -1.0
-            found = add_point(
-                shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, area, feature, manifolds_out
+        work_inout[MASK_TESTS] += 1
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        if share_no_area(geometry, a, b):
+            return found
+        first = is_first_the_frame(geometry, a, b)
+        f = a if first else b
+        o = b if first else a
+        p = bodies[f.body_row]
+        frame = raster_of_shape(geometry, f)
+        other = raster_of_shape(geometry, o)
+        u, v, cosine, sine = raster_in_raster(geometry, p, f, bodies[o.body_row], o)
+        hit, x, y, column, row = first_squares(rasters, words, frame, other, u, v, cosine, sine)
+        if not hit:
+            return found
+        if first:
+            feature = pixel_feature(y, x, rasters[frame].width)
+        else:
+            feature = pixel_feature(row, column, rasters[other].width)
+        turn_cosine, turn_sine = cosine_and_sine(p.angle, p.angle)
+        px = x + 0.5
+        py = y + 0.5
+        area = 0.0
+        separation = -1.0
+        if full:
+            area, px, py, nx, ny, separation = exact_contact(
+                rasters, words, frame, other, u, v, cosine, sine, f, o, turn_cosine, turn_sine
             )
-        return found
+        else:
+            nx, ny, _ = boxes_normal(f, o)
+        px, py = out_of_raster(rasters[frame], p, turn_cosine, turn_sine, px, py)
+        sign = 1.0 if first else -1.0
+        point = Point(sign * nx, sign * ny, px, py, separation, area, feature)
+        return add_manifold(shapes, candidates, pair, point, manifolds_out, found)
 
-    return collide_exact_mask_pairs
+    return make_pass(MASKS_EXACT, collide_exact_mask_pair)
 
 
 collide_exact_mask_pairs_full = make_exact_mask_pass(full=True)
 collide_exact_mask_pairs_hit = make_exact_mask_pass(full=False)
 
 
-@kernel
-def collide_exact_hull_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of a mask that is not snapped and a hull. Return the new count."""
-    geometry = batch.geometry
-    bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    kinds = batch.kinds
-    for i in range(batch.count):
-        if kinds[i] != MASK_HULL_EXACT:
-            continue
-        work_inout[MASK_TESTS] += 1
-        sign = 1.0 if shapes[candidates[i, 0]].kind == MASK else -1.0
-        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
-        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-        s = shapes[row]
-        mask = raster_of_shape(geometry, s)
-        count = hull_in_raster(geometry, bodies, shapes, row, other, workspace.a)
-        radius = rounding(shapes, other)
-        area, nx, ny, x, y, separation, feature = meet_in_raster(
-            geometry.rasters, geometry.words, mask, workspace.a, count, radius, ALL_EDGES, workspace.depths
-        )
-        if area > 0.0:
-            nx, ny, x, y = out_of_mask(geometry, bodies[s.body_row], s, nx, ny, x, y)
-            found = add_point(
-                shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, area, feature, manifolds_out
-            )
-    return found
+@inlined
+def collide_mask_hull_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+    """Append the contact of a mask and a hull. Return the new count."""
+    work_inout[MASK_TESTS] += 1
+    sign, mask, other = sides_by_kind(batch, pair, MASK)
+    area, nx, ny, x, y, separation, feature = meet_hull(
+        batch.geometry, batch.bodies, batch.shapes, mask, other, workspace
+    )
+    if area == 0.0:
+        return found
+    point = Point(sign * nx, sign * ny, x, y, separation, area, feature)
+    return add_manifold(batch.shapes, batch.candidates, pair, point, manifolds_out, found)
+
+
+collide_mask_hull_pairs = make_pass(MASK_HULL, collide_mask_hull_pair)

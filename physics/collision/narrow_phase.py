@@ -31,9 +31,7 @@ from physics.collision.manifold import (
     CHAIN_ANY,
     CIRCLES,
     GRID_ANY,
-    MASK_CIRCLE,
-    MASK_HULL_EXACT,
-    MASK_POLYGON,
+    MASK_HULL,
     MASKS,
     MASKS_EXACT,
     NOTHING,
@@ -41,16 +39,17 @@ from physics.collision.manifold import (
     POLYGONS,
     SURFACE_ANY,
     Batch,
-    add_point,
+    Point,
+    add_manifold,
     new_workspace,
     place_in_order,
 )
 from physics.collision.mask_parts import drop_opposed, settle_left
-from physics.collision.masks import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
+from physics.collision.masks import collide_mask_pairs_full, collide_mask_pairs_hit
 from physics.collision.masks_exact import (
-    collide_exact_hull_pairs,
     collide_exact_mask_pairs_full,
     collide_exact_mask_pairs_hit,
+    collide_mask_hull_pairs,
 )
 from physics.collision.tiles import collide_grid_pairs_closed, collide_grid_pairs_one_way
 from physics.islands.awake import is_active, wakes
@@ -134,7 +133,7 @@ def collide_boxes(
             ny = 1.0
         x = 0.5 * (max(a.min_x, b.min_x) + min(a.max_x, b.max_x))
         y = 0.5 * (max(a.min_y, b.min_y) + min(a.max_y, b.max_y))
-        found = add_point(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, manifolds_out)
+        found = add_manifold(shapes, candidates, i, Point(nx, ny, x, y, -least, 0.0, 0), manifolds_out, found)
     return found
 
 
@@ -158,7 +157,7 @@ def kind_of_pair(low, high):
     if low == MASK and high == MASK:
         return MASKS
     if low == MASK or high == MASK:
-        return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
+        return MASK_HULL
     return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
 
 
@@ -166,16 +165,14 @@ def kind_of_pair(low, high):
 def as_snapped(kind, a, b):
     """Return the kind of pair of two SHAPE rows, where `kind` is that of their shape kinds.
 
-    Two snapped masks are tested as drawn, and so is a snapped mask against a hull. A mask that is not snapped is tested
-    at its exact pose. A chain that is part of a mask is its surface.
+    Two snapped masks are tested by AND, any other two masks at their exact poses. A chain that is part of a mask is its
+    surface.
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
         return SURFACE_ANY if chain.role == PART else kind
     if kind == MASKS:
         return kind if a.snap and b.snap else MASKS_EXACT
-    if kind == MASK_CIRCLE or kind == MASK_POLYGON:
-        return kind if a.snap or b.snap else MASK_HULL_EXACT
     return kind
 
 
@@ -418,15 +415,14 @@ class NarrowPhase:
         exact = collide_exact_mask_pairs_full if full_masks else collide_exact_mask_pairs_hit
         grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
         self.passes = (
-            ((CIRCLES,), collide_circle_pairs),
-            ((POLYGON_CIRCLE,), collide_polygon_circle_pairs),
-            ((POLYGONS,), collide_polygon_pairs),
-            ((MASKS,), masks),
-            ((MASK_CIRCLE, MASK_POLYGON), collide_mask_shape_pairs),
-            ((MASKS_EXACT,), exact),
-            ((MASK_HULL_EXACT,), collide_exact_hull_pairs),
-            ((GRID_ANY,), grids),
-            ((CHAIN_ANY,), collide_chain_pairs),
+            (CIRCLES, collide_circle_pairs),
+            (POLYGON_CIRCLE, collide_polygon_circle_pairs),
+            (POLYGONS, collide_polygon_pairs),
+            (MASKS, masks),
+            (MASKS_EXACT, exact),
+            (MASK_HULL, collide_mask_hull_pairs),
+            (GRID_ANY, grids),
+            (CHAIN_ANY, collide_chain_pairs),
         )
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
@@ -547,7 +543,7 @@ class NarrowPhase:
 
         Return their number, with the first ones, and the number of runs added, each in the order of the candidates.
         """
-        used = [run for kinds, run in self.passes if any(counts[kind] for kind in kinds)]
+        used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.left) < batch.count + 1:
             workspace = workspace._replace(left=np.zeros(2 * batch.count + 1, np.int64))
             self.workspace = self.workspace._replace(left=workspace.left)

@@ -1,15 +1,14 @@
 """Tile grids against other shapes: equal adjacent cells are one rectangle."""
 
 import math
-from collections.abc import Callable
+from typing import Any
 
 from physics.collision.hulls import ALL_EDGES, collide_hull_circle, collide_hulls, edge_normal, part_feature, part_of
-from physics.collision.manifold import GRID_ANY, add_point, add_points, circle_at, corners_of
-from physics.collision.masks_exact import meet_polygon
-from physics.jit import kernel, subkernel
-from physics.shapes.placement import box_as_tested, polygon_at, rounding
+from physics.collision.manifold import GRID_ANY, Point, add_point, add_points, hull_of, make_pass, sides_by_kind
+from physics.collision.masks_exact import box_of_tested, meet_polygon
+from physics.jit import inlined, subkernel
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE, SOLID
-from physics.tables.shape import BOUNDS, CIRCLE, MASK, TILES
+from physics.tables.shape import MASK, TILES
 from physics.tables.step_state import MASK_TESTS
 
 # ---- tiles -----------------------------------------------------------------------------------------------------------
@@ -217,166 +216,98 @@ def stood_on(workspace, pair, run):
     return False
 
 
-def make_grid_pass(one_way: bool) -> Callable:
+def make_grid_pass(one_way: bool) -> Any:
     """Return the pass over pairs of a tile grid and any other shape; one_way: with one-way tiles."""
 
-    @kernel
-    def collide_grid_pairs(
-        # read
-        batch,
-        # write
-        workspace,
-        manifolds_out,
-        found,
-        work_inout,
-    ):
-        """Append the contacts of all pairs with a tile grid, run by run, from `found` on. Return the new count."""
+    @inlined
+    def collide_grid_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+        """Append the contacts of a tile grid and another shape, run by run. Return the new count."""
         geometry = batch.geometry
         bodies = batch.bodies
         shapes = batch.shapes
         candidates = batch.candidates
-        kinds = batch.kinds
         margin = batch.margin
         grids = geometry.grids
         cells = geometry.cells
-        polygons = geometry.polygons
-        table = geometry.corners
-        for i in range(batch.count):
-            if kinds[i] != GRID_ANY:
-                continue
-            sign = 1.0 if shapes[candidates[i, 0]].kind == TILES else -1.0
-            row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
-            other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-            s = shapes[row]
-            o = shapes[other]
-            p = bodies[s.body_row]
-            q = bodies[o.body_row]
-            g = grids[s.geometry]
-            min_x = o.min_x
-            min_y = o.min_y
-            max_x = o.max_x
-            max_y = o.max_y
-            if o.kind == MASK:
-                min_x, min_y, max_x, max_y = box_as_tested(geometry, o)
-            first_column = max(0, math.ceil((min_x - margin - p.x) / g.tile_size) - 1)
-            last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
-            first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)
-            last_row = min(g.rows - 1, math.floor((max_y + margin - p.y) / g.tile_size))
-            n = 0
-            cx = 0.0
-            cy = 0.0
-            radius = 0.0
-            if o.kind == MASK:
-                work_inout[MASK_TESTS] += 1
-            elif o.kind == CIRCLE:
-                cx, cy, radius = circle_at(bodies, shapes, other)
-            else:
-                if o.kind == BOUNDS:
-                    n = corners_of(geometry, bodies, shapes, other, workspace.b)
-                else:
-                    n = polygon_at(
-                        polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b
-                    )
-                radius = rounding(shapes, other)
-            # Columns that the shape overlaps, not only touches.
-            low = math.floor((min_x - p.x) / g.tile_size)
-            high = math.ceil((max_x - p.x) / g.tile_size) - 1
-            was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
-            start = found
-            seen = 0
-            for attempt in range(2):
-                # Second pass, for a deep overlap that every tile left to a neighbour: with every edge touchable.
-                if attempt == 1 and (seen == 0 or found > start):
-                    break
-                deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
-                for tile_row in range(first_row, last_row + 1):
-                    next_column = first_column
-                    while next_column <= last_column:
-                        tile_column = next_column
-                        cell = cells[g.offset + tile_row * g.columns + tile_column]
-                        kind = cell.kind
-                        next_column = cell.last + 1
-                        if kind == EMPTY or (kind == ONE_WAY and not one_way):
-                            continue
-                        # One-way: only a shape that came from above the tile, or was in contact with it, may touch it.
-                        if kind == ONE_WAY and (
-                            attempt == 1
-                            or (
-                                was_above > p.y + tile_row * g.tile_size + margin
-                                and not stood_on(workspace, i, tile_row * g.columns + cell.first)
-                            )
-                        ):
-                            continue
-                        if kind == SLOPE:
-                            corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, workspace.a)
-                        else:
-                            corners, edges = run_at(
-                                grids, cells, s.geometry, p.x, p.y, tile_row, tile_column, low, high, workspace.a
-                            )
-                        seen += 1
-                        edges = edges if attempt == 0 else ALL_EDGES
-                        feature = part_feature(tile_row * g.columns + cell.first, 0)
-                        if o.kind == MASK:
-                            area, nx, ny, x, y, separation, which = meet_polygon(
-                                geometry, q, o, workspace.a, corners, edges, workspace.b, workspace.depths
-                            )
-                            if area > 0.0:
-                                found = add_point(
-                                    shapes,
-                                    candidates,
-                                    i,
-                                    found,
-                                    -sign * nx,
-                                    -sign * ny,
-                                    x,
-                                    y,
-                                    separation,
-                                    area,
-                                    feature,
-                                    manifolds_out,
-                                )
-                        elif o.kind == CIRCLE:
-                            hit, nx, ny, x, y, separation, which = collide_hull_circle(
-                                workspace.a, corners, edges, 0.0, cx, cy, radius
-                            )
-                            if hit and separation <= margin:
-                                found = add_point(
-                                    shapes,
-                                    candidates,
-                                    i,
-                                    found,
-                                    sign * nx,
-                                    sign * ny,
-                                    x,
-                                    y,
-                                    separation,
-                                    0.0,
-                                    feature + which,
-                                    manifolds_out,
-                                )
-                        else:
-                            manifold = workspace.points
-                            facing = edges_facing(workspace.b, n, edges) if corners == 4 else ALL_EDGES
-                            points = collide_hulls(
-                                workspace.a,
-                                corners,
-                                0.0,
-                                edges,
-                                workspace.b,
-                                n,
-                                radius,
-                                facing,
-                                margin,
-                                batch.bias,
-                                deepest,
-                                manifold,
-                            )
-                            found = add_points(
-                                shapes, candidates, i, found, sign, manifold, points, feature, manifolds_out
-                            )
+        tile = workspace.a
+        hull = workspace.b
+        sign, row, other = sides_by_kind(batch, pair, TILES)
+        s = shapes[row]
+        o = shapes[other]
+        p = bodies[s.body_row]
+        q = bodies[o.body_row]
+        g = grids[s.geometry]
+        min_x, min_y, max_x, max_y = box_of_tested(geometry, o)
+        first_column = max(0, math.ceil((min_x - margin - p.x) / g.tile_size) - 1)
+        last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
+        first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)
+        last_row = min(g.rows - 1, math.floor((max_y + margin - p.y) / g.tile_size))
+        n = 0
+        radius = 0.0
+        if o.kind == MASK:
+            work_inout[MASK_TESTS] += 1
+        else:
+            n, radius = hull_of(geometry, bodies, shapes, other, hull)
+        # Columns that the shape overlaps, not only touches.
+        low = math.floor((min_x - p.x) / g.tile_size)
+        high = math.ceil((max_x - p.x) / g.tile_size) - 1
+        was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
+        start = found
+        seen = 0
+        for attempt in range(2):
+            # Second pass, for a deep overlap that every tile left to a neighbour: with every edge touchable.
+            if attempt == 1 and (seen == 0 or found > start):
+                break
+            deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
+            for tile_row in range(first_row, last_row + 1):
+                next_column = first_column
+                while next_column <= last_column:
+                    tile_column = next_column
+                    cell = cells[g.offset + tile_row * g.columns + tile_column]
+                    next_column = cell.last + 1
+                    if cell.kind == EMPTY or (cell.kind == ONE_WAY and not one_way):
+                        continue
+                    run = tile_row * g.columns + cell.first
+                    # One-way: only a shape that came from above the tile, or was in contact with it, may touch it.
+                    if cell.kind == ONE_WAY and (
+                        attempt == 1
+                        or (was_above > p.y + tile_row * g.tile_size + margin and not stood_on(workspace, pair, run))
+                    ):
+                        continue
+                    if cell.kind == SLOPE:
+                        corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, tile)
+                    else:
+                        corners, edges = run_at(
+                            grids, cells, s.geometry, p.x, p.y, tile_row, tile_column, low, high, tile
+                        )
+                    seen += 1
+                    if attempt == 1:
+                        edges = ALL_EDGES
+                    feature = part_feature(run, 0)
+                    if o.kind == MASK:
+                        area, nx, ny, x, y, separation, _ = meet_polygon(
+                            geometry, q, o, tile, corners, edges, hull, workspace.depths
+                        )
+                        if area > 0.0:
+                            point = Point(-sign * nx, -sign * ny, x, y, separation, area, feature)
+                            found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                    elif n == 1:
+                        hit, nx, ny, x, y, separation, which = collide_hull_circle(
+                            tile, corners, edges, 0.0, hull[0, 0], hull[0, 1], radius
+                        )
+                        if hit and separation <= margin:
+                            point = Point(sign * nx, sign * ny, x, y, separation, 0.0, feature + which)
+                            found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                    else:
+                        manifold = workspace.points
+                        facing = edges_facing(hull, n, edges) if corners == 4 else ALL_EDGES
+                        collide_hulls(
+                            tile, corners, 0.0, edges, hull, n, radius, facing, margin, batch.bias, deepest, manifold
+                        )
+                        found = add_points(shapes, candidates, pair, sign, manifold, feature, manifolds_out, found)
         return found
 
-    return collide_grid_pairs
+    return make_pass(GRID_ANY, collide_grid_pair)
 
 
 collide_grid_pairs_one_way = make_grid_pass(one_way=True)
