@@ -8,10 +8,10 @@ import math
 import numpy as np
 
 from physics.collision.chains import BACKING, link_at
-from physics.collision.hulls import ALL_EDGES, part_of
+from physics.collision.hulls import ALL_EDGES, Hull, part_of
 from physics.collision.manifold import by_owner, copy_manifold
-from physics.collision.masks import thick_line
-from physics.collision.masks_exact import exact_mask_area, meet_hull, meet_polygon
+from physics.collision.masks import offset_line
+from physics.collision.masks_exact import collide_mask_part, collide_mask_shape, exact_mask_area
 from physics.collision.narrow_phase import no_work
 from physics.collision.tiles import tile_at
 from physics.jit import kernel, subkernel
@@ -31,7 +31,7 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
     if s.kind == CHAIN:
         link = geometry.chains[s.geometry].offset + part
         link_at(geometry.links, link, b.x, b.y, math.cos(b.angle), math.sin(b.angle), workspace.a)
-        thick_line(workspace.a, 0.0, BACKING, workspace.b)
+        offset_line(workspace.a, 0.0, BACKING, workspace.b)
         return 4
     g = geometry.grids[s.geometry]
     cell = geometry.cells[g.offset + part]
@@ -51,7 +51,8 @@ def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
     count = outline_of_part(geometry, bodies, shapes, other, part, workspace)
     s = shapes[mask]
     body = bodies[s.body_row]
-    return meet_polygon(geometry, body, s, workspace.b, count, ALL_EDGES, workspace.a, workspace.depths)[0]
+    hull = Hull(workspace.b, count, 0.0, ALL_EDGES)
+    return collide_mask_part(geometry, body, s, hull, workspace.a, workspace.depths)[0]
 
 
 @kernel
@@ -86,7 +87,7 @@ def count_areas(
             if m.count == 2:
                 m.area_2 = area_in_part(geometry, bodies, shapes, mask, other, part_of(m.feature_2), workspace)
         else:
-            m.area_1 = meet_hull(geometry, bodies, shapes, mask, other, workspace)[0]
+            m.area_1 = collide_mask_shape(geometry, bodies, shapes, mask, other, workspace)[0]
 
 
 def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:

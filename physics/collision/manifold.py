@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.collision.hulls import part_of, upright_corners
+from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, part_of
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import heading, turned
 from physics.shapes.placement import polygon_at
@@ -115,7 +115,7 @@ class Batch(NamedTuple):
     margin: float  # [px] largest gap of a pair that gets a contact
     bias: float  # [px] see hulls.collide_hulls
     graze: float = 0.0  # [px] largest overlap of bodies that only pass each other: see hull_pairs.py
-    ahead: float = 0.0  # [s] pairs that meet within this time get a contact: see hull_pairs.py
+    lookahead: float = 0.0  # [s] pairs that meet within this time get a contact: see hull_pairs.py
 
 
 class Workspace(NamedTuple):
@@ -128,7 +128,7 @@ class Workspace(NamedTuple):
     previous: np.ndarray  # MANIFOLD rows of the last step, for pairs with one-way ground
     memory: np.ndarray  # (candidates, 2) first row in previous, number of rows
     block: np.ndarray  # (BLOCK,) candidates that a pass collides next
-    left: np.ndarray  # (candidates + 1,) number of overlapping candidates left to a neighbour, then their rows
+    fallback: np.ndarray  # (candidates + 1,) number of candidates for the fallback of mask_parts.py, then their rows
 
 
 def new_workspace() -> Workspace:
@@ -146,10 +146,10 @@ def new_workspace() -> Workspace:
 
 
 @subkernel
-def leave(pair, left_inout):
-    """Add a candidate to the list of those that are left to a neighbour."""
-    left_inout[0] += 1
-    left_inout[left_inout[0]] = pair
+def queue_fallback(pair, fallback_inout):
+    """Add a candidate whose overlap is left to a neighbour, see mask_parts.py."""
+    fallback_inout[0] += 1
+    fallback_inout[fallback_inout[0]] = pair
 
 
 @subkernel
@@ -263,20 +263,21 @@ def circle_at(bodies, shapes, row):
 
 @inlined
 def hull_of(geometry, bodies, shapes, row, corners_out):
-    """Write the world corners [px] of a hull at its body's pose: of a BOUNDS its AABB, of a CIRCLE its centre.
-
-    Return (their number, rounding radius [px]).
+    """Return the Hull of a shape at its body's pose: of a BOUNDS its AABB, of a CIRCLE its centre. corners_out (16, 2):
+    its corners.
     """
     s = shapes[row]
-    if s.kind == BOUNDS:
-        return upright_corners(s, corners_out), 0.0
-    if s.kind == CIRCLE:
-        corners_out[0, 0], corners_out[0, 1], radius = circle_at(bodies, shapes, row)
-        return 1, radius
     b = bodies[s.body_row]
-    cosine = math.cos(b.angle)
-    sine = math.sin(b.angle)
-    return polygon_at(geometry.polygons, geometry.corners, s.geometry, b.x, b.y, cosine, sine, corners_out), s.radius
+    radius = 0.0 if s.kind == BOUNDS else s.radius
+    if s.kind == BOUNDS:
+        count = aabb_corners(s, corners_out)
+    elif s.kind == CIRCLE:
+        corners_out[0, 0], corners_out[0, 1], _ = circle_at(bodies, shapes, row)
+        count = 1
+    else:
+        c = math.cos(b.angle)
+        count = polygon_at(geometry.polygons, geometry.corners, s.geometry, b.x, b.y, c, math.sin(b.angle), corners_out)
+    return Hull(corners_out, count, radius, ALL_EDGES ^ s.inner)
 
 
 # ---- passes ----------------------------------------------------------------------------------------------------------

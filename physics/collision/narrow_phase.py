@@ -19,13 +19,13 @@ from physics.collision.cache import (
 )
 from physics.collision.chains import admit_to_surfaces, collide_chain_pairs
 from physics.collision.hull_pairs import (
+    center_velocity,
+    closing_speed_bound,
     collide_circle_pairs,
     collide_polygon_circle_pairs,
     collide_polygon_pairs,
     measure_approach,
-    most_nearing,
-    nearing,
-    reach_of,
+    speculative_distance,
 )
 from physics.collision.manifold import (
     CHAIN_ANY,
@@ -44,7 +44,7 @@ from physics.collision.manifold import (
     new_workspace,
     place_in_order,
 )
-from physics.collision.mask_parts import drop_opposed, settle_left
+from physics.collision.mask_parts import drop_opposed, fallback_manifolds
 from physics.collision.masks import collide_mask_pairs_full, collide_mask_pairs_hit
 from physics.collision.masks_exact import (
     collide_exact_mask_pairs_full,
@@ -202,10 +202,10 @@ def kind_asked(bodies, a, b, margin, ahead, which):
             return NOTHING
         p = bodies[a.body_row]
         q = bodies[b.body_row]
-        if ahead * most_nearing(p, q) <= margin:
+        if ahead * closing_speed_bound(p, q) <= margin:
             return NOTHING
-        _, _, speed = nearing(p, q)
-        if boxes_apart(a, b, reach_of(p, q, speed, margin, ahead)):
+        _, _, speed = center_velocity(p, q)
+        if boxes_apart(a, b, speculative_distance(p, q, speed, margin, ahead)):
             return NOTHING
     if which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
         return NOTHING
@@ -311,7 +311,7 @@ def recycle_manifolds(
     for i in range(batch.count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        kind = kind_asked(bodies, a, b, batch.margin, batch.ahead, SOLIDS)
+        kind = kind_asked(bodies, a, b, batch.margin, batch.lookahead, SOLIDS)
         kinds_out[i] = kind
         counts_out[kind] += 1
         if kind == NOTHING:
@@ -544,22 +544,22 @@ class NarrowPhase:
         Return their number, with the first ones, and the number of runs added, each in the order of the candidates.
         """
         used = [run for kind, run in self.passes if counts[kind]]
-        if len(workspace.left) < batch.count + 1:
-            workspace = workspace._replace(left=np.zeros(2 * batch.count + 1, np.int64))
-            self.workspace = self.workspace._replace(left=workspace.left)
+        if len(workspace.fallback) < batch.count + 1:
+            workspace = workspace._replace(fallback=np.zeros(2 * batch.count + 1, np.int64))
+            self.workspace = self.workspace._replace(fallback=workspace.fallback)
 
         def run_all():
             found = again
-            workspace.left[0] = 0
+            workspace.fallback[0] = 0
             for run in used:
                 found = run(batch, workspace, self.raw, found, work)
             return found
 
         found = self._with_room(work, run_all)
-        if not workspace.left[0]:
+        if not workspace.fallback[0]:
             return found, len(used)
         before = self.raw[:0] if previous is None else previous
-        rest = settle_left(batch, self.raw[:found], before, workspace)
+        rest = fallback_manifolds(batch, self.raw[:found], before, workspace)
         self._make_room(found + len(rest))
         self.raw[found : found + len(rest)] = rest
         return found + len(rest), len(used) + (len(rest) > 0)
