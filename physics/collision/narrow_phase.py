@@ -508,7 +508,8 @@ class NarrowPhase:
         return Found(self._complete(batch, previous, again, work), stale)
 
     def _boxes(self, batch, which, work) -> np.ndarray:
-        return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
+        found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
+        return self.raw[:found]  # a larger table than before, where there was no room
 
     def _all_stale(self, previous) -> np.ndarray:
         self.stale[: len(previous)] = np.arange(len(previous))

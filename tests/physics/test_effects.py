@@ -172,6 +172,14 @@ def test_shooter_without_solver_sees_the_same_hits_as_with_all_effects():
     assert lists[0] == lists[1] and len(lists[0]) > (5 if JIT else 0)
 
 
+def test_boxes_alone_are_all_reported_in_the_step_in_which_the_table_grows():
+    world = World(Effects(narrowphase=False))
+    world.add_bodies(Circle(5.0), [(6.0 * k, 0.0) for k in range(100)])
+    for _ in range(2):  # two tables take turns
+        world.step()
+        assert len(world.contacts) == 99
+
+
 def test_presets_and_names():
     assert Effects.detection() == Effects() and Effects().names() == ["narrowphase"]
     assert Effects.rigid_bodies().response and World().effects == Effects.rigid_bodies()
