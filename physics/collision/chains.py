@@ -24,7 +24,6 @@ from physics.collision.manifold import (
     CHAIN_ANY,
     NOTHING,
     SURFACE_ANY,
-    Point,
     add_point,
     add_points,
     hull_of,
@@ -419,14 +418,14 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
                         geometry, q, o, Hull(workspace.b, 4, 0.0, 1), points, workspace.depths
                     )
                     if area > 0.0:
-                        point = Point(-sign * nx, -sign * ny, x, y, separation, area, part_feature(k, 0))
+                        point = (-sign * nx, -sign * ny, x, y, separation, area, part_feature(k, 0))
                         found = add_point(shapes, candidates, pair, point, manifolds_out, found)
                 elif hull.count == 1:
                     hit, nx, ny, x, y, separation, feature = collide_link_circle(
                         link, points, hull.corners[0, 0], hull.corners[0, 1], hull.radius
                     )
                     if hit and separation <= margin:
-                        point = Point(sign * nx, sign * ny, x, y, separation, 0.0, part_feature(k, feature))
+                        point = (sign * nx, sign * ny, x, y, separation, 0.0, part_feature(k, feature))
                         found = add_point(shapes, candidates, pair, point, manifolds_out, found)
                 else:
                     near += 1

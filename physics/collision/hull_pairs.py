@@ -23,7 +23,6 @@ from physics.collision.manifold import (
     CIRCLES,
     POLYGON_CIRCLE,
     POLYGONS,
-    Point,
     add_manifold,
     add_points,
     circle_at,
@@ -312,7 +311,7 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
             y += 0.5 * closed * ny
             separation += closed
     before = found
-    point = Point(nx, ny, x, y, separation, 0.0, 0)
+    point = (nx, ny, x, y, separation, 0.0, 0)
     found = add_manifold(shapes, batch.candidates, pair, point, manifolds_out, found)
     set_tangential_offset(before, found, tangential, manifolds_out)
     return found
@@ -361,7 +360,7 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
         px += tangential * ny
         py -= tangential * nx
     before = found
-    point = Point(-side * nx, -side * ny, px, py, separation + closed, 0.0, feature)
+    point = (-side * nx, -side * ny, px, py, separation + closed, 0.0, feature)
     found = add_manifold(shapes, batch.candidates, pair, point, manifolds_out, found)
     set_tangential_offset(before, found, tangential, manifolds_out)
     return found
@@ -411,19 +410,17 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
         return add_points(shapes, candidates, pair, 1.0, manifold, 0, manifolds_out, found)
     a = hull_of(geometry, bodies, shapes, row_a, workspace.a)
     b = hull_of(geometry, bodies, shapes, row_b, workspace.b)
-    a_edges = ALL_EDGES
-    b_edges = ALL_EDGES
     deepest = math.inf
     if s.inner != 0 or o.inner != 0:
         a_edges = a.edges & pushing_edges(a, b)
         b_edges = b.edges & pushing_edges(b, a)
+        a = Hull(a.corners, a.count, a.radius, a_edges)
+        b = Hull(b.corners, b.count, b.radius, b_edges)
         # Without a dynamic body there is no response: the contact of any part will do.
         deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
     time, vx, vy, reach = advance_to_contact(margin, batch.lookahead, p, q, a, b)
     if time < 0.0:
         return found
-    a = Hull(a.corners, a.count, a.radius, a_edges)
-    b = Hull(b.corners, b.count, b.radius, b_edges)
     points = collide_hulls(a, b, reach, batch.bias, deepest, manifold)
     if manifold[0] == COVERED_OVERLAP:
         queue_fallback(pair, workspace.fallback)

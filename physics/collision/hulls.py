@@ -158,18 +158,18 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     inverted. manifold_out: see above. Feature: bits of reference edge, incident corner, side. Return the number of
     points.
     """
-    corners = reference.corners
-    others = incident.corners
-    following = edge + 1 if edge + 1 < reference.count else 0
-    nx, ny = edge_normal(corners, reference.count, edge)
+    corners, count, radius, _ = reference
+    others, other_count, other_radius, _ = incident
+    following = edge + 1 if edge + 1 < count else 0
+    nx, ny = edge_normal(corners, count, edge)
     facing = 0
     most = math.inf
-    for k in range(incident.count):
-        mx, my = edge_normal(others, incident.count, k)
+    for k in range(other_count):
+        mx, my = edge_normal(others, other_count, k)
         if mx * nx + my * ny < most:
             most = mx * nx + my * ny
             facing = k
-    far = facing + 1 if facing + 1 < incident.count else 0
+    far = facing + 1 if facing + 1 < other_count else 0
     tx = -ny
     ty = nx
     start = tx * corners[edge, 0] + ty * corners[edge, 1]
@@ -182,7 +182,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     p_along = tx * px + ty * py
     q_along = tx * qx + ty * qy
     span = q_along - p_along
-    count = 0
+    found = 0
     sign = -1.0 if flipped else 1.0
     for side in range(2):
         along = p_along if side == 0 else q_along
@@ -197,31 +197,31 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
             x = px + t * (qx - px)
             y = py + t * (qy - py)
         height = nx * (x - corners[edge, 0]) + ny * (y - corners[edge, 1])
-        separation = height - reference.radius - incident.radius
+        separation = height - radius - other_radius
         if separation <= limit:
-            at = 3 + 4 * count
-            down = 0.5 * (height + incident.radius - reference.radius)
+            at = 3 + 4 * found
+            down = 0.5 * (height + other_radius - radius)
             manifold_out[at] = x - down * nx
             manifold_out[at + 1] = y - down * ny
             manifold_out[at + 2] = separation
             corner = far if side == 0 else facing
             manifold_out[at + 3] = float(clipped_feature(edge, corner, side, 1 if flipped else 0))
-            count += 1
-    manifold_out[0] = float(count)
+            found += 1
+    manifold_out[0] = float(found)
     manifold_out[1] = sign * nx
     manifold_out[2] = sign * ny
-    return count
+    return found
 
 
 @subkernel
 def support_manifold(reference, edge, incident, flipped, manifold_out):
     """Write one point: the corner of the incident Hull deepest under an edge of the reference Hull. Return 1."""
-    corners = reference.corners
-    others = incident.corners
-    nx, ny = edge_normal(corners, reference.count, edge)
+    corners, count, radius, _ = reference
+    others, other_count, other_radius, _ = incident
+    nx, ny = edge_normal(corners, count, edge)
     deepest = 0
     least = math.inf
-    for k in range(incident.count):
+    for k in range(other_count):
         separation = nx * (others[k, 0] - corners[edge, 0]) + ny * (others[k, 1] - corners[edge, 1])
         if separation < least:
             least = separation
@@ -230,10 +230,10 @@ def support_manifold(reference, edge, incident, flipped, manifold_out):
     manifold_out[0] = 1.0
     manifold_out[1] = sign * nx
     manifold_out[2] = sign * ny
-    down = 0.5 * (least + incident.radius - reference.radius)
+    down = 0.5 * (least + other_radius - radius)
     manifold_out[3] = others[deepest, 0] - down * nx
     manifold_out[4] = others[deepest, 1] - down * ny
-    manifold_out[5] = least - reference.radius - incident.radius
+    manifold_out[5] = least - radius - other_radius
     manifold_out[6] = float(support_feature(edge, deepest, 1 if flipped else 0))
     return 1
 
@@ -556,6 +556,7 @@ def pushing_edges(a, b):
 def overlaps_edge(hull, edge, other):
     """Return whether another Hull lies over an edge: their extents along the edge share more than a point."""
     corners = hull.corners
+    others = other.corners
     following = edge + 1 if edge + 1 < hull.count else 0
     x = corners[edge, 0]
     y = corners[edge, 1]
@@ -564,7 +565,7 @@ def overlaps_edge(hull, edge, other):
     low = math.inf
     high = -math.inf
     for k in range(other.count):
-        along = dx * (other.corners[k, 0] - x) + dy * (other.corners[k, 1] - y)
+        along = dx * (others[k, 0] - x) + dy * (others[k, 1] - y)
         low = min(low, along)
         high = max(high, along)
     return high > 0.0 and low < dx * dx + dy * dy
@@ -619,12 +620,14 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
     parts. A deeper overlap, less deep behind an edge that is not touchable, is left to the neighbour that covers that
     edge; then manifold_out[0] is COVERED_OVERLAP. O(corners of A · corners of B).
     """
-    rounding = a.radius + b.radius
+    a_corners, a_count, a_radius, a_edges = a
+    b_corners, b_count, b_radius, b_edges = b
+    rounding = a_radius + b_radius
     manifold_out[0] = 0.0
-    a_edge, a_separation, a_all = find_max_separation(a.corners, a.count, a.edges, b.corners, b.count)
+    a_edge, a_separation, a_all = find_max_separation(a_corners, a_count, a_edges, b_corners, b_count)
     if a_all > margin + rounding:
         return 0
-    b_edge, b_separation, b_all = find_max_separation(b.corners, b.count, b.edges, a.corners, a.count)
+    b_edge, b_separation, b_all = find_max_separation(b_corners, b_count, b_edges, a_corners, a_count)
     if b_all > margin + rounding:
         return 0
     covered = COVERED_OVERLAP if max(a_all, b_all) < 0.0 else 0.0
@@ -632,8 +635,8 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
         manifold_out[0] = covered
         return 0
     apart = max(a_all, b_all) > 0.0
-    if a.count == 2 and b.count == 2 and not apart:
-        apart = segment_distance(a.corners, b.corners) > 0.0
+    if a_count == 2 and b_count == 2 and not apart:
+        apart = segment_distance(a_corners, b_corners) > 0.0
     allowed = max(a_separation, b_separation)
     if -allowed > deepest and max(a_all, b_all) > allowed:
         manifold_out[0] = covered
@@ -654,11 +657,11 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
         if flipped:
             count = clip_edges(b, b_edge, a, margin, True, manifold_out)
             own = b_separation
-            slack = clip_tolerance(b.corners, b.count, b_edge)
+            slack = clip_tolerance(b_corners, b_count, b_edge)
         else:
             count = clip_edges(a, a_edge, b, margin, False, manifold_out)
             own = a_separation
-            slack = clip_tolerance(a.corners, a.count, a_edge)
+            slack = clip_tolerance(a_corners, a_count, a_edge)
         least = least_separation(count, manifold_out)
         if apart and own < -slack:
             continue  # separated by an edge that is not touchable: nothing is over this face
@@ -673,12 +676,12 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
             slack = max(bias, slack)
         if count > 0 and least <= own - rounding + slack:
             return count
-    i, j, _ = nearest_corners(a.corners, a.count, b.corners, b.count)
+    i, j, _ = nearest_corners(a_corners, a_count, b_corners, b_count)
     manifold_out[0] = 0.0
-    nx, ny = unit(b.corners[j, 0] - a.corners[i, 0], b.corners[j, 1] - a.corners[i, 1], 0.0, -1.0)
-    if not is_normal_at_corner(a.corners, a.count, a.edges, i, nx, ny):
+    nx, ny = unit(b_corners[j, 0] - a_corners[i, 0], b_corners[j, 1] - a_corners[i, 1], 0.0, -1.0)
+    if not is_normal_at_corner(a_corners, a_count, a_edges, i, nx, ny):
         return 0
-    if not is_normal_at_corner(b.corners, b.count, b.edges, j, -nx, -ny):
+    if not is_normal_at_corner(b_corners, b_count, b_edges, j, -nx, -ny):
         return 0
     return corner_manifold(a, i, b, j, margin, manifold_out)
 

@@ -187,52 +187,44 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.tangent_impulse_2 = 0.0
 
 
-class Point(NamedTuple):
-    """One contact point of two shapes."""
-
-    nx: float  # unit normal from A to B
-    ny: float
-    x: float  # [px] midway between the surfaces
-    y: float
-    separation: float  # [px]
-    area: float  # [px2] shared area of a mask and the other shape, otherwise 0
-    feature: int
-
-
 @subkernel
 def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
-    """Add a manifold of one Point. Return the number of manifolds, which may exceed the capacity.
+    """Add a manifold of one point. Return the number of manifolds, which may exceed the capacity.
 
-    Fields that depend on the bodies' motion are written in hull_pairs.py.
+    point: (unit normal from A to B, x, y, separation [px], shared area [px2], feature). Fields that depend on the
+    bodies' motion are written in hull_pairs.py.
     """
     if found < len(manifolds_out):
+        nx, ny, x, y, separation, area, feature = point
         m = manifolds_out[found]
         # Plus 0.0 turns -0.0 into 0.0, for printing and comparison.
-        open_manifold(shapes, candidates, pair, point.nx + 0.0, point.ny + 0.0, m)
+        open_manifold(shapes, candidates, pair, nx + 0.0, ny + 0.0, m)
         m.count = 1
-        m.x_1 = point.x
-        m.y_1 = point.y
-        m.separation_1 = point.separation
-        m.area_1 = point.area
-        m.feature_1 = point.feature
+        m.x_1 = x
+        m.y_1 = y
+        m.separation_1 = separation
+        m.area_1 = area
+        m.feature_1 = feature
     return found + 1
 
 
 @subkernel
 def add_point(shapes, candidates, pair, point, manifolds_out, found):
-    """Add a Point to the last manifold if it has this pair, this normal and one point; otherwise add a manifold.
+    """Add a point, see add_manifold, to the last manifold if it has this pair, this normal and one point; otherwise add
+    a manifold.
 
     Return the number of manifolds, which may exceed the capacity.
     """
+    nx, ny, x, y, separation, area, feature = point
     if 0 < found <= len(manifolds_out):
         m = manifolds_out[found - 1]
-        if m.candidate == pair and m.count == 1 and m.normal_x == point.nx and m.normal_y == point.ny:
+        if m.candidate == pair and m.count == 1 and m.normal_x == nx and m.normal_y == ny:
             m.count = 2
-            m.x_2 = point.x
-            m.y_2 = point.y
-            m.separation_2 = point.separation
-            m.area_2 = point.area
-            m.feature_2 = point.feature
+            m.x_2 = x
+            m.y_2 = y
+            m.separation_2 = separation
+            m.area_2 = area
+            m.feature_2 = feature
             return found
     return add_manifold(shapes, candidates, pair, point, manifolds_out, found)
 
@@ -247,7 +239,7 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
         at = 3 + 4 * k
         nx = sign * points[1]
         ny = sign * points[2]
-        point = Point(nx, ny, points[at], points[at + 1], points[at + 2], 0.0, part + int(points[at + 3]))
+        point = (nx, ny, points[at], points[at + 1], points[at + 2], 0.0, part + int(points[at + 3]))
         found = add_point(shapes, candidates, pair, point, manifolds_out, found)
     return found
 

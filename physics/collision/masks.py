@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from physics.collision.hulls import Hull, distance_to_edge, edge_normal, extent_along, nearest_on_edge, pixel_feature
-from physics.collision.manifold import MASKS, Point, add_manifold, make_pass
+from physics.collision.manifold import MASKS, add_manifold, make_pass
 from physics.jit import inlined, subkernel
 from physics.jit.plain import word
 from physics.math2d import length_of, unit
@@ -628,7 +628,7 @@ def make_mask_pass(full: bool) -> Any:
             area = float(pixels)
         else:
             nx, ny = center_normal(r, s, dx, dy)
-        point = Point(nx, ny, a.left + px, a.top + py, separation, area, pixel_feature(y, x, r.width))
+        point = (nx, ny, a.left + px, a.top + py, separation, area, pixel_feature(y, x, r.width))
         return add_manifold(shapes, candidates, pair, point, manifolds_out, found)
 
     return make_pass(MASKS, collide_mask_pair, bounds_overlap)

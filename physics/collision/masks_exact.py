@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, edge_normal, pixel_feature
-from physics.collision.manifold import MASK_HULL, MASKS_EXACT, Point, add_manifold, hull_of, make_pass, sides_by_kind
+from physics.collision.manifold import MASK_HULL, MASKS_EXACT, add_manifold, hull_of, make_pass, sides_by_kind
 from physics.collision.masks import PlacedRaster, collide_mask_hull, hull_bounds, least_overlap
 from physics.jit import inlined, subkernel
 from physics.math2d import cosine_and_sine, length_of, turned, unit
@@ -421,7 +421,7 @@ def make_exact_mask_pass(full: bool) -> Any:
             nx, ny, _ = boxes_normal(f, o)
         px, py = out_of_raster(rasters[frame], p, turn_cosine, turn_sine, px, py)
         sign = 1.0 if first else -1.0
-        point = Point(sign * nx, sign * ny, px, py, separation, area, feature)
+        point = (sign * nx, sign * ny, px, py, separation, area, feature)
         return add_manifold(shapes, candidates, pair, point, manifolds_out, found)
 
     return make_pass(MASKS_EXACT, collide_exact_mask_pair)
@@ -441,7 +441,7 @@ def collide_mask_hull_pair(batch, pair, workspace, manifolds_out, found, work_in
     )
     if area == 0.0:
         return found
-    point = Point(sign * nx, sign * ny, x, y, separation, area, feature)
+    point = (sign * nx, sign * ny, x, y, separation, area, feature)
     return add_manifold(batch.shapes, batch.candidates, pair, point, manifolds_out, found)
 
 

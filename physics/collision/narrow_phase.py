@@ -39,7 +39,6 @@ from physics.collision.manifold import (
     POLYGONS,
     SURFACE_ANY,
     Batch,
-    Point,
     add_manifold,
     new_workspace,
     place_in_order,
@@ -133,7 +132,7 @@ def collide_boxes(
             ny = 1.0
         x = 0.5 * (max(a.min_x, b.min_x) + min(a.max_x, b.max_x))
         y = 0.5 * (max(a.min_y, b.min_y) + min(a.max_y, b.max_y))
-        found = add_manifold(shapes, candidates, i, Point(nx, ny, x, y, -least, 0.0, 0), manifolds_out, found)
+        found = add_manifold(shapes, candidates, i, (nx, ny, x, y, -least, 0.0, 0), manifolds_out, found)
     return found
 
 

@@ -13,7 +13,7 @@ from physics.collision.hulls import (
     part_feature,
     part_of,
 )
-from physics.collision.manifold import GRID_ANY, Point, add_point, add_points, hull_of, make_pass, sides_by_kind
+from physics.collision.manifold import GRID_ANY, add_point, add_points, hull_of, make_pass, sides_by_kind
 from physics.collision.masks_exact import collide_mask_part, tested_aabb
 from physics.jit import inlined, subkernel
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE, SOLID
@@ -287,14 +287,14 @@ def make_grid_pass(one_way: bool) -> Any:
                             geometry, q, o, Hull(tile, corners, 0.0, edges), workspace.b, workspace.depths
                         )
                         if area > 0.0:
-                            point = Point(-sign * nx, -sign * ny, x, y, separation, area, feature)
+                            point = (-sign * nx, -sign * ny, x, y, separation, area, feature)
                             found = add_point(shapes, candidates, pair, point, manifolds_out, found)
                     elif hull.count == 1:
                         hit, nx, ny, x, y, separation, which = collide_hull_circle(
                             Hull(tile, corners, 0.0, edges), hull.corners[0, 0], hull.corners[0, 1], hull.radius
                         )
                         if hit and separation <= margin:
-                            point = Point(sign * nx, sign * ny, x, y, separation, 0.0, feature + which)
+                            point = (sign * nx, sign * ny, x, y, separation, 0.0, feature + which)
                             found = add_point(shapes, candidates, pair, point, manifolds_out, found)
                     else:
                         facing = ALL_EDGES
