@@ -45,7 +45,9 @@ MUTANTS = (
     # pixels
     Mutant("columns_up_to", "sign", ("test_every_offset_across_a_word_border",)),
     Mutant("shared_rectangle", "side", ("test_random_masks_hit_as_the_double_loop_says",)),
-    Mutant("separation_along", "sign", ("test_symmetric_full_overlap_has_a_unit_normal_and_a_depth_that_parts",), seed=2),
+    Mutant(
+        "separation_along", "sign", ("test_symmetric_full_overlap_has_a_unit_normal_and_a_depth_that_parts",), seed=2
+    ),
     # sweeps, rays
     Mutant("cast_on_polygon", "turn", ("test_ray_against_a_box",)),
     Mutant("sweep_circles", "minus", ("test_two_discs_in_closed_form",)),
