@@ -4,21 +4,19 @@ import numpy as np
 
 from physics.collision.chains import admit_to_surfaces, collide_chain_pairs
 from physics.collision.hull_pairs import (
+    center_velocity,
+    closing_speed_bound,
     collide_circle_pairs,
     collide_polygon_circle_pairs,
     collide_polygon_pairs,
     measure_approach,
-    most_nearing,
-    nearing,
-    reach_of,
+    speculative_distance,
 )
 from physics.collision.manifold import (
     CHAIN_ANY,
     CIRCLES,
     GRID_ANY,
-    MASK_CIRCLE,
-    MASK_HULL_EXACT,
-    MASK_POLYGON,
+    MASK_HULL,
     MASKS,
     MASKS_EXACT,
     NOTHING,
@@ -26,18 +24,18 @@ from physics.collision.manifold import (
     POLYGONS,
     SURFACE_ANY,
     Batch,
-    add_point,
+    add_manifold,
     is_before,
     is_of,
     new_workspace,
     place_in_order,
 )
-from physics.collision.mask_parts import drop_opposed, settle_left
-from physics.collision.masks import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
+from physics.collision.mask_parts import drop_opposed, fallback_manifolds
+from physics.collision.masks import collide_mask_pairs_full, collide_mask_pairs_hit
 from physics.collision.masks_exact import (
-    collide_exact_hull_pairs,
     collide_exact_mask_pairs_full,
     collide_exact_mask_pairs_hit,
+    collide_mask_hull_pairs,
 )
 from physics.collision.tiles import collide_grid_pairs_closed, collide_grid_pairs_one_way
 from physics.islands.awake import is_active, wakes
@@ -119,7 +117,7 @@ def collide_boxes(
             ny = 1.0
         x = 0.5 * (max(a.min_x, b.min_x) + min(a.max_x, b.max_x))
         y = 0.5 * (max(a.min_y, b.min_y) + min(a.max_y, b.max_y))
-        found = add_point(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, manifolds_out)
+        found = add_manifold(shapes, candidates, i, (nx, ny, x, y, -least, 0.0, 0), manifolds_out, found)
     return found
 
 
@@ -143,7 +141,7 @@ def kind_of_pair(low, high):
     if low == MASK and high == MASK:
         return MASKS
     if low == MASK or high == MASK:
-        return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
+        return MASK_HULL
     return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
 
 
@@ -151,16 +149,14 @@ def kind_of_pair(low, high):
 def as_snapped(kind, a, b):
     """Return the kind of pair of two SHAPE rows, where `kind` is that of their shape kinds.
 
-    Two snapped masks are tested as drawn, and so is a snapped mask against a hull. A mask that is not snapped is tested
-    at its exact pose. A chain that is part of a mask is its surface.
+    Two snapped masks are tested by AND, any other two masks at their exact poses. A chain that is part of a mask is its
+    surface.
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
         return SURFACE_ANY if chain.role == PART else kind
     if kind == MASKS:
         return kind if a.snap and b.snap else MASKS_EXACT
-    if kind == MASK_CIRCLE or kind == MASK_POLYGON:
-        return kind if a.snap or b.snap else MASK_HULL_EXACT
     return kind
 
 
@@ -190,10 +186,10 @@ def kind_asked(bodies, a, b, margin, ahead, which):
             return NOTHING
         p = bodies[a.body_row]
         q = bodies[b.body_row]
-        if ahead * most_nearing(p, q) <= margin:
+        if ahead * closing_speed_bound(p, q) <= margin:
             return NOTHING
-        _, _, speed = nearing(p, q)
-        if boxes_apart(a, b, reach_of(p, q, speed, margin, ahead)):
+        _, _, speed = center_velocity(p, q)
+        if boxes_apart(a, b, speculative_distance(p, q, speed, margin, ahead)):
             return NOTHING
     if which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
         return NOTHING
@@ -295,15 +291,14 @@ class NarrowPhase:
         exact = collide_exact_mask_pairs_full if full_masks else collide_exact_mask_pairs_hit
         grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
         self.passes = (
-            ((CIRCLES,), collide_circle_pairs),
-            ((POLYGON_CIRCLE,), collide_polygon_circle_pairs),
-            ((POLYGONS,), collide_polygon_pairs),
-            ((MASKS,), masks),
-            ((MASK_CIRCLE, MASK_POLYGON), collide_mask_shape_pairs),
-            ((MASKS_EXACT,), exact),
-            ((MASK_HULL_EXACT,), collide_exact_hull_pairs),
-            ((GRID_ANY,), grids),
-            ((CHAIN_ANY,), collide_chain_pairs),
+            (CIRCLES, collide_circle_pairs),
+            (POLYGON_CIRCLE, collide_polygon_circle_pairs),
+            (POLYGONS, collide_polygon_pairs),
+            (MASKS, masks),
+            (MASKS_EXACT, exact),
+            (MASK_HULL, collide_mask_hull_pairs),
+            (GRID_ANY, grids),
+            (CHAIN_ANY, collide_chain_pairs),
         )
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
@@ -363,7 +358,8 @@ class NarrowPhase:
 
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
         """Return the contacts of the candidates from their AABBs alone; see is_asked."""
-        return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
+        found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
+        return self.raw[:found]  # a larger table than before, where there was no room
 
     def complete(self, batch: Batch, previous: np.ndarray | None, again: int, work: np.ndarray) -> np.ndarray:
         """Return the manifolds of all pairs whose kinds are counted, in the order of the candidates.
@@ -394,23 +390,23 @@ class NarrowPhase:
 
         Return their number, with the first ones, and the number of runs added, each in the order of the candidates.
         """
-        used = [run for kinds, run in self.passes if any(counts[kind] for kind in kinds)]
-        if len(workspace.left) < batch.count + 1:
-            workspace = workspace._replace(left=np.zeros(2 * batch.count + 1, np.int64))
-            self.workspace = self.workspace._replace(left=workspace.left)
+        used = [run for kind, run in self.passes if counts[kind]]
+        if len(workspace.fallback) < batch.count + 1:
+            workspace = workspace._replace(fallback=np.zeros(2 * batch.count + 1, np.int64))
+            self.workspace = self.workspace._replace(fallback=workspace.fallback)
 
         def run_all():
             found = again
-            workspace.left[0] = 0
+            workspace.fallback[0] = 0
             for run in used:
                 found = run(batch, workspace, self.raw, found, work)
             return found
 
         found = self._with_room(work, run_all)
-        if not workspace.left[0]:
+        if not workspace.fallback[0]:
             return found, len(used)
         before = self.raw[:0] if previous is None else previous
-        rest = settle_left(batch, self.raw[:found], before, workspace)
+        rest = fallback_manifolds(batch, self.raw[:found], before, workspace)
         self._make_room(found + len(rest))
         self.raw[found : found + len(rest)] = rest
         return found + len(rest), len(used) + (len(rest) > 0)

@@ -201,7 +201,7 @@ def recycle_contacts(
     for i in range(batch.count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        kind = kind_asked(bodies, a, b, batch.margin, batch.ahead, SOLIDS)
+        kind = kind_asked(bodies, a, b, batch.margin, batch.lookahead, SOLIDS)
         kinds_out[i] = kind
         counts_out[kind] += 1
         if kind == NOTHING:
