@@ -61,7 +61,7 @@ def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
         return
     room, seen = PAIRS, set()
     for k in range(min(TRIES, len(rows))):
-        owners = world.shapes["owner"][rows[(turn * PAIRS + k) % len(rows)]]
+        owners = world.shapes["parent"][rows[(turn * PAIRS + k) % len(rows)]]
         ids = int(owners.min()), int(owners.max())
         if ids in seen:
             continue

@@ -7,7 +7,7 @@ form has arrived. Both forms give the same bits.
 
 Five decorators: `kernel` for functions that a stage calls with arrays; `generic` for those that are called with arrays
 of several types; `subkernel` for functions that only kernels call; `inlined` for subkernels that are inlined at every
-call; `separate` for subkernels whose arrays never overlap (noalias). Only the first two have an entry from Python.
+call; `noalias` for subkernels whose arrays never overlap (noalias). Only the first two have an entry from Python.
 """
 
 from collections.abc import Callable
@@ -30,12 +30,12 @@ __all__ = [
     "popcount",
     "put_in",
     "registry",
-    "separate",
+    "noalias",
     "subkernel",
     "word",
 ]
 
-DECORATORS = ("generic", "inlined", "kernel", "separate", "subkernel")  # by name, for what reads sources
+DECORATORS = ("generic", "inlined", "kernel", "noalias", "subkernel")  # by name, for what reads sources
 
 
 def subkernel(function: Callable) -> Any:
@@ -48,7 +48,7 @@ def inlined(function: Callable) -> Any:
     return Part(function, is_inlined=True) if JIT else function
 
 
-def separate(function: Callable) -> Any:
+def noalias(function: Callable) -> Any:
     """Return a subkernel whose arrays never overlap (noalias); otherwise a loop that reads one and writes another is
     not vectorised.
     """
