@@ -50,10 +50,10 @@ def make(name):
 
 
 def differences(name):
-    """Return the paths of one product that are missing from the folder or differ from what the script makes.
+    """Return the paths of one product that are missing from the folder or differ from the script's result.
 
     A PNG is compared by header and inflated rows: another build of zlib packs the same picture differently. A tune is
-    compared by the hash of its samples, kept beside it, and by decoding the file (craft/ogg.py).
+    compared by the hash of its samples, stored beside it, and by decoding the file (craft/ogg.py).
     """
     wrong = []
     for path, made in make(name).items():
@@ -77,9 +77,9 @@ def _same(path, kept, made):
 
 
 def write(name):
-    """Write one product's files. Returns their relative paths.
+    """Write one product's files. Return their relative paths.
 
-    A recording that is kept already stays as it is: each encoding of the same samples has other bytes.
+    An existing recording of these samples is not replaced: each encoding of the same samples has other bytes.
     """
     files = make(name)
     for path, content in files.items():
@@ -94,7 +94,7 @@ def write(name):
 
 
 def main(arguments=None):
-    """Run the command line. Returns the exit code: 0 fine, 1 a file differs, 2 nothing of that name."""
+    """Run the command line. Return the exit code: 0 success, 1 a file differs, 2 an unknown name."""
     parser = argparse.ArgumentParser(
         prog=f"python -m {__package__}.build", description="Write or check the files of assets/."
     )

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.collision.manifold import by_parent
+from physics.collision.manifold import by_parent, is_before, is_of
 from physics.jit import copy_row, kernel, subkernel
 from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
 from physics.tables.step_state import CONTACTS, StepState, stage
@@ -132,12 +132,9 @@ def compare_pairs(
             new = not old or (p.shape_a == m.shape_a and p.shape_b == m.shape_b)
         if not new:
             p = before[i]
-            while asleep < len(fell_asleep) and (
-                fell_asleep[asleep].shape_a < p.shape_a
-                or (fell_asleep[asleep].shape_a == p.shape_a and fell_asleep[asleep].shape_b < p.shape_b)
-            ):
+            while asleep < len(fell_asleep) and is_before(fell_asleep[asleep], p.shape_a, p.shape_b):
                 asleep += 1
-            if asleep < len(fell_asleep) and fell_asleep[asleep].shape_a == p.shape_a and fell_asleep[asleep].shape_b == p.shape_b:
+            if asleep < len(fell_asleep) and is_of(fell_asleep[asleep], p.shape_a, p.shape_b):
                 copy_row(p, comparison_inout.aside[counts[4]])
                 counts[4] += 1
             else:
@@ -232,7 +229,13 @@ class Pairs:
         return self.last.now[: self.count]
 
     def compare(
-        self, contacts: np.ndarray, fell_asleep: np.ndarray, sensors: bool, persisting: bool, slop: float, hit_speed: float
+        self,
+        contacts: np.ndarray,
+        fell_asleep: np.ndarray,
+        sensors: bool,
+        persisting: bool,
+        slop: float,
+        hit_speed: float,
     ) -> Changes | None:
         """Read the contacts of a step and return the changes. Return None, and change nothing, where a child shape
         touches.
@@ -240,7 +243,8 @@ class Pairs:
         if self.count + len(contacts) > len(self.compared.keep):
             self._grow(2 * (self.count + len(contacts)))
         compared, changes = self.compared, self.changes
-        if not compare_pairs(self.rows, contacts, fell_asleep, int(sensors), int(persisting), slop, hit_speed, compared):
+        flags = int(sensors), int(persisting)
+        if not compare_pairs(self.rows, contacts, fell_asleep, *flags, slop, hit_speed, compared):
             return None
         # The pairs that touch now are those of the step before in the next comparison.
         self.compared, self.last = self.last, compared

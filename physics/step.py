@@ -268,7 +268,8 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.substeps = 0 if world.substeps == "auto" else world.substeps
     state.bodies, state.shapes, state.characters = world.bodies, world.shapes, world.characters.rows
     state.queries, state.steps = world.queries, world.steps
-    state.library, state.pairs, state.awake, state.sleeping_set = world.library, world.pairs, world.awake, world.sleeping_set
+    state.library, state.pairs = world.library, world.pairs
+    state.awake, state.sleeping_set = world.awake, world.sleeping_set
     state.contact_rows = world.contact_rows
     state.touching, state.sensing = world.touching, world.sensing
     state.sensed, state.swept_sensors = world.sensed, NO_CONTACTS

@@ -1,7 +1,7 @@
-"""Every scene in menu order: SCENES is name -> "module:Class", imported when first asked for.
+"""Every scene in menu order: SCENES is name -> "module:Class", imported at its first use.
 
-A scene that is not listed here is not in the game; tests/scenes/test_registry.py compares the list with the
-folder, so a forgotten line fails.
+A scene that is not listed here is not in the game. tests/scenes/test_registry.py compares the list with the folder, so
+a missing line fails.
 """
 
 PLACES = {  # name -> ".module:Class" in this package
@@ -10,9 +10,9 @@ PLACES = {  # name -> ".module:Class" in this package
     "lander": ".lander.scene:Lander",
     # hard cases of all kinds
     "lab/gallery": ".lab.gallery.scene:Gallery",
-    # what a scene asks for
+    # effects of a scene
     "lab/effects": ".lab.effects:EffectsLab",
-    # finding what touches
+    # broad phase
     "lab/broadphases": ".lab.broadphases:Broadphases",
     "lab/masks": ".lab.masks:Masks",
     "lab/ladder": ".lab.ladder:Ladder",
@@ -21,7 +21,7 @@ PLACES = {  # name -> ".module:Class" in this package
     "lab/queries": ".lab.queries:Queries",
     "lab/filters": ".lab.filters:Filters",
     "lab/sensors": ".lab.sensors:Sensors",
-    # what leans and piles up
+    # stacking
     "lab/stacks": ".lab.stacks:Stacks",
     "lab/pyramid": ".lab.pyramid:Pyramid",
     "lab/card_house": ".lab.card_house:CardHouse",
@@ -30,12 +30,12 @@ PLACES = {  # name -> ".module:Class" in this package
     "lab/sleeping": ".lab.sleeping:Sleeping",
     "lab/mask_stack": ".lab.mask_stack:MaskStack",
     "lab/carving": ".lab.carving:Carving",
-    # what collides and bounces
+    # collisions and bounces
     "lab/cradle": ".lab.cradle:Cradle",
     "lab/billiards": ".lab.billiards:Billiards",
     "lab/tunnelling": ".lab.tunnelling:Tunnelling",
     "lab/mask_sweep": ".lab.mask_sweep:MaskSweep",
-    # what things stand on
+    # ground
     "lab/conveyor": ".lab.conveyor:Conveyor",
     "lab/one_way": ".lab.one_way:OneWay",
     "lab/ghost_bumps": ".lab.ghost_bumps:GhostBumps",

@@ -1,10 +1,11 @@
-"""Pictures of the games: scenes are run by their bots without a window, and frames are kept as PNG files.
+"""Pictures of the games: bots run the scenes without a window, and frames are stored as PNG files.
 
 python -m scenes.filming pictures FOLDER                 the menu's small picture of every scene
 python -m scenes.filming moments GAME FOLDER             its moments at the canvas' size, and captions.json
 python -m scenes.filming reel SCENE 1 0 3600 60 FILE     seed 1, frames 0, 60, ... of a run, small, to choose from
 
-A scene is deterministic, so a frame's number names it. The scripts of assets/, which know no game, run this program.
+A scene is deterministic, so a frame's number identifies it. The scripts of assets/, which do not import games, run this
+program.
 """
 
 import argparse
@@ -29,12 +30,12 @@ from scenes.moments import MOMENTS, SEED, Moment, done, landing, leader
 
 FRAME = (480, 270)  # [px] of the canvas
 SIZE = (160, 90)  # [px] of a menu picture
-MOST = 20000  # frames within which every moment of a game comes
+MOST = 20000  # frames within which every moment of a game must occur
 
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture to be taken: the frame or moment of a run, and the part of the canvas seen, 160 x 90 px times zoom."""
+    """A picture to take: the frame or moment of a run, and the part of the canvas, 160 x 90 px times zoom."""
 
     frame: int | Moment
     left: int = 0
@@ -44,11 +45,11 @@ class Shot:
 
     @property
     def part(self):
-        """left, top, width, height of what is seen, in canvas px."""
+        """left, top, width, height of the part [canvas px]."""
         return self.left, self.top, SIZE[0] * self.zoom, SIZE[1] * self.zoom
 
 
-# Parts are chosen so that no measured time (of some microseconds, on the machine that films) is ever in the picture.
+# The parts contain no measured times (some microseconds, on the machine that films).
 SHOTS = {
     "shooter": Shot(Moment("the boss", leader("boss_a_0", 85)), 130, 20),
     "platformer": Shot(Moment("keep", done("lift with an enemy", 40)), 130, 80),
@@ -82,7 +83,7 @@ SHOTS = {
 
 
 class Film:
-    """A scene that its bot plays, and pictures of it: the presented frame, (810, 1440, 3) uint8."""
+    """A scene played by its bot, and its pictures: the presented frame, (810, 1440, 3) uint8."""
 
     def __init__(self, name, seed, layers=()):
         start_dummy_display()
@@ -90,18 +91,18 @@ class Film:
         self.session, self.overlays, self.picture = Session(self.scene, BotSource()), Overlays(layers), Picture()
 
     def step(self):
-        """One step of the game."""
+        """Make one step of the game."""
         self.session.step()
         self.overlays.note(self.scene)
 
     def take(self):
-        """The picture now."""
+        """Return the current picture."""
         self.picture.draw_scene(self.scene, self.overlays)
         return pygame.surfarray.array3d(self.picture.presenter.frame.surface).transpose(1, 0, 2)
 
 
 def film(name, seed, frames, layers=()):
-    """Run a scene; return {frame number: picture} for those asked for."""
+    """Run a scene; return {frame number: picture} of the given frames."""
     running, wanted, taken = Film(name, seed, layers), set(frames), {}
     for number in range(1, max(wanted) + 1):
         running.step()
@@ -111,9 +112,9 @@ def film(name, seed, frames, layers=()):
 
 
 def film_moments(name, seed, moments):
-    """Run a scene; return a picture of each moment, looked for in their order.
+    """Run a scene; return a picture of each moment, searched for in their order.
 
-    Raises ValueError naming the first one that does not come.
+    Raises ValueError naming the first moment that does not occur.
     """
     running, taken = Film(name, seed), []
     for moment in moments:
@@ -128,9 +129,10 @@ def film_moments(name, seed, moments):
 
 
 def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
-    """The part (left, top, width, height in canvas px) of a presented picture, `zoom` canvas pixels to one.
+    """Return the part (left, top, width, height in canvas px) of a presented picture, at one pixel per `zoom` canvas
+    pixels.
 
-    Averages are of whole numbers, so that they are the same on every machine.
+    The averages use integers, so they are equal on every machine.
     """
     left, top, width, height = (value * SCREENSHOT_SCALE for value in part)
     share = SCREENSHOT_SCALE * zoom
@@ -140,12 +142,12 @@ def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
 
 
 def picture_name(scene):
-    """The file name of a scene's menu picture."""
+    """Return the file name of a scene's menu picture."""
     return f"{scene.replace('/', '_')}.png"
 
 
 def menu_picture(scene):
-    """The menu's picture of a scene, (90, 160, 3) uint8."""
+    """Return the menu's picture of a scene, (90, 160, 3) uint8."""
     shot = SHOTS[scene]
     if isinstance(shot.frame, Moment):
         taken = film_moments(scene, SEED, [shot.frame])[0]
@@ -155,13 +157,13 @@ def menu_picture(scene):
 
 
 def write_pictures(folder):
-    """Write the menu's pictures."""
+    """Write the menu's pictures into a folder."""
     for scene in SCENES:
         (folder / picture_name(scene)).write_bytes(png.encode(menu_picture(scene)))
 
 
 def write_moments(game, folder):
-    """Write a game's moments as 00.png, 01.png, ... and captions.json, a list of what they show."""
+    """Write a game's moments as 00.png, 01.png, ... and captions.json, a list of their captions."""
     for number, picture in enumerate(film_moments(game, SEED, MOMENTS[game])):
         (folder / f"{number:02}.png").write_bytes(png.encode(reduced(picture)))
     captions = [moment.caption for moment in MOMENTS[game]]
@@ -169,7 +171,7 @@ def write_moments(game, folder):
 
 
 def reel(name, seed, first, last, every, columns=8):
-    """Small pictures of a run side by side, row by row, to choose from."""
+    """Return small pictures of a run in rows, to choose from."""
     taken = film(name, seed, range(max(1, first), last + 1, every))
     pictures = [reduced(taken[number], zoom=3) for number in sorted(taken)]
     while len(pictures) % columns:
@@ -179,7 +181,7 @@ def reel(name, seed, first, last, every, columns=8):
 
 
 def read_arguments(arguments):
-    """The parsed command line; leaves with exit code 2 and the reason where it is wrong."""
+    """Return the parsed command line. It exits with code 2 and the reason for invalid arguments."""
     parser = argparse.ArgumentParser(prog=f"python -m {__package__}.filming", description="Film the games.")
     films = parser.add_subparsers(dest="what", required=True)
     films.add_parser("pictures", help="the menu's pictures").add_argument("folder", type=Path)
@@ -203,7 +205,7 @@ def read_arguments(arguments):
 
 
 def main(arguments=None):
-    """Film what the command line asks for. Returns the exit code."""
+    """Film what the command line asks for. Return the exit code."""
     options = read_arguments(arguments)
     if options.what == "pictures":
         write_pictures(options.folder)

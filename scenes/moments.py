@@ -1,7 +1,7 @@
-"""Twelve moments of each game, to be found while its bot plays (filming.py) and shown in docs/moments.png.
+"""Twelve moments of each game, found while its bot plays (filming.py) and shown in docs/moments.png.
 
-A moment is named by what happens in the game and not by a frame's number, so that it is found again when a game has
-changed. Moments are looked for one after the other, in the order given here.
+A moment is defined by an event in the game, not by a frame number, so that it is found again after the game has
+changed. Moments are searched for one after the other, in the order given here.
 """
 
 from collections.abc import Callable
@@ -12,7 +12,7 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Moment:
-    """What is looked for: `when` tells it from the scene; it is filmed so many steps `after`."""
+    """A moment. `when(scene)`: whether it has come; it is filmed so many steps `after`."""
 
     caption: str
     when: Callable
@@ -20,7 +20,7 @@ class Moment:
 
 
 def flying(kind, least):
-    """At least so many planes of a kind in the picture."""
+    """Return a test for at least so many planes of a kind in the picture."""
     return lambda scene: (
         sum(plane.kind == kind and 16 < plane.y < 200 and 20 < plane.x < 460 for plane in scene.fleet.planes.values())
         >= least
@@ -28,7 +28,7 @@ def flying(kind, least):
 
 
 def leader(frame, bullets=0):
-    """A leader of that look fights, with at least so many bullets in the air."""
+    """Return a test for a leader of that look in a fight, with at least so many bullets in the air."""
     return lambda scene: (
         len(scene.incoming) >= bullets
         and any(plane.leads and plane.frame == frame and plane.mode == "fight" for plane in scene.fleet.planes.values())
@@ -36,37 +36,37 @@ def leader(frame, bullets=0):
 
 
 def falling(kind):
-    """A leader burns."""
+    """Return a test for a burning leader."""
     return lambda scene: any(
         plane.leads and plane.kind == kind and plane.mode == "fall" for plane in scene.fleet.planes.values()
     )
 
 
 def over(ground, bullets, planes=0):
-    """Above a kind of ground, with so many bullets and planes."""
+    """Return a test for a kind of ground below, with so many bullets and planes."""
     return lambda scene: (
         scene.director.ground == ground and len(scene.incoming) >= bullets and len(scene.fleet.planes) >= planes
     )
 
 
 def bombed(frame):
-    """A bomb goes off under a leader of that look."""
+    """Return a test for a bomb under a leader of that look."""
     fights = leader(frame)
     return lambda scene: scene.bomb.body is not None and scene.bomb.age < 3 and fights(scene)
 
 
 def done(feat, times=1):
-    """The hero has done something so often."""
+    """Return a test for so many feats of the hero."""
     return lambda scene: scene.feats.done[feat] >= times
 
 
 def flown(act, number):
-    """The lander's bot is on its way to a waypoint of an act."""
+    """Return a test for the lander's bot on its path to a waypoint of an act."""
     return lambda scene: scene.pilot.act == act and scene.pilot.number >= number
 
 
 def landing(name, high):
-    """The lander comes down to a site, so many px above it."""
+    """Return a test for the lander coming down to a site, at a height [px] above it."""
     return lambda scene: (
         scene.course.site.name == name
         and abs(scene.ship.x - scene.course.site.x) < 30.0
@@ -75,7 +75,7 @@ def landing(name, high):
 
 
 def landed(count, mode):
-    """So many sites are reached, and the course is in that mode."""
+    """Return a test for so many reached sites, with the course in a mode."""
     return lambda scene: scene.score.landings == count and scene.course.mode == mode
 
 

@@ -1,9 +1,10 @@
-"""`python -m scenes.outlines [--check]`: fit the outlines of the masks that the scenes begin with, and keep them.
+"""`python -m scenes.outlines [--check]`: fit the outlines of the masks that the scenes begin with, and store them.
 
-They lie beside the art (assets/outlines.npz), so that a start without compiled kernels does not fit them again. Every
-scene is built with each of its tiers, the games are played for some seconds by their bots, for what comes later, and
-the sprites of all sheets are asked.
---check compares the file with outlines that are fitted anew. Exit 1: it differs.
+They are stored beside the art (assets/outlines.npz), so that a start without compiled kernels does not fit them again.
+Every scene is built with each of its tiers. Bots play the games for some seconds, which adds later masks. The sprites
+of all sheets are added, too.
+
+--check compares the file with newly fitted outlines. Exit 1: it differs.
 """
 
 import sys
@@ -25,7 +26,7 @@ SHEETS = ("planes", "hero", "things", "lab", "lander")
 
 
 def fit_all() -> dict[bytes, kept.Parts]:
-    """Return the outlines of all masks that scenes begin with, by their keys; none is taken from a file."""
+    """Return the outlines of all masks that scenes begin with, by their keys, all newly fitted."""
     start_dummy_display()
     kept.forget()
     kept.recorded = {}
@@ -45,7 +46,7 @@ def fit_all() -> dict[bytes, kept.Parts]:
 
 
 def main(arguments: list[str]) -> int:
-    """Write the file, or compare it. Returns the exit code."""
+    """Write the file, or compare it. Return the exit code."""
     found = fit_all()
     if arguments == ["--check"]:
         with tempfile.TemporaryDirectory() as folder:

@@ -28,7 +28,7 @@ def frames_of(name: str) -> int:
 
 
 def ask(name: str) -> dict:
-    """What the program says of a scene. Raises CalledProcessError where it cannot be measured."""
+    """Return the program's advice on a scene. Raises CalledProcessError if it cannot be measured."""
     command = [sys.executable, "main.py", "--advise", name, *ARGUMENTS, "--frames", str(frames_of(name))]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     if done.returncode not in (0, 1):  # 1: nothing is within the error

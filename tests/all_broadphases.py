@@ -45,13 +45,13 @@ class AsksAll:
 
         return ask_all
 
-    def near(self, proxies, box, slots, work):
+    def query_box(self, proxies, box, slots, work):
         """List the slots near a box. Raises StrategiesDisagree if another strategy lists others."""
-        count = super().near(proxies, box, slots, work)
+        count = super().query_box(proxies, box, slots, work)
         wanted = meeting(proxies, box, slots[:count])
         for other, _ in self.others:
             found = np.zeros_like(slots)
-            found = meeting(proxies, box, found[: other.near(proxies, box, found, np.zeros_like(work))])
+            found = meeting(proxies, box, found[: other.query_box(proxies, box, found, np.zeros_like(work))])
             self.compare(f"slots near {box}", other.name, wanted, found, len(found))
         return count
 

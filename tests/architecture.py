@@ -7,7 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 TOPS = ("physics", "game", "scenes", "assets")
-# Who stands left of whom (design, section 3): each may import what stands to its left, and its own folder.
+# Import order: each folder may import those to its left, and itself.
 PHYSICS = (
     "jit",
     "math2d",
@@ -41,7 +41,7 @@ def name_of(path: Path) -> str:
 
 
 def is_module(name: str) -> bool:
-    """Whether a dotted name is a file or a package of the project."""
+    """Return whether a dotted name is a file or a package of the project."""
     path = ROOT.joinpath(*name.split("."))
     return path.with_suffix(".py").is_file() or (path / "__init__.py").is_file()
 

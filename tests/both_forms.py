@@ -25,7 +25,7 @@ class FormsDiffer(AssertionError):
 
 
 class Seen:
-    """What was compared: `calls` made, the names of the `kernels`, and `differences` as {text: how often}."""
+    """Record of the comparisons: `calls` made, the names of the `kernels`, and `differences` as {text: count}."""
 
     def __init__(self):
         self.calls, self.kernels, self.differences = 0, set(), {}
@@ -119,13 +119,13 @@ class Copies:
 
 
 def _raised(error):
-    """What a plain twin raised, and where."""
+    """Return the error that a plain twin raised, and its place."""
     last = traceback.extract_tb(error.__traceback__)[-1]
     return f"raises {error!r} in {last.name} when plain: {last.line}"
 
 
 def _difference(plain, result, copies):
-    """What differs between what both forms returned and wrote, "" if nothing does."""
+    """Return the differences between the results and writes of both forms, "" if there are none."""
     if not same_value(plain, result):
         return f"returns {plain!r} when plain, {result!r} when compiled"
     if all(bytes(copy) == ctypes.string_at(owner.ctypes.data, owner.nbytes) for owner, copy in copies.buffers.values()):
@@ -154,7 +154,7 @@ def same_elements(one, two):
 
 
 def same_value(one, two):
-    """Whether two results are the same: numbers by their bits, or both NaN; a bool is a whole number."""
+    """Return whether two results are the same: numbers by their bits, or both NaN; a bool is a whole number."""
     if isinstance(one, tuple) and isinstance(two, tuple):
         return len(one) == len(two) and all(map(same_value, one, two))
     if isinstance(one, float) and isinstance(two, float):

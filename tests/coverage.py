@@ -17,52 +17,48 @@ ROOT = Path(__file__).parents[1]
 KEPT, PAGE = ROOT / "docs/coverage.json", ROOT / "docs/coverage.md"
 ASKED = 95.0  # percent of all lines
 
-BLOCKS = "without numba a block is one lane wide: none is left over"
+BLOCKS = "without numba a block is one lane wide: no remainder"
 # What no test without numba runs: where, what the line says (a pattern), and why. The first that fits.
 EXPLAINED = (
     ("physics/background.py", "", "compiling beside the program: there is nothing to compile without numba"),
-    ("physics/compile_worker.py", "", "a process that compiles: never started without numba"),
+    ("physics/compile_worker.py", "", "a compiling process: never started without numba"),
     ("physics/jit/compiling.py", "", "numba itself: never imported without it"),
-    ("physics/jit/content.py", "", "names of what is compiled: nothing is"),
-    ("physics/jit/plain.py", "", "words of 64 bits as numba has them: here they are Python's numbers"),
-    ("physics/jit/", "", "where numba is, or is switched off"),
+    ("physics/jit/content.py", "", "names of compiled code: there is none"),
+    ("physics/jit/plain.py", "", "numba's words of 64 bits: here they are Python's numbers"),
+    ("physics/jit/", "", "with numba, or with numba switched off"),
     ("physics/solver/lanes.py", "", BLOCKS),
     ("physics/solver/contact_lanes.py", "^continue$", BLOCKS),
     ("physics/solver/substeps.py", "^continue$", BLOCKS),
-    ("physics/", r"^\.\.\.$", "the body of a Protocol's method, which nobody calls"),
-    ("physics/", "CAP_HITS|CAPPED", "a bound on rounds that no case has reached: it would be counted"),
-    ("physics/", "raise RuntimeError", "a defect of ours, which would be told as one"),
-    ("physics/", 'raise |^f"', "a refusal that stands behind another one"),
-    ("physics/ccd/mask_sweep.py", "", "ground that moves past a mask: compiled tests alone sweep it"),
-    ("physics/islands/sleep", "", "an island that names a body of another one, which sleeps by itself: not met"),
-    ("physics/islands/awake.py", "", "what a step left that failed in the middle: not met"),
-    ("physics/outline/rings.py", "", "rings with more corners than a sprite has, handed in closed, or in a line"),
-    ("physics/outline/", "", "degenerate outlines: the way out, which no sprite takes"),
-    (
-        "physics/broadphase/",
-        "",
-        "boxes of a cell's size on its borders, trees of one leaf, all the world asked at once",
-    ),
-    ("physics/queries/pairs.py", "", "a box that grazes while it turns: looked on from a share of the way"),
+    ("physics/", r"^\.\.\.$", "the body of a Protocol's method, which is never called"),
+    ("physics/", "CAP_HITS|CAPPED", "a bound on iterations that no case reaches: it would be counted"),
+    ("physics/", "raise RuntimeError", "an internal error"),
+    ("physics/", 'raise |^f"', "an argument check after another one"),
+    ("physics/ccd/mask_sweep.py", "", "ground that moves past a mask: swept by compiled tests only"),
+    ("physics/islands/sleep", "", "an island that names a body of another, sleeping one: not reached"),
+    ("physics/islands/awake.py", "", "the remains of a step that failed in the middle: not reached"),
+    ("physics/outline/rings.py", "", "rings with more corners than a sprite has, closed, or in a line"),
+    ("physics/outline/", "", "degenerate outlines, which no sprite has"),
+    ("physics/broadphase/", "", "boxes of a cell's size on its borders, trees of one leaf, queries of the whole world"),
+    ("physics/queries/pairs.py", "", "a box that grazes while it rotates: continued from a fraction of the path"),
     (
         "physics/queries/casts.py",
         "",
-        "a cast of no length that begins in an overlap with a mask, or meets nothing at its end",
+        "a cast of zero length that begins in an overlap with a mask, or has no hit at its end",
     ),
-    ("physics/collision/mask_parts.py", "", "a disc among the parts of one sprite, led out with the others"),
-    ("physics/collision/chains.py", "", "a Bounds that stood across a one-way mask a step ago"),
-    ("physics/collision/masks.py", "", "a hull within pixels all round, none of whose edges may push"),
-    ("physics/step.py", "", "a target for what is put aside: it is told to wake and does not"),
+    ("physics/collision/mask_parts.py", "", "a disc among the parts of one sprite, separated with the others"),
+    ("physics/collision/chains.py", "", "a Bounds that overlapped a one-way mask a step ago"),
+    ("physics/collision/masks.py", "", "a hull surrounded by pixels, without an edge that may push"),
+    ("physics/step.py", "", "a target of a disabled body: it does not wake"),
     (
         "physics/ccd/time_of_impact.py",
         "",
-        "a fast shape by its ray against a fast one that is swept: not met without numba",
+        "a fast shape by its ray against a fast, swept one: not reached without numba",
     ),
-    ("physics/queries/casts.py", "", "the disc among the parts of a sprite's outline, met by a ray before the others"),
-    ("physics/", "^(return|continue|break)", "the way out of what is degenerate (no length, no area, nothing near)"),
-    ("physics/collision/", "", "a contact at the border of two cases, which rounding decides: not met without numba"),
-    ("physics/character/", "", "a walk squeezed or carried from two sides in one step: not met without numba"),
-    ("physics/distance/", "", "a simplex that rounding has made flat: not met without numba"),
+    ("physics/queries/casts.py", "", "the disc among the parts of a sprite's outline, hit by a ray before the others"),
+    ("physics/", "^(return|continue|break)", "degenerate input (no length, no area, no neighbour)"),
+    ("physics/collision/", "", "a contact at the border of two cases, decided by rounding: not reached without numba"),
+    ("physics/character/", "", "a walk squeezed or carried from two sides in one step: not reached without numba"),
+    ("physics/distance/", "", "a simplex made flat by rounding: not reached without numba"),
 )
 
 
@@ -83,12 +79,12 @@ def merged(reports: list[dict]) -> dict[str, dict]:
 
 
 def kept() -> dict[str, dict]:
-    """What was measured last, as `merged` has it."""
+    """Return the last measurement, in the form of `merged`."""
     return json.loads(KEPT.read_text(encoding="utf-8"))
 
 
 def why(path: str, text: str) -> str | None:
-    """Why no test runs a line; None where nobody has said."""
+    """Return the reason why no test runs a line; None without one."""
     return next((reason for where, what, reason in EXPLAINED if path.startswith(where) and re.search(what, text)), None)
 
 
@@ -99,7 +95,7 @@ def share(files: dict[str, dict]) -> float:
 
 
 def unexplained(files: dict[str, dict]) -> list[str]:
-    """path:number: text of lines that nothing runs and nobody explains."""
+    """Return path:number: text of the lines that no test runs and no reason covers."""
     return [
         f"{path}:{number}: {text}"
         for path, file in files.items()
@@ -119,11 +115,11 @@ def page(files: dict[str, dict]) -> str:
     ]
     return "\n".join(
         [
-            "# Which lines the tests run",
+            "# Lines that the tests run",
             "",
             f"Of {lines:,} lines of `physics/` the tests run {lines - missing:,}, that is {share(files):.1f} %, with",
-            "the kernels as the Python that they are written in (no numba). Why the others are not run stands beside",
-            "them. This page is written, not edited: see [tests/coverage.py](../tests/coverage.py).",
+            "the kernels as plain Python (no numba). The table gives the reasons for the other lines. This page is",
+            "generated: see [tests/coverage.py](../tests/coverage.py).",
             "",
             "| file | lines | not run | why |",
             "|---|---|---|---|",
@@ -134,7 +130,7 @@ def page(files: dict[str, dict]) -> str:
 
 
 def _reasons(path, file):
-    return dict.fromkeys(why(path, text) or "**nobody has said**" for _, text in file["missing"])
+    return dict.fromkeys(why(path, text) or "**no reason given**" for _, text in file["missing"])
 
 
 def main(arguments: list[str]) -> int:

@@ -159,7 +159,7 @@ def pytest_configure(config):
 
 
 class Meter:
-    """Record with each test what its phases took, shared fixtures included whoever has paid for them."""
+    """Record of the time of each test's phases, including shared fixtures, whichever test ran them."""
 
     def __init__(self, clock):
         self.clock, self.shared = clock, {}  # {key of a fixture: seconds}

@@ -28,7 +28,7 @@ def test_a_recipe_runs_and_says_what_it_found(path, tmp_path):
 
 @pytest.mark.parametrize("path", [*RECIPES, ROOT / "docs/physics_alone.py"], ids=lambda path: path.stem)
 def test_a_recipe_is_written_for_the_installed_package(path):
-    """What runs here is what a wheel runs: the build turns the one into the other."""
+    """A recipe runs here as in a wheel: the build converts the one into the other."""
     source = path.read_text()
     assert "from hitbox.physics import" in source
     assert layout_module().converted(as_in_a_checkout(source)) == (source, [])

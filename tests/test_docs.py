@@ -1,4 +1,4 @@
-"""What the documents promise: the example runs, its lines stand in the text, the README's commands are there."""
+"""Promises of the documents: the example runs, its lines are in the text, the README's commands exist."""
 
 import ast
 import math

@@ -45,7 +45,7 @@ def words(text):
 
 
 def sweeps_lead():
-    """How much slower than the sweep the next strategy is, where everything moves, over layouts and sizes."""
+    """Return the ratio of the next strategy's time to the sweep's if everything moves, over layouts and sizes."""
     shipped = ratios("broadphase", r"(\d+) bodies (.*), all moving: (sweep|hash|tree) / brute")
     leads = {}
     for place in {(size, layout) for size, layout, _ in shipped}:
@@ -65,7 +65,7 @@ def fours():
     both = ratios("broadphase", r"(.*, (?:all moving|2 % moving.*)): (tree|tree of four) / brute")
     steps = [both[case, "tree of four"] / both[case, "tree"] for case in {case for case, _ in both}]
     return (
-        f"pairs are found {min(found):.1f} to {max(found):.1f} times as fast, and what moves keeps the fours: "
+        f"pairs are found {min(found):.1f} to {max(found):.1f} times as fast, and moving bodies keep the nodes: "
         f"a step takes {min(steps):.1f} to {max(steps):.1f} of `DynamicTree()`"
     )
 
@@ -92,12 +92,12 @@ def crater():
 
 
 def sinks():
-    """What stands, and how deep it is in, by load and with four substeps."""
+    """Return which piles stand, and their overlap, by load and with four substeps."""
     rows = kept("study.json")["rows"]
     heavy, column = (rows["ratio_1000_on_1"]["engines"]["auto"], rows["crooked_40"]["engines"]["hb4"])
     assert heavy["fell"] is None and column["stood"] == column["seeds"] > 1
     return [
-        f"a body 1,000 times as heavy as what it lies on sinks in by {heavy['figure']:.1f} mm",
+        f"a body 1,000 times as heavy as its support sinks in by {heavy['figure']:.1f} mm",
         f"with four, columns 2 cm askew stand forty high, {column['figure']:.0f} mm in one another",
     ]
 

@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parent.parent
 BANNED_CALLS = {"math.hypot", "math.fmod", "np.bitwise_count", "math.pow", "math.dist", "math.fsum"}
 KERNEL_LINES, LONG_LINES = 60, 120
 LONG = {
-    "collide_grid_pairs",
+    "collide_grid_pair",
     "find_impacts",
     "find_in_cells",
     "place_changed",
@@ -21,7 +21,7 @@ LONG = {
     "project",
     "clip_edges",
     "collide_mask_polygon",
-    "collide_chain_pairs",
+    "collide_chain_pair",
     "update_rectangles",
     "classify",
     "collide_mask_circle",

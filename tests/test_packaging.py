@@ -1,7 +1,8 @@
-"""What is installed: every kind of file that the game reads, one version, a licence; hooks run tools of the extras.
+"""Contents of an installation: every kind of file that the game reads, one version, a licence; hooks run tools of the
+extras.
 
-The long ones build a wheel and a source distribution, install the wheel beside a user's own modules of the same names,
-and run it from inside that project: what it finds there is what the checkout finds here.
+The long tests build a wheel and a source distribution, install the wheel beside a user's own modules of the same names,
+and run it from inside that project: its results there must equal those of the checkout.
 """
 
 import json

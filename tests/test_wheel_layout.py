@@ -1,4 +1,4 @@
-"""What the build makes of a source: imports in hitbox, everything else as it was, and no name of the checkout left."""
+"""Result of the build of a source: imports in hitbox, all else unchanged, and no name of the checkout left."""
 
 import ast
 import json

@@ -36,14 +36,14 @@ SCALES = {
     "mixolydian": (0, 2, 4, 5, 7, 9, 10),
     "phrygian": (0, 1, 3, 5, 7, 8, 10),
 }
-# Degree in the notation -> which of the chord's tones may stand for it, in semitones above the root.
+# Degree in the notation -> the chord's tones that may stand for it, in semitones above the root.
 DEGREES = {1: (0,), 2: (2, 14), 3: (3, 4, 5, 2), 5: (6, 7), 6: (9,), 7: (10, 11, 9), 8: (12,), 9: (14,)}
 STEPS_PER_BEAT = 4
-STEP_WISE = 2  # semitones: at most a whole tone away is a step
+STEP_WISE = 2  # semitones: a whole tone at most counts as a step
 
 
 class Chord(NamedTuple):
-    """root and bass as pitch classes; tones as semitones above the root."""
+    """A chord. root and bass as pitch classes; tones as semitones above the root."""
 
     name: str
     root: int
@@ -52,16 +52,16 @@ class Chord(NamedTuple):
 
     @property
     def classes(self):
-        """The pitch classes of the chord, its bass note too."""
+        """The pitch classes of the chord, including its bass note."""
         return frozenset((self.root + tone) % 12 for tone in self.tones) | {self.bass}
 
     def moved(self, semitones):
-        """The same chord, transposed."""
+        """Return the same chord, transposed."""
         return Chord(self.name, (self.root + semitones) % 12, self.tones, (self.bass + semitones) % 12)
 
 
 def pitch(name):
-    """MIDI number of a note such as F#4. Raises ValueError."""
+    """Return the MIDI number of a note such as F#4. Raises ValueError."""
     match = re.fullmatch(r"([A-G])([#b]?)([0-8])", name)
     if not match:
         raise ValueError(f"no note {name!r}; notes are a letter A..G, # or b if wanted, and an octave, such as F#4")
@@ -70,7 +70,7 @@ def pitch(name):
 
 
 def chord(name):
-    """The Chord of a symbol such as F#m7 or C/E. Raises ValueError."""
+    """Return the Chord of a symbol such as F#m7 or C/E. Raises ValueError."""
     match = re.fullmatch(r"([A-G])([#b]?)([a-z0-9]*)(?:/([A-G])([#b]?))?", name)
     if not match or match.group(3) not in QUALITIES:
         raise ValueError(
@@ -82,7 +82,7 @@ def chord(name):
 
 
 def scale(text):
-    """Pitch classes of a key such as "D mixolydian". Raises ValueError."""
+    """Return the pitch classes of a key such as "D mixolydian". Raises ValueError."""
     match = re.fullmatch(r"([A-G])([#b]?) (\w+)", text)
     if not match or match.group(3) not in SCALES:
         raise ValueError(f"no key {text!r}; a key is a root and one of {', '.join(SCALES)}")
@@ -91,9 +91,9 @@ def scale(text):
 
 
 def degree_pitch(at, degree, floor):
-    """Pitch of the chord's 1st, 3rd, 5th ... with its bass note as the first one at or above `floor`.
+    """Return the pitch of the chord's 1st, 3rd, 5th ... with its bass note as the first one at or above `floor`.
 
-    Raises ValueError where the chord has no such tone.
+    Raises ValueError if the chord has no such tone.
     """
     bass = floor + (at.bass - floor) % 12
     if degree in (1, 8):
@@ -105,20 +105,22 @@ def degree_pitch(at, degree, floor):
 
 
 def tone_pitch(at, index, floor):
-    """Pitch of the index-th tone of the chord counted upward from `floor`: chords change by the shortest way."""
+    """Return the pitch of the index-th tone of the chord counted upward from `floor`: chords change by the shortest
+    way.
+    """
     ladder = sorted(floor + (tone - floor) % 12 for tone in {(at.root + tone) % 12 for tone in at.tones})
     return ladder[index % len(ladder)] + 12 * (index // len(ladder))
 
 
 def scale_over(key, at):
-    """The key's pitch classes, bent where a borrowed chord needs it: its tones replace their neighbours."""
+    """Return the key's pitch classes, adapted to a borrowed chord: its tones replace their neighbours."""
     foreign = at.classes - key
     bent = {tone for tone in key if tone in at.classes or all((tone - other) % 12 not in (1, 11) for other in foreign)}
     return frozenset(bent | at.classes)
 
 
 def complaints(tune):
-    """What a listener would hear as wrong, a list of texts; [] = good.
+    """Return the audible errors of a tune as a list of texts; [] without errors.
 
     1. A note is in the key, or in the scale that the chord under it bends the key to.
     2. A note that stands out (on a beat for a beat or more, or two beats long) is a tone of its chord, or goes on by

@@ -4,7 +4,9 @@ from assets.craft.synth import envelope, low_pass, mixed, soft_clip, voice
 
 
 def thrust():
-    """A breath of the engine, to be heard again every eighth of a second: it swells and sinks, so that they join."""
+    """Return a breath of the engine, repeated every eighth of a second: it swells and sinks, so that the breaths
+    join.
+    """
     roar = low_pass(voice("noise", 26, 22, envelope(0.07, 0.06, 0.12), seed=91), 900, 620)
     hiss = low_pass(voice("noise", 160, 140, envelope(0.06, 0.05, 0.11), seed=92), 3_200, 2_400)
     hum = voice("triangle", 58, 56, envelope(0.06, 0.07, 0.11))
@@ -12,7 +14,7 @@ def thrust():
 
 
 def blast():
-    """A shell in rock: a crack, a thump, stones that fall."""
+    """Return the sound of a shell in rock: a crack, a thump, falling stones."""
     crack = low_pass(voice("noise", 240, 60, envelope(0, 0.010, 0.09, 0.5), seed=93), 6_500, 1_400)
     roar = low_pass(voice("noise", 52, 8, envelope(0, 0.06, 0.46, 0.6, 1.6), seed=94), 3_800, 260)
     thump = voice("sine", 120, 34, envelope(0.001, 0.05, 0.26, 0.3))
@@ -24,7 +26,7 @@ def blast():
 
 
 def clank():
-    """The hull takes a knock: two plates that do not ring in tune."""
+    """Return the sound of a knock on the hull: two plates that do not ring in tune."""
     plate = voice("triangle", 310, 285, envelope(0, 0.008, 0.20, 0.4))
     other = voice("pulse", 467, 440, envelope(0, 0.006, 0.12), duty=(0.3, 0.2))
     thud = voice("sine", 105, 52, envelope(0, 0.02, 0.13, 0.3))
@@ -35,26 +37,26 @@ def clank():
 
 
 def alarm():
-    """Sinking too fast: one short call, a fourth down."""
+    """Return the alarm of a fast descent: one short call, a fourth down."""
     body = voice("pulse", 784, 784, envelope(0.004, 0.11, 0.05), duty=(0.3, 0.3), steps=((0.07, 0.749),))
     return low_pass(body, 4_200, 2_600)
 
 
 def low_fuel():
-    """Two soft high beeps."""
+    """Return two soft high beeps."""
     beep = voice("triangle", 1_047, 1_047, envelope(0.004, 0.05, 0.05))
     return mixed((0, 1.0, beep), (0.13, 0.8, beep))
 
 
 def hook():
-    """A line runs out and a claw closes."""
+    """Return the sound of a line that runs out and a claw that closes."""
     whirr = low_pass(voice("noise", 120, 260, envelope(0.01, 0.05, 0.05), seed=103), 4_000, 2_500)
     click = voice("triangle", 900, 620, envelope(0, 0.004, 0.05))
     return mixed((0, 0.5, whirr), (0.09, 1.0, click), (0.12, 0.5, click))
 
 
 def touchdown():
-    """A site is reached: up a fifth, up a fourth, and a major chord that stands."""
+    """Return the tune of a landing: up a fifth, up a fourth, and a held major chord."""
     steps = ((0.11, 1.4983), (0.22, 1.33484), (0.36, 1.2599), (0.50, 1.18921))
     lead = voice("pulse", 294, 294, envelope(0.002, 0.66, 0.60), duty=(0.25, 0.45), vibrato=(0.006, 6), steps=steps)
     low = voice("triangle", 147, 147, envelope(0.002, 0.66, 0.60), steps=((0.36, 1.33484), (0.50, 1.4983)))

@@ -1,10 +1,10 @@
-"""Renders the tunes of assets/tunes to assets/music/<name>.ogg: stereo, 22,050 Hz, looping without a seam.
+"""Render the tunes of assets/tunes to assets/music/<name>.ogg: stereo, 22,050 Hz, looping without a seam.
 
-Everything is laid on a ring as long as the tune: what still rings at the end is heard at the start. Filters and echoes
-go around it too. The level is set by the loudness of the whole, so that no tune jumps out beside another.
+Everything is added to a ring of the tune's length: sound past the end continues at the start, and so do filters and
+echoes. The level follows from the loudness of the whole, so that all tunes are equally loud.
 
-Bass, kick and snare sit in the middle, the other voices where their `pan` and `spread` put them, echoes to both sides
-in turn. Left gains what right loses, so the two added are the same mono sound wherever a voice sits.
+Bass, kick and snare are in the middle, the other voices at their `pan` and `spread`, echoes on both sides in turn. Left
+gains what right loses, so their sum is the same mono sound wherever a voice is.
 """
 
 import hashlib
@@ -21,26 +21,26 @@ from assets.craft.ogg import Recording
 
 TUNES = ("title", "shooter", "boss", "platformer", "lander", "lab")
 JINGLES = ("victory", "game_over")
-LOUDNESS = -21.0  # [dB of full scale] of what is above HEARD; the effects peak at -3 dB
-HEARD = 100.0  # [Hz] what is below adds little to how loud a tune seems
-RUMBLE = 25.0  # [Hz] what is below is taken out: nobody hears it
+LOUDNESS = -21.0  # [dB of full scale] of frequencies above HEARD; the effects peak at -3 dB
+HEARD = 100.0  # [Hz] lower frequencies add little to the loudness of a tune
+RUMBLE = 25.0  # [Hz] lower frequencies are removed: they are inaudible
 KNEE, CEILING = 0.45, 0.70  # peaks above the knee are rounded off and never reach the ceiling
-TAIL = 0.9  # [s] a jingle rings out
+TAIL = 0.9  # [s] in which a jingle rings out
 STRESS = (1.0, 0.86, 0.93, 0.86)  # of the steps of a beat
-ECHO_CORNER, LAST_ECHO = 2400.0, 0.05  # [Hz] above which repeats are duller; softer ones are left out
+ECHO_CORNER, LAST_ECHO = 2400.0, 0.05  # [Hz] above which repeats are duller; softer ones are omitted
 ECHO_PLACE = 0.6  # of every second repeat, the others are as far on the other side
 TAKES = 3  # strokes of each drum that differ a little, in turn
-DRUM_PLACES = {"k": 0.0, "s": 0.0, "h": 0.3, "o": 0.3, "c": -0.3, "t": -0.35}  # a tom's takes go over to the right
+DRUM_PLACES = {"k": 0.0, "s": 0.0, "h": 0.3, "o": 0.3, "c": -0.3, "t": -0.35}  # a tom's takes move over to the right
 PRODUCTS = {f"music/{name}": (__name__, "music_files", (name,)) for name in (*TUNES, *JINGLES)}
 
 
 def tune_of(name):
-    """The Tune of that name, read from assets/tunes."""
+    """Return the Tune of that name, read from assets/tunes."""
     return read_tune(FOLDER / "tunes" / f"{name}.txt")
 
 
 def render(tune):
-    """The tune as (frames, 2) int16 samples at RATE."""
+    """Return the tune as (frames, 2) int16 samples at RATE."""
     length = round((tune.seconds(tune.steps) + (0 if tune.loop else TAIL)) * RATE) * OVERSAMPLING
     ring = np.zeros((2, length))
     for name, notes in tune.notes.items():
@@ -85,18 +85,18 @@ def _drums(tune, notes, voice):
 
 
 def _gain(note):
-    """How strongly a note is added: its own volume, and where in the beat it stands."""
+    """Return the gain of a note: its own volume, and its position in the beat."""
     return note.volume * STRESS[note.start % STEPS_PER_BEAT]
 
 
 def _sides(place):
-    """How strongly left and right hear something, (2, 1). place: -1 left .. 1 right."""
+    """Return the gains of left and right, (2, 1). place: -1 left .. 1 right."""
     place = max(-1.0, min(1.0, place))
     return np.array([[1 - place], [1 + place]])
 
 
 def _add(ring, start, samples, gain, place):
-    """Add mono samples to a ring of two sides, going on at its start when they reach its end."""
+    """Add mono samples to a ring of two sides, continuing at its start past its end."""
     length, gains = ring.shape[1], gain * _sides(place)
     start %= length
     room = length - start
@@ -131,7 +131,9 @@ def _mastered(samples, loop):
 
 
 def _level(samples):
-    """Root mean square of the parts that are not rests, (2, n); of whole numbers: no order of adding changes them."""
+    """Return the root mean square of the parts that are not rests, (2, n); from integers, so that the order of summing
+    has no effect.
+    """
     block = int(0.4 * RATE)
     whole = np.round(samples * 65536).astype(np.int64) ** 2
     starts = range(0, whole.shape[1] - block + 1, block)
@@ -143,7 +145,7 @@ def _level(samples):
 def music_files(name):
     """Return {relative path: bytes or Recording} of one tune: its samples' hash, and the file to be made from them.
 
-    Raises ValueError where a note does not fit its chord.
+    Raises ValueError if a note does not fit its chord.
     """
     tune = tune_of(name)
     wrong = complaints(tune)

@@ -47,7 +47,7 @@ class TuneError(ValueError):
 
 @dataclass
 class Section:
-    """One page: what stands in its lines, with the number of each line."""
+    """One page: the contents of its lines, with the number of each line."""
 
     line: int
     chords: list = field(default_factory=list)  # a list of Chord per bar
@@ -56,12 +56,12 @@ class Section:
 
 
 def read_tune(path):
-    """The Tune in a file."""
+    """Return the Tune in a file."""
     return parse_tune(path.read_text(encoding="utf-8"), path.name)
 
 
 def parse_tune(text, source="tune"):
-    """The Tune in a text; `source` is what mistakes name as the file."""
+    """Return the Tune in a text; `source` names the file in errors."""
     return _Reader(source).read(text)
 
 
@@ -72,7 +72,7 @@ class _Reader:
         self.tune = Tune()
         self.phrases = {}
         self.sections = {}
-        self.section = Section(0)  # the one that is read; no page has line 0
+        self.section = Section(0)  # the section being read; no section begins in line 0
         self.order = []
 
     def fail(self, reason, line=None):
@@ -213,7 +213,7 @@ class _Reader:
         self.section.changes.setdefault(name, {}).update(changes)
 
     def _bars(self, text):
-        """[(text of one bar, line)], phrases put in and repeats written out."""
+        """Return [(text of one bar, line)], with phrases and repeats expanded."""
         bars = []
         for bar in _split(text):
             repeated = re.search(r"\s\*(\d+)$", bar)
@@ -240,7 +240,7 @@ class _Reader:
             self.order.append((name, int(move or 0), resting, self.line))
 
     def _append(self, name, move, mutes, line):
-        """Put a section at the end of the tune."""
+        """Append a section to the tune."""
         section, tune = self.sections[name], self.tune
         bar_steps = tune.beats * STEPS_PER_BEAT
         if not section.chords:
@@ -261,7 +261,7 @@ class _Reader:
                 tune.notes[voice] += self._notes(voice, bars, instrument, first, move)
 
     def _notes(self, voice, bars, instrument, first, move):
-        """The notes of one voice in one section, resolved against the chords."""
+        """Return the notes of one voice in one section, resolved against the chords."""
         notes, bar_steps, sounding = [], self.tune.beats * STEPS_PER_BEAT, False
         for index, (bar, line) in enumerate(bars):
             tokens = bar.split()
@@ -304,5 +304,5 @@ class _Reader:
 
 
 def _split(text):
-    """The bars of a line; a | at its start or end divides nothing."""
+    """Return the bars of a line; a | at its start or end separates nothing."""
     return [bar.strip() for bar in text.strip().strip("|").split("|") if bar.strip()]

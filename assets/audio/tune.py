@@ -1,4 +1,4 @@
-"""A tune in memory: instruments, notes, and which chord and key hold at each step of a sixteenth."""
+"""A tune in memory: instruments, notes, and the chord and key at each step of a sixteenth."""
 
 from dataclasses import dataclass, field
 
@@ -10,11 +10,11 @@ LOUDER, SOFTER = 1.25, 0.6
 
 @dataclass(frozen=True)
 class Instrument:
-    """How a voice sounds. Times in s."""
+    """The sound of a voice. Times in s."""
 
     wave: str = "pulse50"
     volume: float = 0.5  # 0..1
-    floor: int = 60  # `from` in the notation: a note, where degrees and chord tones start
+    floor: int = 60  # `from` in the notation: the note at which degrees and chord tones start
     attack: float = 0.004
     decay: float = 0.25  # time constant of the fall to `sustain`
     sustain: float = 0.6  # share of the volume that is held
@@ -24,8 +24,8 @@ class Instrument:
     bright: float = 5000.0  # [Hz] corner of the low-pass
     echo: float = 0.0  # share of the first repeat; each further one is that share of the one before
     delay: float = 3.0  # steps between repeats
-    pan: float = 0.0  # where it sits, -1 left .. 1 right
-    spread: float = 0.0  # how far it leans to the left an octave below its middle, to the right an octave above
+    pan: float = 0.0  # position, -1 left .. 1 right
+    spread: float = 0.0  # shift to the left an octave below its middle, to the right an octave above
 
 
 RANGES: dict[str, tuple[float, float]] = {
@@ -58,12 +58,12 @@ class Note:
 
     @property
     def volume(self):
-        """The instrument's, with the note's marks."""
+        """Volume of the instrument, with the note's marks."""
         return self.instrument.volume * (LOUDER if "!" in self.marks else 1) * (SOFTER if "?" in self.marks else 1)
 
     @property
     def place(self):
-        """Where it is heard, -1 left .. 1 right. The middle of an instrument is an octave above its `floor`."""
+        """Position, -1 left .. 1 right. The middle of an instrument is an octave above its `floor`."""
         octaves = (self.pitches[0] - self.instrument.floor) / 12 - 1
         return self.instrument.pan + self.instrument.spread * max(-1.0, min(1.0, octaves))
 
@@ -86,11 +86,11 @@ class Tune:
 
     @property
     def steps(self):
-        """How long it is."""
+        """Length in steps."""
         return len(self.chords)
 
     def seconds(self, step):
-        """When a step starts, with the swing."""
+        """Return the start of a step [s], with the swing."""
         beat, part = divmod(step, STEPS_PER_BEAT)
         part /= STEPS_PER_BEAT
         part = part * 2 * self.swing if part < 0.5 else self.swing + (part - 0.5) * 2 * (1 - self.swing)

@@ -1,7 +1,7 @@
 """The instruments of the tunes, at four times the rate of the file: pulses, triangles and drums.
 
-Edges are averaged over one sample and the sum is filtered before every fourth sample is kept: no notes of its own
-making (aliases). Elementwise arithmetic and rounded tables only, as in synth.py: the same bytes wherever it runs.
+Edges are averaged over one sample, and the sum is filtered before every fourth sample is kept, which prevents aliases.
+Only elementwise arithmetic and rounded tables are used, as in synth.py: the bytes are the same on every machine.
 """
 
 import math
@@ -17,26 +17,26 @@ DUTY = {"pulse12": 0.125, "pulse25": 0.25, "pulse50": 0.5}
 VIBRATO_HERTZ, VIBRATO_DELAY, VIBRATO_RISE = 5.6, 0.20, 0.25  # [Hz], [s], [s]
 SLIDE = 0.07  # [s] from one note to the next
 ARPEGGIO = 1 / 30  # [s] each tone of a rapid arpeggio: two frames of an old television
-DUTY_SWAY = 0.035  # a pulse's width sways a little: held notes stay alive
-FALL_REACH, FALL_STEPS = 8, 1024  # the table of a fall: over so many time constants, in so many steps
+DUTY_SWAY = 0.035  # a pulse's width varies a little, so that held notes are not static
+FALL_REACH, FALL_STEPS = 8, 1024  # table of an exponential fall: its time constants, and its steps
 FALL = np.array([round(math.exp(-FALL_REACH * i / FALL_STEPS), 9) for i in range(FALL_STEPS + 1)])
 TAPS, CORNER = 63, 9_000  # [samples], [Hz] of the filter before decimation
 
 
 def hertz(midi):
-    """Frequency of a MIDI pitch."""
+    """Return the frequency of a MIDI pitch [Hz]."""
     return round(440.0 * math.pow(2.0, (midi - 69) / 12), 6)
 
 
 def falling(seconds, constant):
-    """exp(-t / constant) from the table; 0 beyond it."""
+    """Return exp(-t / constant) from the table; 0 beyond it."""
     place = np.minimum(seconds * (FALL_STEPS / FALL_REACH / constant), FALL_STEPS - 1)
     left = place.astype(np.int64)
     return (FALL[left] + (FALL[left + 1] - FALL[left]) * (place - left)) * (place < FALL_STEPS - 1)
 
 
 def tone(instrument, pitches, seconds, slide_from=None, vibrato=None):
-    """Samples at FINE of one note of `seconds`, with its release behind it. slide_from: the pitch before."""
+    """Return samples at FINE of one note of `seconds`, followed by its release. slide_from: the pitch before."""
     count = int((seconds + instrument.release) * FINE)
     time = np.arange(count) / FINE
     phase = np.cumsum(_pitch_curve(instrument, pitches, time, slide_from, vibrato)) / FINE
@@ -70,13 +70,14 @@ def _oscillate(wave, phase, time):
     step = np.diff(phase, append=phase[-1] + (phase[-1] - phase[-2]))
     away = np.abs((phase - duty / 2 + 0.5) % 1.0 - 0.5)  # of the middle of the high part, in turns
     level = np.clip((duty / 2 - away) / step + 0.5, 0.0, 1.0)  # the share of this sample that is high
-    return (level - duty) * (1.4 - 0.4 * DUTY[wave] / 0.5)  # narrow pulses are lifted: alike in loudness
+    return (level - duty) * (1.4 - 0.4 * DUTY[wave] / 0.5)  # narrow pulses are raised to equal loudness
 
 
 def low_pass(samples, corner, rate=FINE, around=False):
-    """One-pole low-pass, exact to a millionth, in a few whole-array steps: (1 + az)(1 + a^2 z^2)(1 + a^4 z^4) ...
+    """Filter by a one-pole low-pass, exact to a millionth, in a few whole-array steps: (1 + az)(1 + a^2 z^2)(1 + a^4
+    z^4) ...
 
-    around: the samples are a loop, their end is heard before their start. Filters along the last axis.
+    around: the samples are a loop, whose end precedes its start. It filters along the last axis.
     """
     share = round(math.exp(-2 * math.pi * corner / rate), 9)
     out, shift = samples * (1 - share), 1
@@ -92,7 +93,7 @@ def low_pass(samples, corner, rate=FINE, around=False):
 
 
 def decimated(samples):
-    """Every fourth sample of a loop, after a filter that takes out what the lower rate cannot carry."""
+    """Return every fourth sample of a loop, after a filter that removes frequencies above the lower rate's limit."""
     half = TAPS // 2
     taps = []
     for i in range(-half, half + 1):
@@ -108,7 +109,7 @@ def decimated(samples):
 
 
 def drum(name, seed=0):
-    """Samples at FINE of a kick, snare, hat, open hat, tom or crash; another seed is another stroke."""
+    """Return samples at FINE of a kick, snare, hat, open hat, tom or crash; each seed gives another stroke."""
     return {"k": _kick, "s": _snare, "h": _hat, "o": _open_hat, "t": _tom, "c": _crash}[name](seed)
 
 
@@ -117,20 +118,20 @@ def _time(seconds):
 
 
 def _noise(seed, time, rate):
-    """Random levels held for 1 / rate [s]: the rate is the noise's pitch."""
+    """Return random levels held for 1 / rate [s]: the rate is the noise's pitch."""
     place = (time * rate).astype(np.int64)
     return np.random.default_rng(seed).random(int(place[-1]) + 1)[place] * 2 - 1
 
 
 def _faded(samples):
-    """The last 5 ms go to nothing."""
+    """Return the samples with the last 5 ms faded out."""
     count = int(0.005 * FINE)
     samples[-count:] *= np.linspace(1, 0, count)
     return samples
 
 
 def _drop(time, start, end, constant):
-    """A sine that falls from `start` to `end` [Hz]."""
+    """Return a sine that falls from `start` to `end` [Hz]."""
     return sine(np.cumsum(end + (start - end) * falling(time, constant)) / FINE)
 
 

@@ -1,1 +1,1 @@
-"""What art and sound are made with: colours, fields and shading, sheets, drawings as text, PNG, a synthesiser."""
+"""Tools of art and sound: colours, fields and shading, sheets, drawings as text, PNG, a synthesiser."""

@@ -1,4 +1,4 @@
-"""Sprite sheets: many frames in one picture, and a JSON file that says where each is.
+"""Sprite sheets: many frames in one picture, and a JSON file with their places.
 
 The JSON: {"frames": {name: {"x", "y", "w", "h"}}, "animations": {name: {"frames": [names], "fps": n}}}, pixels.
 """
@@ -9,7 +9,7 @@ import numpy as np
 
 from assets.craft import png
 
-GAP = 1  # [px] clear pixels between frames, so that scaling or turning one never picks up its neighbour
+GAP = 1  # [px] clear pixels between frames, so that scaling or rotating one never picks up its neighbour
 WIDTH = 256  # [px] sheets are this wide unless a frame is wider
 
 
@@ -18,20 +18,20 @@ class Sheet:
 
     def __init__(self, name, gap=GAP):
         self.name = name
-        self.gap = gap  # [px] 0 for a tile set, whose tiles a level finds by number
+        self.gap = gap  # [px] 0 for a tile set, whose tiles are addressed by number
         self.frames = {}  # name -> (h, w, 4) uint8
         self.animations = {}  # name -> {"frames": [...], "fps": n}
 
     def add(self, name, pixels):
-        """Add one frame. pixels: (h, w, 4) uint8. Raises ValueError for a name that is taken."""
+        """Add one frame. pixels: (h, w, 4) uint8. Raises ValueError for a used name."""
         if name in self.frames:
             raise ValueError(f"sheet {self.name!r} already has a frame {name!r}")
         self.frames[name] = pixels
 
     def animate(self, name, frames, fps):
-        """Name a sequence. frames: names of frames that were added; fps: frames per second.
+        """Name a sequence. frames: names of added frames; fps: frames per second.
 
-        Raises ValueError for a frame that is not there.
+        Raises ValueError for an unknown frame.
         """
         missing = [frame for frame in frames if frame not in self.frames]
         if missing:
@@ -63,7 +63,7 @@ class Sheet:
 
 
 def _shelves(frames, gap):
-    """Place frames left to right on shelves, tallest first. Returns ({name: (x, y)}, (width, height))."""
+    """Place frames left to right on shelves, tallest first. Return ({name: (x, y)}, (width, height))."""
     width = max([WIDTH] + [frame.shape[1] + 2 * gap for frame in frames.values()])
     order = sorted(frames, key=lambda name: -frames[name].shape[0])  # stable: equal heights keep their order
     places, x, y, shelf = {}, gap, gap, 0
@@ -78,7 +78,7 @@ def _shelves(frames, gap):
 
 
 def to_json(table):
-    """Return JSON bytes with one entry per line at depth two: small, and diffs stay readable."""
+    """Return JSON bytes with one entry per line at depth two: small, and with readable diffs."""
     lines = []
     for key, value in table.items():
         if isinstance(value, dict) and value:

@@ -1,4 +1,4 @@
-"""Reads pictures drawn as text: one letter per pixel, parts named by "= name" lines, ";" comments."""
+"""Pictures drawn as text: one letter per pixel, parts named by "= name" lines, ";" comments."""
 
 import numpy as np
 
@@ -45,7 +45,7 @@ def _picture(rows, letters, where):
 
 
 def lay(target, picture, x, y):
-    """Put a picture's solid pixels on target at (x, y), clipped; both (h, w, 4) uint8."""
+    """Copy a picture's solid pixels to target at (x, y), clipped; both (h, w, 4) uint8."""
     left, top = max(0, x), max(0, y)
     right, bottom = min(target.shape[1], x + picture.shape[1]), min(target.shape[0], y + picture.shape[0])
     if right <= left or bottom <= top:

@@ -1,7 +1,7 @@
-"""Signed distance fields of simple shapes, and the noise that surfaces are broken up with.
+"""Signed distance fields of simple shapes, and noise for the texture of surfaces.
 
-A field is an array (h, w) of pixels: negative inside, sampled at pixel centres. Only +, -, *, / and sqrt are used on
-the way, which round the same on every machine, so a picture regenerates to the bit.
+A field is an array (h, w) of pixels: negative inside, sampled at pixel centres. Only +, -, *, / and sqrt are used,
+which round the same on every machine, so a picture is reproduced to the bit.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ def grid(width, height):
 
 
 def length(x, y):
-    """Euclidean length from exactly rounded steps (hypot is not the same in every C library)."""
+    """Return the Euclidean length from exactly rounded steps (hypot differs between C libraries)."""
     return np.sqrt(x * x + y * y)
 
 
@@ -26,17 +26,17 @@ def dither(height, width):
 
 
 def circle(x, y, center_x, center_y, radius):
-    """Field of a disc."""
+    """Return the field of a disc."""
     return length(x - center_x, y - center_y) - radius
 
 
 def ellipse(x, y, center_x, center_y, radius_x, radius_y):
-    """Field of an ellipse; exact on its edge, near enough elsewhere for shading."""
+    """Return the field of an ellipse; exact on its edge, accurate enough elsewhere for shading."""
     return (length((x - center_x) / radius_x, (y - center_y) / radius_y) - 1) * min(radius_x, radius_y)
 
 
 def capsule(x, y, start, end, start_radius, end_radius=None):
-    """Field of a thick line from start to end whose radius changes along it."""
+    """Return the field of a thick line from start to end whose radius changes along it."""
     end_radius = start_radius if end_radius is None else end_radius
     along_x, along_y = end[0] - start[0], end[1] - start[1]
     t = np.clip(((x - start[0]) * along_x + (y - start[1]) * along_y) / (along_x**2 + along_y**2), 0, 1)
@@ -45,14 +45,14 @@ def capsule(x, y, start, end, start_radius, end_radius=None):
 
 
 def box(x, y, left, top, right, bottom, corner=0.0):
-    """Field of an axis-aligned box with rounded corners."""
+    """Return the field of an axis-aligned box with rounded corners."""
     dx = np.abs(x - (left + right) / 2) - (right - left) / 2 + corner
     dy = np.abs(y - (top + bottom) / 2) - (bottom - top) / 2 + corner
     return length(np.maximum(dx, 0), np.maximum(dy, 0)) + np.minimum(np.maximum(dx, dy), 0) - corner
 
 
 def polygon(x, y, points):
-    """Field of any simple polygon (crossing rule for the sign)."""
+    """Return the field of any simple polygon (crossing rule for the sign)."""
     nearest = np.full(x.shape, 1e9)
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
@@ -67,7 +67,7 @@ def polygon(x, y, points):
 
 
 def noise(width, height, cells_x, cells_y, seed):
-    """Smooth value noise 0..1, (height, width), seamless in both directions, with that many cells across."""
+    """Return smooth value noise 0..1, (height, width), seamless in both directions, with that many cells across."""
     lattice = np.random.default_rng(seed).random((cells_y, cells_x))
     x, y = grid(width, height)
     x, y = x * cells_x / width, y * cells_y / height
@@ -82,7 +82,7 @@ def noise(width, height, cells_x, cells_y, seed):
 
 
 def layered_noise(width, height, cells_x, cells_y, octaves, seed, gain=0.5):
-    """Sum of octaves of seamless noise, each twice as fine and `gain` as strong; scaled to 0..1."""
+    """Return the sum of octaves of seamless noise, each twice as fine and `gain` as strong; scaled to 0..1."""
     total, weight, strength = np.zeros((height, width)), 0.0, 1.0
     for octave in range(octaves):
         total += strength * noise(width, height, cells_x << octave, cells_y << octave, seed + octave)

@@ -1,8 +1,8 @@
-"""Ogg Vorbis files of int16 samples, (frames, channels): written, read, and compared with what they were made from.
+"""Ogg Vorbis files of int16 samples, (frames, channels): writing, reading, and comparison with their source.
 
-The encoder comes with soundfile, of the extra "assets"; the game reads such files without it. Vorbis does not keep
-samples to the bit, and no two encodings are the same bytes: a file is right when it decodes to as many frames that
-differ from the samples by no more than LOSS.
+The encoder comes with soundfile, of the extra "assets"; the game reads such files without it. Vorbis is lossy, and no
+two encodings have the same bytes. A file is right if it decodes to the same number of frames and differs from the
+samples by no more than LOSS.
 """
 
 import io
@@ -13,16 +13,16 @@ import numpy as np
 
 try:
     import soundfile
-except ImportError:  # `encode` and `decode` say so; `frame_count` needs nothing
+except ImportError:  # `encode` and `decode` raise for it; `frame_count` needs nothing
     soundfile = None
 
-QUALITY = 0.4  # of Vorbis, 0..1: some 60 kbit/s for a tune; 0.6 would be 83 and loses three fifths as much
-LOSS = 0.12  # most that may be lost: root mean square of the difference, as a share of that of the samples
-BLOCK = 8192  # frames written at a time: the encoder's stack does not hold a whole tune
+QUALITY = 0.4  # of Vorbis, 0..1: some 60 kbit/s for a tune; 0.6 would take 83, at three fifths of the loss
+LOSS = 0.12  # greatest loss: root mean square of the difference, as a share of that of the samples
+BLOCK = 8192  # frames written at a time: the encoder's stack is too small for a whole tune
 
 
 def is_available():
-    """Can files be written and decoded here?"""
+    """Return whether files can be written and decoded here."""
     return soundfile is not None
 
 
@@ -52,7 +52,7 @@ def decode(ogg):
 
 
 def frame_count(ogg):
-    """How many frames a file plays, read from its last page. Raises ValueError for anything but whole pages."""
+    """Return the number of frames of a file, from its last page. Raises ValueError for anything but whole pages."""
     at, frames = 0, 0
     while at < len(ogg):
         if ogg[at : at + 4] != b"OggS" or at + 27 > len(ogg):
@@ -66,7 +66,7 @@ def frame_count(ogg):
 
 
 def loss(kept, samples):
-    """Root mean square of what is lost, as a share of that of the samples; both int16 of one shape."""
+    """Return the root mean square of the loss, as a share of that of the samples; both int16 of one shape."""
     power = float(np.mean(np.square(samples.astype(np.float64))))
     lost = float(np.mean(np.square(kept.astype(np.float64) - samples)))
     return (lost / power) ** 0.5
@@ -74,17 +74,17 @@ def loss(kept, samples):
 
 @dataclass(frozen=True)
 class Recording:
-    """Samples, (frames, channels) int16 at `rate` [Hz], that are to be kept as an Ogg file."""
+    """Samples, (frames, channels) int16 at `rate` [Hz], to be stored as an Ogg file."""
 
     samples: np.ndarray
     rate: int
 
     def encoded(self):
-        """The bytes of a file. Raises RuntimeError without the encoder."""
+        """Return the bytes of a file. Raises RuntimeError without the encoder."""
         return encode(self.samples, self.rate)
 
     def is_kept_in(self, ogg):
-        """Is this a file of these samples? Decoded where that is possible, else only its length is looked at."""
+        """Return whether a file has these samples. It is decoded if possible; otherwise only its length is compared."""
         try:
             if frame_count(ogg) != len(self.samples):
                 return False

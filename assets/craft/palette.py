@@ -1,7 +1,7 @@
-"""The one palette: ramps of six colours from shadow to light, made in OKLCH with the hue shifted along the way.
+"""The palette: ramps of six colours from shadow to light, made in OKLCH with the hue shifted along the ramp.
 
-Shadows lean to violet and lights to warm yellow, so neighbouring ramps belong to one picture. A ramp is an array
-(6, 3) of uint8; index 0 is the darkest. The outline is a dark violet, never pure black.
+Shadows lean to violet and lights to warm yellow, so that neighbouring ramps match. A ramp is an array (6, 3) of uint8;
+index 0 is the darkest. The outline is a dark violet, never pure black.
 """
 
 import math
@@ -10,14 +10,14 @@ import numpy as np
 
 STEPS = 6
 DARKEST, LIGHTEST = 0.18, 0.97  # OKLab lightness of the two ends of a full ramp
-SHADOW_HUE, LIGHT_HUE = 275.0, 95.0  # [deg] where shadows and lights lean to
-SHADOW_LEAN, LIGHT_LEAN = 0.45, 0.35  # share of the way to those hues at the ends
+SHADOW_HUE, LIGHT_HUE = 275.0, 95.0  # [deg] hues of shadows and lights
+SHADOW_LEAN, LIGHT_LEAN = 0.45, 0.35  # share of the shift to those hues at the ends
 
 
 def oklch(lightness, chroma, hue):
     """Return a colour, (3,) uint8, for OKLab lightness 0..1, chroma (about 0..0.3) and hue in degrees.
 
-    Matrices from Ottosson, "A perceptual color space for image processing" (2020). Out of gamut is clipped.
+    Matrices from Ottosson, "A perceptual color space for image processing" (2020). Colours out of gamut are clipped.
     """
     a = chroma * math.cos(math.radians(hue))
     b = chroma * math.sin(math.radians(hue))
@@ -38,7 +38,7 @@ def oklch_all(*values):
 
 
 def _encode(linear):
-    """sRGB transfer curve: linear light to 0..255."""
+    """Return linear light as 0..255 by the sRGB transfer curve."""
     linear = min(1.0, max(0.0, linear))
     if linear <= 0.0031308:
         return round(255 * 12.92 * linear)
@@ -93,7 +93,7 @@ FIRE = np.array(
         (44, 34, 52),
     ],
     np.uint8,
-)  # an explosion from its first instant to its last cinder
+)  # an explosion from its first moment to its last cinder
 
 
 def mix(first, second, share):
@@ -103,6 +103,8 @@ def mix(first, second, share):
 
 
 def graded(ramp, level):
-    """The ramp's colour for each pixel's level, (..., 3): 0 up to 1 the first, 1 up to 2 the second; its ends go on."""
-    # Rounded first: where a level meets a whole number, the last bit of a sum must not choose the colour.
+    """Return the ramp's colour for each pixel's level, (..., 3): 0 up to 1 the first, 1 up to 2 the second; its ends
+    continue.
+    """
+    # Rounded first: at a whole level, the last bit of a sum must not decide the colour.
     return ramp[np.clip(np.floor(np.round(level, 6)), 0, len(ramp) - 1).astype(int)]

@@ -1,7 +1,7 @@
-"""PNG files from arrays, written without any imaging library so that the bytes depend on nothing but zlib.
+"""PNG files from arrays, written without an imaging library so that the bytes depend on zlib alone.
 
-`payload` takes the zlib build out of the comparison as well: two files are the same picture when their headers and
-their inflated rows are.
+`payload` removes even that dependence: two files show the same picture if their headers and their inflated rows are
+equal.
 """
 
 import struct
@@ -33,7 +33,7 @@ def _chunk(kind, data):
 
 
 def payload(png):
-    """Return (header bytes, inflated row bytes) of a PNG: what it shows, however it was compressed.
+    """Return (header bytes, inflated row bytes) of a PNG, which do not depend on its compression.
 
     Raises ValueError if the bytes are not a whole PNG.
     """

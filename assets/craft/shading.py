@@ -1,7 +1,7 @@
-"""Sprites built from parts: each part is a distance field, lit as a soft bulge and coloured by a ramp.
+"""Sprites built from parts: each part is a distance field, shaded as a soft bulge and coloured by a ramp.
 
-Parts go back to front. Each darkens a thin band around itself on what is below (contact shadow), then takes its ramp
-colour from the slope of its bulge towards the light; the rim light and the dark outline come last.
+Parts are drawn back to front. Each darkens a thin band around itself on the parts below (contact shadow), then takes
+its ramp colour from the slope of its bulge towards the light; the rim light and the dark outline come last.
 """
 
 import numpy as np
@@ -9,13 +9,13 @@ import numpy as np
 from assets.craft.fields import dither, grid, length
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, graded, mix
 
-LIGHT = (-0.55, -0.80)  # direction towards the light: up and a little left
+LIGHT = (-0.55, -0.80)  # direction towards the light: up and slightly left
 RIM = np.array((255, 250, 236), np.uint8)
 SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1))
 
 
 def shifted(solid, dx, dy):
-    """The mask moved by (dx, dy) px, with clear pixels coming in from outside."""
+    """Return the mask moved by (dx, dy) px, with clear pixels coming in from outside."""
     height, width = solid.shape
     out = np.zeros_like(solid)
     out[max(0, dy) : height + min(0, dy), max(0, dx) : width + min(0, dx)] = solid[
@@ -59,7 +59,7 @@ class Sprite:
         return self
 
     def paint(self, field, colour, share=1.0):
-        """Tint what is already solid inside a field: markings, stripes, panel lines."""
+        """Tint the solid pixels inside a field: markings, stripes, panel lines."""
         inside = (field < 0) & self.solid
         self.rgb[inside] = mix(self.rgb[inside], colour, share)
         return self
@@ -105,26 +105,28 @@ class Sprite:
 
 
 def opaque(rgb):
-    """The picture (h, w, 3) as (h, w, 4) uint8 without a clear pixel."""
+    """Return the picture (h, w, 3) as (h, w, 4) uint8 without clear pixels."""
     return np.concatenate([rgb, np.full(rgb.shape[:2] + (1,), 255, np.uint8)], axis=2)
 
 
 def cut_out(rgb, solid):
-    """The picture (h, w, 3) where it is solid (h, w) bool, zeros elsewhere: (h, w, 4) uint8."""
+    """Return the picture (h, w, 3) where it is solid (h, w) bool, zeros elsewhere: (h, w, 4) uint8."""
     out = opaque(rgb)
     out[~solid] = 0
     return out
 
 
 def flashed(pixels):
-    """The same frame as a flat white silhouette: what a hit shows for a few frames."""
+    """Return the same frame as a flat white silhouette, for a hit."""
     out = pixels.copy()
     out[..., :3][out[..., 3] > 0] = WHITE
     return out
 
 
 def glow(size, ramp, brightest=0.70):
-    """A disc of light for additive blending: opaque, black outside, dithered falloff; brightest 0..1 in its middle."""
+    """Return a disc of light for additive blending: opaque, black outside, dithered falloff; brightest 0..1 in its
+    middle.
+    """
     x, y = grid(size, size)
     fall = np.clip(1 - length(x - size / 2, y - size / 2) / (size / 2), 0, 1)
     level = np.clip(np.floor(fall * fall * 6 + 0.5 + dither(size, size) * 0.7), 0, 5).astype(int)

@@ -1,7 +1,7 @@
 """A small synthesiser in the manner of sfxr: one swept oscillator, an envelope, a filter, a finish.
 
 Everything is NumPy at 4x oversampling. Sines come from a rounded table and powers from `math`, so the samples do not
-depend on which vector instructions NumPy was built for: the same script writes the same bytes.
+depend on NumPy's vector instructions: the same script writes the same bytes.
 """
 
 import io
@@ -12,34 +12,35 @@ import numpy as np
 
 RATE = 44_100  # [Hz]
 OVERSAMPLING = 4
-PEAK = 10 ** (-3 / 20)  # -3 dB of full scale: room for several voices at once
-FADE = 0.002  # [s] at both ends: no click
-KNOTS = 256  # parts of a glide, straight within each
-SINE_STEPS = 4096  # of the table, which holds its first entry again at the end
+PEAK = 10 ** (-3 / 20)  # -3 dB of full scale: headroom for several voices at once
+FADE = 0.002  # [s] at both ends, against clicks
+KNOTS = 256  # linear segments of a glide
+SINE_STEPS = 4096  # of the table, which repeats its first entry at the end
 SINE = np.array([round(math.sin(2 * math.pi * i / SINE_STEPS), 9) for i in range(SINE_STEPS + 1)])
 
 
 def sine(phase):
-    """Sine of a phase in turns, read from the table with linear interpolation."""
+    """Return the sine of a phase in turns, from the table with linear interpolation."""
     place = (phase % 1.0) * SINE_STEPS
     left = np.minimum(place.astype(np.int64), SINE_STEPS - 1)
     return SINE[left] + (SINE[left + 1] - SINE[left]) * (place - left)
 
 
 def triangle(phase):
-    """Triangle in 15 steps, as the sound chip of an 8-bit console makes it."""
+    """Return a triangle in 15 steps, like the sound chip of an 8-bit console."""
     return np.round((1 - 4 * np.abs(phase % 1.0 - 0.5)) * 7.5) / 7.5
 
 
 def sweep(start, end, count):
-    """Exponential glide from start to end, both > 0, in `count` samples."""
+    """Return an exponential glide from start to end, both > 0, in `count` samples."""
     ratio = end / start
     knots = [start * math.pow(ratio, i / KNOTS) for i in range(KNOTS + 1)]
     return np.interp(np.linspace(0, KNOTS, count), np.arange(KNOTS + 1), np.round(knots, 6))
 
 
 def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
-    """Rise, hold (starting `punch` above 1 and falling back) and decay, each in seconds; values at RATE.
+    """Return an envelope: rise, hold (starting `punch` above 1 and falling back) and decay, each in seconds; values at
+    RATE.
 
     curve: power of the decay, 1 for a straight line.
     """
@@ -50,7 +51,7 @@ def envelope(attack, sustain, decay, punch=0.0, curve=2.0):
 
 
 def voice(kind, start, end, shape, duty=(0.5, 0.5), vibrato=(0.0, 0.0), steps=(), seed=0):
-    """One note of sound at RATE.
+    """Return one note of sound at RATE.
 
     kind: pulse, saw, triangle, sine or noise; start, end: pitch in Hz; shape: an envelope; duty: of a pulse, from..to;
     vibrato: (depth as a share of the pitch, Hz); steps: ((seconds, factor), ...) jumps of the pitch.
@@ -77,14 +78,14 @@ def _oscillate(kind, phase, duty, seed):
         return triangle(phase)
     if kind == "sine":
         return sine(phase)
-    if kind == "noise":  # 32 random levels a period, held: the pitch of the noise is the rate of new levels
+    if kind == "noise":  # 32 random levels a period, held: the rate of new levels is the pitch of the noise
         level = np.floor(phase * 32).astype(np.int64)
         return np.random.default_rng(seed).random(int(level[-1]) + 2)[level] * 2 - 1
     raise ValueError(f"no oscillator {kind!r}; choose one of pulse, saw, triangle, sine, noise")
 
 
 def low_pass(samples, start, end):
-    """One-pole low-pass whose corner glides from start to end in Hz."""
+    """Filter by a one-pole low-pass whose corner glides from start to end in Hz."""
     corners = sweep(start, end, KNOTS + 1)
     shares = [1 - math.exp(-2 * math.pi * hertz / RATE) for hertz in corners]
     share = np.interp(np.linspace(0, KNOTS, len(samples)), np.arange(KNOTS + 1), np.round(shares, 9))
@@ -96,7 +97,7 @@ def low_pass(samples, start, end):
 
 
 def remove_dc(samples, corner=30.0):
-    """One-pole high-pass: takes out what a one-sided pulse leaves below hearing. corner in Hz."""
+    """Filter by a one-pole high-pass, which removes the DC of a one-sided pulse. corner in Hz."""
     share = round(1 - math.exp(-2 * math.pi * corner / RATE), 9)
     out, level = np.empty_like(samples), 0.0
     for i, value in enumerate(samples.tolist()):
@@ -106,7 +107,7 @@ def remove_dc(samples, corner=30.0):
 
 
 def mixed(*layers):
-    """Sum of (start in seconds, gain, samples) layers."""
+    """Return the sum of (start in seconds, gain, samples) layers."""
     length = max(int(at * RATE) + len(samples) for at, _, samples in layers)
     total = np.zeros(length)
     for at, gain, samples in layers:
@@ -116,7 +117,7 @@ def mixed(*layers):
 
 
 def soft_clip(samples, drive):
-    """Rounded limiter x / (1 + |x|), with the input driven by `drive`."""
+    """Limit samples by x / (1 + |x|), with the input multiplied by `drive`."""
     pushed = samples * drive
     return pushed / (1 + np.abs(pushed))
 
@@ -129,7 +130,7 @@ def finish(samples):
     samples[-len(fade) :] *= fade[::-1]
     inner = np.ones(len(samples))
     inner[0] = inner[-1] = 0.0
-    samples = (samples - samples.mean() * len(samples) / inner.sum()) * inner  # the fades must not bring DC back
+    samples = (samples - samples.mean() * len(samples) / inner.sum()) * inner  # the fades must not restore DC
     return np.round(samples / np.abs(samples).max() * PEAK * 32767).astype(np.int16)
 
 

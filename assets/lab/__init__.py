@@ -1,1 +1,1 @@
-"""What the lab's scenes push about."""
+"""Bodies of the lab's scenes."""

@@ -10,14 +10,14 @@ from assets.lander.ground import boulders
 
 SIZE = (480, 240)  # [px]; the top lies 24 px below the canvas' own
 SEED = 21
-DEEPEST = 26  # [px] below the surface, from where on earth is as dark as it gets
-TURF = 4  # [px] of grass where the sky is above
+DEEPEST = 26  # [px] below the surface, from which earth has its darkest colour
+TURF = 4  # [px] of grass under open sky
 HILLS = ((0, 130), (54, 127), (92, 132), (120, 140), (134, 190), (156, 204), (214, 208), (236, 196), (252, 184))
 HILLS += ((300, 184), (330, 198), (352, 196), (372, 176), (392, 118), (480, 112), (480, 250), (0, 250))
 
 
 def solid():
-    """Where there is earth, bool (240, 480)."""
+    """Return the solid pixels of earth, bool (240, 480)."""
     x, y = grid(*SIZE)
     field = polygon(x, y, HILLS)
     bridge = np.minimum(box(x, y, 112, 136, 232, 149, 3.0), box(x, y, 222, 136, 238, 204, 2.0))
@@ -35,7 +35,7 @@ def solid():
 
 
 def depth_of(earth):
-    """[px] from the nearest open pixel, up to DEEPEST; beyond the picture's sides it goes on."""
+    """Return the distance from the nearest open pixel [px], up to DEEPEST; the picture's sides are continued."""
     left, found = np.pad(earth, 1, mode="edge"), np.zeros(earth.shape, int)
     for _ in range(DEEPEST):
         found += left[1:-1, 1:-1]
@@ -47,7 +47,7 @@ def depth_of(earth):
 
 
 def painted():
-    """(the earth, the wall behind), (h, w, 4) uint8 each."""
+    """Return (the earth, the wall behind), (h, w, 4) uint8 each."""
     earth = solid()
     height, width = earth.shape
     edge, facing = (np.tile(each, (1, 2))[:height, :width] for each in boulders(SEED, 190))
@@ -67,7 +67,7 @@ def painted():
 
 
 def _grow_turf(rgb, earth):
-    """Grass where the sky is straight above, its blades of several lengths."""
+    """Draw grass under open sky, with blades of several lengths."""
     height, width = earth.shape
     open_above = np.logical_and.accumulate(~earth, axis=0)
     top = np.argmax(~open_above, axis=0)

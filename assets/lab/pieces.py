@@ -1,4 +1,4 @@
-"""The sheet "lab": what the lab's bodies look like: crates, blocks, balls, dominoes, and the billiard table.
+"""The sheet "lab": pictures of the lab's bodies: crates, blocks, balls, dominoes, and the billiard table.
 
 A piece fills its picture to the last pixel, outline included, so that picture and collision shape have one size.
 """
@@ -18,7 +18,7 @@ POCKET = 9.0  # [px] radius of a hole
 
 
 def crate(size, look):
-    """A wooden crate, look 0 braced, 1 planked, 2 dark with a cross."""
+    """Return a wooden crate, look 0 braced, 1 planked, 2 dark with a cross."""
     sprite = Sprite(size, size)
     x, y, edge = sprite.x, sprite.y, max(2, size // 7)
     wood = RAMPS["wood"] if look < 2 else RAMPS["dirt"]
@@ -41,7 +41,7 @@ def crate(size, look):
 
 
 def block(width, height, ramp):
-    """A painted toy block with a bevelled rim."""
+    """Return a painted toy block with a bevelled rim."""
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1, 1, width - 1, height - 1), RAMPS[ramp], bulge=2, base=0.5, gain=0.3, grain=0.3)
@@ -51,7 +51,7 @@ def block(width, height, ramp):
 
 
 def disc(radius, ramp):
-    """A disc with a bright spoke, so that its turning is seen."""
+    """Return a disc with a bright spoke, which shows its rotation."""
     size = 2 * radius
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
@@ -62,7 +62,7 @@ def disc(radius, ramp):
 
 
 def pill(length, radius, ramp):
-    """A capsule lying along x: `length` between the centres of its ends."""
+    """Return a capsule lying along x: `length` between the centres of its ends."""
     sprite = Sprite(length + 2 * radius, 2 * radius)
     x, y, end = sprite.x, sprite.y, length + radius
     sprite.part(
@@ -78,21 +78,21 @@ def pill(length, radius, ramp):
 
 
 def gem(points, size, ramp):
-    """A convex piece from its corners in px, in a picture of size x size."""
+    """Return a convex piece from its corners in px, in a picture of size x size."""
     sprite = Sprite(size, size)
     sprite.part(polygon(sprite.x, sprite.y, points) + 0.8, RAMPS[ramp], bulge=3, base=0.5, gain=0.35, grain=0.3)
     return sprite.outline().pixels()
 
 
 def corners(count, size, start):
-    """Corners of a regular polygon that fills size x size; start: angle of the first one in degrees."""
+    """Return the corners of a regular polygon that fills size x size; start: angle of the first one in degrees."""
     angles = [math.radians(start + i * 360 / count) for i in range(count)]
-    # Rounded, as in synth.py: sines differ in their last bits from machine to machine.
+    # Rounded, as in synth.py: the last bits of sines differ between machines.
     return [(size / 2 * (1 + round(math.cos(a), 9)), size / 2 * (1 + round(math.sin(a), 9))) for a in angles]
 
 
 def metal_ball(radius, ramp):
-    """A polished ball lit from above left, with a hard highlight."""
+    """Return a polished ball lit from above left, with a hard highlight."""
     size = 2 * radius
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
@@ -103,7 +103,7 @@ def metal_ball(radius, ramp):
 
 
 def iron_ball(radius):
-    """The wrecking ball: cast iron with a band and rivets."""
+    """Return the wrecking ball: cast iron with a band and rivets."""
     size = 2 * radius
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
@@ -116,7 +116,7 @@ def iron_ball(radius):
 
 
 def billiard_ball(number):
-    """Ball 0 (the cue ball) to 15: 10 x 10 px, stripes from 9."""
+    """Return ball 0 (the cue ball) to 15: 10 x 10 px, stripes from 9."""
     sprite = Sprite(10, 10)
     x, y = sprite.x, sprite.y
     ramp = "steel" if number == 0 or number > 8 else "gunmetal" if number == 8 else BALLS[number - 1]
@@ -131,7 +131,7 @@ def billiard_ball(number):
 
 
 def domino(width, height, pips):
-    """An ivory domino standing upright, with a line and pips."""
+    """Return an ivory domino standing upright, with a line and pips."""
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1, 1, width - 1, height - 1), RAMPS["steel"], bulge=2, base=0.82, gain=0.25, grain=0.3)
@@ -145,7 +145,7 @@ def domino(width, height, pips):
 
 
 def card(length, thickness, ramp):
-    """A playing card seen from its edge, lying along x."""
+    """Return a playing card seen from its edge, lying along x."""
     sprite = Sprite(length, thickness)
     sprite.flat(box(sprite.x, sprite.y, 0, 0, length, thickness), RAMPS["steel"][5])
     sprite.paint(box(sprite.x, sprite.y, 0, thickness - 2, length, thickness), RAMPS[ramp][3])
@@ -156,7 +156,7 @@ def card(length, thickness, ramp):
 
 
 def floor(width, height):
-    """A polished table top seen from the side: boards with grain, a lit edge."""
+    """Return a polished table top seen from the side: boards with grain, a lit edge."""
     sprite = Sprite(width, height)
     x, y, wood = sprite.x, sprite.y, RAMPS["wood"]
     sprite.flat(box(x, y, 0, 0, width, height), wood[1])
@@ -171,7 +171,7 @@ def floor(width, height):
 
 
 def table():
-    """The billiard table from above: wooden frame, cushions, cloth, six holes."""
+    """Return the billiard table from above: wooden frame, cushions, cloth, six holes."""
     width, height = TABLE
     sprite = Sprite(width, height)
     x, y = sprite.x, sprite.y
@@ -202,7 +202,7 @@ def table():
 
 
 def sword():
-    """A broad sword lying along x, its point on the right."""
+    """Return a broad sword lying along x, its point on the right."""
     sprite = Sprite(38, 11)
     x, y = sprite.x, sprite.y
     sprite.part(polygon(x, y, ((11, 3), (31, 3.4), (37, 5.5), (31, 7.6), (11, 8))), RAMPS["steel"], bulge=2, base=0.7)
@@ -214,7 +214,7 @@ def sword():
 
 
 def shot():
-    """A brass bullet that flies to the right."""
+    """Return a brass bullet that flies to the right."""
     sprite = Sprite(9, 6)
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (2.6, 3), (5.8, 3), 1.9, 1.5), RAMPS["gold"], bulge=1.8, base=0.66, gain=0.4)
@@ -223,7 +223,7 @@ def shot():
 
 
 def bracket(ramp):
-    """An L of iron: concave, so that its hull holds what is air."""
+    """Return an L of iron: concave, so that its hull contains air."""
     sprite = Sprite(32, 24)
     x, y = sprite.x, sprite.y
     corner = polygon(x, y, ((1, 1), (10, 1), (10, 14), (31, 14), (31, 23), (1, 23)))
@@ -235,7 +235,7 @@ def bracket(ramp):
 
 
 def star(ramp):
-    """A five-pointed star with blunt points."""
+    """Return a five-pointed star with blunt points."""
     sprite = Sprite(26, 26)
     angles = [math.radians(-90 + i * 36) for i in range(10)]
     points = [
@@ -247,7 +247,7 @@ def star(ramp):
 
 
 def tray():
-    """A stone floor with a low rim at both ends, for what rolls."""
+    """Return a stone floor with a low rim at both ends, for rolling bodies."""
     sprite = Sprite(94, 24)
     x, y = sprite.x, sprite.y
     stone = RAMPS["stone"]

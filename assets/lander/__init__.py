@@ -1,1 +1,1 @@
-"""The lander's moon: its ground, what stands and lies on it, the sky behind it."""
+"""The lander's moon: its ground, its stations and loose things, the sky behind it."""

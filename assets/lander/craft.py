@@ -1,4 +1,4 @@
-"""The lander itself and what leaves it: hull, legs, window, flame, shell, hook; also its small pictures for the HUD."""
+"""The lander and its parts in flight: hull, legs, window, flame, shell, hook; also its small pictures for the HUD."""
 
 from assets.craft.fields import box, capsule, circle, ellipse, polygon
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
@@ -10,7 +10,7 @@ FLAME = (12, 22)  # [px]
 
 
 def ship():
-    """A round cabin on a tank, a bell under it, two legs with broad feet; (32, 30, 4) uint8."""
+    """Return a round cabin on a tank, a bell under it, two legs with broad feet; (32, 30, 4) uint8."""
     sprite = Sprite(WIDTH, HEIGHT)
     for side in (-1, 1):
         _leg(sprite, side)
@@ -68,7 +68,7 @@ def _cabin(sprite):
 
 
 def flame(frame):
-    """The engine's fire, frame 0..3, from its root down; drawn under the bell."""
+    """Return the engine's fire, frame 0..3, from its root down; drawn under the bell."""
     width, height = FLAME
     sprite = Sprite(width, height)
     x, y, middle = sprite.x, sprite.y, width / 2
@@ -81,7 +81,7 @@ def flame(frame):
 
 
 def shell(frame):
-    """A blasting shell, frame 0..1: a hot ball with a dark rim, seen well before rock and ice."""
+    """Return a blasting shell, frame 0..1: a hot ball with a dark rim, clearly visible before rock and ice."""
     sprite = Sprite(7, 7)
     sprite.flat(circle(sprite.x, sprite.y, 3.5, 3.5, 2.5), RAMPS["gold"][4 - frame])
     sprite.flat(circle(sprite.x, sprite.y, 3.5, 3.5, 1.3), WHITE)
@@ -89,7 +89,7 @@ def shell(frame):
 
 
 def hook():
-    """The claw at the end of the line."""
+    """Return the claw at the end of the line."""
     rows = ("..d..", ".dsd.", "dsdsd", "s.d.s", "d...d")
     return Sprite(5, 5).stamp(rows, 0, 0, {"d": OUTLINE, "s": RAMPS["steel"][4]}).pixels()
 
@@ -113,7 +113,7 @@ ICONS = {
 
 
 def icons():
-    """{name: pixels} for the HUD."""
+    """Return {name: pixels} for the HUD."""
     tones = {
         "w": WHITE,
         "s": RAMPS["steel"][4],

@@ -1,5 +1,6 @@
-"""Paints the lander's moon: rock in wedged boulders, lit along its edges, snow where the sky reaches it, ice, the wall
-behind what is dug away."""
+"""Picture of the lander's moon: rock in wedged boulders with lit edges, snow under open sky, ice, the wall behind
+holes.
+"""
 
 import numpy as np
 
@@ -9,9 +10,9 @@ from assets.craft.palette import graded, mix, oklch_all
 from assets.craft.shading import SIDES, cut_out, shifted
 from assets.lander.landscape import landscape
 
-CELL = 256  # [px] the boulders' pattern repeats with
+CELL = 256  # [px] period of the boulders' pattern
 BOULDERS = 150
-DEEPEST = 30  # [px] below the surface, from where on rock is as dark as it gets
+DEEPEST = 30  # [px] below the surface, from which rock has its darkest colour
 LIGHT = (-0.50, -0.86)  # towards the light
 ROCK = oklch_all(
     (0.178, 0.038, 284),
@@ -38,18 +39,20 @@ WALL = oklch_all(
     (0.112, 0.030, 286), (0.138, 0.037, 284), (0.166, 0.045, 279), (0.200, 0.054, 270), (0.244, 0.062, 254)
 )
 GEM = oklch_all((0.42, 0.080, 215), (0.60, 0.100, 200), (0.78, 0.090, 188), (0.93, 0.050, 185))
-GEMS, CLUSTER = 62, 9  # clusters of crystals, and how far [px] one reaches
+GEMS, CLUSTER = 62, 9  # clusters of crystals, and the extent of each [px]
 
 
 def boulders(seed, count):
-    """(edge, facing): px to the nearest crack between boulders, and how far a boulder's side faces the light; CELL²."""
+    """Return (edge, facing): px to the nearest crack between boulders, and how far a boulder's side faces the light;
+    CELL².
+    """
     random = np.random.default_rng(seed)
     middles = random.random((count, 2)) * CELL
     y, x = np.mgrid[0:CELL, 0:CELL] + 0.5
     nearest, second, facing = np.full(x.shape, 1e6), np.full(x.shape, 1e6), np.zeros(x.shape)
     for middle_x, middle_y in middles:
         dx = (x - middle_x + CELL / 2) % CELL - CELL / 2
-        dy = ((y - middle_y + CELL / 2) % CELL - CELL / 2) * 1.35  # wider than high, as strata break
+        dy = ((y - middle_y + CELL / 2) % CELL - CELL / 2) * 1.35  # wider than high, like strata
         distance = np.sqrt(dx * dx + dy * dy)
         closer = distance < nearest
         second = np.where(closer, nearest, np.minimum(second, distance))
@@ -59,19 +62,21 @@ def boulders(seed, count):
 
 
 def tiled(pattern, height, width):
-    """A pattern side by side over a picture."""
+    """Return a pattern repeated over a picture."""
     return np.tile(pattern, (height // CELL + 1, width // CELL + 1))[:height, :width]
 
 
 def depths(solid):
-    """How many px each solid pixel is below its surface, up to DEEPEST; by peeling off one layer after another."""
+    """Return the depth in px of each solid pixel below its surface, up to DEEPEST, by removing layers one after
+    another.
+    """
     depth, left = np.zeros(solid.shape, np.int16), solid.copy()
     for layer in range(DEEPEST):
         depth += left
         peeled = left.copy()
         for dx, dy in SIDES if layer % 3 else (*SIDES, (1, 1), (-1, 1)):
             moved = shifted(left, dx, dy)
-            # Beyond the picture's edge it goes on as at the edge.
+            # Beyond the picture's edge the pixels of the edge are repeated.
             moved[:, 0 if dx > 0 else -1 if dx < 0 else slice(0, 0)] = True
             moved[0 if dy > 0 else -1 if dy < 0 else slice(0, 0)] = True
             peeled &= moved
@@ -80,7 +85,7 @@ def depths(solid):
 
 
 def facings(solid, reach=4):
-    """(towards the light, upwards), each -1..1, from the slope of the blurred ground."""
+    """Return (towards the light, upwards), each -1..1, from the slope of the blurred ground."""
     total = np.zeros(solid.shape, np.int32)
     for axis in (1, 0):
         source = solid.astype(np.int32) if axis else total
@@ -95,7 +100,7 @@ def facings(solid, reach=4):
 
 
 def painted(moon):
-    """The ground, (height, width, 4) uint8."""
+    """Return the ground, (height, width, 4) uint8."""
     solid = moon.solid
     height, width = solid.shape
     depth = depths(solid)
@@ -119,7 +124,7 @@ def painted(moon):
 
 
 def _edges(picture, moon, depth, light):
-    """The outermost pixels: bright towards the light, dark away from it."""
+    """Draw the outermost pixels: bright towards the light, dark away from it."""
     rim = moon.solid & (depth == 1)
     ramp = np.where(moon.ice[..., None], ICE[7], ROCK[6])
     picture[rim & (light > 0.15)] = ramp[rim & (light > 0.15)]
@@ -130,7 +135,7 @@ def _edges(picture, moon, depth, light):
 
 
 def _snow(picture, moon, up, light):
-    """Snow on all that the sky reaches and that is not too steep."""
+    """Draw snow on all ground under open sky that is not too steep."""
     height, width = moon.solid.shape
     top = np.argmax(moon.solid, axis=0)  # first solid row of each column
     y = np.mgrid[0:height, 0:width][0]
@@ -147,7 +152,7 @@ def _snow(picture, moon, up, light):
 
 
 def _gems(picture, moon, depth):
-    """Crystals in the walls of the caves."""
+    """Draw crystals in the walls of the caves."""
     random = np.random.default_rng(77)
     cave = moon.massif & ~moon.solid
     near = cave.copy()
@@ -167,7 +172,7 @@ def _gems(picture, moon, depth):
 
 
 def _gem(picture, solid, row, column, size):
-    """One cut stone, lit from above on the left."""
+    """Draw one cut stone, lit from the upper left."""
     height, width = solid.shape
     for dy in range(-size - 1, size + 2):
         half = size - abs(dy) * size // (size + 1) - (abs(dy) == size + 1)
@@ -178,7 +183,7 @@ def _gem(picture, solid, row, column, size):
 
 
 def wall(moon):
-    """What is seen where rock has gone, (height, width, 4) uint8: the same boulders, far back in the dark."""
+    """Return the wall behind removed rock, (height, width, 4) uint8: the same boulders, far back in the dark."""
     height, width = moon.solid.shape
     edge, boulder = (tiled(pattern, height, width) for pattern in boulders(57, 60))
     rough = layered_noise(width, height, 32, 8, 3, 520) - 0.5

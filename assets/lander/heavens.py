@@ -1,4 +1,6 @@
-"""Behind the lander's moon: a polar night with aurora and a ringed planet, and three ranges of ice, seamless in x."""
+"""Background of the lander's moon: a polar night with aurora and a ringed planet, and three ranges of ice, seamless in
+x.
+"""
 
 import numpy as np
 
@@ -21,7 +23,7 @@ SKY = (
 AURORA = oklch_all((0.44, 0.095, 200), (0.60, 0.125, 170), (0.80, 0.125, 155))
 PLANET, RADIUS = (372, 62), 30  # [px] middle and size
 RINGS = ((1.34, 1.62), (1.70, 1.86))  # of the planet's radius
-FLAT, LEAN = 3.6, 0.26  # how flat the rings are seen, and how they lean
+FLAT, LEAN = 3.6, 0.26  # flattening of the rings, and their lean
 DISC = oklch_all(
     (0.215, 0.060, 285),
     (0.29, 0.075, 300),
@@ -47,7 +49,7 @@ STARS = 170
 
 
 def sky():
-    """The night, (270, 480, 4) uint8."""
+    """Return the night, (270, 480, 4) uint8."""
     x, y = grid(WIDTH, HEIGHT)
     level = y / HEIGHT
     steps = np.clip(np.floor(level * level**0.5 * BANDS + dither(HEIGHT, WIDTH) + 0.5), 0, BANDS - 1).astype(int)
@@ -75,7 +77,7 @@ def _stars(picture):
 
 
 def _aurora(picture):
-    """Two curtains of light: bright along the lower hem, streaks that fade upwards."""
+    """Draw two curtains of light: bright along the lower hem, with streaks that fade upwards."""
     y = np.mgrid[0:HEIGHT, 0:WIDTH][0] + 0.5
     grain = np.tile(BAYER, (HEIGHT // 4 + 1, WIDTH // 4 + 1))[:HEIGHT, :WIDTH]
     for hem, sway, tall, seed, strength in ((150, 60, 96, 61, 1.0), (108, 44, 66, 64, 0.7)):
@@ -91,7 +93,7 @@ def _aurora(picture):
 
 
 def _planet(picture, x, y):
-    """Banded, lit from the left, its rings before and behind it."""
+    """Draw the planet: banded, lit from the left, its rings before and behind it."""
     dx, dy = x - PLANET[0], y - PLANET[1]
     across, down = dx + LEAN * dy, (dy - LEAN * dx) * FLAT
     ring = length(across, down) / RADIUS

@@ -1,6 +1,6 @@
-"""The shape of the lander's moon: which pixels are rock, which are ice that a shell breaks, and what lies behind holes.
+"""The shape of the lander's moon: the pixels of rock, of ice that a shell breaks, and of the wall behind holes.
 
-The plan in assets/levels/lander.json has straight lines; noise bends them, so that no edge looks drawn with a ruler.
+The plan in assets/levels/lander.json has straight lines; noise bends them, so that edges look natural.
 """
 
 import json
@@ -13,18 +13,18 @@ from assets import FOLDER
 from assets.craft.fields import capsule, grid, layered_noise, polygon
 from assets.craft.shading import shifted
 
-BENT = 13.0  # [px] that a line of the plan is bent by, to both sides
+BENT = 13.0  # [px] displacement of a line of the plan, to both sides
 ROUGH = 3.4  # [px] the same, by the fine noise
-MARGIN = 24  # [px] around a part's box in which it is looked at: more than it is bent by
-FROZEN_IN = 6  # [px] that ice reaches into the rock beside it
-SHOULDER = 5  # [px] that the level ground reaches beyond a pad, to both sides
+MARGIN = 24  # [px] around a part's box that is examined: more than the displacement
+FROZEN_IN = 6  # [px] extent of ice into the rock beside it
+SHOULDER = 5  # [px] extent of level ground beyond a pad, to both sides
 HEADROOM = 34  # [px] over a pad that are free
 ACROSS, DOWN = ((1, 0), (-1, 0)), ((0, 1), (0, -1))
 
 
 @dataclass
 class Landscape:
-    """All (height, width): solid and ice bool; `massif` is where rock was before caves were hollowed out of it."""
+    """The moon, all (height, width): solid and ice bool; `massif`: rock before caves were hollowed out."""
 
     solid: np.ndarray
     ice: np.ndarray
@@ -32,12 +32,12 @@ class Landscape:
 
 
 def plan():
-    """The plan, as it is read from its file."""
+    """Return the plan from its file."""
     return json.loads((FOLDER / "levels" / "lander.json").read_text(encoding="utf-8"))
 
 
 def landscape():
-    """The moon as it is before anybody has landed on it."""
+    """Return the moon before the first landing."""
     drawn = plan()
     width, height = drawn["size"]
     x, y = grid(width, height)
@@ -71,7 +71,7 @@ def _bend(width, height, seed):
 
 
 def _inside(x, y, points):
-    """Crossing rule, each edge in the rows that it can reach."""
+    """Return the pixels inside a polygon by the crossing rule, each edge in the rows that it can reach."""
     inside = np.zeros(x.shape, bool)
     for i, (ax, ay) in enumerate(points):
         bx, by = points[i - 1]
@@ -84,7 +84,7 @@ def _inside(x, y, points):
 
 
 def _near(solid, x, y, points, reach, change):
-    """Apply a change to the part of the picture that holds the points and `reach` px around them."""
+    """Apply a change to the part of the picture that contains the points and `reach` px around them."""
     reach += MARGIN
     left, right = (max(0, int(f(p[0] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
     top, bottom = (max(0, int(f(p[1] for p in points) + s * reach)) for f, s in ((min, -1), (max, 1)))
@@ -107,7 +107,7 @@ def _filled(points):
 
 
 def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
-    """These pixels and those so far [px] from them, these ways."""
+    """Return these pixels and those at that distance [px] from them, in these directions."""
     out = pixels.copy()
     for dx, dy in ways:
         out |= shifted(pixels, far * dx, far * dy)
@@ -115,9 +115,9 @@ def _around(pixels, far=1, ways=(*ACROSS, *DOWN)):
 
 
 def _crack(rock, ice):
-    """Where ice joins a mountain that hangs over a cave to the ground: halfway between them, a pixel wide.
+    """Return the crack between a mountain over a cave and the ground, where ice joins them: halfway, a pixel wide.
 
-    So the mountain is a piece of its own from the start, and stays where it is when all the ice is shot away.
+    So the mountain is a separate piece from the start, and stays in place when all the ice is shot away.
     """
     hanging = _hanging(rock)
     open_ice = ice & ~rock
@@ -132,7 +132,7 @@ def _crack(rock, ice):
 
 
 def _hanging(rock):
-    """The pixels of rock from which no way through rock leads down to the edge."""
+    """Return the pixels of rock that are not connected by rock to the lower edge."""
     surface = pygame.Surface(rock.T.shape, pygame.SRCALPHA)
     pygame.surfarray.pixels_alpha(surface)[:] = rock.T * np.uint8(255)
     found = np.zeros_like(rock)
@@ -144,7 +144,7 @@ def _hanging(rock):
 
 
 def _level(solid, ice, massif, pad):
-    """Level ground for a pad's feet, and air over it; under the open sky no mountain is behind that air."""
+    """Level the ground for a pad's feet, and clear the air over it; under open sky no mountain is behind that air."""
     left, right = pad["x"] - pad["width"] // 2 - SHOULDER, pad["x"] + pad["width"] // 2 + SHOULDER
     floor = pad["floor"]
     solid[floor : floor + 40, left:right] = True

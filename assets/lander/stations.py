@@ -1,4 +1,4 @@
-"""What stands and lies on the lander's moon: pads and their masts, cargo, loose rocks, cans of fuel."""
+"""Things on the lander's moon: pads and their masts, cargo, loose rocks, cans of fuel."""
 
 import numpy as np
 
@@ -13,7 +13,7 @@ MAST = (18, 44)  # [px]
 
 
 def pad(width):
-    """A landing deck of so many px: plates, a lit stripe, hazard marks at its ends, struts."""
+    """Return a landing deck of that width [px]: plates, a lit stripe, hazard marks at its ends, struts."""
     sprite = Sprite(width, DECK)
     x, y = sprite.x, sprite.y
     for foot in range(STRUT // 2, width, STRUT):
@@ -40,7 +40,7 @@ def pad(width):
 
 
 def mast(lit):
-    """A mast beside a pad, its lamp off or on, a dish half way up; its foot is its lower edge."""
+    """Return a mast beside a pad, its lamp off or on, a dish half way up; its foot is its lower edge."""
     sprite = Sprite(*MAST)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -66,7 +66,7 @@ def mast(lit):
 
 
 def crate():
-    """Cargo in a steel box with orange corners, 18 x 18 px: a full square, so that it slides and tips as one."""
+    """Return cargo in a steel box with orange corners, 18 x 18 px: a full square, so that it slides and tips as one."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.flat(box(x, y, 0, 0, 18, 18), OUTLINE)
@@ -83,7 +83,7 @@ def crate():
 
 
 def drum():
-    """Cargo in a round drum, 18 x 18 px, seen from its end: it rolls."""
+    """Return cargo in a round drum, 18 x 18 px, seen from its end: it rolls."""
     sprite = Sprite(18, 18)
     x, y = sprite.x, sprite.y
     sprite.part(circle(x, y, 9, 9, 8), RAMPS["orange"], bulge=4, base=0.50)
@@ -96,7 +96,7 @@ def drum():
 
 
 def rock(seed, size):
-    """A loose boulder with a little snow on it, about size x size px."""
+    """Return a loose boulder with a little snow on it, about size x size px."""
     sprite = Sprite(size, size)
     x, y = sprite.x, sprite.y
     random = np.random.default_rng(700 + seed)
@@ -112,7 +112,7 @@ def rock(seed, size):
 
 
 def can(frame):
-    """Fuel to be picked up, frame 0..3: a canister whose light runs round."""
+    """Return a can of fuel, frame 0..3: a canister with a moving light."""
     sprite = Sprite(14, 16)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 5, 1, 9, 4, 1), RAMPS["gunmetal"], bulge=2, base=0.5)

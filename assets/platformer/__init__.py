@@ -1,1 +1,1 @@
-"""The hero, what he meets, the tiles, the level and what is behind it."""
+"""The hero, his enemies and things, the tiles, the level and its background."""

@@ -1,4 +1,4 @@
-"""Writes what is behind the platformer's level, 480 px wide; what scrolls is seamless in x.
+"""Background of the platformer's level, 480 px wide; scrolling layers are seamless in x.
 
 Drawn along the bottom of the screen: mountains_far, _mid, _near and keep_far. sky_dusk is the fixed screen behind them,
 clouds a bank for the upper half. Underground cave_far (opaque) and cave_near fill the screen.

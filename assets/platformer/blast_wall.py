@@ -1,4 +1,4 @@
-"""What a bomb is for: a wall of rough blocks with cracks all through it, and the bomb itself, with its blast."""
+"""Targets of a bomb: a wall of rough blocks full of cracks, and the bomb itself, with its blast."""
 
 from itertools import pairwise
 
@@ -8,7 +8,7 @@ from assets.craft.shading import Sprite
 from assets.shooter.explosions import explosion
 
 WALL = (32, 64)  # [px]
-# Blocks of the wall: left, top, right, bottom [px], and how bright each is.
+# Blocks of the wall: left, top, right, bottom [px], and the brightness of each.
 BLOCKS = (
     (0, 0, 15, 11, 0.50),
     (15, 0, 32, 13, 0.44),
@@ -33,7 +33,7 @@ CRACKS = (
 
 
 def wall():
-    """The wall, 32 x 64 px, solid all over: whoever sees it knows that it will not stand much."""
+    """Return the wall, 32 x 64 px, solid all over, with visible cracks that show its weakness."""
     sprite = Sprite(*WALL)
     x, y = sprite.x, sprite.y
     sprite.flat(box(x, y, -1, -1, WALL[0] + 1, WALL[1] + 1), RAMPS["stone"][0])
@@ -61,7 +61,7 @@ def wall():
 
 
 def bomb(look):
-    """A round bomb, its fuse up, 14 x 16 px; look 0: cold, 1: about to burst."""
+    """Return a round bomb, its fuse up, 14 x 16 px; look 0: cold, 1: about to burst."""
     sprite = Sprite(14, 16)
     x, y = sprite.x, sprite.y
     sprite.flat(capsule(x, y, (7.4, 5), (8.6, 2.6), 0.8), RAMPS["wood"][3])
@@ -74,7 +74,7 @@ def bomb(look):
 
 
 def stand():
-    """The iron ring that a bomb waits in, 16 x 5 px."""
+    """Return the iron ring that a bomb waits in, 16 x 5 px."""
     sprite = Sprite(16, 5)
     x, y = sprite.x, sprite.y
     sprite.part(

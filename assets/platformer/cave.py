@@ -1,6 +1,6 @@
-"""The cave's and the keep's tiles: boulders of the rock, its back wall, dripstone, crystals, and what hangs on walls.
+"""The cave's and the keep's tiles: boulders of the rock, its back wall, dripstone, crystals, and things on walls.
 
-Rock is cold (violet in the shade, teal in the light), so that it is never taken for the warm ground above it.
+Rock is cold (violet in the shade, teal in the light), which distinguishes it from the warm ground above it.
 """
 
 import numpy as np
@@ -17,7 +17,9 @@ WALL_DARK = (18, 17, 38)
 
 
 def _cells(seeds):
-    """(own, next, slope): distance to the nearest and second nearest middle, and how far a pixel faces the light."""
+    """Return (own, next, slope): distance to the nearest and second nearest middle, and how far a pixel faces the
+    light.
+    """
     y, x = np.mgrid[0:TILE, 0:TILE] + 0.5
     nearest, second, facing = np.full(x.shape, 99.0), np.full(x.shape, 99.0), np.zeros(x.shape)
     for seed_x, seed_y in seeds:
@@ -32,7 +34,9 @@ def _cells(seeds):
 
 
 def boulders(variant):
-    """The inside of the rock, (16, 16, 3) uint8: wedged boulders, variant 0..3; all share one layout, so all join."""
+    """Return the inside of the rock, (16, 16, 3) uint8: wedged boulders, variant 0..3; all share one layout, so all
+    join.
+    """
     ramp = RAMPS["rock"]
     nearest, second, facing = _cells(SEEDS)
     grain = noise(TILE, TILE, 8, 8, 510 + variant) - 0.5
@@ -57,7 +61,7 @@ def boulders(variant):
 
 
 def clods(ramp, seed):
-    """Packed earth, (16, 16, 3) uint8: the same wedged pieces as rock has, but soft and of little contrast."""
+    """Return packed earth, (16, 16, 3) uint8: the same wedged pieces as rock, but soft and of little contrast."""
     nearest, second, facing = _cells(CLODS)
     grain = noise(TILE, TILE, 8, 8, seed) - 0.5
     level = 1.0 + facing * 0.10 + grain * 1.5
@@ -76,12 +80,12 @@ def clods(ramp, seed):
 
 
 def back_cave(variant):
-    """The dark rough wall behind the cave, variant 0..1, opaque: the same boulders, far back in the dark."""
+    """Return the dark rough wall behind the cave, variant 0..1, opaque: the same boulders, far back in the dark."""
     return opaque(mix(boulders(0 if variant == 0 else 2), WALL_DARK, 0.62))
 
 
 def dripstone(hanging):
-    """A stalactite, or a stalagmite with hanging False; its broad end touches the tile's edge."""
+    """Return a stalactite, or a stalagmite with hanging False; its broad end touches the tile's edge."""
     sprite = Sprite(TILE, TILE)
     ways = ([(2.6, -2), (7.6, -2), (5.4, 13.6)], [(8.4, -2), (13.4, -2), (11.2, 8.6)])
     for points in ways[::-1]:
@@ -95,7 +99,7 @@ def dripstone(hanging):
 
 
 def crystal(variant):
-    """A cluster of glowing crystals on the ground, variant 0..1."""
+    """Return a cluster of glowing crystals on the ground, variant 0..1."""
     sprite = Sprite(TILE, TILE)
     ramp = RAMPS["teal"]
     spears = (
@@ -132,7 +136,7 @@ def crystal(variant):
 
 
 def glowcap():
-    """Two mushrooms that shine, 16 x 16."""
+    """Return two glowing mushrooms, 16 x 16."""
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
     for middle, top, radius in ((10.6, 9.4, 3.2), (5.4, 6, 4.2)):
@@ -147,7 +151,7 @@ def glowcap():
 
 
 def banner():
-    """A long cloth on the back wall: red with a gold wing, its end cut in two points."""
+    """Return a long cloth on the back wall: red with a gold wing, its end cut in two points."""
     picture = back_wall(0)
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
@@ -162,7 +166,7 @@ def banner():
 
 
 def window():
-    """An arrow slit in the back wall with warm light behind it."""
+    """Return an arrow slit in the back wall with warm light behind it."""
     picture = back_wall(1)
     sprite = Sprite(TILE, TILE)
     x, y = sprite.x, sprite.y
@@ -177,7 +181,7 @@ def window():
 
 
 def chain():
-    """A hanging chain of iron, repeating downwards, clear around it."""
+    """Return a hanging chain of iron, repeating downwards, clear around it."""
     sprite = Sprite(TILE, TILE)
     links = (
         "..ab..",

@@ -1,7 +1,7 @@
-"""The platformer's hero: parts drawn by hand in drawings/hero.txt, put together into frames.
+"""The platformer's hero: parts drawn by hand in drawings/hero.txt, combined into frames.
 
-Every frame is 24 x 24 and faces right; the feet stand on the bottom row, centred on column 12: draw a frame at
-(box centre x - 12, box bottom - 24). The scarf flies behind and is not part of what collides.
+Every frame is 24 x 24 and faces right; the feet stand on the bottom row, centred on column 12: draw a frame at (box
+centre x - 12, box bottom - 24). The scarf flies behind and does not collide.
 """
 
 import numpy as np

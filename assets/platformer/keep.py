@@ -1,6 +1,6 @@
 """The platformer's keep in the distance: towers and walls against the dusk, 480 x 150, seamless in x.
 
-Drawn like a range of mountains along the bottom of the screen; its light comes from the upper left as everywhere.
+It is drawn like a range of mountains along the bottom of the screen; its light comes from the upper left as everywhere.
 """
 
 import numpy as np
@@ -50,7 +50,7 @@ def _put(out, x, y, colour):
 
 
 def _part(out, stone, left, width, height, kind):
-    """A wall or a tower from its top down to the picture's edge."""
+    """Draw a wall or a tower from its top down to the picture's edge."""
     top = HEIGHT - height
     for column in range(width):
         x = left + column
@@ -77,7 +77,7 @@ def _part(out, stone, left, width, height, kind):
 
 
 def _roof(out, left, width, top):
-    """A steep roof that overhangs by two pixels, its left side lit."""
+    """Draw a steep roof that overhangs by two pixels, its left side lit."""
     reach = width + 4
     for i in range(reach + 6):
         half = (width / 2 + 2) * i / (reach + 6)
@@ -92,7 +92,7 @@ def _roof(out, left, width, top):
 
 
 def _fog(out):
-    """The foot fades into the valley's haze, dithered."""
+    """Fade the foot into the valley's haze, dithered."""
     y = np.mgrid[0:HEIGHT, 0:WIDTH][0]
     share = (y - HEIGHT * 0.62) / (HEIGHT * 0.38) + dither(HEIGHT, WIDTH) * 0.45
     for limit, strength in ((0.35, 0.3), (0.6, 0.55), (0.85, 0.8)):

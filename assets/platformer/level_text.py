@@ -1,4 +1,4 @@
-"""A level as text, assets/levels/platformer.txt: a letter per tile under [map], and the rest below it."""
+"""A level as text, assets/levels/platformer.txt: a letter per tile under [map], and sections below it."""
 
 from assets.platformer.decoration import TILE
 
@@ -8,7 +8,7 @@ ACTS = ("meadow", "cave", "keep")
 
 
 class Map:
-    """The letters of a level and what its text says besides them."""
+    """The letters of a level and its sections."""
 
     def __init__(self, text, source):
         sections = _sections(text, source)
@@ -36,15 +36,15 @@ class Map:
         }  # open tiles under covers
 
     def at(self, x, y):
-        """The letter at a tile; outside counts as ground, so that edges of the map are drawn as inside."""
+        """Return the letter at a tile; outside counts as ground, so that the map's edges look like its inside."""
         return self.rows[y][x] if 0 <= x < self.width and 0 <= y < self.height else GROUND
 
     def buried(self, x, y):
-        """The letter at a tile, covered rooms being filled."""
+        """Return the letter at a tile, with covered rooms filled."""
         return Filled(self, self.rooms).at(x, y)
 
     def places(self, letter):
-        """Tiles (x, y) of a letter, left to right, top to bottom within a column."""
+        """Return the tiles (x, y) of a letter, left to right, top to bottom within a column."""
         return [(x, y) for x in range(self.width) for y in range(self.height) if self.rows[y][x] == letter]
 
 
@@ -63,7 +63,7 @@ def _sections(text, source):
 
 
 def _numbers(line, count, source, rule):
-    """So many whole numbers of a line, as a tuple."""
+    """Return that many whole numbers of a line, as a tuple."""
     try:
         values = [int(word) for word in line.split()]
     except ValueError:
@@ -82,7 +82,7 @@ def _platform(line, source):
 
 
 def _zone(line, source):
-    """(act, rectangle, rows that the camera may show or None), tiles."""
+    """Return (act, rectangle, rows that the camera may show or None), tiles."""
     act, _, rest = line.partition(" ")
     if act not in ACTS:
         raise ValueError(f"{source}: a zone is one of {', '.join(ACTS)} (got {line!r})")
@@ -98,13 +98,13 @@ def _hint(line, source):
 
 
 class Filled:
-    """A level whose rooms are filled with what is above them."""
+    """A level with its rooms filled by the letter above them."""
 
     def __init__(self, level, rooms):
         self.level, self.rooms = level, rooms
 
     def at(self, x, y):
-        """The letter at a tile."""
+        """Return the letter at a tile."""
         while (x, y) in self.rooms:
             y -= 1
         return self.level.at(x, y)

@@ -1,4 +1,4 @@
-"""The objects of a level: what its letters and sections stand for besides tiles, as rows for Tiled's object layers.
+"""The objects of a level: its letters and sections besides tiles, as rows for Tiled's object layers.
 
 A row is (type, x, y, width, height, properties), px, x and y the top left corner.
 """
@@ -25,11 +25,11 @@ FLOATING = ("coin", "secret")
 WALKERS = ("walker", "hedgehog")
 FLOORS = "#BR-<>"
 WALLS = "#BRcW^/\\1234"
-SPIKES_INSET = (3, 7)  # [px] kinder than it looks: the points' outer pixels do not hurt
+SPIKES_INSET = (3, 7)  # [px] smaller than drawn: the points' outer pixels do not hurt
 
 
 def objects(level):
-    """The rows of what is met in the level, left to right, top to bottom within a column."""
+    """Return the rows of the level's things, left to right, top to bottom within a column."""
     out, signs, platforms = [], iter(level.signs), iter(level.platforms)
     for x in range(level.width):
         for y in range(level.height):
@@ -66,7 +66,7 @@ def objects(level):
 
 
 def hints(level):
-    """The rows of the scripted player's way, in its order."""
+    """Return the rows of the scripted player's path, in its order."""
     return [
         ("hint", x * TILE, y * TILE, TILE, TILE, {"order": number, "act": act})
         for number, (x, y, act) in enumerate(level.hints)
@@ -85,7 +85,7 @@ def _standing(level, letter, x, y, signs):
 
 
 def _extent(level, x, y):
-    """(columns, rows) of the block of one letter whose top left is at a tile."""
+    """Return (columns, rows) of the block of one letter whose top left is at a tile."""
     letter = level.at(x, y)
     width = next(i for i in range(1, level.width + 1) if level.at(x + i, y) != letter)
     return width, next(i for i in range(1, level.height + 1) if level.at(x, y + i) != letter)
@@ -105,7 +105,9 @@ def _pixels(rect):
 
 
 def walking_range(level, x, y, most=4):
-    """How far in px a walker may go to either side, at most so many tiles: flat free ground, or the deck under it."""
+    """Return how far a walker may go to either side [px], at most so many tiles: flat free ground, or the deck under
+    it.
+    """
     deck = _deck(level, x, y + 1)
     for step in range(1, most + 1):
         for side in (-1, 1):
@@ -117,7 +119,7 @@ def walking_range(level, x, y, most=4):
 
 
 def _deck(level, x, y):
-    """The tile (column, row) of the platform whose deck is at a tile, or None."""
+    """Return the tile (column, row) of the platform whose deck is at a tile, or None."""
     for (column, row), (_, _, _, width) in zip(level.places("P"), level.platforms, strict=True):
         if row == y and 0 <= x - column < width // TILE:
             return column, row

@@ -1,11 +1,11 @@
-"""Which tile stands where in a level: the letter says what it is, its neighbours how it looks."""
+"""Choice of a level's tiles: the letter gives the kind, its neighbours the picture."""
 
 from assets.platformer.decoration import SCENERY
 from assets.platformer.level_text import GROUND, SOLIDS, Filled
 from assets.platformer.level_things import HANGING, STANDING
 from assets.platformer.tiles import DEPTHS, NE, NW, SE, SW, E, N, S, W, reduced
 
-DEEP = 4  # [tiles] below the surface the ground is dark
+DEEP = 4  # [tiles] below the surface, from which ground is dark
 SLOPE_LETTERS = {
     "/": "slope_up",
     "\\": "slope_down",
@@ -29,14 +29,14 @@ DECOR_LETTERS = {
     "n": "banner",
     "L": "ladder",
 }
-WALLS = {",": "back_wall", ":": "back_cave"}  # behind these letters, and behind what stands or hangs among them
+WALLS = {",": "back_wall", ":": "back_cave"}  # behind these letters, and behind things among them
 THINGS = "".join(STANDING) + "".join(HANGING) + "!ijxgnLCPW-"
 AROUND = ((N, 0, -1), (NE, 1, -1), (E, 1, 0), (SE, 1, 1), (S, 0, 1), (SW, -1, 1), (W, -1, 0), (NW, -1, -1))
 GROWTH = (("tuft_0", 30), ("tuft_1", 55), ("flower_0", 62), ("flower_1", 67))  # running percent of free grass tiles
 
 
 def tile_name(level, x, y):
-    """The name of the colliding tile at (x, y), or None."""
+    """Return the name of the colliding tile at (x, y), or None."""
     letter = level.at(x, y)
     if letter in SLOPE_LETTERS:
         return SLOPE_LETTERS[letter]
@@ -49,7 +49,7 @@ def tile_name(level, x, y):
 
 
 def solid_name(level, x, y):
-    """The name of the ground, rock or stone tile at (x, y), by its neighbours."""
+    """Return the name of the ground, rock or stone tile at (x, y), by its neighbours."""
     letter = level.at(x, y)
     if level.at(x, y - 1) in SLOPE_LETTERS:
         return f"under_{SLOPE_LETTERS[level.at(x, y - 1)]}"
@@ -77,7 +77,9 @@ def cover_names(level):
 
 
 def _depth(level, x, y):
-    """Tiles to the nearest open one, at most DEEP. A covered room is not open: nothing may tell where it is."""
+    """Return the number of tiles to the nearest open one, at most DEEP. A covered room is not open, so that the tiles
+    do not reveal it.
+    """
     for reach in range(1, DEEP + 1):
         ring = [
             (dx, dy)
@@ -95,7 +97,7 @@ def _joins(level, x, y):
 
 
 def _scatter(x, y):
-    """A fixed pseudo-random number 0..99 per tile."""
+    """Return a fixed pseudo-random number 0..99 per tile."""
     return (x * 7919 + y * 104729 + x * y * 31 + (x ^ y) * 613) % 9973 % 100
 
 
@@ -129,7 +131,9 @@ def decor_names(level):
 
 
 def _wall_behind(level, x, y):
-    """The wall behind a tile: its own letter's, else of the nearest tile in its row that is no thing. Or None."""
+    """Return the wall behind a tile: its own letter's, else that of the nearest tile in its row that is no thing, or
+    None.
+    """
     if level.at(x, y) in WALLS:
         return WALLS[level.at(x, y)]
     if level.at(x, y) not in THINGS:

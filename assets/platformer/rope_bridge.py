@@ -1,24 +1,26 @@
-"""A rope bridge that sags: its boards, whose upper side is what the hero walks on, and the ropes behind him."""
+"""A rope bridge that sags: its boards, whose upper side the hero walks on, and the ropes behind him."""
 
 import numpy as np
 
 from assets.craft.palette import OUTLINE, RAMPS
 
-WIDTH, SAG = 128, 14  # [px] from end to end, and how much lower its middle is
-BOARD = 8  # [px] a board is wide
+WIDTH, SAG = 128, 14  # [px] length, and depth of its middle below the ends
+BOARD = 8  # [px] width of a board
 THICK = 6  # [px] boards and the rope under them, outlines included
-RAIL = 12  # [px] the ropes are above the boards
-POST = 3  # [px] a post is wide, outlines included
+RAIL = 12  # [px] height of the ropes above the boards
+POST = 3  # [px] width of a post, outlines included
 
 
 def tops():
-    """(128,) whole px from the ends' height down to the upper side of the boards: a parabola."""
+    """Return (128,) whole px from the ends' height down to the upper side of the boards: a parabola."""
     across = (np.arange(WIDTH) + 0.5) / WIDTH
     return np.floor(4.0 * SAG * across * (1.0 - across) + 0.5).astype(int)
 
 
 def boards():
-    """The boards, 128 x 20 px, alpha 255 from the upper side down and 0 above it: they collide as they are drawn."""
+    """Return the boards, 128 x 20 px, alpha 255 from the upper side down and 0 above it: their picture is their
+    collision shape.
+    """
     wood = RAMPS["wood"]
     picture = np.zeros((SAG + THICK, WIDTH, 4), np.uint8)
     for column, top in enumerate(tops().tolist()):
@@ -32,7 +34,7 @@ def boards():
 
 
 def ropes():
-    """Handrails, hangers and posts, 128 x 30 px; the boards' ends are 12 px below its top."""
+    """Return handrails, hangers and posts, 128 x 30 px; the boards' ends are 12 px below its top."""
     wood, rope = RAMPS["wood"], RAMPS["gold"]
     picture = np.zeros((RAIL + SAG + 4, WIDTH, 4), np.uint8)
     levels = tops().tolist()

@@ -1,6 +1,6 @@
 """The platformer's distance: a dusk sky, three ranges of mountains and a bank of clouds, all seamless in x.
 
-Far layers are lighter and paler (the air between), near ones dark and rich, so the tiles in front read first.
+Far layers are lighter and paler, near ones dark and rich, so that the tiles in front stand out.
 """
 
 import numpy as np
@@ -63,7 +63,7 @@ def _stars(picture):
 
 
 def ridge_line(cells, octaves, seed, sharp):
-    """Heights 0..1 of a seamless ridge; sharp 0..1 blends from rolling hills to peaks."""
+    """Return heights 0..1 of a seamless ridge; sharp 0..1 blends from rolling hills to peaks."""
     rolling = layered_noise(WIDTH, 4, cells, 1, octaves, seed)[0]
     peaks = 1 - abs(layered_noise(WIDTH, 4, cells, 1, octaves, seed + 50)[0] * 2 - 1)
     line = rolling * (1 - sharp) + peaks * sharp
@@ -71,17 +71,17 @@ def ridge_line(cells, octaves, seed, sharp):
 
 
 def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
-    """One range, (height, 480, 4) uint8.
+    """Return one range, (height, 480, 4) uint8.
 
     low, high: px of rock at the lowest and highest point; tones: (shade, body, light, edge); snow: two colours for the
-    caps; haze: colour that the foot fades into.
+    caps; haze: colour of the fading foot.
     """
     line = ridge_line(cells, 6, seed, 0.75)
     top = height - (low + (high - low) * line)
     y, x = np.mgrid[0:height, 0:WIDTH]
     depth = y - top[None, :]
     solid = depth >= 0
-    # Facets: a pixel takes its light from the slope of the ridge up its diagonal, as strata fall from a crest.
+    # Facets: a pixel is lit by the slope of the ridge up its diagonal, like strata that fall from a crest.
     smooth = sum(np.roll(line, k) for k in range(-3, 4)) / 7
     slope = np.roll(smooth, -2) - np.roll(smooth, 2)
     wobble = layered_noise(WIDTH, height, 30, max(2, height // 10), 3, seed + 7) - 0.5
@@ -103,14 +103,14 @@ def mountains(height, low, high, cells, seed, tones, snow=None, haze=None):
 
 
 def pines(height, seed):
-    """The nearest range: wooded hills in four rows of firs, each nearer and darker, (height, 480, 4) uint8."""
+    """Return the nearest range: wooded hills in four rows of firs, each nearer and darker, (height, 480, 4) uint8."""
     line = ridge_line(3, 4, seed, 0.2)
     out = np.zeros((height, WIDTH, 4), np.uint8)
     y = np.mgrid[0:height, 0:WIDTH][0]
     random = np.random.default_rng(seed)
     for row, (drop, tall, tones) in enumerate(FIR_ROWS):
         body, light, edge = oklch_all(*tones)
-        # Every row's ground rolls on its own, so that the rows do not look like one moved down.
+        # Every row's ground rolls by itself, so that the rows differ in outline.
         ground = height - (26 + 30 * np.roll(line, row * 61)) * (1 - 0.16 * row) + drop
         fog = (y - ground[None, :]) / 16 + dither(height, WIDTH) * 0.8  # mist between the rows, thinner down the hill
         hill = y >= ground[None, :]
@@ -128,12 +128,12 @@ def pines(height, seed):
                 (body, light, edge),
             )
             column += 4 + int(gap * gap * (20 - 3 * row)) + int(lean * 3)
-    out[y + dither(height, WIDTH) * 8 > height - 9] = (*body, 255)  # the foot is one dark, for a scene to go on with
+    out[y + dither(height, WIDTH) * 8 > height - 9] = (*body, 255)  # a foot of one dark colour that scenes continue
     return out
 
 
 def _pine(out, column, foot, size, tones):
-    """One fir: jagged tiers that widen downwards, lit along its left edge."""
+    """Draw one fir: jagged tiers that widen downwards, lit along its left edge."""
     body, light, edge = tones
     for i in range(size):
         row = foot - size + i
@@ -147,7 +147,7 @@ def _pine(out, column, foot, size, tones):
 
 
 def bank(width, height, seed, base, puffs, tones):
-    """A row of cumulus puffs with flat, fading bottoms, (height, width, 4), seamless in x.
+    """Return a row of cumulus puffs with flat, fading bottoms, (height, width, 4), seamless in x.
 
     base: y of the bottoms in px; puffs: ((x, lift, radius), ...) in px; tones: four colours, dark to light.
     """

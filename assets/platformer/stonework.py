@@ -1,4 +1,6 @@
-"""What moves or gives way in the platformer: crumbling stone and its bits, the belt's three pieces, the hidden gem."""
+"""Moving and crumbling things of the platformer: crumbling stone and its bits, the belt's three pieces, the hidden
+gem.
+"""
 
 from itertools import pairwise
 
@@ -9,21 +11,21 @@ from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
 from assets.craft.shading import Sprite
 
 CRUMBLE = (32, 16)  # [px]
-PHASES = 4  # of the belt: it has moved on by a quarter of its tread in each
+PHASES = 4  # of the belt: it moves on by a quarter of its tread in each
 GEM_WIDTHS = (5.4, 4.4, 2.8, 4.4)  # [px] half widths over a turn
 CRACKS = (
-    # what each look adds to the cracks of the one before: lines of points, px
+    # additions of each look to the cracks of the one before: lines of points, px
     (((9, 1), (11, 5), (10, 7)),),
     (((10, 7), (13, 10), (12, 15)), ((23, 1), (21, 4), (23, 7))),
     (((23, 7), (20, 10), (21, 15)), ((11, 5), (16, 6), (18, 9), (20, 10)), ((1, 10), (5, 9), (10, 7))),
     (((23, 7), (27, 8), (31, 7)), ((5, 9), (6, 13), (5, 15)), ((16, 6), (17, 1)), ((27, 8), (27, 15))),
 )
-# what is missing in each look: boxes, px
+# missing parts in each look: boxes, px
 GAPS = ((), ((8, 0, 11, 3),), ((0, 13, 4, 16), (21, 0, 24, 3)), ((14, 12, 18, 16), (28, 0, 32, 4), (5, 14, 7, 16)))
 
 
 def crumble(look):
-    """A stone slab that gives way, look 0..3: more cracks, then missing bits; one piece throughout."""
+    """Return a crumbling stone slab, look 0..3: more cracks, then missing bits; one piece throughout."""
     sprite = Sprite(*CRUMBLE)
     x, y = sprite.x, sprite.y
     stone = RAMPS["stone"]
@@ -31,7 +33,7 @@ def crumble(look):
     for seam in (10.5, 21.5):
         sprite.paint(box(x, y, seam - 0.5, 1, seam + 0.5, 15), stone[1], 0.8)
         sprite.paint(box(x, y, seam + 0.5, 2, seam + 1.5, 14), stone[4], 0.5)
-    sprite.paint(box(x, y, 2, 1, 30, 2), RAMPS["gold"][4], 0.55)  # worn yellow edge: not to be trusted
+    sprite.paint(box(x, y, 2, 1, 30, 2), RAMPS["gold"][4], 0.55)  # worn yellow edge, as a warning
     sprite.paint(box(x, y, 2, 13, 30, 15), stone[1], 0.5)
     for left, top, right, bottom in GAPS[look]:
         sprite.cut(box(x, y, left, top, right, bottom, 1.2))
@@ -46,7 +48,7 @@ def crumble(look):
 
 
 def crumble_bit(kind):
-    """A fallen bit of it, kind 0..2: 8 x 8 px."""
+    """Return a fallen bit of it, kind 0..2: 8 x 8 px."""
     sprite = Sprite(8, 8)
     points = (
         ((1.4, 2), (4.4, 1.2), (6.6, 3.4), (5.6, 6.4), (2.2, 6.4)),
@@ -58,7 +60,9 @@ def crumble_bit(kind):
 
 
 def belt(part, phase):
-    """A piece of conveyor belt, 16 x 16 px, its top running right with rising phase. part: left_end, mid, right_end."""
+    """Return a piece of conveyor belt, 16 x 16 px, its top running right with rising phase. part: left_end, mid,
+    right_end.
+    """
     sprite = Sprite(16, 16)
     x, y = sprite.x, sprite.y
     left, right = {"left_end": (1, 40), "mid": (-40, 56), "right_end": (-40, 15)}[part]
@@ -85,7 +89,7 @@ def belt(part, phase):
 
 
 def _wheel(sprite, middle, radius, phase):
-    """A wheel of the belt, whose spoke turns with it."""
+    """Draw a wheel of the belt, whose spoke rotates with it."""
     x, y = sprite.x, sprite.y
     sprite.part(circle(x, y, middle, 7, radius), RAMPS["steel"], bulge=2.4, base=0.50, gain=0.5, grain=0)
     turn = ((1.0, 0.0), (0.7, 0.7), (0.0, 1.0), (-0.7, 0.7))[phase]
@@ -100,13 +104,13 @@ def _wheel(sprite, middle, radius, phase):
 
 
 def _open(sprite, column):
-    """Where the next piece goes on, the outline runs on above and below the belt."""
+    """Open the side towards the next piece: the outline continues above and below the belt."""
     for row in (0, 13):
         sprite.dot(column, row, OUTLINE)
 
 
 def gem(frame):
-    """A cut stone that turns, frame 0..3: 14 x 14 px; the light stays where it is."""
+    """Return a rotating cut stone, frame 0..3: 14 x 14 px; the light stays in place."""
     sprite = Sprite(14, 14)
     x, y, half = sprite.x, sprite.y, GEM_WIDTHS[frame]
     ramp = RAMPS["teal"]

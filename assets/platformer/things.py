@@ -40,7 +40,7 @@ LETTERS = {
     "z": RAMPS["blue"][2],  # bat
 }
 COIN_WIDTHS = (5.0, 4.2, 2.6, 1.2, 2.6, 4.2)  # [px] half widths over a turn
-FLAG_WAVE = (  # [px] how far the cloth hangs, along it, per frame
+FLAG_WAVE = (  # [px] offset of the cloth, along it, per frame
     (0, 0, 0, 1, 1, 1, 0, 0),
     (0, 0, 1, 1, 1, 0, 0, -1),
     (0, 1, 1, 1, 0, 0, -1, -1),
@@ -49,12 +49,12 @@ FLAG_WAVE = (  # [px] how far the cloth hangs, along it, per frame
 
 
 def coin(frame):
-    """A spinning coin, frame 0..5: 14 x 14 px."""
+    """Return a spinning coin, frame 0..5: 14 x 14 px."""
     sprite = Sprite(14, 14)
     x, y, half = sprite.x, sprite.y, COIN_WIDTHS[frame]
     gold = RAMPS["gold"]
     sprite.flat(ellipse(x, y, 7, 7, half + 0.3, 5.3), gold[4])
-    sprite.paint(ellipse(x, y, 7.9, 8.0, half + 0.3, 5.3) * -1, gold[5])  # the lit rim: what a shifted disc leaves
+    sprite.paint(ellipse(x, y, 7.9, 8.0, half + 0.3, 5.3) * -1, gold[5])  # the lit rim: the rest of a shifted disc
     sprite.paint(ellipse(x, y, 6.1, 6.0, half + 0.3, 5.3) * -1, gold[2])  # and the rim in shadow
     if half > 2:
         sprite.paint(ellipse(x, y, 7, 7, half - 1.5, 3.6), gold[3])
@@ -66,7 +66,7 @@ def coin(frame):
 
 
 def sparkle(frame):
-    """A coin's farewell, frame 0..3: 14 x 14 px."""
+    """Return the sparkle of a taken coin, frame 0..3: 14 x 14 px."""
     sprite = Sprite(14, 14)
     reach = (2.0, 4.0, 5.6, 6.4)[frame]
     for step_x, step_y in ((1, 0), (-1, 0), (0, 1), (0, -1)):
@@ -87,7 +87,7 @@ def sparkle(frame):
 
 
 def dust(frame):
-    """A puff at the feet, frame 0..4: 16 x 10 px: two rolling clouds that part, rise and thin."""
+    """Return a puff at the feet, frame 0..4: 16 x 10 px: two rolling clouds that part, rise and thin."""
     sprite = Sprite(16, 10)
     x, y = sprite.x, sprite.y
     tones = (RAMPS["dirt"][4], RAMPS["dirt"][5], RAMPS["stone"][5])
@@ -103,7 +103,7 @@ def dust(frame):
 
 
 def crate(size):
-    """A wooden crate, size x size px, framed and cross-braced."""
+    """Return a wooden crate, size x size px, framed and cross-braced."""
     sprite = Sprite(size, size)
     x, y, edge = sprite.x, sprite.y, max(3, size // 8)
     sprite.part(box(x, y, 1, 1, size - 1, size - 1, 1), RAMPS["wood"], bulge=2, base=0.36, gain=0.2)
@@ -129,7 +129,7 @@ def crate(size):
 
 
 def platform(width):
-    """A moving platform of stone slabs on brackets, width x 16 px; its top row is the surface."""
+    """Return a moving platform of stone slabs on brackets, width x 16 px; its top row is the surface."""
     sprite = Sprite(width, 16)
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, 1, 1, width - 1, 9, 2), RAMPS["stone"], bulge=3, base=0.56)
@@ -148,7 +148,7 @@ def platform(width):
 
 
 def checkpoint(lit, frame):
-    """A lamp post, 16 x 32 px; lit ones glow, frame 0..1."""
+    """Return a lamp post, 16 x 32 px; lit ones glow, frame 0..1."""
     sprite = Sprite(16, 32)
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (8, 13), (8, 30), 1.4), RAMPS["wood"], bulge=1.5, base=0.5)
@@ -162,7 +162,7 @@ def checkpoint(lit, frame):
 
 
 def goal(frame):
-    """A tall pole with a waving flag, frame 0..3: 32 x 48 px; the pole stands at x 5..8."""
+    """Return a tall pole with a waving flag, frame 0..3: 32 x 48 px; the pole stands at x 5..8."""
     sprite = Sprite(32, 48)
     x, y = sprite.x, sprite.y
     cloth = FLAG_WAVE[frame]
@@ -182,7 +182,7 @@ def goal(frame):
 
 
 def arrow(frame):
-    """A bobbing hint arrow pointing down, frame 0..1: 11 x 12 px."""
+    """Return a bobbing hint arrow pointing down, frame 0..1: 11 x 12 px."""
     sprite = Sprite(11, 12)
     shape = ((4, 1), (7, 1), (7, 5), (9.8, 5), (5.5, 10), (1.2, 5), (4, 5))
     points = [(x, y + frame) for x, y in shape]
@@ -191,7 +191,7 @@ def arrow(frame):
 
 
 def hedgehog(frame):
-    """A walker full of spines, frame 0..3, facing left: 20 x 14 px. Nobody jumps on that."""
+    """Return a walker full of spines, frame 0..3, facing left: 20 x 14 px. It cannot be stomped."""
     sprite = Sprite(20, 14)
     x, y = sprite.x, sprite.y
     for i, foot in enumerate((6.2, 9.4, 13.0, 16.0)):  # near and far feet in turn

@@ -1,9 +1,9 @@
-"""Turns assets/levels/platformer.txt, one letter per tile, into a Tiled map (.tmj) with the tileset embedded.
+"""Conversion of assets/levels/platformer.txt, one letter per tile, to a Tiled map (.tmj) with the tileset embedded.
 
-Layers, back to front: "decor" and "solid" (tiles), "cover" (tiles that hide rooms until somebody is inside), "things"
-and "bot hints" (objects). Objects are rectangles in px, x and y the top left corner; moving platforms carry to_x, to_y
-(px, of that corner at the far end) and period (s, there and back), belts speed (px/s), zones the act whose look they
-have.
+Layers, back to front: "decor" and "solid" (tiles), "cover" (tiles that hide rooms until the hero is inside), "things"
+and "bot hints" (objects). Objects are rectangles in px, x and y the top left corner; moving platforms have to_x, to_y
+(px, of that corner at the far end) and period (s, there and back), belts speed (px/s), zones the act that sets their
+look.
 """
 
 import itertools
@@ -25,7 +25,7 @@ def _properties(values):
 
 
 def tileset(table):
-    """The embedded tileset: where each tile is in images/tiles.png and what it is."""
+    """Return the embedded tileset: the place of each tile in images/tiles.png, and its kind."""
     columns = SHEET_WIDTH // TILE
     rows = -(-len(table) // columns)
     return {
@@ -71,7 +71,7 @@ def tiled_map(level):
 
 
 def _tile_layers(level, table):
-    """The layers of tiles, back to front. table: all tiles in the order of the tileset, from 1; 0 is no tile."""
+    """Return the layers of tiles, back to front. table: all tiles in the order of the tileset, from 1; 0 is no tile."""
     numbers = {name: i for i, name in enumerate(table, 1)}
     cells = [(x, y) for y in range(level.height) for x in range(level.width)]
     decor, walls = decor_names(level)
@@ -82,7 +82,7 @@ def _tile_layers(level, table):
         "cover": cover_names(level),
     }
     size = {"width": level.width, "height": level.height, "x": 0, "y": 0, "opacity": 1, "visible": True}
-    # A tree may reach past the map or have clear corners that are no tiles: neither is in the data.
+    # A tree may extend past the map or have clear corners without tiles: neither is in the data.
     return [
         {"name": name, "type": "tilelayer", **size, "data": [numbers.get(names.get(place), 0) for place in cells]}
         for name, names in pictures.items()
@@ -90,7 +90,7 @@ def _tile_layers(level, table):
 
 
 def _object_layers(level):
-    """The layers of objects, which are numbered through from 1."""
+    """Return the layers of objects, which are numbered through from 1."""
     numbers, groups = itertools.count(1), []
     for name, rows in (("things", objects(level)), ("bot hints", hints(level))):
         things = [
@@ -124,7 +124,7 @@ def _object_layers(level):
 
 
 def to_tmj(structure):
-    """Return the map's bytes with a line per map row, tile and object, so that a change shows as a small diff."""
+    """Return the map's bytes with a line per map row, tile and object, so that changes give small diffs."""
     text = json.dumps(structure, ensure_ascii=False)
     for layer in structure["layers"]:
         if "data" in layer:

@@ -23,7 +23,7 @@ MATERIALS = {
     "stone": ("stone", "stone", 400),
     "rock": ("rock", "rock", 500),
 }
-LATER = ("rock",)  # materials whose tiles stand behind all others, so that the older numbers stay
+LATER = ("rock",)  # materials whose tiles come last, so that the older numbers stay
 # name: (surface height at the left edge, at the right edge), as fractions of the tile above its bottom
 SLOPES = {
     "slope_up": (0.0, 1.0),
@@ -44,7 +44,7 @@ FRINGE = np.array([3, 4, 3, 5, 4, 3, 3, 4, 5, 4, 3, 4, 3, 3, 5, 4])  # [px] dept
 
 
 def reduced(mask):
-    """Drop the corner bits that do not show: those without both of their sides."""
+    """Drop the invisible corner bits: those without both of their sides."""
     for corner, first, second in CORNERS:
         if not (mask & first and mask & second):
             mask &= ~corner
@@ -55,7 +55,9 @@ BLOBS = sorted({reduced(mask) for mask in range(256)})
 
 
 def texture(material, variant=0):
-    """The inside of a material, (16, 16, 3) uint8: quiet, with a few clods, stones or cracks; any variants join."""
+    """Return the inside of a material, (16, 16, 3) uint8: quiet, with a few clods, stones or cracks; any variants
+    join.
+    """
     body, _, seed = MATERIALS[material]
     ramp = RAMPS[body]
     if material == "rock":
@@ -76,7 +78,7 @@ def texture(material, variant=0):
 
 
 def deep(variant):
-    """Ground far below the surface, (16, 16, 4) uint8: darker and quieter; 0..2 plain, 3 a bone, 4 a crystal."""
+    """Return ground far below the surface, (16, 16, 4) uint8: darker and quieter; 0..2 plain, 3 a bone, 4 a crystal."""
     dark = mix(RAMPS["dirt"][1], OUTLINE, 0.42)
     light = mix(RAMPS["dirt"][1], OUTLINE, 0.18)
     grain = noise(TILE, TILE, 4, 4, 340) * 0.7 + noise(TILE, TILE, 8, 8, 341 + variant) * 0.3
@@ -93,13 +95,15 @@ def deep(variant):
 
 
 def fading(variant):
-    """Between ground and deep ground: one dithered into the other, (16, 16, 4) uint8, variant 0..1."""
+    """Return the transition from ground to deep ground: one dithered into the other, (16, 16, 4) uint8, variant
+    0..1.
+    """
     upper, lower = texture("ground", variant), deep(variant)[..., :3]
     return opaque(np.where((dither(TILE, TILE) > 0)[..., None], upper, lower))
 
 
 def _bricks(picture, ramp, variant):
-    """Two courses of blocks, offset by half, with lit upper and dark lower edges."""
+    """Draw two courses of blocks, offset by half, with lit upper and dark lower edges."""
     picture[:] = mix(picture, ramp[2], 0.6)
     for row, offset in ((0, 4), (8, 12)):
         picture[row] = ramp[3]
@@ -121,7 +125,7 @@ def _bricks(picture, ramp, variant):
 
 
 def blob(material, mask, variant=0):
-    """One ground tile for the neighbours in mask, (16, 16, 4) uint8, fully solid."""
+    """Return one ground tile for the neighbours in mask, (16, 16, 4) uint8, fully solid."""
     ramp, cap = RAMPS[MATERIALS[material][0]], RAMPS[MATERIALS[material][1]]
     picture = texture(material, variant)
     grass = material == "ground"
@@ -150,7 +154,7 @@ def _side(picture, ramp, column, inward, light):
 
 
 def _top(picture, cap, material):
-    """Outline, lit blades and a ragged fringe of grass, or a worn lip of stone or rock."""
+    """Draw outline, lit blades and a ragged fringe of grass, or a worn lip of stone or rock."""
     picture[0] = OUTLINE
     if material != "ground":
         picture[1] = cap[5]
@@ -170,7 +174,7 @@ def _top(picture, cap, material):
 
 
 def _inner_corner(picture, corner, cap, grass):
-    """The outline, and the end of the neighbour's grass, where a diagonal neighbour is missing."""
+    """Draw the outline, and the end of the neighbour's grass, at a missing diagonal neighbour."""
     column = 0 if corner in (NW, SW) else 15
     row = 0 if corner in (NW, NE) else 15
     picture[row, column] = OUTLINE
@@ -183,7 +187,7 @@ def _inner_corner(picture, corner, cap, grass):
 
 
 def slope(name):
-    """A grassy slope, (16, 16, 4) uint8: clear above the surface."""
+    """Return a grassy slope, (16, 16, 4) uint8: clear above the surface."""
     left, right = SLOPES[name]
     cap = RAMPS["grass"]
     picture = texture("ground", 1)
@@ -201,7 +205,7 @@ def slope(name):
 
 
 def under_slope(name):
-    """The tile below a slope's foot: plain ground with the last of the slope's grass shadow, fully solid."""
+    """Return the tile below a slope's foot: plain ground with the last of the slope's grass shadow, fully solid."""
     left, right = SLOPES[name]
     picture = texture("ground", 0)
     cap = RAMPS["grass"]
@@ -214,7 +218,7 @@ def under_slope(name):
 
 
 def plank(part):
-    """A one-way plank, 16 x 16 with its boards in the top 6 rows. part: left, middle, right or single."""
+    """Return a one-way plank, 16 x 16 with its boards in the top 6 rows. part: left, middle, right or single."""
     wood = RAMPS["wood"]
     picture = np.zeros((TILE, TILE, 4), np.uint8)
     rows = (OUTLINE, wood[5], wood[4], wood[3], wood[2], OUTLINE)
@@ -232,7 +236,7 @@ def plank(part):
 
 
 def _bracket(picture, column, inward):
-    """A short strut under an end of a plank."""
+    """Draw a short strut under an end of a plank."""
     for i in range(5):
         for dx, colour in ((0, RAMPS["wood"][2]), (inward, RAMPS["wood"][1])):
             picture[6 + i, column + dx] = (*colour, 255)
@@ -241,7 +245,7 @@ def _bracket(picture, column, inward):
 
 
 def ladder(top):
-    """A wooden ladder, 16 x 16, repeating downwards; its top piece has a landing of planks to stand on."""
+    """Return a wooden ladder, 16 x 16, repeating downwards; its top piece has a landing of planks to stand on."""
     wood = RAMPS["wood"]
     picture = np.zeros((TILE, TILE, 4), np.uint8)
     for left in (2, 11):
@@ -287,7 +291,7 @@ def tile_table():
     for part in ("left", "middle", "right", "single"):
         table[f"plank_{part}"] = (plank(part), {"kind": "one_way"})
     table.update(decoration_tiles())
-    # What came later is appended, so that the numbers of the tiles above stay theirs.
+    # Later tiles are appended, so that the numbers above do not change.
     table["ladder"] = (ladder(False), {"kind": "decor"})
     table["ladder_top"] = (ladder(True), {"kind": "one_way"})
     for material in LATER:

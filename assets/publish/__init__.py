@@ -1,1 +1,1 @@
-"""Pictures made of the finished work: the menu's, and those of docs/."""
+"""Pictures of the finished work: the menu's, and those of docs/."""

@@ -41,7 +41,7 @@ BACKDROPS = (
     "lander_mid",
     "lander_near",
 )
-SHRUNK = 3  # a backdrop is shown at a third of its size, so at its own after scaling
+SHRUNK = 3  # a backdrop is shown at a third of its size, and at its own size after scaling
 BACKGROUND = oklch(0.36, 0.045, 285)
 PAPER = oklch(0.27, 0.045, 285)
 
@@ -57,7 +57,7 @@ def load_frames(name):
 
 
 def section(name, frames):
-    """One sheet's frames in rows under its name, (h, WIDTH, 3) uint8."""
+    """Return one sheet's frames in rows under its name, (h, WIDTH, 3) uint8."""
     rows, row, used = [], [], GAP
     for frame in frames.values():
         if used + frame.shape[1] + GAP > WIDTH and row:
@@ -84,7 +84,7 @@ def section(name, frames):
 
 
 def shrunk(name):
-    """A backdrop at a third of its size, (h, w, 4) uint8: every third pixel, clear where it is half clear."""
+    """Return a backdrop at a third of its size, (h, w, 4) uint8: every third pixel, clear where it is half clear."""
     picture = png.decode((FOLDER / "images" / f"{name}.png").read_bytes())[::SHRUNK, ::SHRUNK]
     return picture if picture.shape[2] == 4 else opaque(picture)
 
@@ -100,7 +100,7 @@ PICTURES = {"sprites": sprites, "moments": moments.sheet}
 
 
 def main(arguments=None):
-    """Write the pictures. Returns the exit code: 0 fine, 2 for a picture that does not exist."""
+    """Write the pictures. Return the exit code: 0 success, 2 for an unknown picture."""
     names = (sys.argv[1:] if arguments is None else arguments) or list(PICTURES)
     for name in names:
         if name not in PICTURES:

@@ -1,6 +1,6 @@
-"""Pictures of the games, filmed while their bots play: the small ones that the menu shows of every scene.
+"""Pictures of the games, filmed while their bots play: the menu's small pictures of all scenes.
 
-Art knows nothing of the games: the program scenes/filming.py films them, and is run here.
+Art does not import the games: the program scenes/filming.py films them, and is run here.
 """
 
 import os
@@ -13,13 +13,13 @@ from assets import FOLDER
 
 ABOVE = __name__.split(".")[:-3]  # the package that holds this one, [] in a checkout
 PROGRAM = ".".join([*ABOVE, "scenes", "filming"])
-ROOT = FOLDER.parents[len(ABOVE)]  # what the names are looked up in
+ROOT = FOLDER.parents[len(ABOVE)]  # where the names are looked up
 
 
 def filmed(what, *names):
-    """Run `python -m scenes.filming` for what it is told; return {file name: bytes} in the order of their names.
+    """Run `python -m scenes.filming` with these arguments; return {file name: bytes} in the order of their names.
 
-    Raises RuntimeError with what the program said when it fails.
+    Raises RuntimeError with the program's output when it fails.
     """
     with TemporaryDirectory() as folder:
         command = [sys.executable, "-P", "-m", PROGRAM, what, *names, folder]

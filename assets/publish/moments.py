@@ -22,14 +22,16 @@ def sheet():
 
 
 def game_moments(name):
-    """One game's moments under its name."""
+    """Return one game's moments under its name."""
     files = filmed("moments", name)
     captions = json.loads(files.pop("captions.json"))
     return laid_out(name, captions, [png.decode(content) for content in files.values()])
 
 
 def laid_out(name, captions, pictures):
-    """Pictures of FRAME's size in rows under a heading, each over its caption. Raises ValueError unless they fit."""
+    """Return pictures of FRAME's size in rows under a heading, each over its caption. Raises ValueError unless they
+    fit.
+    """
     if not len(captions) == len(pictures) == COLUMNS * ROWS:
         raise ValueError(f"{name}: {COLUMNS * ROWS} moments must be there (got {len(captions)}, {len(pictures)})")
     cell_width, cell_height = FRAME[0] + GAP, FRAME[1] + CAPTION + GAP

@@ -1,1 +1,1 @@
-"""The sheets "planes" and "effects" and the grounds the shooter flies over."""
+"""The sheets "planes" and "effects" and the shooter's grounds."""

@@ -1,4 +1,4 @@
-"""Writes what the shooter flies over, 480 x 540, seamless in both directions, to be scrolled downwards.
+"""Grounds of the shooter, 480 x 540, seamless in both directions, to be scrolled downwards.
 
 The grounds sea, coast and storm; clouds_low with cloud_shadows, clouds_high and clouds_storm.
 """
@@ -9,7 +9,7 @@ from assets.shooter.countryside import countryside
 from assets.shooter.stronghold import stronghold
 from assets.shooter.terrain import ground
 
-# Alpha 0..255, clear enough that nothing behind a cloud can surprise.
+# Alpha 0..255, low enough that everything behind a cloud is visible.
 LOW_ALPHA, HIGH_ALPHA, STORM_ALPHA, SHADOW_ALPHA = 130, 90, 150, 70
 
 

@@ -1,7 +1,7 @@
-"""The two show pieces of the shooter, flying down: the heavy bomber half way and the fortress at the end.
+"""The shooter's two leaders, flying down: the heavy bomber half way and the fortress at the end.
 
 The fortress has three looks of one family: whole with its eye half shut, armour torn open, and burning with a wing tip
-gone. Each look has two frames of one silhouette (engines and eye pulse), so that its mask is its own and does not jump.
+gone. Each look has two frames of one silhouette (engines and eye pulse), so that both have one mask.
 """
 
 from assets.craft.fields import box, capsule, ellipse, polygon
@@ -14,7 +14,7 @@ LOOKS = "abc"
 
 
 def midboss(frame):
-    """The heavy bomber, frame 0..1: a flying wing in rust and iron with four engines and three turrets."""
+    """Return the heavy bomber, frame 0..1: a flying wing in rust and iron with four engines and three turrets."""
     sprite = Sprite(*MIDBOSS)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -43,7 +43,7 @@ def midboss(frame):
 
 
 def _midboss_side(sprite, side, frame):
-    """Wing, tail fin, two engines, turret and gun of one side. side: -1 left, 1 right."""
+    """Draw wing, tail fin, two engines, turret and gun of one side. side: -1 left, 1 right."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -104,7 +104,7 @@ def _midboss_side(sprite, side, frame):
 
 
 def boss(look, frame):
-    """The flying fortress. look: one of LOOKS; frame 0..1."""
+    """Return the flying fortress. look: one of LOOKS; frame 0..1."""
     sprite = Sprite(*BOSS)
     hurt = LOOKS.index(look)
     hot = (0.15, 0.5, 0.85)[hurt] + 0.15 * frame
@@ -121,7 +121,7 @@ def boss(look, frame):
 
 
 def _wing(sprite, side, frame):
-    """Armoured wing with engines, plates, stripes and two turrets of one side."""
+    """Draw an armoured wing with engines, plates, stripes and two turrets of one side."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -188,7 +188,7 @@ def _wing(sprite, side, frame):
 
 
 def _prong(sprite, side):
-    """The claw at a wing's end with its heavy gun."""
+    """Draw the claw at a wing's end with its heavy gun."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -211,7 +211,7 @@ def _prong(sprite, side):
 
 
 def _hull(sprite, frame):
-    """The spine: stern, bridge, armoured neck and the great gun in the bow."""
+    """Draw the spine: stern, bridge, armoured neck and the great gun in the bow."""
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
         nozzle(sprite, 66 + side * 7 - 5, 66 + side * 7 + 5, 1.5, 14, 1 - frame)
@@ -252,7 +252,7 @@ def _hull(sprite, frame):
 
 
 def _eye(sprite, hurt, hot):
-    """The core: a lens behind an iris of armour that is shut in the first look and gone in the last."""
+    """Draw the core: a lens behind an iris of armour that is shut in the first look and gone in the last."""
     x, y = sprite.x, sprite.y
     sprite.part(ellipse(x, y, 66, 42, 14.2, 14.2), RAMPS["gold"], bulge=3, base=0.44, grain=0.4)
     sprite.part(ellipse(x, y, 66, 42, 12, 12), RAMPS["armour"], bulge=3, base=0.3)
@@ -277,7 +277,7 @@ def _eye(sprite, hurt, hot):
 
 
 def _damage(sprite, hurt, hot):
-    """Holes, soot and glowing cracks; in the last look the right claw is shot off and the wings are open."""
+    """Draw holes, soot and glowing cracks; in the last look the right claw is shot off and the wings are open."""
     wound(sprite, 34, 21, 4.6, 3, hot)
     wound(sprite, 95, 44, 4.0, 5, hot)
     scorch(sprite, 22, 30, 6, 7)

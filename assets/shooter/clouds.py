@@ -11,7 +11,7 @@ STORM = oklch_all((0.20, 0.030, 285), (0.26, 0.032, 280), (0.32, 0.030, 272), (0
 
 
 def cover(width, height, cells_x, cells_y, seed, threshold):
-    """Return (thickness 0.., solid) of a seamless cloud field; the denser the lower the threshold."""
+    """Return (thickness 0.., solid) of a seamless cloud field; the lower the threshold, the denser it is."""
     field = layered_noise(width, height, cells_x, cells_y, 5, seed, 0.55)
     low, high = field.min(), field.max()
     thickness = (field - low) / (high - low) - threshold
@@ -19,13 +19,15 @@ def cover(width, height, cells_x, cells_y, seed, threshold):
 
 
 def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
-    """Clouds over the ground, (540, 480, 4) uint8, seamless in both directions. alpha: 0..255 of a thick part."""
+    """Return clouds over the ground, (540, 480, 4) uint8, seamless in both directions. alpha: 0..255 of a thick
+    part.
+    """
     thickness, solid = cover(480, 540, cells_x, cells_y, seed, threshold)
     lit = np.roll(thickness, (3, 2), (0, 1)) - thickness  # thicker towards the bottom right: faces the light
     level = 1.6 - lit * 26 + thickness * 3 + dither(540, 480) * 0.9
     out = np.zeros((540, 480, 4), np.uint8)
     out[..., :3] = graded(tones, level)
-    # Thin edges are half clear and dithered away, so that no hard contour is taken for an island's.
+    # Thin edges are half clear and dithered, so that they do not look like an island's hard contour.
     edge = thickness / 0.05 + dither(540, 480) * 0.9
     out[..., 3] = np.where(solid & (edge > 0.45), np.where(edge > 1.5, alpha, alpha // 2), 0)
     out[out[..., 3] == 0] = 0
@@ -33,7 +35,7 @@ def from_above(seed, threshold, alpha, cells_x, cells_y, tones=HIGH):
 
 
 def shadow_of(clouds, alpha):
-    """The shadow a cloud layer casts: the same shape in transparent dark."""
+    """Return the shadow a cloud layer casts: the same shape in transparent dark."""
     out = np.zeros_like(clouds)
     solid = clouds[..., 3] > 0
     out[solid] = (12, 10, 30, alpha)

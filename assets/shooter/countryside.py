@@ -1,6 +1,6 @@
 """The shooter's second stretch: a coast with woods, fields, a river, roads and villages, 480 x 540, seamless.
 
-As the sea (terrain.py) it stays at or under 60 % lightness and muted, for bullets to stand out from it.
+Like the sea (terrain.py) it stays at or under 60 % lightness and muted, so that bullets stand out from it.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ from assets.shooter.terrain import (
     plant,
 )
 
-SHORE, BEACH, CRAGS = 0.36, 0.385, 0.80  # heights where one ground gives way to the next: mostly land
+SHORE, BEACH, CRAGS = 0.36, 0.385, 0.80  # heights of the transitions between kinds of ground: mostly land
 CROPS = oklch_all(
     (0.46, 0.058, 112), (0.50, 0.056, 98), (0.42, 0.062, 132), (0.47, 0.050, 86), (0.38, 0.055, 142), (0.44, 0.040, 70)
 )
@@ -35,11 +35,11 @@ ROOF_LIT = oklch_all((0.54, 0.070, 42), (0.50, 0.030, 60), (0.50, 0.055, 30))
 ROOF_DARK = oklch_all((0.38, 0.060, 32), (0.36, 0.026, 50), (0.35, 0.050, 20))
 SHADOW = oklch(0.20, 0.03, 170)
 LAND_CELLS = 70  # fields on the whole picture
-VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))  # [px] middles, those in water are left out
+VILLAGES = ((96, 150), (352, 64), (238, 402), (420, 300))  # [px] middles; those in water are omitted
 
 
 def patchwork(count, seed):
-    """(number, edge): which field each pixel belongs to, and its distance in px to the next field. Seamless."""
+    """Return (number, edge): the field of each pixel, and its distance in px to the next field. Seamless."""
     random = np.random.default_rng(seed)
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     bend = (layered_noise(WIDTH, HEIGHT, 8, 9, 2, seed + 1) - 0.5) * 12
@@ -95,7 +95,7 @@ def countryside():
 
 
 def _fields(picture, where, light):
-    """Crops in their own tones and furrows, hedges between them."""
+    """Draw crops in their own tones and furrows, with hedges between them."""
     number, edge = patchwork(LAND_CELLS, 301)
     random = np.random.default_rng(302)
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
@@ -115,7 +115,7 @@ def _fields(picture, where, light):
 
 
 def _villages(picture, where, road):
-    """Groups of small houses, each with a lit and a shaded side of its roof and a shadow."""
+    """Draw groups of small houses, each with a lit and a shaded side of its roof and a shadow."""
     random = np.random.default_rng(731)
     for middle_x, middle_y in VILLAGES:
         for _ in range(16):

@@ -1,7 +1,7 @@
-"""The player's bullets, flashes, sparks, smoke, debris and light: the small pictures that make hits felt.
+"""The player's bullets, flashes, sparks, smoke, debris and light: the small pictures of hits.
 
-The player's bullets are cool and long, the enemies' (enemy_bullets.py) round with a dark ring, so they read on any
-background and apart from each other without colour. Light discs are opaque on black: they are drawn by adding.
+The player's bullets are cool and long, the enemies' (enemy_bullets.py) round with a dark ring. So they stand out on any
+background and differ from each other without colour. Light discs are opaque on black: they are drawn by adding.
 """
 
 import numpy as np
@@ -17,7 +17,7 @@ from assets.shooter.splash import splash
 
 
 def player_bullet(frame):
-    """A cool streak flying up, frame 0..1: 6 x 16 px."""
+    """Return a cool streak flying up, frame 0..1: 6 x 16 px."""
     sprite = Sprite(6, 16)
     x, y = sprite.x, sprite.y
     tail = (13.5, 11.5)[frame]
@@ -28,7 +28,7 @@ def player_bullet(frame):
 
 
 def side_bullet():
-    """The thin bolt of the second weapon level: 4 x 10 px."""
+    """Return the thin bolt of the second weapon level: 4 x 10 px."""
     sprite = Sprite(4, 10)
     x, y = sprite.x, sprite.y
     sprite.flat(capsule(x, y, (2, 2), (2, 8), 1.7, 0.8), RAMPS["blue"][3])
@@ -37,7 +37,7 @@ def side_bullet():
 
 
 def muzzle_flash(frame):
-    """A star at a gun's mouth, frame 0..2: 14 x 14 px."""
+    """Return a star at a gun's mouth, frame 0..2: 14 x 14 px."""
     sprite = Sprite(14, 14)
     x, y = sprite.x, sprite.y
     reach, waist = ((5.4, 2.6), (6.6, 2.0), (4.2, 1.2))[frame]
@@ -54,7 +54,7 @@ def muzzle_flash(frame):
 
 
 def spark(frame):
-    """An impact spark that flies apart, frame 0..4: 16 x 16 px."""
+    """Return an impact spark that flies apart, frame 0..4: 16 x 16 px."""
     sprite = Sprite(16, 16)
     if frame < 2:
         sprite.flat(circle(sprite.x, sprite.y, 8, 8, (3.4, 2.2)[frame]), FIRE[frame])
@@ -70,7 +70,7 @@ def spark(frame):
 
 
 def smoke(frame):
-    """A puff of rolling lobes that swells, rises, tears and thins, frame 0..5: 20 x 20 px."""
+    """Return a puff of rolling lobes that swells, rises, tears and thins, frame 0..5: 20 x 20 px."""
     sprite = Sprite(20, 20)
     t = frame / 5
     x, y = sprite.x, sprite.y
@@ -88,13 +88,13 @@ def smoke(frame):
 
 
 def debris(kind):
-    """One torn piece of plating, kind 0..5: 10 x 10 px."""
+    """Return one torn piece of plating, kind 0..5: 10 x 10 px."""
     random = np.random.default_rng(70 + kind)
     sprite = Sprite(10, 10)
     turns = np.sort(random.random(6)) * 8
     points = []
     for turn in turns:
-        side, along = int(turn) // 2, turn % 2 - 1  # around a square: no sine needed
+        side, along = int(turn) // 2, turn % 2 - 1  # around a square, without sines
         reach = 2.2 + 1.9 * random.random()
         corner = ((1, along), (-along, 1), (-1, -along), (along, -1))[side]
         points.append((5 + corner[0] * reach, 5 + corner[1] * reach))
@@ -104,7 +104,7 @@ def debris(kind):
 
 
 def hitbox_dot():
-    """The mark of the player's true hit area while focusing: 9 x 9 px."""
+    """Return the mark of the player's core while focusing: 9 x 9 px."""
     sprite = Sprite(9, 9)
     distance = length(sprite.x - 4.5, sprite.y - 4.5)
     sprite.flat(distance - 4.2, RAMPS["red"][1]).flat(distance - 3.2, RAMPS["pink"][4]).flat(distance - 2.1, WHITE)

@@ -1,8 +1,7 @@
-"""What is fired at the player: dark ring, saturated ring, white core, so that a bullet reads on any ground.
+"""Enemy bullets: dark ring, saturated ring, white core, so that a bullet stands out on any ground.
 
 Each kind comes twice with the same silhouette: as NAME_0..1 and as safe_NAME_0..1 in colours of the Okabe-Ito set,
-which colour-blind eyes keep apart; there the shape of the core tells the kinds apart too. The second frame of a pair
-breathes.
+which stay distinct under colour blindness; there the shape of the core differs, too. The second frame of a pair pulses.
 """
 
 import numpy as np
@@ -11,7 +10,7 @@ from assets.craft.fields import capsule, length
 from assets.craft.palette import OUTLINE, RAMPS, WHITE, mix
 from assets.craft.shading import Sprite
 
-FPS = 12  # frames per second of the breathing
+FPS = 12  # frames per second of the pulse
 # name: (outer radius of the dark ring in px, frame size in px, ramp)
 ROUND = {
     "bullet_red": (4.9, 12, "red"),
@@ -35,7 +34,7 @@ RING_DARK = mix(OUTLINE, RAMPS["purple"][0], 0.3)
 
 
 def tones_of(name, safe):
-    """(edge, body, light) of a bullet's saturated ring, dark to light."""
+    """Return (edge, body, light) of a bullet's saturated ring, dark to light."""
     if safe:
         colour = np.array(SAFE[name][0], np.uint8)
         return mix(colour, OUTLINE, 0.20), colour, mix(colour, WHITE, 0.35)
@@ -44,7 +43,7 @@ def tones_of(name, safe):
 
 
 def round_bullet(name, safe, frame):
-    """One round bullet, frame 0..1."""
+    """Return one round bullet, frame 0..1."""
     radius, size, _ = ROUND[name]
     sprite = Sprite(size, size)
     dx, dy = sprite.x - size / 2, sprite.y - size / 2
@@ -75,7 +74,7 @@ def round_bullet(name, safe, frame):
 
 
 def needle(safe):
-    """The aimed shot, drawn pointing down: 7 x 14 px."""
+    """Return the aimed shot, drawn pointing down: 7 x 14 px."""
     sprite = Sprite(7, 14)
     x, y = sprite.x, sprite.y
     edge, body, light = tones_of("bullet_needle", safe)

@@ -1,7 +1,7 @@
-"""Explosions: balls of heat fly out, merge, cool through the fire ramp, break into cinders and go.
+"""Explosions: balls of heat fly out, merge, cool through the fire ramp, break into cinders and vanish.
 
 The heat of a pixel is that of its hottest ball plus noise; its colour falls with heat and with time. The balls stay
-inside the cell, so no frame is cut square at its border.
+inside the cell, so no frame is cut off at its border.
 """
 
 import numpy as np
@@ -11,12 +11,12 @@ from assets.craft.palette import FIRE
 from assets.craft.shading import Sprite
 
 BALLS = 22
-DIRECTIONS = 64  # the balls start in one of that many directions
-RING_FRAMES = range(1, 5)  # the shock ring is seen in these
+DIRECTIONS = 64  # possible start directions of the balls
+RING_FRAMES = range(1, 5)  # frames with the shock ring
 
 
 def directions(count):
-    """Unit vectors around the circle from rational points ((1-t²)/(1+t²), 2t/(1+t²)): exact on every machine."""
+    """Return unit vectors around the circle from rational points ((1-t²)/(1+t²), 2t/(1+t²)): exact on every machine."""
     quarter = []
     for i in range(count // 4):
         t = i / (count // 4)
@@ -78,7 +78,7 @@ def _frame(t, index, size, balls, grain, compass):
 
 
 def _ring(sprite, radius, index):
-    """The shock ring, drawn behind the fire."""
+    """Draw the shock ring behind the fire."""
     centre = sprite.solid.shape[0] / 2
     distance = abs(length(sprite.x - centre, sprite.y - centre) - min(radius, centre - 1.5))
     ring = (distance < (0.9, 0.75, 0.6, 0.5)[index - 1]) & ~sprite.solid
@@ -89,7 +89,7 @@ def _ring(sprite, radius, index):
 
 
 def _sparks(sprite, t, compass):
-    """Ten glowing specks that outrun the fire."""
+    """Draw ten glowing specks that overtake the fire."""
     size = sprite.solid.shape[0]
     if t > 0.62:
         return

@@ -1,7 +1,7 @@
-"""Two large planes for the lab, where they are dragged and turned over each other.
+"""Two large planes for the lab, where they are dragged and rotated over each other.
 
-Their outlines are made to tell the tiers apart: a jet with deep notches between wings, fins and body, and a bomber with
-long thin wings, so that box, hull and pixels disagree over large areas.
+Their outlines show the differences of the tiers: a jet with deep notches between wings, fins and body, and a bomber
+with long thin wings, so that box, hull and pixels disagree over large areas.
 """
 
 from assets.craft.fields import box, capsule, circle, ellipse, length, polygon
@@ -12,7 +12,7 @@ JET, BOMBER = (112, 112), (128, 104)  # [px] width, height
 
 
 def jet():
-    """A twin-tailed jet with swept wings, flying up."""
+    """Return a twin-tailed jet with swept wings, flying up."""
     sprite = Sprite(*JET)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -37,7 +37,7 @@ def jet():
 
 
 def _jet_side(sprite, side):
-    """Wing, intake, engine, tail plane and fin of one side."""
+    """Draw wing, intake, engine, tail plane and fin of one side."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.06
 
@@ -81,13 +81,13 @@ def _jet_side(sprite, side):
 
 
 def _strip(sprite, first, second, corner=0.0):
-    """Box field between two corners given in either order."""
+    """Return the box field between two corners given in either order."""
     left, right = min(first[0], second[0]), max(first[0], second[0])
     return box(sprite.x, sprite.y, left, first[1], right, second[1], corner)
 
 
 def bomber():
-    """A four-engined propeller bomber with long straight wings, flying up."""
+    """Return a four-engined propeller bomber with long straight wings, flying up."""
     sprite = Sprite(*BOMBER)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -117,7 +117,7 @@ def bomber():
 
 
 def _bomber_side(sprite, side):
-    """Wing with two engines, and the tail plane, of one side."""
+    """Draw a wing with two engines, and the tail plane, of one side."""
     x, y = sprite.x, sprite.y
     lit = -side * 0.05
 

@@ -28,7 +28,7 @@ def player(bank):
 
 
 def _wing(sprite, centre, side, reach, light):
-    """One swept wing with its stripe, gun pod and tail plane. side: -1 left, 1 right; reach: 1 = level flight."""
+    """Draw one swept wing with its stripe, gun pod and tail plane. side: -1 left, 1 right; reach: 1 = level flight."""
     x, y = sprite.x, sprite.y
 
     def at(offset, down):
@@ -55,7 +55,7 @@ def _wing(sprite, centre, side, reach, light):
 
 
 def _body(sprite, centre, spine):
-    """Fuselage, nose, canopy and engine; spine: how far the canopy leans, px."""
+    """Draw fuselage, nose, canopy and engine; spine: lean of the canopy [px]."""
     x, y = sprite.x, sprite.y
     sprite.part(capsule(x, y, (centre, 3.5), (centre, 23.5), 1.5, 3.5), RAMPS["steel"], bulge=3.4, base=0.6)
     sprite.part(box(x, y, centre - 2.2, 26.5, centre + 2.2, 30, 1), RAMPS["gunmetal"], bulge=2.4, base=0.45)
@@ -83,7 +83,7 @@ def _body(sprite, centre, spine):
 
 
 def exhaust(frame):
-    """The engine's flame under the player, frame 0..3: 8 x 12 px, drawn below the plane's tail."""
+    """Return the engine's flame under the player, frame 0..3: 8 x 12 px, drawn below the plane's tail."""
     sprite = Sprite(8, 12)
     reach = (6.5, 8.5, 7.2, 9.6)[frame]
     x, y = sprite.x, sprite.y
@@ -94,7 +94,7 @@ def exhaust(frame):
 
 
 def marked_core(frame):
-    """The player's true hit area, 6 x 6 px, frame 0..1: a lit jewel in a dark setting that glows in turn."""
+    """Return the player's core, 6 x 6 px, frame 0..1: a lit jewel in a dark setting that glows in turn."""
     rows = (".dddd.", "drwwrd", "dwWWrd", "dwWrrd", "drrrrd", ".dddd.")
     tones = {
         "d": OUTLINE,

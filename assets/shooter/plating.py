@@ -1,6 +1,6 @@
-"""What large machines are dressed with: panel lines, rivets, vents, turrets, lights, scorch marks and holes.
+"""Surface details of large machines: panel lines, rivets, vents, turrets, lights, scorch marks and holes.
 
-Every function draws on a Sprite that is being built and returns nothing; places are px in its picture.
+Every function draws on a Sprite and returns nothing; places are px in its picture.
 """
 
 from itertools import pairwise
@@ -20,7 +20,7 @@ GLOWS = {
 
 
 def seam(sprite, ramp, left, top, right, bottom):
-    """A panel line one pixel wide, level or upright, with the lit edge of the next plate beside it."""
+    """Draw a panel line one pixel wide, level or upright, with the lit edge of the next plate beside it."""
     x, y = sprite.x, sprite.y
     level = right - left >= bottom - top
     sprite.paint(box(x, y, left, top, right, bottom), RAMPS[ramp][1], 0.75)
@@ -29,7 +29,7 @@ def seam(sprite, ramp, left, top, right, bottom):
 
 
 def rivets(sprite, ramp, places):
-    """One dark pixel each, with a light one at its upper left."""
+    """Draw rivets: one dark pixel each, with a light one at its upper left."""
     for x, y in places:
         if sprite.solid[int(y), int(x)]:
             sprite.dot(int(x), int(y), RAMPS[ramp][1])
@@ -38,7 +38,7 @@ def rivets(sprite, ramp, places):
 
 
 def vent(sprite, left, top, right, bottom):
-    """A sunken grille of dark slits."""
+    """Draw a sunken grille of dark slits."""
     x, y = sprite.x, sprite.y
     sprite.paint(box(x, y, left, top, right, bottom), RAMPS["gunmetal"][1])
     for row in range(int(top) + 1, int(bottom), 2):
@@ -47,7 +47,7 @@ def vent(sprite, left, top, right, bottom):
 
 
 def stripes(sprite, left, top, right, bottom):
-    """Warning stripes of gold and iron that lean to the right."""
+    """Draw warning stripes of gold and iron that lean to the right."""
     inside = box(sprite.x, sprite.y, left, top, right, bottom) < 0
     gold = ((sprite.x + sprite.y) // STRIPE).astype(int) % 2 == 0
     inside &= sprite.solid
@@ -56,7 +56,7 @@ def stripes(sprite, left, top, right, bottom):
 
 
 def turret(sprite, x, y, radius, ramp, reach):
-    """A round gun turret on its ring, whose two barrels point down; reach: px from its middle to the muzzles."""
+    """Draw a round gun turret on its ring, whose two barrels point down; reach: px from its middle to the muzzles."""
     px, py = sprite.x, sprite.y
     sprite.part(circle(px, py, x, y, radius + 1.5), RAMPS["gunmetal"], bulge=1.5, base=0.26, gain=0.3)
     for side in (-1, 1):
@@ -71,7 +71,7 @@ def turret(sprite, x, y, radius, ramp, reach):
 
 
 def lens(sprite, x, y, radius, glow, strength):
-    """A glowing lens in a dark socket. strength 0..1: how far the bright colours reach out."""
+    """Draw a glowing lens in a dark socket. strength 0..1: extent of the bright colours."""
     distance = length(sprite.x - x, sprite.y - y)
     sprite.flat(distance - radius, OUTLINE)
     tones = GLOWS[glow]
@@ -86,7 +86,7 @@ def lens(sprite, x, y, radius, glow, strength):
 
 
 def nozzle(sprite, left, right, top, bottom, hot):
-    """An engine's rear end seen from above, its mouth at the top. hot 0..1."""
+    """Draw an engine's rear end seen from above, its mouth at the top. hot 0..1."""
     x, y = sprite.x, sprite.y
     sprite.part(box(x, y, left, top, right, bottom, 1.5), RAMPS["gunmetal"], bulge=3, base=0.46)
     sprite.paint(box(x, y, left + 1, top, right - 1, top + 3.2), RAMPS["orange"][2 + round(hot)])
@@ -95,7 +95,7 @@ def nozzle(sprite, left, right, top, bottom, hot):
 
 
 def scorch(sprite, x, y, radius, seed):
-    """Soot around a hit, ragged and dithered into the paint."""
+    """Draw soot around a hit, ragged and dithered into the paint."""
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 5), max(2, height // 5), seed) - 0.5) * radius
     field = length(sprite.x - x, sprite.y - y) - radius + rough
@@ -104,7 +104,7 @@ def scorch(sprite, x, y, radius, seed):
 
 
 def wound(sprite, x, y, radius, seed, hot):
-    """A torn hole in the plating: soot, bright torn edge, glowing innards. hot 0..1 is how brightly they burn."""
+    """Draw a torn hole in the plating: soot, bright torn edge, glowing inside. hot 0..1: its brightness."""
     scorch(sprite, x, y, radius * 1.9, seed)
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 3), max(2, height // 3), seed + 1) - 0.5) * radius * 1.5
@@ -117,7 +117,7 @@ def wound(sprite, x, y, radius, seed, hot):
 
 
 def cracks(sprite, lines, hot):
-    """Glowing fissures: each line a list of points, drawn one pixel wide with a dark rim."""
+    """Draw glowing fissures: each line a list of points, drawn one pixel wide with a dark rim."""
     tone = mix(RAMPS["orange"][3], RAMPS["gold"][5], hot)
     for points in lines:
         for start, end in pairwise(points):
@@ -130,7 +130,7 @@ def cracks(sprite, lines, hot):
 def torn(sprite, points, seed):
     """Cut away everything inside a polygon, with a ragged edge.
 
-    points: corners in px. The edge that is left is charred.
+    points: corners in px. The remaining edge is charred.
     """
     height, width = sprite.solid.shape
     rough = (noise(width, height, max(2, width // 3), max(2, height // 3), seed) - 0.5) * 4

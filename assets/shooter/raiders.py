@@ -14,7 +14,7 @@ HORNET, TURRET = (22, 22), (36, 36)  # [px] width, height of the frames
 
 
 def hornet(frame):
-    """The flanker, frame 0..1 (its jets flicker): black and gold bands, blades swept forward."""
+    """Return the flanker, frame 0..1 (its jets flicker): black and gold bands, blades swept forward."""
     sprite = Sprite(*HORNET)
     x, y = sprite.x, sprite.y
     for side in (-1, 1):
@@ -48,7 +48,9 @@ def hornet(frame):
 
 
 def gun_platform(frame):
-    """The gun platform, frame 0..1 (its lamps blink): a round armoured fort with a twin gun, for sea and land."""
+    """Return the gun platform, frame 0..1 (its lamps blink): a round armoured fort with a twin gun, for sea and
+    land.
+    """
     sprite = Sprite(*TURRET)
     x, y = sprite.x, sprite.y
     for dx, dy in ((-1, -1), (1, -1), (-1, 1), (1, 1)):  # four feet with bollards
@@ -81,6 +83,6 @@ def gun_platform(frame):
 
 
 def _octagon(sprite, radius):
-    """Field of a regular octagon around the platform's middle."""
+    """Return the field of a regular octagon around the platform's middle."""
     dx, dy = abs(sprite.x - 18), abs(sprite.y - 17)
     return np.maximum(np.maximum(dx, dy), (dx + dy) * 0.7071) - radius

@@ -1,4 +1,4 @@
-"""What falls into the sea, as seen from above: foam that flies up, a ring that runs outwards and tears."""
+"""A splash in the sea, seen from above: foam that flies up, and a ring that spreads and breaks up."""
 
 from assets.craft.fields import circle, dither, layered_noise, length
 from assets.craft.palette import RAMPS, WHITE

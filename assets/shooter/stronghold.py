@@ -1,6 +1,6 @@
 """The shooter's last stretch: a fortress of concrete and steel on black rocks in a night sea, 480 x 540, seamless.
 
-Darker than the stretches before it, so that the boss's bullets stand out the more. Buildings are listed by hand.
+It is darker than the stretches before it, so that the boss's bullets stand out more. Buildings are listed by hand.
 """
 
 import numpy as np
@@ -24,9 +24,9 @@ LAMP = oklch(0.58, 0.080, 75)
 GLOW = oklch(0.46, 0.075, 60)
 PAINT = oklch(0.50, 0.060, 85)
 SHORE = 0.545  # height at which the rocks rise from the water
-YARD = 0.035  # paving begins so much above the shore
-GRID = 24  # [px] the yard's corners lie on this grid, its slabs on a half of it
-PADS, TANKS, BLOCKS = 9, 26, 90  # how many of each are tried; what finds no free paving is left out
+YARD = 0.035  # height of the paving above the shore
+GRID = 24  # [px] grid of the yard's corners; its slabs lie on half of it
+PADS, TANKS, BLOCKS = 9, 26, 90  # number of attempts for each; those without free paving are omitted
 
 
 def stronghold():
@@ -41,7 +41,7 @@ def stronghold():
     surf = (height > SHORE - 0.034) & (height < SHORE - 0.026) & (noise(WIDTH, HEIGHT, 60, 68, 19) > 0.46)
     picture[surf] = mix(FOAM, NIGHT[3], 0.45)
     paved = _paving(picture, height)
-    for half in range(2):  # twice, turned by half a picture between, so that buildings stand across the seams too
+    for half in range(2):  # twice, shifted by half a picture between, so that buildings cross the seams, too
         _build(picture, paved, np.random.default_rng(640 + half))
         picture = np.roll(picture, (HEIGHT // 2, WIDTH // 2), (0, 1))
         paved = np.roll(paved, (HEIGHT // 2, WIDTH // 2), (0, 1))
@@ -49,7 +49,7 @@ def stronghold():
 
 
 def _build(picture, paved, random):
-    """Pads, tanks and buildings wherever there is paving left for them, on a grid of 6 px."""
+    """Draw pads, tanks and buildings on free paving, on a grid of 6 px."""
 
     def place(margin):
         x, y = random.integers(0, ((WIDTH - margin) // 6, (HEIGHT - margin) // 6))
@@ -68,9 +68,9 @@ def _build(picture, paved, random):
 
 
 def _paving(picture, height):
-    """Slabs over the heart of the land and a wall with lamps around them. Returns where it is paved."""
+    """Draw slabs over the middle of the land and a wall with lamps around them. Return the paved pixels."""
     y, x = np.mgrid[0:HEIGHT, 0:WIDTH]
-    # The yard's edge follows a grid, as builders like it.
+    # The yard's edge follows a grid, like a real building's.
     coarse = height[(y // GRID * GRID + GRID // 2) % HEIGHT, (x // GRID * GRID + GRID // 2) % WIDTH]
     paved = coarse > SHORE + YARD
     wear = layered_noise(WIDTH, HEIGHT, 8, 9, 3, 6160) - 0.5
@@ -102,7 +102,7 @@ def _paving(picture, height):
 
 
 def _lamp(picture, x, y):
-    """A small lamp and its pool of light."""
+    """Draw a small lamp and its pool of light."""
     rows, columns = np.mgrid[y - 4 : y + 5, x - 4 : x + 5]
     near = length(columns - x, rows - y)
     for reach, share in ((4.2, 0.16), (2.4, 0.34)):
@@ -113,14 +113,14 @@ def _lamp(picture, x, y):
 
 
 def _free(paved, left, top, width, depth):
-    """Whether a rectangle lies wholly on paving."""
+    """Return whether a rectangle lies wholly on paving."""
     rows = np.arange(top, top + depth) % HEIGHT
     columns = np.arange(left, left + width) % WIDTH
     return bool(paved[np.ix_(rows, columns)].all())
 
 
 def _block(picture, paved, left, top, width, depth, high, roof):
-    """A building seen from above and a little from the south: roof, lit rim, side with lit windows, shadow."""
+    """Draw a building seen from above and slightly from the south: roof, lit rim, side with lit windows, shadow."""
     if not _free(paved, left - 1, top - 1, width + 4, depth + high + 3):
         return
     shade = (slice(top + 5, top + depth + high + 3), slice(left + 3, left + width + 4))
@@ -134,7 +134,7 @@ def _block(picture, paved, left, top, width, depth, high, roof):
     for column in range(left + 3, left + width - 3, 5):  # windows, most of them dark
         lit = (column // 5 * 7 + top * 3) % 11 < 5
         picture[top + depth + 2 : top + depth + 4, column : column + 2] = GLOW if lit else SHADOW
-    for row in range(top + 4, top + depth - 6, 8):  # what stands on roofs: hatches with their shadows
+    for row in range(top + 4, top + depth - 6, 8):  # hatches on roofs, with their shadows
         for column in range(left + 4, left + width - 6, 10):
             picture[row + 1 : row + 5, column + 1 : column + 6] = mix(ROOF[roof], SHADOW, 0.55)
             picture[row : row + 4, column : column + 5] = mix(ROOF[roof], WALL_TOP, 0.7)
@@ -143,7 +143,7 @@ def _block(picture, paved, left, top, width, depth, high, roof):
 
 
 def _tank(picture, paved, x, y, radius):
-    """A round fuel tank with a lit cap."""
+    """Draw a round fuel tank with a lit cap."""
     if not _free(paved, x - radius - 1, y - radius - 1, 2 * radius + 5, 2 * radius + 7):
         return
     rows, columns = np.mgrid[y - radius - 1 : y + radius + 8, x - radius - 1 : x + radius + 6]
@@ -164,7 +164,7 @@ def _tank(picture, paved, x, y, radius):
 
 
 def _pad(picture, paved, x, y, radius):
-    """A landing pad: painted ring and H, lamps at its rim."""
+    """Draw a landing pad: painted ring and H, lamps at its rim."""
     if not _free(paved, x - radius, y - radius, 2 * radius, 2 * radius):
         return
     rows, columns = np.mgrid[y - radius : y + radius, x - radius : x + radius]

@@ -1,6 +1,6 @@
 """The shooter's ground: a sea with islands seen from above, 480 x 540, seamless in both directions.
 
-Everything stays at or under 60 % lightness and low chroma: bullets, planes and explosions must stand out from it.
+Everything stays at or under 60 % lightness and low chroma, so that bullets, planes and explosions stand out from it.
 """
 
 import numpy as np
@@ -26,7 +26,7 @@ MEADOW = oklch_all(
 ROCK = oklch_all((0.29, 0.025, 285), (0.36, 0.026, 282), (0.43, 0.026, 275), (0.50, 0.024, 262), (0.57, 0.020, 240))
 TREES = oklch_all((0.205, 0.032, 190), (0.265, 0.044, 165), (0.315, 0.052, 152), (0.375, 0.060, 140))
 
-SHORE, BEACH, WOODS, CRAGS = 0.565, 0.592, 0.66, 0.765  # heights where one ground gives way to the next
+SHORE, BEACH, WOODS, CRAGS = 0.565, 0.592, 0.66, 0.765  # heights of the transitions between kinds of ground
 GLINT_CUT = 0.80  # share of the water without glints
 
 
@@ -40,14 +40,14 @@ def height_map(seed=2024, ridge_seed=77):
 
 
 def hill_light(height):
-    """How much each pixel faces the light from the top left, about -1..1. Seamless."""
+    """Return how far each pixel faces the light from the top left, about -1..1. Seamless."""
     slope_x = np.roll(height, -1, 1) - np.roll(height, 1, 1)
     slope_y = np.roll(height, -1, 0) - np.roll(height, 1, 0)
     return np.clip((slope_x * 0.55 + slope_y * 0.8) * 28, -1, 1)
 
 
 def border(land):
-    """The pixels just outside of an area that wraps."""
+    """Return the pixels just outside of an area that wraps around."""
     around = np.zeros_like(land)
     for dx, dy in ((1, 0), (-1, 0), (0, 1), (0, -1)):
         around |= np.roll(land, (dy, dx), (0, 1))
@@ -55,7 +55,7 @@ def border(land):
 
 
 def pick(ramp, level, grain=0.8):
-    """Ramp colours for a level 0..1 per pixel, dithered."""
+    """Return ramp colours for a level 0..1 per pixel, dithered."""
     return graded(ramp, level * (len(ramp) - 1) + 0.5 + dither(*level.shape) * grain)
 
 
@@ -84,7 +84,7 @@ def ground():
 
 
 def glints(picture, water, seed=31, cut=GLINT_CUT):
-    """Short horizontal wave crests in patches of the water (h, w) bool."""
+    """Draw short horizontal wave crests in patches of the water (h, w) bool."""
     crest = noise(WIDTH, HEIGHT, 40, 270, seed)
     group = layered_noise(WIDTH, HEIGHT, 8, 9, 2, seed + 10)
     glint = (crest > cut) & (group > 0.5) & water
@@ -94,7 +94,7 @@ def glints(picture, water, seed=31, cut=GLINT_CUT):
 
 
 def plant(picture, where, seed, spacing=(5, 4)):
-    """Tree crowns on a jittered grid, back to front, each with its shadow, wherever `where` (h, w) bool allows."""
+    """Draw tree crowns on a jittered grid, back to front, each with its shadow, wherever `where` (h, w) bool allows."""
     random = np.random.default_rng(seed)
     across, down = spacing
     for row in range(0, HEIGHT, down):
@@ -107,7 +107,7 @@ def plant(picture, where, seed, spacing=(5, 4)):
 
 
 def _crown(picture, x, y, radius, lean):
-    """One tree: a lit disc, wrapped round the edges of the picture."""
+    """Draw one tree: a lit disc, wrapped around the edges of the picture."""
     reach = int(radius) + 2
     columns = np.arange(x - reach, x + reach + 1)
     rows = np.arange(y - reach, y + reach + 1)

@@ -14,7 +14,7 @@ hero = Character(world, Polygon.box(12, 24), (40, 132))
 fall, grounded, jumps = 0.0, False, 0
 for _ in range(150):
     wall_ahead = hero.blocked(1, 0)
-    if grounded and wall_ahead:  # your keyboard says when
+    if grounded and wall_ahead:  # or on a key press
         fall, jumps = JUMP, jumps + 1
     moved = hero.move(RUN, fall)  # whole pixels; it never overlaps a solid
     grounded = moved.grounded

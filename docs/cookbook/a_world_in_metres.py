@@ -2,7 +2,7 @@ from hitbox.physics import Circle, Polygon, World
 
 PIXELS = 32  # of the screen for a metre
 
-world = World(pixels_per_meter=1)  # lengths in metres, gravity 9.8 m/s2; every tolerance goes with it
+world = World(pixels_per_meter=1)  # lengths in metres, gravity 9.8 m/s2; every tolerance scales with it
 world.add_body(Polygon.box(20, 1), position=(0, 10.5), kind="static")
 ball = world.add_body(Circle(0.25), position=(0, 0))
 

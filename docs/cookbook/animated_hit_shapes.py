@@ -6,7 +6,7 @@ frames = []
 for lean in (-6, -3, 0, 3, 6, 3, 0, -3):
     image = pygame.Surface((32, 40), pygame.SRCALPHA)
     pygame.draw.polygon(image, "white", [(10 + lean, 2), (22 + lean, 2), (24, 38), (8, 38)])
-    frames.append(PixelMask.from_surface(image))  # all with one origin: the pose stays where it is
+    frames.append(PixelMask.from_surface(image))  # all with one origin, so that the pose does not change
 
 world = World()
 world.add_body(Polygon.box(300, 20), position=(0, 110), kind="static")

@@ -4,7 +4,7 @@ from hitbox.physics import Circle, Effects, Filter, World
 
 BULLET, ENEMY = 1, 2
 
-world = World(Effects.detection())  # hits are told, nobody is pushed
+world = World(Effects.detection())  # hits are reported, without response
 angles = np.linspace(0, 2 * np.pi, 2000, endpoint=False)
 directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
 bullets = world.add_bodies(Circle(2), directions * 20, velocities=directions * 240, filter=Filter(BULLET, mask=ENEMY))

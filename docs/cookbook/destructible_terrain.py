@@ -13,7 +13,7 @@ boulder = world.add_body(Circle(9), position=(700, 40))
 for _ in range(180):
     world.step()
 
-crater = ground.carve(Circle(24), boulder.position)  # what lay there wakes, and falls in
+crater = ground.carve(Circle(24), boulder.position)  # bodies there wake, and fall in
 cut = ground.carve(Polygon.box(14, 14), (430, 65))  # the rest of the bridge comes loose
 (bridge,) = cut.fragments
 before = boulder.position

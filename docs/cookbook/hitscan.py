@@ -8,7 +8,7 @@ world.add_body(Circle(8), position=(120, 3), filter=Filter(ENEMY), user="enemy")
 world.add_body(Polygon.box(10, 200), position=(300, 0), kind="static", filter=Filter(WALL), user="wall")
 
 muzzle, reach = (0, 0), (1000, 0)
-hit = world.ray_cast(muzzle, reach, filter=Filter(mask=WALL | ENEMY))  # who is in the mask stops it
+hit = world.ray_cast(muzzle, reach, filter=Filter(mask=WALL | ENEMY))  # categories in the mask stop it
 everybody = [each.body.user for each in world.ray_cast_all(muzzle, reach)]
 
 print(f"hit {hit.body.user} at {hit.point}; the ray would pass {everybody}")

@@ -7,7 +7,7 @@ lift = world.add_body(Polygon.box(80, 10), position=(0, 100), kind="kinematic")
 crate = world.add_body(Polygon.box(16, 16), position=(0, 86))
 
 for frame in range(300):
-    # Where it shall be when the step is over: what stands on it comes along.
+    # Its place at the end of the step; it carries the bodies on it.
     lift.set_target((40 - 40 * math.cos(frame / 60), 100))
     world.step()
 

@@ -12,7 +12,7 @@ hero = Character(world, Polygon.box(10, 20), (80, 102))
 heights, speed = [], -6.0
 for frame in range(120):
     drop = frame == 90
-    moved = hero.move(0, 1 if drop else speed, drop=drop)  # he falls through what he stands on
+    moved = hero.move(0, 1 if drop else speed, drop=drop)  # it falls through its ground
     speed = 0.0 if moved.grounded else speed + 0.25
     world.step()
     heights.append(hero.position.y)

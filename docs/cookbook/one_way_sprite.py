@@ -6,7 +6,7 @@ bridge = pygame.Surface((128, 24), pygame.SRCALPHA)  # a rope bridge that sags: 
 pygame.draw.lines(bridge, "white", False, [(0, 4), (32, 14), (64, 18), (96, 14), (127, 4)], 5)
 
 world = World(Effects.rigid_bodies().with_(one_way=True))
-mask = PixelMask.from_surface(bridge, origin=(0, 0), one_way=True)  # its upper side is all that anybody meets
+mask = PixelMask.from_surface(bridge, origin=(0, 0), one_way=True)  # only its upper side collides
 world.add_body(mask, position=(0, 100), kind="static")  # or kinematic: it carries
 ball = world.add_body(Circle(5), position=(64, 170), velocity=(0, -320))  # up through it, and down on it
 hero = Character(world, Polygon.box(10, 20), (64, 160))

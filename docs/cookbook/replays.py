@@ -4,7 +4,7 @@ from hitbox.physics import Circle, Polygon, World
 
 
 def play(inputs):
-    """The whole game: a seed and the inputs say all that happens."""
+    """Play the whole game, which depends on a seed and the inputs alone."""
     world = World(seed=7)
     world.add_body(Polygon.box(400, 20), position=(0, 100), kind="static")
     ball = world.add_body(Circle(8), position=(0, 82))
@@ -14,7 +14,7 @@ def play(inputs):
     return world.digest(), ball.position
 
 
-recorded = [random.choice([-400, 0, 400]) for _ in range(200)]  # what somebody pressed, frame by frame
+recorded = [random.choice([-400, 0, 400]) for _ in range(200)]  # the keys, frame by frame
 first, second = play(recorded), play(recorded)
 print("the replay ends at", second[1], "- as the run did:", first == second)
 assert first == second and play([0, *recorded])[0] != first[0]

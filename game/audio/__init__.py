@@ -1,1 +1,1 @@
-"""What is heard: sound effects and music, or silence where there is no device."""
+"""Audio: sound effects and music, or silence without a device."""

@@ -1,6 +1,6 @@
-"""Music: one tune at a time, streamed from its file, faded into the next; jingles that come between.
+"""Music: one tune at a time, streamed from its file, with fades from one to the next, and jingles in between.
 
-Nothing is read before it is wanted. The old tune goes out before the new one comes in: two tunes of different keys over
+A file is read when it is wanted. The old tune fades out before the new one fades in: two tunes in different keys over
 each other are noise. The volume is set once per drawn frame (step), so that a slider is heard while it moves.
 """
 
@@ -11,53 +11,54 @@ import pygame
 
 from game.places import MUSIC
 
-FADE = 0.4  # [s] out, and as long in: a change takes 0.8 s
-QUICK = 0.12  # [s] out when a jingle comes
+FADE = 0.4  # [s] for each of fade-out and fade-in: a change takes 0.8 s
+QUICK = 0.12  # [s] fade-out before a jingle
 DUCKED = 0.5  # -6 dB under a loud moment
 DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] from full to ducked and back
 
 
 class Music:
-    """`playing`: the tune or jingle that is heard, None in silence. `report` is called once per unusable file."""
+    """Player of tunes and jingles. `playing`: the one that is heard, None in silence. `report` is called once per
+    unusable file.
+    """
 
     def __init__(self, report: Callable[[str], object], folder: Path = MUSIC) -> None:
         self.folder, self.report = folder, report
-        self.wanted = None  # the tune that should be heard, once no jingle is
+        self.wanted = None  # the tune to play once no jingle plays
         self.jingle_due = None
         self.playing = None
         self.in_jingle = False
         self.paused = False
         self.level = 0.0  # of the fade, 0..1
         self.duck = 1.0  # DUCKED..1
-        self.ducked_for = 0.0  # [s] more
+        self.ducked_for = 0.0  # [s] remaining
         self.unusable = set()
 
     def tune(self, name: str | None) -> None:
-        """Want a tune, or None for silence. It comes when a jingle that is heard has ended."""
+        """Choose a tune, or None for silence. It starts when a jingle that plays has ended."""
         if name != self.wanted:
             self.wanted = name
             self.resume()
 
     def jingle(self, name: str) -> None:
-        """Play once, at once; the tune comes back after it, from its start."""
+        """Play a jingle once, at once; the tune starts again after it."""
         self.resume()
         self.jingle_due = name
 
     def duck_for(self, seconds: float) -> None:
-        """Step back behind a loud effect."""
+        """Lower the volume for so long [s], behind a loud effect."""
         self.ducked_for = max(self.ducked_for, seconds)
 
     def pause(self) -> None:
-        """Be silent from the next step on.
+        """Fall silent from the next step on.
 
-        The mixer's own pause and unpause are not called: they wait for the sound thread with the interpreter's lock
-        held, while that thread, when an effect has just ended, waits for this lock. The program then stands still for
-        good.
+        The mixer's own pause and unpause are not called, because they deadlock: they wait for the sound thread with the
+        interpreter's lock held, while that thread waits for this lock when an effect has just ended.
         """
         self.paused = True
 
     def resume(self) -> None:
-        """Be heard again. Another tune or a jingle does so too."""
+        """Play on. Another tune or a jingle also ends the pause."""
         self.paused = False
 
     def step(self, seconds: float, volume: float) -> None:
@@ -81,7 +82,7 @@ class Music:
         self.duck = min(1.0, max(DUCKED, self.duck + way * (1.0 - DUCKED)))
 
     def _leave_for(self, name, share):
-        """Fade out by a share of the whole; then `name` starts."""
+        """Fade out by a share of the whole, then start `name`."""
         self.level = max(0.0, self.level - share)
         if self.level == 0.0 or self.playing is None:
             self._start(name)

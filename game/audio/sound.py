@@ -1,7 +1,7 @@
-"""Sound: effects with a few voices each, panned and varied in pitch, over music; silence where there is no device.
+"""Sound: effects with a few voices each, panned and varied in pitch, over music; silence without a device.
 
-Seen from the game this is only output: nothing here is read back by a scene, and the variation has random numbers of
-its own. A buffer of 512 samples (12 ms): larger ones are heard as lag, smaller ones pop.
+Scenes read nothing back from it, and its variation has its own random numbers. The buffer has 512 samples (12 ms):
+larger ones are heard as lag, smaller ones pop.
 """
 
 import math
@@ -24,10 +24,10 @@ Cue = tuple[str, float | None, float]  # name, canvas x or None, volume
 
 RATE = 44_100  # [Hz] of effects and mixer
 CHANNELS = 24
-VOICES = 3  # of one sound at once: more of the same is only louder
-SPACING = 0.03  # [s] between two starts of one sound: ten hits in a step are one crack
+VOICES = 3  # of one sound at once; more would only be louder
+SPACING = 0.03  # [s] between two starts of one sound: ten hits in a step sound as one
 PAN_WIDTH = 0.6  # of full left-right; full panning is tiring on headphones
-PITCHES = (1.0, 0.96, 1.04)  # playing speed of the variants, +-4 %: a sound that repeats is not a machine's
+PITCHES = (1.0, 0.96, 1.04)  # playing speed of the variants, +-4 %, so that repeated sounds differ
 STEADY = {
     "blip",
     "confirm",
@@ -40,8 +40,8 @@ STEADY = {
     "warning",
 }  # melodies stay in tune
 DUCK_SECONDS = 0.5
-DUCKING = {"bomb", "big_explosion", "hurt", "warning", "life", "secret", "goal"}  # the music steps back for these
-FIRST, LAST = 2, 0  # ranks when all channels are taken; others have 1
+DUCKING = {"bomb", "big_explosion", "hurt", "warning", "life", "secret", "goal"}  # effects that lower the music
+FIRST, LAST = 2, 0  # ranks if all channels are taken; others have 1
 RANKS = {
     **dict.fromkeys(DUCKING | {"confirm", "back", "blip", "checkpoint", "powerup"}, FIRST),
     **dict.fromkeys(("laser", "enemy_shot", "graze", "hit", "land", "ladder", "crate"), LAST),
@@ -50,18 +50,18 @@ RANKS = {
 
 @dataclass
 class Voice:
-    """One channel of the mixer and what it last played. `started`: the number of that start."""
+    """One channel of the mixer and its last sound. `started`: the number of that start."""
 
-    channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer refuses the name, and plays on in silence
+    channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer has no such name
     name: str = ""
     rank: int = LAST
     started: int = 0
 
 
 class Sounds:
-    """play() and tune() by file name. `silent_because` says why nothing is heard, or is "".
+    """Player of effects and music by file name. `silent_because`: the reason for silence, or "".
 
-    master, effects and music are volumes 0..1 and may be set at any time. step() is to be called once per drawn frame.
+    master, effects and music are volumes 0..1 and may be set at any time. Call step() once per drawn frame.
     """
 
     def __init__(
@@ -77,8 +77,8 @@ class Sounds:
     ) -> None:
         self.master, self.effects, self.music = master, effects, music
         self.folder, self.report, self.clock = folder, report, clock
-        self.random = Random(4)  # only heard; never a game's
-        self.samples: dict[str, np.ndarray | None] = {}  # name -> int16 samples, None for a file that cannot be used
+        self.random = Random(4)  # for sound only, never for a game's rules
+        self.samples: dict[str, np.ndarray | None] = {}  # name -> int16 samples, None for an unusable file
         self.variants: dict[str, dict[float, pygame.mixer.Sound]] = {}  # name -> {pitch: pygame Sound}
         self.last_pitch = {}
         self.last_start = {}  # name -> when [s]
@@ -93,13 +93,13 @@ class Sounds:
                 pygame.mixer.quit()
             pygame.mixer.init(RATE, -16, 2, 512, allowedchanges=0)
             pygame.mixer.set_num_channels(CHANNELS)
-        except RuntimeError as error:  # pygame.error is one, and so is what a pygame without its mixer raises
+        except RuntimeError as error:  # pygame.error is a RuntimeError, and a pygame without its mixer raises one
             return f"no sound device ({error})"
         self.voices = [Voice(pygame.mixer.Channel(number)) for number in range(CHANNELS)]
         return ""
 
     def play_cues(self, cues: Iterable[Cue]) -> None:
-        """Play what a scene asked for in one step: (name, canvas x or None, volume) each; of one name the loudest."""
+        """Play the cues of one step, (name, canvas x or None, volume) each; of equal names the loudest."""
         loudest = {}
         for name, x, volume in cues:
             if name not in loudest or volume > loudest[name][1]:
@@ -108,7 +108,9 @@ class Sounds:
             self.play(name, x, volume)
 
     def play(self, name: str, x: float | None = None, volume: float = 1.0) -> bool:
-        """Start a sound; the oldest voice of it gives way. Returns True if it is heard."""
+        """Start a sound; it replaces the oldest voice of the same sound if there are VOICES. Return whether it is
+        heard.
+        """
         loudness = min(1.0, volume) * self.effects * self.master
         now = self.clock()
         if self.silent_because or loudness <= 0.0 or now - self.last_start.get(name, -SPACING) < SPACING:
@@ -128,7 +130,7 @@ class Sounds:
         return True
 
     def _start(self, name, sides, loudness):
-        """The voice that a sound was started on; None where the file cannot be used or there is no room."""
+        """Return the voice that a sound was started on; None for an unusable file or if no channel is free."""
         sound = self._variant(name)
         voice = self._voice_for(name, RANKS.get(name, 1)) if sound else None
         if sound is None or voice is None:
@@ -138,12 +140,15 @@ class Sounds:
         return voice
 
     def _lose(self, error):
-        """The device went away while it played: from now on there is silence, and one line says so."""
+        """Switch to silence after the device was removed, and report that in one line."""
         self.silent_because = f"the sound device is gone ({error})"
         self.report(f"{self.silent_because}; the game goes on in silence")
 
     def _voice_for(self, name, rank):
-        """The voice to start on: a free one, the oldest of this sound, or of those that matter least; None: no room."""
+        """Return the voice to start on: a free one, the oldest of this sound, or one of the lowest rank up to `rank`.
+
+        Return None if all busy voices have higher ranks.
+        """
         busy = [voice for voice in self.voices if voice.channel.get_busy()]
         same = [voice for voice in busy if voice.name == name]
         if len(same) >= VOICES:
@@ -154,7 +159,7 @@ class Sounds:
         return least if least.rank <= rank else None
 
     def _variant(self, name):
-        """The sound at one of its pitches, never the same twice running; None for a file that cannot be used."""
+        """Return the sound at one of its pitches, never the same twice in a row; None for an unusable file."""
         if name not in self.samples:
             self.samples[name] = self._read(name)
         samples = self.samples[name]
@@ -184,27 +189,27 @@ class Sounds:
         return None
 
     def tune(self, name: str | None) -> None:
-        """Want a tune, faded in, or None for silence. Cheap when it is the same as before."""
+        """Choose a tune, faded in, or None for silence. It costs little if the tune is unchanged."""
         if not self.silent_because:
             self.player.tune(name)
 
     def jingle(self, name: str) -> None:
-        """Play a tune once, at once; the wanted tune comes after it."""
+        """Play a jingle once, at once; the chosen tune starts after it."""
         if not self.silent_because:
             self.player.jingle(name)
 
     def pause(self) -> None:
-        """Hold the music; effects ring out."""
+        """Pause the music; effects end by themselves."""
         if not self.silent_because:
             self.player.pause()
 
     def resume(self) -> None:
-        """Let the music go on where it stood."""
+        """Continue the music at its position."""
         if not self.silent_because:
             self.player.resume()
 
     def step(self, seconds: float) -> None:
-        """Fades and ducking; `seconds` since the last call."""
+        """Advance fades and ducking. seconds: since the last call."""
         if self.silent_because:
             return
         try:
@@ -214,14 +219,14 @@ class Sounds:
 
 
 def pan(x: float | None) -> tuple[float, float]:
-    """(left, right) volumes 0..1 for a canvas x, of equal power everywhere; None is the middle."""
+    """Return (left, right) volumes 0..1 for a canvas x, of equal power everywhere; None is the centre."""
     side = 0.0 if x is None else max(-1.0, min(1.0, 2.0 * x / CANVAS_SIZE[0] - 1.0)) * PAN_WIDTH
     angle = (side + 1.0) * math.pi / 4.0
     return math.cos(angle), math.sin(angle)
 
 
 def resampled(samples: np.ndarray, speed: float) -> np.ndarray:
-    """The samples played `speed` times as fast, so that much higher."""
+    """Return the samples played `speed` times as fast, and so at a higher pitch."""
     if speed == 1.0:
         return samples
     places = np.arange(0.0, len(samples) - 1, speed)
@@ -229,5 +234,5 @@ def resampled(samples: np.ndarray, speed: float) -> np.ndarray:
 
 
 def stereo(samples: np.ndarray) -> bytes:
-    """Mono samples as bytes of a stereo buffer."""
+    """Return mono samples as the bytes of a stereo buffer."""
     return np.repeat(samples, 2).tobytes()

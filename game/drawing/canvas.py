@@ -1,7 +1,7 @@
-"""Canvas: what scenes draw on. It knows every text box it holds, so text can keep out of text's way.
+"""Canvas: the surface that scenes draw on. It records every text box, so that later text can avoid them.
 
-Positions are canvas pixels. Sprites are rounded with floor(x + 0.5), once, so that a sprite and the
-ground under it always step together.
+Positions are canvas pixels. Sprites are rounded once, with floor(x + 0.5), so that a sprite and the ground under it
+always move together.
 """
 
 from collections.abc import Iterable
@@ -22,27 +22,27 @@ TEXT, SMALL = "font5x7", "font3x5"
 
 
 def whole(value: float) -> int:
-    """The one rounding rule for drawing: floor(value + 0.5)."""
+    """Round a coordinate for drawing: floor(value + 0.5). All drawing uses this rule."""
     return floor(value + 0.5)
 
 
 class Canvas:
-    """A surface with text. `boxes` lists (rect, text) of this picture, `reserved` rects that text keeps out of.
+    """A surface with text. `boxes` lists (rect, text) of this picture, `reserved` the rects that text keeps out of.
 
-    `fixed`: those of them that hold something, an icon, a bar, a plot; with the text these stay on top of overlays.
+    `fixed`: the reserved rects that show an icon, a bar or a plot; they and the text stay on top of overlays.
     """
 
-    edge = 1  # [px] that an outline reaches over its text's box
+    edge = 1  # [px] by which an outline extends over its text's box
 
     def __init__(self, surface: pygame.Surface | None = None) -> None:
         self.surface = surface if surface is not None else pygame.Surface(CANVAS_SIZE)
         self.boxes = []
         self.reserved = []
         self.fixed = []
-        self.palette = "standard"  # of the overlays, as the player wants it
+        self.palette = "standard"  # of the overlays, from the player's settings
 
     def tone(self, color: Color) -> Color:
-        """An overlay's colour in the palette of this picture."""
+        """Return an overlay's colour in this picture's palette."""
         return toned(color, self.palette)
 
     @property
@@ -51,7 +51,7 @@ class Canvas:
         return self.surface.get_rect()
 
     def begin(self, color: Color | None = None) -> None:
-        """Start a picture: forget the last one's text boxes; fill with `color` when given."""
+        """Start a picture: clear the text boxes of the last one; fill with `color` if it is given."""
         self.boxes.clear()
         self.reserved.clear()
         self.fixed.clear()
@@ -64,13 +64,13 @@ class Canvas:
         self.surface.blit(image, (whole(x) - width // 2, whole(y) - height // 2))
 
     def measure(self, text: str, font: str = TEXT, scale: int = 1) -> tuple[int, int]:
-        """Width and height of a line of text in pixels."""
+        """Return the width and height of a line of text [px]."""
         return load_font(font).measure(text, scale)
 
     def text_rect(
         self, text: str, x: float, y: float, font: str = TEXT, scale: int = 1, align: str = "left"
     ) -> pygame.Rect:
-        """Where text() would put the line. `align` says what x is: left, center or right."""
+        """Return the rect that text() would draw the line in. align: the meaning of x, "left", "center" or "right"."""
         width, height = load_font(font).measure(text, scale)
         left = {"left": x, "center": x - width / 2, "right": x - width}[align]
         return pygame.Rect(whole(left), whole(y), width, height)
@@ -86,7 +86,7 @@ class Canvas:
         align: str = "left",
         outline: bool = False,
     ) -> pygame.Rect:
-        """Draw one line of text, y its top, and return its rect. Its place is the caller's promise."""
+        """Draw one line of text with its top at y, and return its rect. The caller keeps it clear of other text."""
         rect = self.text_rect(text, x, y, font, scale, align)
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
         self.boxes.append((rect, text))
@@ -103,9 +103,9 @@ class Canvas:
         align: str = "left",
         outline: bool = False,
     ) -> bool:
-        """Draw the line only where it is on the screen and touches no other text. Returns True if drawn.
+        """Draw the line only if it is on the canvas and touches no other text. Return whether it was drawn.
 
-        For labels that follow things: the caller counts the ones left out and says so in a fixed place.
+        It is for labels that follow things. The caller counts the labels left out and shows the count in a fixed place.
         """
         rect = self.text_rect(text, x, y, font, scale, align)
         if not self.is_free(rect.inflate(2 * scale, 2 * scale) if outline else rect):
@@ -115,7 +115,7 @@ class Canvas:
         return True
 
     def is_free(self, rect: pygame.Rect) -> bool:
-        """True if the rect is on the canvas and meets no text box and no reserved rect."""
+        """Return whether the rect is on the canvas and meets no text box and no reserved rect."""
         return self.rect.contains(rect) and rect.collidelist(self._taken()) < 0
 
     def _taken(self):
@@ -126,23 +126,25 @@ class Canvas:
         self.reserved.append(pygame.Rect(rect))
 
     def fix(self, rect: Box) -> None:
-        """Reserve a rect that holds something which overlays must not be painted over."""
+        """Reserve a rect whose content overlays must not cover."""
         self.reserve(rect)
         self.fixed.append(pygame.Rect(rect))
 
     def lift(self) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """What text and fixed rects show now, to be put back over what is painted meanwhile: (picture, top left)."""
+        """Return copies of the text and the fixed rects: (picture, top left) each. put_back() draws them over what was
+        painted since.
+        """
         rects = [box.inflate(2 * self.edge, 2 * self.edge) for box, _ in self.boxes] + self.fixed
         inside = [rect.clip(self.rect) for rect in rects]
         return [(self.surface.subsurface(rect).copy(), rect.topleft) for rect in inside if rect.width and rect.height]
 
     def put_back(self, lifted: list[tuple[pygame.Surface, tuple[int, int]]]) -> None:
-        """Put what lift() took on top."""
+        """Draw the copies from lift() on top."""
         for picture, place in lifted:
             self.surface.blit(picture, place)
 
     def free_place(self, size: tuple[int, int], places: Iterable[tuple[float, float]]) -> tuple[int, int] | None:
-        """The first (x, y) of `places` where a box of that size is free, or None."""
+        """Return the first (x, y) of `places` where a box of that size is free, or None."""
         inside, taken = self.rect, self._taken()
         for x, y in places:
             rect = pygame.Rect(whole(x), whole(y), *size)
@@ -166,7 +168,7 @@ def wrap(text: str, width: int, font: str = TEXT, scale: int = 1) -> list[str]:
 
 
 def shorten(text: str, width: int, font: str = TEXT, scale: int = 1) -> str:
-    """The text, or as much of it as fits in `width` pixels with two dots behind."""
+    """Return the text, or its longest beginning that fits in `width` pixels with two dots behind."""
     measure = load_font(font).measure
     if measure(text, scale)[0] <= width:
         return text

@@ -1,8 +1,8 @@
-"""The shell's colours. Overlay hues are near the Okabe-Ito set; a player may ask for others (see toned)."""
+"""Colours of the shell. Overlay hues are close to the Okabe-Ito set; the settings may choose others (see toned)."""
 
 Color = tuple[int, ...]  # red, green, blue and perhaps alpha, 0..255
 
-INK = (20, 16, 32)  # text outlines, panel ground: the art's outline colour, never pure black
+INK = (20, 16, 32)  # text outlines, panel ground: the outline colour of the art, never pure black
 NIGHT = (26, 22, 42)
 DUSK = (44, 38, 66)
 SLATE = (86, 82, 112)
@@ -21,9 +21,9 @@ WHITE = (255, 255, 255)
 
 SERIES = (ORANGE, SKY, GREEN, PINK, YELLOW, BLUE, RED, WHITE)  # for curves and kinds, in this order
 
-# What the overlays' hues become under the other palettes. "safe" is the Okabe-Ito set itself (jfly.uni-koeln.de/color):
-# under every kind of colour blindness its two nearest hues are half as far again from each other as the ones above.
-# "contrast" is brighter, over a picture that is darkened for it (SHADE), and further apart still.
+# The overlays' hues under the other palettes. "safe" is the Okabe-Ito set itself (jfly.uni-koeln.de/color): under every
+# kind of colour blindness its two nearest hues are 1.5 times as far apart as the ones above. "contrast" is brighter,
+# over a darkened picture (SHADE), and its hues are further apart still.
 TONES = {
     "standard": {},
     "safe": {GREEN: (0, 158, 115), BLUE: (0, 114, 178), RED: (213, 94, 0), PINK: (204, 121, 167)},
@@ -39,14 +39,14 @@ TONES = {
         SLATE: (140, 138, 160),
     },
 }
-SHADE = 96  # of 255 that is left of the picture's light under overlays of the palette "contrast"
-BRIGHTER = 0.3  # towards white: what "contrast" does with a mixed colour
+SHADE = 96  # of 255: light of the picture that remains under overlays of the palette "contrast"
+BRIGHTER = 0.3  # towards white: change of a mixed colour in "contrast"
 
 BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
 
 
 def toned(color: Color, palette: str) -> Color:
-    """An overlay's colour as a palette of game.files.accessibility.PALETTES has it; its alpha, if any, is kept."""
+    """Return an overlay's colour in a palette of game.files.accessibility.PALETTES; alpha, if any, is kept."""
     plain = tuple(color[:3])
     found = TONES[palette].get(plain)
     if found is None:
@@ -55,5 +55,5 @@ def toned(color: Color, palette: str) -> Color:
 
 
 def faded(color: Color, amount: float) -> Color:
-    """`color` mixed towards the night ground; amount 0 keeps it, 1 is the ground."""
+    """Return `color` mixed towards the night ground; amount 0 keeps it, 1 gives the ground."""
     return tuple(round(c + (n - c) * amount) for c, n in zip(color[:3], NIGHT, strict=True))

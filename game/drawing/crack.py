@@ -1,17 +1,17 @@
-"""Cracks: jagged lines of pixels right through something, to be carved out of it as a mask."""
+"""Cracks: jagged lines of pixels across a raster, carved out of a shape as a mask."""
 
 from math import cos, hypot, sin
 
 import numpy as np
 
-JAG, SIDEWAYS = 5.0, 2.6  # [px] from corner to corner of a crack, and how far these lie off its line
-FINE = 0.25  # [px] between the places that are drawn
+JAG, SIDEWAYS = 5.0, 2.6  # [px] from corner to corner of a crack, and greatest offset of these from its line
+FINE = 0.25  # [px] between the points that are drawn
 
 
 def draw_crack(solid: np.ndarray, at: tuple[float, float], heading: float, random: np.random.Generator) -> None:
-    """Set the pixels of a crack in solid[row, column], through a place (x, y) [px] and about along a heading [rad].
+    """Set the pixels of a crack in solid[row, column], through a point (x, y) [px], along a heading [rad] on average.
 
-    It leads from side to side of the raster and is two pixels wide, so that no corners touch across it.
+    It runs from side to side of the raster and is two pixels wide, so that no corners touch across it.
     """
     height, width = solid.shape
     reach = JAG * (1 + int(hypot(height, width) // JAG))

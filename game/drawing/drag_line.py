@@ -1,4 +1,4 @@
-"""The mouse's hold on a body as a person sees it: a line from where it is held to the pointer."""
+"""The mouse drag on screen: a line from the grabbed point to the pointer."""
 
 import pygame
 
@@ -8,7 +8,9 @@ from game.input.drag import Drag, to_world
 
 
 def draw_drag(frame: Frame, drag: Drag, pointer: tuple[float, float]) -> None:
-    """Draw the line, a ring where the body is held, a dot at the pointer [canvas px]; nothing while nothing is held."""
+    """Draw the line, a ring at the grabbed point and a dot at the pointer [canvas px]. Draw nothing if no body is
+    held.
+    """
     hold = drag.hold
     if hold is None:
         return

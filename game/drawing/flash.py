@@ -1,6 +1,6 @@
-"""Flashes of the whole picture: one place that makes them, so that they can be limited and left out.
+"""Flashes of the whole picture, in one place, so that they can be limited and switched off.
 
-At most two begin within a second, and none adds more than a third of white: half of what WCAG 2.3.1 allows (three
+At most two begin within a second, and none adds more than a third of white: half of the limit of WCAG 2.3.1 (three
 general flashes a second).
 """
 
@@ -11,12 +11,12 @@ from game.drawing.colors import Color
 MOST = 2  # flashes that may begin within SPAN
 SPAN = 60  # [steps] one second
 BRIGHTEST = 85  # [0..255] added at full strength
-FADE = 0.88  # of the light that is left a step later
-FAINTEST = 0.02  # of the full light; less is none
+FADE = 0.88  # factor on the light per step
+FAINTEST = 0.02  # of the full light; less counts as none
 
 
 class Flash:
-    """`light` 0..1 now; `begun` holds the steps at which the last ones began."""
+    """Light of the flashes. `light`: 0..1 now; `begun`: the steps at which the last flashes began."""
 
     def __init__(self) -> None:
         self.now = 0
@@ -25,7 +25,7 @@ class Flash:
         self.begun = []
 
     def start(self, strength: float = 1.0, color: Color = (255, 255, 255)) -> bool:
-        """Light up the picture, unless it just did so too often. Returns True if it does."""
+        """Start a flash, unless MOST began within SPAN. Return whether it started."""
         self.begun = [step for step in self.begun if self.now - step < SPAN]
         if len(self.begun) >= MOST:
             return False
@@ -34,7 +34,7 @@ class Flash:
         return True
 
     def step(self) -> None:
-        """It fades. Once per step."""
+        """Fade the light. Call it once per step."""
         self.now += 1
         self.light = self.light * FADE if self.light > FAINTEST else 0.0
 

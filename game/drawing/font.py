@@ -1,7 +1,7 @@
-"""Bitmap text: measures a line and draws it from a sheet of glyphs.
+"""Bitmap text, measured and drawn from a sheet of glyphs.
 
-Glyphs are tinted and scaled once per (color, scale, outline), and put together to a picture of a line that is kept
-while it is in use: a panel of names and changing numbers costs one blit per line.
+Glyphs are tinted and scaled once per (color, scale, outline). The picture of a line is cached while it is in use, so a
+panel of names and changing numbers costs one blit per line.
 """
 
 import json
@@ -14,8 +14,8 @@ from game.drawing.colors import INK, Color
 from game.errors import FileError
 from game.places import CURE, FONTS
 
-MEASURED = 4096  # lines of text whose size is remembered
-KEPT = 1024  # lines of text whose picture is kept
+MEASURED = 4096  # lines of text whose size is cached
+KEPT = 1024  # lines of text whose picture is cached
 UNKNOWN = "?"  # drawn for a character that the sheet lacks
 
 
@@ -28,11 +28,11 @@ class Font:
         self.places = {c: (g["x"], g["y"], g["w"]) for c, g in glyphs.items()}
         self.sheet = sheet
         self.tinted = {}
-        self.line = lru_cache(maxsize=KEPT)(self._line)  # names, and figures that come again
-        self.measure = lru_cache(maxsize=MEASURED)(self._measure)  # labels ask for the same text picture by picture
+        self.line = lru_cache(maxsize=KEPT)(self._line)  # names, and figures that recur
+        self.measure = lru_cache(maxsize=MEASURED)(self._measure)  # labels measure the same text in every picture
 
     def _measure(self, text, scale=1):
-        """Width and height of one line in pixels. The gap behind the last letter does not count."""
+        """Return the width and height of one line [px], without the gap behind the last letter."""
         unknown = self.advance[UNKNOWN]
         width = sum(self.advance.get(c, unknown) for c in text)
         return (max(width - 1, 0) * scale, self.height * scale)
@@ -45,7 +45,7 @@ class Font:
         surface.blit(self.line(text, tuple(color), scale, outline), (x - edge, y - edge))
 
     def _line(self, text, color, scale, outline):
-        """A picture of the whole line; an outline lies around it."""
+        """Return a picture of the whole line, with an outline around it if one is asked for."""
         glyphs = self._glyphs(color, scale, outline)
         width, height = self.measure(text, scale)
         edge = 2 * scale if outline else 0
@@ -85,7 +85,7 @@ class Font:
 
 
 def tint(image: pygame.Surface, color: Color) -> pygame.Surface:
-    """A copy of a white image in one colour; its alpha is kept."""
+    """Return a copy of a white image in one colour, with the same alpha."""
     copy = image.copy()
     copy.fill((*color[:3], 255), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
@@ -93,7 +93,7 @@ def tint(image: pygame.Surface, color: Color) -> pygame.Surface:
 
 @cache
 def load_font(name: str) -> Font:
-    """The font of assets/font/<name>.png and .json. Raises FileError when a file is damaged or missing."""
+    """Return the font of assets/font/<name>.png and .json. Raises FileError when a file is damaged or missing."""
     path = FONTS / f"{name}.json"
     try:
         table = json.loads(path.read_text(encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""Pictures of what broke off: a fragment is its own pixels, cut out of the picture that it was a part of."""
+"""Pictures of fragments: the pixels of a fragment, cut out of the picture that it was a part of."""
 
 from math import cos, pi, sin
 
@@ -8,16 +8,16 @@ import pygame
 from game.drawing.canvas import whole
 from physics import PixelMask
 
-ANGLES = 64  # pictures of a full turn that are kept: a 40 px piece moves by 2 px at its tips from one to the next
+ANGLES = 64  # pictures cached per full turn: a 40 px piece moves by 2 px at its tips from one to the next
 
 
 def cut_out(
     source: pygame.Surface, mask: PixelMask, left: int, top: int, edge: tuple[int, int, int], share: float = 0.75
 ) -> pygame.Surface:
-    """The solid pixels of a mask, whose raster begins at (left, top) in a picture, and no others.
+    """Return the solid pixels of a mask, whose raster begins at (left, top) in a picture, and no others.
 
-    Where the picture goes on beside them they broke off: so much of these pixels' colour, 0..1, is `edge`, and half as
-    much of those behind them.
+    Pixels on a fracture, where the picture continues beside the mask, are mixed with `edge`: by `share` of their
+    colour, 0..1, and the pixels behind them by half as much.
     """
     width, height = mask.size
     wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)
@@ -42,24 +42,24 @@ class FragmentPicture:
     """A fragment at any angle, about its body's origin."""
 
     def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
-        # From the body's origin to the middle of the picture.
+        # From the body's origin to the centre of the picture.
         self.off = (mask.size[0] / 2 - mask.origin[0], mask.size[1] / 2 - mask.origin[1])
         self.image, self.kept = image, {0: image}
 
     def at(self, angle: float) -> pygame.Surface:
-        """Its picture turned clockwise by the nearest angle kept [rad]."""
+        """Return the picture rotated clockwise by the nearest cached angle [rad]."""
         number = round(angle / (2.0 * pi) * ANGLES) % ANGLES
         if number not in self.kept:
             self.kept[number] = pygame.transform.rotate(self.image, -360.0 * number / ANGLES)
         return self.kept[number]
 
     def middle(self, x: float, y: float, angle: float) -> tuple[float, float]:
-        """Where the picture's middle is, of a body at a place and an angle."""
+        """Return the centre of the picture for a body at a position and an angle."""
         c, s = cos(angle), sin(angle)
         return x + c * self.off[0] - s * self.off[1], y + s * self.off[0] + c * self.off[1]
 
     def draw(self, surface: pygame.Surface, x: float, y: float, angle: float) -> None:
-        """Draw it with the body's origin at a place of the surface."""
+        """Draw it with the body's origin at a point of the surface."""
         image = self.at(angle)
         across, down = self.middle(x, y, angle)
         width, height = image.get_size()
@@ -67,6 +67,6 @@ class FragmentPicture:
 
 
 def _beside(pixels):
-    """What has one of these pixels on one of its four sides."""
+    """Return the pixels that have one of these on one of their four sides."""
     padded = np.pad(pixels, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

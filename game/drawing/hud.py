@@ -1,4 +1,4 @@
-"""Score, lives, bars and banners on the canvas. Each returns the rect it took."""
+"""Score, lives, bars and banners on the canvas. Each function returns the rect it drew in."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ BANNER_GROUND = (20, 16, 32, 150)
 def label(
     canvas: Canvas, text: str, x: float, y: float, value: str = "", align: str = "left", color: Color = PAPER
 ) -> pygame.Rect:
-    """A word and a number: the word grey-gold, the number bright. Returns the rect of both."""
+    """Draw a word in grey-gold and a number in a bright colour. Return the rect of both."""
     if align == "right":
         right = canvas.text(value, x, y, color, TEXT, align="right", outline=True)
         left = canvas.text(text, right.left - 4, y, GOLD, TEXT, align="right", outline=True)
@@ -27,7 +27,7 @@ def label(
 def icons(
     canvas: Canvas, image: pygame.Surface, count: int, x: int, y: int, gap: int = 2, most: int = 8
 ) -> pygame.Rect:
-    """A row of small pictures, as many as there are lives; more than `most` are written as a number."""
+    """Draw a row of small pictures, one per life, and return its rect; more than `most` are written as a number."""
     width, height = image.get_size()
     shown = min(count, most)
     for number in range(shown):
@@ -41,7 +41,7 @@ def icons(
 
 
 def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = INK) -> pygame.Rect:
-    """A bar filled to `share` 0..1."""
+    """Draw a bar filled to `share` 0..1 and return its rect."""
     rect = pygame.Rect(rect)
     canvas.surface.fill(ground, rect)
     canvas.surface.fill(
@@ -55,7 +55,7 @@ def bar(canvas: Canvas, rect: Box, share: float, color: Color, ground: Color = I
 def banner(
     canvas: Canvas, title: str, lines: Sequence[str] = (), color: Color = GOLD, y: int | None = None
 ) -> pygame.Rect:
-    """A large title over a dark band in the middle of the picture, with small lines under it."""
+    """Draw a large title over a dark band in the middle of the picture, with small lines under it. Return the rect."""
     width, height = canvas.measure(title, TEXT, 3)
     total = height + 6 + 13 * len(lines)
     top = (canvas.rect.height - total) // 2 if y is None else y

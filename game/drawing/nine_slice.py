@@ -1,4 +1,4 @@
-"""Framed boxes from the ui sheet: nine slices, the middle ones stretched."""
+"""Framed boxes from the ui sheet: nine slices, of which the middle ones are stretched."""
 
 from functools import lru_cache
 
@@ -7,7 +7,7 @@ import pygame
 from game.drawing.canvas import Box, Canvas
 from game.drawing.sprites import load_atlas
 
-EDGE = 8  # [px] of a slice that keeps its size
+EDGE = 8  # [px] side of a slice that keeps its size
 
 
 def draw_box(canvas: Canvas, rect: Box, name: str = "panel_dark") -> None:
@@ -32,5 +32,5 @@ def _box(name, width, height):
 
 
 def _place(index, length):
-    """Where the first, middle or last slice goes along a side, and how long it is there."""
+    """Return the place and length of the first, middle or last slice along a side."""
     return ((0, EDGE), (EDGE, max(length - 2 * EDGE, 0)), (length - EDGE, EDGE))[index]

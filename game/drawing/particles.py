@@ -1,4 +1,6 @@
-"""Particles: columns moved with NumPy, seen and never felt. Their random numbers are their own."""
+"""Particles: columns moved with NumPy. They are decoration: no game rule reads them, and they have their own random
+numbers.
+"""
 
 import numpy as np
 import pygame
@@ -7,12 +9,12 @@ from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
 from game.drawing.colors import Color
 
-CAPACITY = 2048  # the oldest give way; a particle is decoration, and nothing else reads them
+CAPACITY = 2048  # new particles replace the oldest; nothing but the drawing reads them
 COLUMNS = ("x", "y", "vx", "vy", "age", "life", "size", "drag", "gravity")
 
 
 class Particles:
-    """Squares of 1 to 3 canvas pixels that fly, slow down and cool along a ramp of colours."""
+    """Squares of 1 to 3 canvas pixels that fly, slow down and change colour along a ramp."""
 
     def __init__(self, seed: int = 0) -> None:
         self.random = np.random.default_rng(seed)
@@ -22,8 +24,8 @@ class Particles:
         self.clear()
 
     def __getstate__(self):
-        alive = np.flatnonzero(self.rows[4] < self.rows[5]).astype(np.int16)  # nobody looks at the others
-        rows, ramps = self.rows[:, alive].astype(np.float32), self.ramps[alive].astype(np.int16)  # exact enough to see
+        alive = np.flatnonzero(self.rows[4] < self.rows[5]).astype(np.int16)  # the others are not drawn
+        rows, ramps = self.rows[:, alive].astype(np.float32), self.ramps[alive].astype(np.int16)  # enough for drawing
         return self.random, self.colors, self.newest, alive, rows, ramps
 
     def __setstate__(self, state):
@@ -38,7 +40,7 @@ class Particles:
 
     @property
     def count(self) -> int:
-        """How many are alive."""
+        """Number of living particles."""
         return int(np.count_nonzero(self.rows[4] < self.rows[5]))
 
     def burst(
@@ -58,8 +60,8 @@ class Particles:
     ) -> None:
         """Throw `count` particles from (x, y) [world px].
 
-        ramp: colours from hot to cold. speed [px/s], life [s] and size [px] are (low, high) ranges; angle and
-        spread [rad] aim the cone; carry is a velocity all share (the wreck's).
+        ramp: colours from hot to cold. speed [px/s], life [s] and size [px] are (low, high) ranges. angle and spread
+        [rad] aim the cone. carry is a velocity added to all, such as the wreck's.
         """
         if ramp not in self.colors:
             self.colors.append(ramp)
@@ -93,7 +95,7 @@ class Particles:
         age += dt
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Draw those in the picture: one array write per particle size, no loop over particles."""
+        """Draw those in view: one array write per particle size, no loop over particles."""
         x, y, _, _, age, life, size, _, _ = self.rows
         alive = np.flatnonzero(age < life)
         if len(alive) == 0:
@@ -112,7 +114,7 @@ class Particles:
         del pixels  # unlocks the surface
 
     def _mapped(self, surface, alive, age, life):
-        """Each particle's colour as the surface's pixel value."""
+        """Return each particle's colour as the surface's pixel value."""
         heat = age[alive] / life[alive]
         out = np.zeros(len(alive), dtype=np.uint32)
         for index, ramp in enumerate(self.colors):

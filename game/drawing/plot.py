@@ -1,4 +1,4 @@
-"""A plot with two logarithmic axes at window resolution: decades, ticks, points; a line at the bottom for zero."""
+"""A plot with two logarithmic axes at window resolution: decades, ticks, points, and a line at the bottom for zero."""
 
 from collections.abc import Iterable
 from math import ceil, floor, log10
@@ -10,13 +10,13 @@ from game.drawing.colors import FOG, INK, SLATE, Color, faded
 from game.drawing.presenter import Frame
 
 STEPS = (1, 2, 5)  # of a decade
-LEAST_SPAN = 0.5  # [decades] an axis has at least
+LEAST_SPAN = 0.5  # [decades] least span of an axis
 PAD = 0.06  # [decades] beyond the outermost point
 GRID = (52, 46, 76)
 
 
 class Axis:
-    """Values from `low` to `high`, both above 0, widened to whole ticks' reach."""
+    """An axis from `low` to `high`, both above 0, widened to the reach of whole ticks."""
 
     def __init__(self, values: Iterable[float]) -> None:
         found = [value for value in values if value > 0.0] or [1.0]
@@ -25,11 +25,11 @@ class Axis:
         self.low, self.high = low - spare, high + spare
 
     def share(self, value: float) -> float:
-        """Where a value above 0 lies, 0..1."""
+        """Return the place of a value above 0 on the axis, 0..1."""
         return (log10(value) - self.low) / (self.high - self.low)
 
     def ticks(self, most: int) -> list[float]:
-        """Round values within, at most about so many."""
+        """Return round values within the axis, at most about `most`."""
         decades = range(floor(self.low), ceil(self.high) + 1)
         for steps in (STEPS, (1,)):
             found = [step * 10.0**decade for decade in decades for step in steps]
@@ -40,7 +40,7 @@ class Axis:
 
 
 class LogPlot:
-    """x and y: the axes. zero: a strip under the plot stands for a y of 0, where one is."""
+    """A plot of two axes, x and y. zero: whether a strip under the plot stands for a y of 0."""
 
     def __init__(self, rect: pygame.Rect, x: Axis, y: Axis, zero: bool, scale: int) -> None:
         self.x, self.y, self.scale = x, y, scale
@@ -50,14 +50,14 @@ class LogPlot:
         self.area = inner if not zero else pygame.Rect(inner.x, inner.y, inner.width, inner.height - 13 * scale)
 
     def place(self, x: float, y: float) -> tuple[float, float]:
-        """Frame position of a point; a y of 0 lies in the strip."""
+        """Return the frame position of a point; a y of 0 lies in the strip."""
         left = self.area.x + self.x.share(x) * self.area.width
         if y <= 0.0 and self.strip is not None:
             return left, self.strip.centery
         return left, self.area.bottom - self.y.share(y) * self.area.height
 
     def draw_ground(self, frame: Frame) -> None:
-        """Ground, grid and the numbers of both axes."""
+        """Draw the ground, the grid and the numbers of both axes."""
         surface, scale, area = frame.surface, self.scale, self.area
         bottom = self.strip.bottom if self.strip is not None else area.bottom
         surface.fill(INK, area)
@@ -75,7 +75,7 @@ class LogPlot:
         pygame.draw.rect(surface, SLATE, area, 1)
 
     def draw_level(self, frame: Frame, value: float, color: Color, name: str) -> None:
-        """A dashed line at a y, named; nothing where it lies outside."""
+        """Draw a dashed, named line at a y; draw nothing if it lies outside."""
         if not self.y.low <= log10(value) <= self.y.high:
             return
         top = round(self.place(1.0, value)[1])
@@ -87,7 +87,7 @@ class LogPlot:
 
 
 def number(value: float) -> str:
-    """A short number: 0.02, 1, 300, 20k."""
+    """Return a short number: 0.02, 1, 300, 20k."""
     if value >= 1000.0:
         return f"{value / 1000.0:g}k"
     return f"{value:g}"

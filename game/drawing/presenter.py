@@ -1,7 +1,6 @@
 """From the 480 x 270 canvas to the window: integer scale, letterbox, and the frame that overlays draw on.
 
-Our own presenter, since SCALED and OpenGL fail under SDL's dummy driver and SCALED fullscreen is not
-integer-scaled.
+It replaces pygame.SCALED: SCALED and OpenGL fail under SDL's dummy driver, and SCALED fullscreen has no integer scale.
 """
 
 import numpy as np
@@ -16,17 +15,17 @@ SCREENSHOT_SCALE = 3  # 1440 x 810
 
 
 class Lens:
-    """World to frame for one view: X = x * scale + dx, Y = y * scale + dy; `clip` is the viewport."""
+    """Transform from world to frame for one view: X = x * scale + dx, Y = y * scale + dy; `clip` is the viewport."""
 
     def __init__(self, scale: float, dx: float, dy: float, clip: pygame.Rect) -> None:
         self.scale, self.dx, self.dy, self.clip = scale, dx, dy, clip
 
     def points(self, x: Number, y: Number) -> tuple[Number, Number]:
-        """Frame positions of world points (scalars or arrays)."""
+        """Return the frame positions of world points (scalars or arrays)."""
         return x * self.scale + self.dx, y * self.scale + self.dy
 
     def seen(self, rows: np.ndarray) -> np.ndarray:
-        """Which (n, 4) world boxes reach into the view, as a bool array."""
+        """Return which (n, 4) world boxes reach into the view, as a bool array."""
         clip = self.clip
         left, top = (clip.left - self.dx) / self.scale, (clip.top - self.dy) / self.scale
         right, bottom = (clip.right - self.dx) / self.scale, (clip.bottom - self.dy) / self.scale
@@ -34,7 +33,7 @@ class Lens:
 
 
 class Frame(Canvas):
-    """The presented picture at window resolution: a Canvas that knows where the game canvas lies on it."""
+    """The presented picture at window resolution: a Canvas with the place of the game canvas on it."""
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface)
@@ -43,25 +42,25 @@ class Frame(Canvas):
 
     @property
     def text_scale(self) -> int:
-        """Whole-number scale at which small text can be read at this resolution."""
+        """Whole-number scale at which small text is readable at this resolution."""
         return max(1, (self.surface.get_height() + 140) // 340)
 
     @property
     def edge(self) -> int:
-        """How far an outline reaches over its text's box, on the canvas or here [frame px]."""
+        """Extent of an outline over its text's box, on the canvas or on the frame [frame px]."""
         return max(self.scale, self.text_scale)
 
     @property
     def plot_scale(self) -> int:
-        """Of small text in a plot that belongs into the game's picture: no larger than the picture's own."""
+        """Scale of small text in a plot inside the game's picture: no larger than the picture's own."""
         return min(self.text_scale, self.scale)
 
     def scale_for(self, width: int) -> int:
-        """Whole-number scale at which something `width` text px wide fits over the game."""
+        """Return the whole-number scale at which `width` text px fit over the game."""
         return max(1, min(self.text_scale, self.area.width // width))
 
     def lens(self, camera: View) -> Lens:
-        """World to frame for a camera, drawn at the last step's poses."""
+        """Return the transform from world to frame for a camera, at the poses of the last step."""
         left, top = camera.view()
         scale = camera.zoom * self.scale
         view = camera.viewport
@@ -71,20 +70,20 @@ class Frame(Canvas):
         return Lens(scale, corner_x - left * scale, corner_y - top * scale, clip)
 
     def from_canvas(self, rect: Box) -> pygame.Rect:
-        """The frame rect of a canvas rect."""
+        """Return the frame rect of a canvas rect."""
         s, area = self.scale, self.area
         return pygame.Rect(area.x + rect[0] * s, area.y + rect[1] * s, rect[2] * s, rect[3] * s)
 
 
 class Presenter:
-    """Scales a canvas onto a frame. `docked` makes room for the panel on the right and graphs below."""
+    """Scaling of a canvas onto a frame. `docked` makes room for the panel on the right and for graphs below."""
 
     def __init__(self, surface: pygame.Surface) -> None:
         self.frame = Frame(surface)
         self.docked = False
 
     def place(self) -> None:
-        """Choose the scale and the canvas's place for the surface's present size."""
+        """Choose the scale and the place of the canvas for the present size of the surface."""
         frame = self.frame
         width, height = frame.surface.get_size()
         free = width - self.panel_width if self.docked and not self.crowded else width
@@ -97,17 +96,17 @@ class Presenter:
 
     @property
     def crowded(self) -> bool:
-        """True when canvas and panel do not fit side by side: the panel then takes the whole picture."""
+        """True if canvas and panel do not fit side by side; the panel then takes the whole picture."""
         return self.frame.surface.get_width() - self.panel_width < CANVAS_SIZE[0]
 
     @property
     def panel_width(self) -> int:
-        """Frame pixels kept for the docked panel."""
+        """Width reserved for the docked panel [frame px]."""
         return int(self.frame.surface.get_width() * PANEL_SHARE)
 
     @property
     def panel_rect(self) -> pygame.Rect:
-        """Where the docked panel goes."""
+        """Rect of the docked panel."""
         width, height = self.frame.surface.get_size()
         if self.crowded:
             return pygame.Rect(0, 0, width, height)
@@ -115,14 +114,14 @@ class Presenter:
 
     @property
     def strip_rect(self) -> pygame.Rect:
-        """The strip under the docked canvas; empty when there is none."""
+        """Rect of the strip under the docked canvas; empty if there is none."""
         width, height = self.frame.surface.get_size()
         if self.crowded:
             return pygame.Rect(0, 0, 0, 0)
         return pygame.Rect(0, self.frame.area.bottom, width - self.panel_width, height - self.frame.area.bottom)
 
     def present(self, canvas: Canvas) -> Frame:
-        """Scale the canvas onto the frame and hand the frame on, its text boxes known."""
+        """Scale the canvas onto the frame and return the frame with the canvas's text boxes."""
         self.place()
         frame = self.frame
         frame.begin()
@@ -131,7 +130,7 @@ class Presenter:
         visible = frame.area.clip(frame.surface.get_rect())
         if visible == frame.area:
             pygame.transform.scale(canvas.surface, frame.area.size, frame.surface.subsurface(frame.area))
-        else:  # a window smaller than the canvas: shown cut, so that the scale stays whole
+        else:  # a window smaller than the canvas: the picture is cut, so that the scale stays whole
             frame.surface.blit(canvas.surface, frame.area)
         frame.boxes.extend((frame.from_canvas(rect), text) for rect, text in canvas.boxes)
         frame.reserved.extend(frame.from_canvas(rect) for rect in canvas.reserved)
@@ -139,6 +138,6 @@ class Presenter:
         return frame
 
     def to_canvas(self, position: tuple[int, int]) -> tuple[int, int]:
-        """Canvas pixel under a window position; may lie outside the canvas."""
+        """Return the canvas pixel under a window position; it may lie outside the canvas."""
         area = self.frame.area
         return (position[0] - area.x) // self.frame.scale, (position[1] - area.y) // self.frame.scale

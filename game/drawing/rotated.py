@@ -1,7 +1,7 @@
-"""Pictures of turning bodies: small pixel art at any angle, kept crisp, and a cast of bodies with their pictures.
+"""Pictures of rotating bodies: small pixel art at any angle, with sharp edges, and the bodies' assignment to pictures.
 
-A picture is enlarged eight times by Scale2x, which keeps its edges, and then sampled at each pixel of the turned one
-(the idea of RotSprite). What was turned once is kept.
+A picture is enlarged eight times by Scale2x, which keeps its edges, and then sampled at each pixel of the rotated one
+(the idea of RotSprite). Rotated pictures are cached.
 """
 
 from collections.abc import Mapping
@@ -18,13 +18,13 @@ from physics import Body, World
 
 BodyOrId = TypeVar("BodyOrId", Body, int)
 
-BUCKETS = 192  # angles kept per picture: 1.9 degrees moves the edge of a 30 px piece by half a pixel
+BUCKETS = 192  # angles cached per picture: 1.9 degrees moves the edge of a 30 px piece by half a pixel
 DOUBLINGS = 3  # of the picture before it is sampled
-MARGIN = 80  # [canvas px] pieces up to this far outside the view may still reach into it
+MARGIN = 80  # [canvas px] pieces up to this far outside the view may reach into it
 
 
 class RotatedPicture:
-    """One picture at any angle, its middle at the body's position."""
+    """One picture at any angle, centred on the body's position."""
 
     def __init__(self, image: pygame.Surface) -> None:
         self.image = image
@@ -32,13 +32,13 @@ class RotatedPicture:
         self.large = None
 
     def draw(self, surface: pygame.Surface, x: float, y: float, angle: float) -> None:
-        """Draw with the middle at the surface point (x, y)."""
+        """Draw it centred on the surface point (x, y)."""
         turned = self.at(angle)
         width, height = turned.get_size()
         surface.blit(turned, (floor(x - width / 2 + 0.5), floor(y - height / 2 + 0.5)))
 
     def at(self, angle: float) -> pygame.Surface:
-        """The picture turned clockwise to the nearest angle kept [rad]."""
+        """Return the picture rotated clockwise to the nearest cached angle [rad]."""
         bucket = round(angle / (2 * pi) * BUCKETS) % BUCKETS
         if bucket not in self.kept:
             self.kept[bucket] = self.image if bucket == 0 else self._turn(2 * pi * bucket / BUCKETS)
@@ -53,7 +53,7 @@ class RotatedPicture:
             self.large = np.dstack((pygame.surfarray.array3d(large), pygame.surfarray.array_alpha(large)))
         width, height = self.image.get_size()
         reach = ceil(hypot(width, height))
-        # The same parity as the picture's, so that a piece does not jump by half a pixel when it starts to turn.
+        # The same parity as the picture's, so that a piece does not jump by half a pixel when it starts to rotate.
         out_width, out_height = (reach + (reach - side) % 2 for side in (width, height))
         x = np.arange(out_width)[:, None] + 0.5 - out_width / 2
         y = np.arange(out_height)[None, :] + 0.5 - out_height / 2
@@ -72,7 +72,7 @@ class RotatedPicture:
 
 
 def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """x, y [px] and angle [rad] of BODY rows so far between the last two steps, 0 to 1."""
+    """Return x, y [px] and angle [rad] of BODY rows, interpolated between the last two steps by alpha, 0 to 1."""
     x, y, angle = (
         bodies["previous_" + name] + (bodies[name] - bodies["previous_" + name]) * alpha for name in ("x", "y", "angle")
     )
@@ -80,7 +80,7 @@ def poses_between(bodies: np.ndarray, alpha: float) -> tuple[np.ndarray, np.ndar
 
 
 class Cast:
-    """Which picture each body of a world has; draws them all in the order of their ids."""
+    """The pictures of the bodies of a world, drawn in the order of the ids."""
 
     def __init__(self, atlas: Atlas | Mapping[str, pygame.Surface]) -> None:
         self.atlas = atlas
@@ -88,18 +88,20 @@ class Cast:
         self.looks = {}  # body id -> name
 
     def add(self, body: BodyOrId, name: str) -> BodyOrId:
-        """Give a body (or its id) the picture of that name; returns the body."""
+        """Give a body (or its id) the picture of that name; return the body."""
         self.looks[getattr(body, "id", body)] = name
         return body
 
     def picture(self, name: str) -> RotatedPicture:
-        """The turning picture of a name."""
+        """Return the rotated picture of a name."""
         if name not in self.turned:
             self.turned[name] = RotatedPicture(self.atlas[name])
         return self.turned[name]
 
     def draw(self, canvas: Canvas, camera: Camera, world: World, alpha: float) -> None:
-        """Draw the bodies that have a picture, between the last two steps, clipped to the camera's view."""
+        """Draw the bodies that have a picture, interpolated between the last two steps, clipped to the camera's
+        view.
+        """
         bodies, surface = world.bodies, canvas.surface
         x, y, angle = poses_between(bodies, alpha)
         x, y = camera.to_canvas(x, y, alpha)

@@ -1,4 +1,4 @@
-"""Sprites from the atlas files of assets/images, and sprites turned to exactly the pixels that collide."""
+"""Sprites from the atlas files of assets/images, and rotated sprites that show exactly the pixels that collide."""
 
 import json
 from dataclasses import dataclass
@@ -19,24 +19,24 @@ from physics import PixelMask
 
 @dataclass(frozen=True)
 class Animation:
-    """Frames at a steady rate."""
+    """Frames at a constant rate."""
 
     images: tuple
     names: tuple
     fps: float
 
     def index_at(self, seconds: float, loop: bool = True) -> int:
-        """Which frame is shown after so many seconds. Without loop the last one stays."""
+        """Return the index of the frame after so many seconds. Without loop the last frame stays."""
         number = int(seconds * self.fps)
         return number % len(self.images) if loop else min(number, len(self.images) - 1)
 
     def at(self, seconds: float, loop: bool = True) -> pygame.Surface:
-        """The image shown after so many seconds."""
+        """Return the image after so many seconds."""
         return self.images[self.index_at(seconds, loop)]
 
     @property
     def seconds(self) -> float:
-        """How long one round lasts."""
+        """Length of one round [s]."""
         return len(self.images) / self.fps
 
 
@@ -48,26 +48,26 @@ class Atlas:
         self.masks = {}
 
     def __getitem__(self, name):
-        """The image of a frame. Raises ValueError naming the sheet for an unknown frame."""
+        """Return the image of a frame. Raises ValueError naming the sheet for an unknown frame."""
         if name not in self.images:
             raise ValueError(f"{self.path} has no frame {name!r}; it has {', '.join(self.images)}")
         return self.images[name]
 
     def animation(self, name: str) -> Animation:
-        """An animation. Raises ValueError naming the sheet for an unknown one."""
+        """Return an animation. Raises ValueError naming the sheet for an unknown one."""
         if name not in self.animations:
             raise ValueError(f"{self.path} has no animation {name!r}; it has {', '.join(self.animations)}")
         return self.animations[name]
 
     def mask(self, name: str) -> PixelMask:
-        """The pixels of a frame as a PixelMask about its centre."""
+        """Return the pixels of a frame as a PixelMask about its centre, made once."""
         if name not in self.masks:
             self.masks[name] = PixelMask.from_surface(self[name])
         return self.masks[name]
 
 
 def load_image(path: Path) -> pygame.Surface:
-    """A picture, converted for fast blits when there is a display. Raises FileError."""
+    """Return a picture, converted for fast blits when there is a display. Raises FileError."""
     try:
         image = pygame.image.load(str(path))
     except (OSError, pygame.error) as error:
@@ -77,13 +77,13 @@ def load_image(path: Path) -> pygame.Surface:
 
 @cache
 def load_backdrop(name: str) -> pygame.Surface:
-    """assets/images/<name>.png as one picture."""
+    """Return the picture assets/images/<name>.png."""
     return load_image(IMAGES / f"{name}.png")
 
 
 @cache
 def load_atlas(name: str) -> Atlas:
-    """The sheet assets/images/<name>.png with its .json. Raises FileError for a damaged one."""
+    """Return the sheet assets/images/<name>.png with its .json. Raises FileError for a damaged one."""
     path = IMAGES / f"{name}.json"
     sheet = load_image(IMAGES / f"{name}.png")
     try:
@@ -102,14 +102,14 @@ def load_atlas(name: str) -> Atlas:
 
 
 class RotatedSprites:
-    """A sprite at any angle, drawn from exactly the pixels its mask tests: no fringe that does not hit."""
+    """A sprite at any angle, drawn from exactly the pixels that its mask tests: every visible pixel collides."""
 
     def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
         self.image, self.mask = image, mask
         self.cache = {}
 
     def __deepcopy__(self, memo):
-        """A copy of a scene draws with the same pictures."""
+        """Return itself: a copy of a scene draws with the same pictures."""
         return self
 
     def draw(self, canvas: Canvas, camera: Camera, x: float, y: float, angle: float, alpha: float = 1.0) -> None:
@@ -121,7 +121,7 @@ class RotatedSprites:
         canvas.surface.blit(image, (place_x, place_y))
 
     def at(self, angle: float) -> tuple[pygame.Surface, tuple[float, float]]:
-        """(image, origin in it) at the angle bucket nearest to `angle` [rad]."""
+        """Return (image, origin in it) at the angle bucket nearest to `angle` [rad]."""
         bucket = self.mask.bucket_at(angle)
         if bucket not in self.cache:
             turned = self.mask.turned_to(bucket)
@@ -130,7 +130,7 @@ class RotatedSprites:
 
 
 def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
-    """A surface of the turned mask's size with each solid pixel taken from its source pixel."""
+    """Return a surface of the rotated mask's size, with each solid pixel taken from its source pixel."""
     height, width = turned.solid.shape
     out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)
     rows, columns = np.nonzero(turned.solid)
@@ -146,7 +146,7 @@ def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
 
 
 def lit(image: pygame.Surface, amount: int = 110) -> pygame.Surface:
-    """A copy made brighter by `amount` 0..255: the flash of a thing that was hit."""
+    """Return a copy made brighter by `amount` 0..255, the flash of a hit."""
     copy = image.copy()
     copy.fill((amount, amount, amount, 0), special_flags=pygame.BLEND_RGBA_ADD)
     return copy

@@ -1,4 +1,4 @@
-"""The small picture of each scene for the menu, and an empty frame where a picture is missing."""
+"""The menu's small picture of each scene, and an empty frame if a picture is missing."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""A tile layer as pictures: drawn once in chunks, then blitted, so a level of any length costs the same."""
+"""A tile layer as pictures: drawn once in chunks, then blitted, so that the cost does not grow with the level."""
 
 import pygame
 
@@ -11,7 +11,7 @@ CHUNK = 32  # tiles along a side of a chunk: 512 px, so at most four of them are
 
 
 class TilePicture:
-    """draw() paints one layer of a TileMap through a camera."""
+    """Pictures of one layer of a TileMap, drawn through a camera."""
 
     def __init__(self, tilemap: TileMap, layer: str, tiles: pygame.Surface | None = None) -> None:
         self.map, self.layer = tilemap, layer
@@ -35,7 +35,7 @@ class TilePicture:
         return self.chunks[column, row]
 
     def _paint(self, first_column, first_row):
-        """One chunk's picture, or None where it has no tile."""
+        """Return one chunk's picture, or None if it has no tile."""
         numbers, flips = self.map.layers[self.layer], self.map.flips[self.layer]
         if first_column < 0 or first_row < 0:
             return None
@@ -61,5 +61,5 @@ class TilePicture:
 
 
 def _sheet(tilemap):
-    """The tileset's picture, which must hold every tile of the map."""
+    """Return the tileset's picture, which must hold every tile of the map."""
     return load_image(map_picture(tilemap))

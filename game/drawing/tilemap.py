@@ -1,8 +1,8 @@
-"""Levels made with Tiled (.tmj): tile layers, tile properties, objects. Damage is named by file, place, reason.
+"""Levels made with Tiled (.tmj): tile layers, tile properties, objects. An error names file, place and reason.
 
-Read: orthogonal maps of one embedded tileset, finite, layer data as CSV or as base64 (plain, zlib, gzip).
-Refused with the cure: infinite maps, tilesets in files of their own, other encodings. What is packed is unpacked up to
-the bytes that the map can hold.
+It reads finite orthogonal maps of one embedded tileset, with layer data as CSV or base64 (plain, zlib, gzip). It
+refuses infinite maps, external tilesets and other encodings, and says how to change them in Tiled. Packed data is
+unpacked only up to the bytes that the map can hold.
 """
 
 import base64
@@ -18,12 +18,12 @@ from game.files.pictures import picture_of, png_size
 from game.places import IMAGES
 from physics import TileGrid
 
-FLIPS = 0xF0000000  # the top bits of a tile number say how it is mirrored
+FLIPS = 0xF0000000  # the top bits of a tile number hold its mirroring
 FLIP_X, FLIP_Y, FLIP_DIAGONAL = 0x80000000, 0x40000000, 0x20000000
-LARGEST = 10_000  # tiles along a side; a larger number is damage, not a level
+LARGEST = 10_000  # tiles along a side; a larger number is a damaged file
 MOST_TILES = 2**22  # in all layers together: each takes 40 bytes while it is read, 16 from then on
 LARGEST_PICTURE = 4096  # [px] of a tileset's picture each way: 64 MB
-PACKINGS = {"zlib": zlib.MAX_WBITS, "gzip": zlib.MAX_WBITS | 16}  # compression -> how zlib is told of the header
+PACKINGS = {"zlib": zlib.MAX_WBITS, "gzip": zlib.MAX_WBITS | 16}  # compression -> zlib window bits: the header
 KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 
@@ -63,11 +63,11 @@ class TileMap:
         return self.columns * self.tile_size, self.rows * self.tile_size
 
     def kind_of(self, number: int) -> str:
-        """What a tile is: one of KINDS; a tile without the property is decor."""
+        """Return the kind of a tile, one of KINDS; a tile without the property is decor."""
         return self.tiles.get(int(number), {}).get("kind", "decor")
 
     def grid(self, layer: str = "solid") -> TileGrid:
-        """The layer as a physics.TileGrid with its one-way tiles and slopes."""
+        """Return the layer as a physics.TileGrid with its one-way tiles and slopes."""
         numbers = self._layer(layer)
         solid, one_way = np.zeros(numbers.shape, bool), np.zeros(numbers.shape, bool)
         slopes = np.zeros((*numbers.shape, 2))
@@ -86,17 +86,17 @@ class TileMap:
         return TileGrid(solid, self.tile_size, one_way, slopes)
 
     def cells(self, kind: str, layer: str = "solid") -> list[tuple[int, int]]:
-        """(column, row) of every tile of a kind, for what is no solid (spikes)."""
+        """Return (column, row) of every tile of a kind that is not solid, such as spikes."""
         numbers = self._layer(layer)
         matching = [number for number in np.unique(numbers).tolist() if number >= 0 and self.kind_of(number) == kind]
         return [(int(c), int(r)) for r, c in np.argwhere(np.isin(numbers, matching))]
 
     def things_of(self, kind: str) -> list[Thing]:
-        """The objects of a kind, in the file's order."""
+        """Return the objects of a kind, in the file's order."""
         return [thing for thing in self.things if thing.kind == kind]
 
     def one(self, kind: str) -> Thing:
-        """The only object of a kind. Raises FileError when there is none or more than one."""
+        """Return the only object of a kind. Raises FileError if there is none or more than one."""
         found = self.things_of(kind)
         if len(found) != 1:
             raise FileError(self.path, "objects", f"must hold one {kind}, hold {len(found)}")
@@ -106,7 +106,10 @@ class TileMap:
         return self.flips.get(layer, np.zeros((self.rows, self.columns), int))
 
     def _refuse_turned(self, layer, turned):
-        """A slope is mirrored left and right only: it would hold at its upper edge what the picture shows below."""
+        """Raise FileError for a rotated or upside-down slope.
+
+        Slopes may be mirrored left and right only: the collision shape of any other would not match its picture.
+        """
         for row, column in np.argwhere(turned)[:1].tolist():
             raise FileError(
                 self.path,
@@ -128,7 +131,7 @@ def load_tilemap(path: Path, largest: tuple[int, int] = (LARGEST, LARGEST)) -> T
 
 
 def map_picture(tilemap: TileMap) -> Path:
-    """Return the path of the tileset's picture, beside the map or the game's own of that name. Raises FileError."""
+    """Return the path of the tileset's picture, beside the map or among the game's own. Raises FileError."""
     path = picture_of(tilemap.path, "tilesets[0].image", tilemap.image, IMAGES)
     width, height = png_size(path, LARGEST_PICTURE)
     most = max((int(layer.max()) for layer in tilemap.layers.values() if layer.size), default=-1)
@@ -139,9 +142,9 @@ def map_picture(tilemap: TileMap) -> Path:
 
 
 def unpacked(packed: bytes, packing: int, most: int) -> bytes:
-    """Return what was packed, `most` bytes of it and one more where there are more. Raises zlib.error, ValueError.
+    """Unpack data up to `most` bytes, plus one byte if there are more. Raises zlib.error, ValueError.
 
-    packing: one of PACKINGS. Bytes behind the packed ones count as more.
+    packing: one of PACKINGS. Bytes behind the packed data count as more.
     """
     reader = zlib.decompressobj(packing)
     content = reader.decompress(packed, most + 1)
@@ -151,7 +154,7 @@ def unpacked(packed: bytes, packing: int, most: int) -> bytes:
 
 
 class _Reader:
-    """Checks while it reads; `fail` names the place."""
+    """Reader of a map that checks each value; `fail` names the place of an error."""
 
     def __init__(self, path, largest):
         self.path, self.largest = Path(path), largest

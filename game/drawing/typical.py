@@ -1,6 +1,6 @@
-"""A figure that can be read while it is measured anew in every step: the median of the last ones.
+"""A figure that stays readable while it is measured in every step: the median of the last values.
 
-An average lets one slow step, a compiler's or a garbage collection's, stand in the picture for seconds.
+With an average, one slow step (compilation, garbage collection) would distort the shown value for seconds.
 """
 
 from collections import deque
@@ -9,16 +9,16 @@ KEPT = 61  # values: a second of steps
 
 
 class Typical:
-    """note(value) once per step; `value` is the median of the last KEPT, 0 before the first."""
+    """The median of the last KEPT values, in `value`; 0 before the first. Call note(value) once per step."""
 
     def __init__(self, kept: int = KEPT) -> None:
         self.last: deque[float] = deque(maxlen=kept)
 
     def note(self, value: float) -> None:
-        """Take one more."""
+        """Add a value."""
         self.last.append(float(value))
 
     @property
     def value(self) -> float:
-        """What is typical now; of an even number the upper of the middle two."""
+        """Median now; the upper of the middle two for an even number of values."""
         return sorted(self.last)[len(self.last) // 2] if self.last else 0.0

@@ -1,4 +1,4 @@
-"""The window: opening it, and changing it to what the settings say."""
+"""The window: opening it, and changing it to the settings."""
 
 import os
 import sys
@@ -11,16 +11,16 @@ from game.drawing.canvas import CANVAS_SIZE
 from game.errors import UsageError
 from game.files.settings import Settings
 
-LARGEST_SHARE = 0.9  # of the desktop that a window opened without a chosen size may take
+LARGEST_SHARE = 0.9  # of the desktop: greatest share of a window opened without a chosen size
 
 
 def open_window(settings: Settings) -> pygame.Surface:
-    """The window's surface. Raises UsageError when there is no display to open it on."""
+    """Open the window and return its surface. Raises UsageError if there is no display."""
     try:
         if not has_screen(sys.platform, os.environ):
             raise pygame.error("neither DISPLAY nor WAYLAND_DISPLAY is set")
         pygame.display.init()
-        # SDL falls back to drivers nobody can see; only who asks for one by name gets it.
+        # SDL falls back to invisible drivers, which are accepted only if the environment names one.
         if pygame.display.get_driver() in ("dummy", "offscreen") and not os.environ.get("SDL_VIDEODRIVER"):
             raise pygame.error("no screen found")
         surface = set_mode(settings)
@@ -33,18 +33,20 @@ def open_window(settings: Settings) -> pygame.Surface:
 
 
 def has_screen(platform: str, environment: Mapping[str, str]) -> bool:
-    """False where SDL could only fail, with noise of its own: Linux without X, Wayland or a driver by name."""
+    """Return whether SDL can find a display. It is False on Linux without X, Wayland or a driver by name, where SDL
+    would print errors of its own.
+    """
     names = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
     return not platform.startswith("linux") or any(environment.get(name) for name in names)
 
 
 def mode_of(settings: Settings) -> tuple[bool, int, bool]:
-    """What of the settings the window depends on: it is opened anew only when this changes."""
+    """Return the settings that the window depends on; it is opened again only when one of these changes."""
     return settings.fullscreen, settings.window_scale, settings.vsync
 
 
 def set_mode(settings: Settings) -> pygame.Surface:
-    """Open or change the window to the settings' size."""
+    """Open the window, or change it, to the size in the settings."""
     desktop = pygame.display.get_desktop_sizes()[0]
     if settings.fullscreen:
         return _open(desktop, pygame.FULLSCREEN, settings.vsync)
@@ -54,11 +56,11 @@ def set_mode(settings: Settings) -> pygame.Surface:
 
 
 def _open(size, flags, vsync):
-    """Where the system has no vsync, the window opens without: our own timing paces it then."""
+    """Open the window, without vsync if the system has none: the game loop's own timing then sets the rate."""
     if vsync and pygame.display.get_driver() not in ("dummy", "offscreen"):
         try:
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore")  # "no fast renderer" is no reason to stop, not even for --strict
+                warnings.simplefilter("ignore")  # "no fast renderer" is no reason to stop, even under --strict
                 return pygame.display.set_mode(size, flags, vsync=1)
         except pygame.error:
             return pygame.display.set_mode(size, flags)
@@ -66,7 +68,7 @@ def _open(size, flags, vsync):
 
 
 def copy_text(text: str) -> bool:
-    """Put text on the clipboard; True if that worked."""
+    """Copy text to the clipboard. Return whether it is there."""
     try:
         pygame.scrap.put_text(text)
         return pygame.scrap.get_text() == text

@@ -1,1 +1,1 @@
-"""What a player keeps: settings, scores, ghosts, levels of their own, and the folder that all of it is in."""
+"""Files of the player: settings, scores, ghosts, own levels, and their folder."""

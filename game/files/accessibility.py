@@ -1,13 +1,15 @@
-"""Accessibility: what eyes and hands of this player want of the picture. No rule of a game ever reads it."""
+"""Accessibility: the player's settings for shake, flashes and colours. No game rule reads them."""
 
 from dataclasses import dataclass
 
-PALETTES = ("standard", "safe", "contrast")  # safe: the Okabe-Ito colours; contrast: the same, darker behind them
+PALETTES = ("standard", "safe", "contrast")  # safe: the Okabe-Ito colours; contrast: the same on a darkened picture
 
 
 @dataclass(frozen=True)
 class Accessibility:
-    """`shake`: factor 0..1 on camera shake. `flashing`: False leaves out flashes of the whole picture, and blinking."""
+    """Accessibility settings. `shake`: factor 0..1 on camera shake. `flashing`: False disables flashes of the whole
+    picture, and blinking.
+    """
 
     shake: float = 1.0
     flashing: bool = True

@@ -1,7 +1,7 @@
-"""The trail of a scene's fastest won run, kept as a file, to be seen as a ghost beside later runs.
+"""The path of a scene's fastest won run, kept as a file, and shown as a ghost beside later runs.
 
-A trail is a list of (x, y, frame name, way) rows, one per step. A ghost that cannot be used is kept and left out: it
-never stops a game.
+A trail is a list of (x, y, frame name, way) rows, one per step. An unusable ghost file is kept and not shown: it never
+stops a game.
 """
 
 import json
@@ -14,16 +14,16 @@ from game.files.json_file import read_json
 
 FORMAT, VERSION = "hitbox ghost", 1
 LONGEST = 60 * 60 * 60  # rows: an hour
-FARTHEST = 1e7  # [px] from the origin; drawing turns places into whole numbers
+FARTHEST = 1e7  # [px] from the origin; drawing rounds positions to integers
 
 
 def ghost_path(table: str) -> Path:
-    """The file of a table's ghost (see records.table_of)."""
+    """Return the file of a table's ghost (see records.table_of)."""
     return data_folder() / "ghosts" / f"{table.replace('/', '-')}.json"
 
 
 def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
-    """(rows or None, seconds or None, message) of the best run so far."""
+    """Return (rows or None, seconds or None, message) of the best run so far."""
     path = ghost_path(table)
     if not is_there(path):
         return None, None, ""
@@ -37,7 +37,7 @@ def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
 
 
 def keep_ghost(table: str, trail: Sequence[tuple], seconds: float) -> bool:
-    """Save a trail if it is the fastest; returns True if it is. Raises OSError when it cannot be written."""
+    """Save a trail if it is the fastest; return whether it is. Raises OSError if it cannot be written."""
     best = load_ghost(table)[1]
     if not trail or (best is not None and best <= seconds):
         return False

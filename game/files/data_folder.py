@@ -1,4 +1,4 @@
-"""Where settings, recordings and screenshots of this user live, by the platform's rule."""
+"""The folder of this user's settings, recordings and screenshots, by the rule of the platform."""
 
 import errno
 import os
@@ -12,12 +12,12 @@ from time import strftime
 from game.errors import LONGEST, UsageError, share
 from game.files.leftovers import remove_parts_of
 
-LONGEST_NAME = 200  # bytes of a file name that leave room for more behind it; most systems take 255
-OVERRIDE = "HITBOX_DATA"  # a folder; set by tests, or by a player who keeps the game on a stick
+LONGEST_NAME = 200  # bytes of a file name, which leave room for a suffix; most systems allow 255
+OVERRIDE = "HITBOX_DATA"  # a folder; set by tests, or by a player with the game on a USB stick
 
 
 def data_folder(environment: Mapping[str, str] | None = None, platform: str | None = None) -> Path:
-    """The folder for this user's files; not created here (see write_atomically)."""
+    """Return the folder of this user's files. It is not created here (see write_atomically)."""
     environment = os.environ if environment is None else environment
     platform = sys.platform if platform is None else platform
     if environment.get(OVERRIDE):
@@ -39,7 +39,9 @@ def _home():
 
 
 def is_there(path: Path) -> bool:
-    """False where there is no such file; True also where nobody may look: reading it then says why not."""
+    """Return whether the file exists. It is True, too, if permissions forbid the check: reading then reports the
+    reason.
+    """
     try:
         path.stat()
     except (FileNotFoundError, NotADirectoryError):
@@ -50,7 +52,7 @@ def is_there(path: Path) -> bool:
 
 
 def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
-    """A path that no file has yet: the scene and the time."""
+    """Return the path of a new file, named by the scene and the time."""
     name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
     path, number = folder / f"{name}{suffix}", 2
     while path.exists():
@@ -59,11 +61,11 @@ def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
 
 
 def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool = True) -> None:
-    """Write a file, text or bytes, so that a reader sees the old file or the new one, never half of one.
+    """Write a file, text or bytes, so that a reader sees the old file or the new one, never a part of one.
 
-    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is made. What an earlier
-    program left half-written of this file is removed. Raises OSError when the folder cannot be written; the old file
-    is then untouched.
+    A device or a pipe is written to, not replaced. makes_folder: whether a missing folder is created. Partial files of
+    this file, left by an earlier process, are removed. Raises OSError if the folder cannot be written; the old file is
+    then unchanged.
     """
     path, content = Path(path), content.encode() if isinstance(content, str) else content
     if not path.name:
@@ -86,7 +88,9 @@ def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool 
 
 
 def part_of(path: Path, process: int) -> Path:
-    """Return where a process writes a file that is to replace `path`; a long name is named by its digest there."""
+    """Return the path under which a process writes a file that will replace `path`. A long name is replaced by its
+    digest.
+    """
     name = (
         path.name if len(os.fsencode(path.name)) <= LONGEST_NAME else blake2b(os.fsencode(path.name)).hexdigest()[:32]
     )
@@ -94,11 +98,11 @@ def part_of(path: Path, process: int) -> Path:
 
 
 def keep_beside(path: str | Path, why: str = "damaged") -> Path:
-    """Copy a file that cannot be used to the first free `name.damaged-N` (or another word), and return that path.
+    """Copy an unusable file to the first free `name.damaged-N` (or another word), and return that path.
 
-    The name is claimed with exclusive creation, so an earlier kept file is never overwritten; one that already holds
-    the same is enough, or every start would leave another. What cannot be read is not copied but renamed: the next save
-    would write over the only one there is. Raises OSError where that is not possible either.
+    The name is claimed with exclusive creation, so an earlier copy is never overwritten. A copy with the same content
+    is reused, or every start would add another. An unreadable file is renamed instead, because the next save would
+    overwrite it. Raises OSError if that fails, too.
     """
     path = Path(path)
     names = (path.with_name(f"{path.name}.{why}-{number}") for number in count(1))
@@ -120,7 +124,7 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
 
 
 def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
-    """Keep a file that cannot be used; return a line of what is wrong, what is used instead and where it is kept."""
+    """Keep an unusable file. Return a line with the error, the replacement and the name of the copy."""
     try:
         kept = f"the old file is kept as {keep_beside(path, why).name}"
     except OSError as error:

@@ -1,4 +1,4 @@
-"""Reads a JSON file, or says which file cannot be used, where and why."""
+"""Reading of JSON files, with errors that name the file, the place and the reason."""
 
 import codecs
 import json
@@ -8,7 +8,7 @@ from typing import Any
 from game.errors import FileError
 
 LARGEST = 256 * 2**20  # bytes: ten hours of a recording in which every frame differs
-CHUNK = 2**20  # bytes that are looked at before more is read
+CHUNK = 2**20  # bytes that are checked before more is read
 
 
 def read_json(path: str | Path) -> Any:
@@ -28,7 +28,7 @@ def read_json(path: str | Path) -> Any:
 
 
 def _texts(path):
-    """Yield the text of a file, piece by piece: a device that is all zeros, or noise, is known by its first piece."""
+    """Yield the text of a file in chunks, so that a device of zeros or noise is recognised by its first chunk."""
     decoder, read = codecs.getincrementaldecoder("utf-8")(), 0
     with open(path, "rb") as file:
         while chunk := file.read(CHUNK):

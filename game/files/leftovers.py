@@ -1,7 +1,7 @@
-"""What a killed program has left: files that it was writing, beside those that they were to replace.
+"""Partial files of killed processes, beside the files that they were to replace.
 
-They are known by their names, <file>.<process>.part (see data_folder.part_of), and removed once they are old: the other
-process may be at work on another machine that shares the folder, so its age is asked about, not its number.
+Their name is <file>.<process>.part (see data_folder.part_of). They are removed once they are old. The age decides, not
+the process id, because the process may run on another machine that shares the folder.
 """
 
 import contextlib
@@ -12,13 +12,13 @@ from collections.abc import Iterable
 from pathlib import Path
 from stat import S_ISREG
 
-ABANDONED = 3600.0  # [s] since the last byte was written; writing a file takes a few seconds at most
+ABANDONED = 3600.0  # [s] since the last write; writing a file takes a few seconds at most
 NAME = re.compile(r"(.+)\.[0-9]+\.part", re.DOTALL)
 FOLDERS = ("", "ghosts", "replays", "replays/recent", "screenshots")  # of the data folder
 
 
 def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
-    """Remove what is old and half-written in these folders of a folder; what cannot be looked at is left."""
+    """Remove the old partial files in these subfolders of a folder; ignore folders that cannot be read."""
     for name in inside:
         place = folder / name
         with contextlib.suppress(OSError, ValueError):
@@ -28,7 +28,9 @@ def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
 
 
 def remove_parts_of(part: Path) -> None:
-    """Remove what earlier programs left of one file. part: the name that this program writes it under."""
+    """Remove the partial files that earlier processes left of one file. part: the name that this process writes it
+    under.
+    """
     file = _file_of(part.name)
     with contextlib.suppress(OSError, ValueError):
         for path in _parts(part.parent):
@@ -37,7 +39,7 @@ def remove_parts_of(part: Path) -> None:
 
 
 def _file_of(name):
-    """Return the name of the file that a part belongs to, None where it is no part of ours."""
+    """Return the name of the file that a part belongs to, None if it is no partial file of the game."""
     found = NAME.fullmatch(name)
     return found and found[1]
 

@@ -1,4 +1,4 @@
-"""Levels of the player's own: files in the data folder's levels/, listed under the game that can play them."""
+"""Levels of the player: files in levels/ of the data folder, listed under the game that can play them."""
 
 from collections.abc import Sequence
 from hashlib import blake2b
@@ -10,20 +10,22 @@ from game.files.json_file import LARGEST
 
 
 def levels_folder() -> Path:
-    """Where this user's levels are looked for."""
+    """Return the folder of this user's levels."""
     return data_folder() / "levels"
 
 
 def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
-    """Paths of the files with one of these suffixes, by name (see Scene.level_suffixes); () without such a folder."""
+    """Return the paths of the files with one of these suffixes, by name (see Scene.level_suffixes); () without such a
+    folder.
+    """
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))
-    except OSError:  # there is no such folder, or nobody may look into it
+    except OSError:  # there is no such folder, or it cannot be read
         return ()
 
 
 def level_digest(path: str | Path) -> str:
-    """12 hex digits of a file's content: by these a run knows its level. Raises FileError."""
+    """Return 12 hex digits of a file's content, by which a run identifies its level. Raises FileError."""
     path = Path(path)
     try:
         if path.exists() and not path.is_file():
@@ -33,5 +35,5 @@ def level_digest(path: str | Path) -> str:
         return blake2b(path.read_bytes(), digest_size=6).hexdigest()
     except OSError as error:
         raise FileError(path, "file", error.strerror or str(error)) from error
-    except ValueError as error:  # a name that no system has, out of a recording
+    except ValueError as error:  # a name from a recording that no system allows
         raise FileError(path, "file", str(error)) from error

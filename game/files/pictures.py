@@ -1,4 +1,4 @@
-"""Pictures from elsewhere: where a level's may lie, and how large one may be, asked before its pixels are decoded."""
+"""Pictures of levels: allowed locations, and a size limit that is checked before the pixels are decoded."""
 
 import os
 import struct
@@ -12,13 +12,13 @@ SIGNATURE, FIRST = b"\x89PNG\r\n\x1a\n", (13, b"IHDR")
 
 
 def png_size(path: str | Path, most: int) -> tuple[int, int]:
-    """Return (width, height) of a PNG by its header. Raises FileError for another file, or one of over `most` px."""
+    """Return (width, height) of a PNG from its header. Raises FileError for another file, or one of over `most` px."""
     try:
         with open(path, "rb") as file:
             head = file.read(HEADER.size)
     except OSError as error:
         raise FileError(path, "picture", f"cannot be read: {error.strerror or error}") from error
-    except ValueError as error:  # a name that no system has
+    except ValueError as error:  # a name that no system allows
         raise FileError(path, "picture", f"cannot be read: {error}") from error
     signature, *first, width, height = HEADER.unpack(head.ljust(HEADER.size, b"\0"))
     if signature != SIGNATURE or tuple(first) != FIRST or len(head) < HEADER.size:
@@ -31,9 +31,9 @@ def png_size(path: str | Path, most: int) -> tuple[int, int]:
 def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
     """Return the path of the picture that a level names: a file in the level's folder, or the program's own.
 
-    name: relative to the folder, with slashes or backslashes. A picture that is not there, or lies outside, stands for
-    the one of its file name in the folder `own`: editors write the way from where a level was made. Raises FileError
-    with the place in the level where that has none either: no path leads out of the folder.
+    name: relative to the folder, with slashes or backslashes. If there is no such file, or it lies outside the folder,
+    the file of the same name in the folder `own` is used: editors write paths from where a level was made. Raises
+    FileError with the place in the level if that does not exist, either: no path leads out of the folder.
     """
     parts = PurePosixPath(name.replace("\\", "/"))
     leads_out = parts.is_absolute() or ".." in parts.parts or PureWindowsPath(name).anchor != ""
@@ -48,7 +48,7 @@ def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
             return own / parts.name
     except OSError as error:
         raise FileError(level, place, f"{name!r:.60} cannot be read: {error.strerror or error}") from error
-    except ValueError as error:  # a name that no system has
+    except ValueError as error:  # a name that no system allows
         raise FileError(level, place, f"{name!r:.60} cannot be read: {error}") from error
     if leads_out:
         raise FileError(level, place, f"{name!r:.60} leads out of the level's folder; put the picture beside the level")
@@ -56,7 +56,7 @@ def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
 
 
 def _is_file(path):
-    """Return whether there is a file. Raises OSError where that cannot be asked (a name too long, a closed folder)."""
+    """Return whether the file exists. Raises OSError if that cannot be checked (a name too long, a closed folder)."""
     try:
         return S_ISREG(path.stat().st_mode)
     except (FileNotFoundError, NotADirectoryError):

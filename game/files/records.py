@@ -1,6 +1,6 @@
-"""High scores: ten of each ranked scene, in one JSON file, written whole or not at all.
+"""High scores: the ten best runs of each ranked scene, in one JSON file that is written atomically.
 
-A damaged entry is left out and the file kept beside; a file of a newer program is kept and not read.
+A damaged entry is left out and the file is kept as a copy; a file of a newer version is kept and not read.
 """
 
 import json
@@ -20,7 +20,7 @@ PLACES = 10
 
 @dataclass(frozen=True)
 class Entry:
-    """One line of a table. `assisted`: played slower, invincible, or with a rule changed in the panel."""
+    """One line of a table. `assisted`: played at lower speed, invincible, or with a rule changed in the panel."""
 
     name: str
     points: int
@@ -31,29 +31,31 @@ class Entry:
 
 
 class Records:
-    """`tables`: key of a scene (see table_of) -> entries, best first."""
+    """High scores. `tables`: key of a scene (see table_of) -> entries, best first."""
 
     def __init__(self, path: Path | None = None) -> None:
         self.path = path or records_path()
         self.tables = {}
-        self.ranking = {}  # key -> ranked_by, of the tables that something was added to here
+        self.ranking = {}  # key -> ranked_by, of the tables that got entries here
 
     def entries(self, key: str | None) -> list[Entry]:
-        """The entries of a table, best first."""
+        """Return the entries of a table, best first."""
         return self.tables.get(key, [])
 
     def best(self, key: str | None) -> Entry | None:
-        """The first entry of a table, or None."""
+        """Return the first entry of a table, or None."""
         found = self.entries(key)
         return found[0] if found else None
 
     def place(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """The place 1..10 that an entry would take, or None. Who came first keeps a shared place's upper half."""
+        """Return the place 1..10 that an entry would take, or None. Of equal entries the earlier one keeps the higher
+        place.
+        """
         better = sum(1 for each in self.entries(key) if order(each, ranked_by) <= order(entry, ranked_by))
         return better + 1 if better < PLACES else None
 
     def add(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Put an entry in its place; what falls off the end is gone. Returns the place or None."""
+        """Insert an entry at its place and drop the entry after the last place. Return the place or None."""
         place = self.place(key, ranked_by, entry)
         if place is not None:
             table = self.tables.setdefault(key, [])
@@ -63,9 +65,9 @@ class Records:
         return place
 
     def save(self) -> str:
-        """Write the file, with what another window of the game has put into it. Raises OSError where it cannot.
+        """Write the file, merged with the entries that another window of the game has saved. Raises OSError.
 
-        Returns "" or a message about the file that was there, as load_records does.
+        Return "" or a message about the existing file, as load_records does.
         """
         there, message = load_records(self.path)
         for key, table in there.tables.items():
@@ -81,24 +83,24 @@ class Records:
 
 
 def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
-    """Sorts entries: most points first, then least time; or least time first, then most points."""
+    """Return the sort key of an entry: most points, then least time; or least time, then most points."""
     if ranked_by == "seconds":
         return entry.seconds, -entry.points
     return -entry.points, entry.seconds
 
 
 def table_of(scene_name: str, level: Path | None = None) -> str:
-    """The key of a scene's table. A level of the player's own has one of its own, by its content."""
+    """Return the key of a scene's table. A level of the player has its own table, by its content."""
     return scene_name if level is None else f"{scene_name}@{level_digest(level)}"
 
 
 def records_path() -> Path:
-    """Where this user's high scores are."""
+    """Return the path of this user's high scores."""
     return data_folder() / FILE
 
 
 def load_records(path: Path | None = None) -> tuple[Records, str]:
-    """(records, message). The message is "" or one line: file, place, reason, and where the old file is kept."""
+    """Return (records, message). The message is "" or one line: file, place, reason, and the name of the kept copy."""
     path = path or records_path()
     records = Records(path)
     if not is_there(path):
@@ -134,7 +136,7 @@ def _check_head(path, data):
 
 
 def _refusal_of(row):
-    """Why an entry cannot be used, or ""."""
+    """Return the reason why an entry is unusable, or ""."""
     names = [entry.name for entry in fields(Entry)]
     if not isinstance(row, dict) or set(row) != set(names):
         return f"must have {', '.join(names)}"

@@ -1,7 +1,7 @@
-"""Settings: JSON with a version, written whole or not at all, read with patience.
+"""Settings: JSON with a version, written atomically, read leniently.
 
-A damaged file never stops the game: what cannot be used falls back to its default, the file is kept beside under
-another name, and one line says where and why. The file of a newer program is not guessed at: it is kept too.
+A damaged file never stops the game: unusable values fall back to their defaults, the file is kept under another name,
+and one line names place and reason. The file of a newer version is not interpreted; it is kept, too.
 """
 
 import json
@@ -18,14 +18,14 @@ from game.input.rebinding import FIXED, clash, completed, default_table
 VERSION = 2
 FILE = "settings.json"
 LARGEST_SCALE = 8
-FRAME_CAPS = (60, 120, 30, 0)  # pictures a second; 0: as many as there are
-SLOWEST = 0.5  # of real time, for players who want more of it
+FRAME_CAPS = (60, 120, 30, 0)  # pictures a second; 0: no cap
+SLOWEST = 0.5  # of real time, for players who want more time to react
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-"  # of initials
 
 
 @dataclass
 class Settings:
-    """What the player chose. Shares and volumes 0..1."""
+    """Choices of the player. Shares and volumes 0..1."""
 
     master: float = 0.8
     music: float = 0.6
@@ -41,30 +41,30 @@ class Settings:
     palette: str = PALETTES[0]
     speed: float = 1.0  # of real time
     invincible: bool = False
-    ghost: bool = True  # the best run is seen beside this one
+    ghost: bool = True  # show the best run beside this one
     rumble: bool = True
-    hint_seen: bool = False  # the card of the first game was put away
-    labs_seen: list = field(default_factory=list)  # names of those whose card was put away
+    hint_seen: bool = False  # the card of the first game was closed
+    labs_seen: list = field(default_factory=list)  # names of the labs whose card was closed
     initials: str = "AAA"  # those entered last
     keys: dict = field(default_factory=lambda: default_table("keys"))
     buttons: dict = field(default_factory=lambda: default_table("buttons"))
 
     def accessibility(self) -> Accessibility:
-        """What a scene's drawing is told."""
+        """Return the settings that a scene's drawing needs."""
         return Accessibility(self.shake, not self.reduced_flashing, self.palette)
 
     def assists(self) -> dict[str, bool]:
-        """What a scene's rules are told, by the names of game.scene.ASSISTS."""
+        """Return the settings that a scene's rules need, by the names of game.scene.ASSISTS."""
         return {"invincible": self.invincible, "hit_stop": self.hit_stop}
 
 
 def settings_path() -> Path:
-    """Where this user's settings are."""
+    """Return the path of this user's settings."""
     return data_folder() / FILE
 
 
 def load_settings(path: Path | None = None) -> tuple[Settings, str]:
-    """(settings, message). The message is "" or one line: file, place, reason, and where the old file is kept."""
+    """Return (settings, message). The message is "" or one line: file, place, reason, and the name of the kept copy."""
     path = path or settings_path()
     if not is_there(path):
         return Settings(), ""
@@ -86,19 +86,20 @@ def load_settings(path: Path | None = None) -> tuple[Settings, str]:
 
 
 def save_settings(settings: Settings, path: Path | None = None) -> None:
-    """Write the settings; raises OSError when that is not possible."""
+    """Write the settings. Raises OSError."""
     data = {"version": VERSION, **asdict(settings)}
     write_atomically(path or settings_path(), json.dumps(data, indent=2) + "\n")
 
 
 def _upgraded(path, data):
-    """The entries of a file of this version or the first. Raises FileError for any other."""
+    """Return the entries of a file of this version or the first. Raises FileError for any other."""
     version = data.get("version") if isinstance(data, dict) else None
     if version not in (1, VERSION) or isinstance(version, bool):
         raise FileError(path, "version", f"{version!r:.40} cannot be read here; this program reads 1 to {VERSION}")
     data = dict(data)
     if version == 1:
-        # One volume, of the effects; shake was on or off; keys named those that are fixed now, and lacked some.
+        # Version 1 had one volume, for the effects, and shake on or off. Its keys named some that are fixed in version
+        # 2, and lacked others.
         if "volume" in data:
             data["effects"] = data.pop("volume")
         if isinstance(data.get("shake"), bool):
@@ -115,7 +116,7 @@ def _upgraded(path, data):
 
 
 def _refusal_of(name, value):
-    """Why a value cannot be used, or ""."""
+    """Return the reason why a value is unusable, or ""."""
     if name in ("keys", "buttons"):
         return _table_refusal(name, value)
     if name == "labs_seen":

@@ -1,1 +1,1 @@
-"""What hands do: devices and their bindings, the input of one step, and dragging with the mouse."""
+"""Player input: devices and their bindings, the input of one step, and dragging with the mouse."""

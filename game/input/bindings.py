@@ -1,6 +1,6 @@
-"""Which keys and buttons mean which actions, as data: names that a settings file can hold and a person can read.
+"""Bindings of keys and buttons to actions, as data: readable names that a settings file can hold.
 
-A key may mean several actions (Space fires and jumps), as long as no one game uses two of them: `rivals` says which.
+A key may mean several actions (Space fires and jumps), as long as no game uses two of them together, see `rivals`.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -11,7 +11,7 @@ from game.input.inputs import ACTIONS
 
 Table = Mapping[str, Sequence[str]]  # action -> names of keys or buttons
 
-# What a player may change. The first name of each is the one that the settings show and change.
+# Bindings that a player may change. The settings show and change the first name of each.
 DEFAULT_KEYS = {
     "left": ("left", "a"),
     "right": ("right", "d"),
@@ -33,7 +33,7 @@ DEFAULT_BUTTONS = {
     "bomb": ("b", "right trigger"),
 }
 REBOUND = tuple(DEFAULT_KEYS)
-# What stays, so that menus always work and the way out is never lost.
+# Fixed bindings, so that menus always work and the way out is never lost.
 FIXED_KEYS = {"confirm": ("return", "keypad enter"), "cancel": ("escape", "backspace"), "pause": ("p",)}
 SHELL_KEYS = ("tab", "f11", "f12")  # panel, full screen, screenshot
 FIXED_BUTTONS = {"confirm": ("a", "start"), "cancel": ("b", "back")}
@@ -44,7 +44,7 @@ USED_TOGETHER = (
     {"left", "right", "up", "down", "jump", "focus"},
 )
 
-# Buttons by their place on an Xbox pad, as SDL names them on every pad it knows.
+# Buttons by their place on an Xbox pad, as SDL names them on every pad with a mapping.
 CONTROLLER_NAMES = {
     pygame.CONTROLLER_BUTTON_A: "a",
     pygame.CONTROLLER_BUTTON_B: "b",
@@ -66,13 +66,13 @@ TRIGGER_NAMES = {
     pygame.CONTROLLER_AXIS_TRIGGERLEFT: "left trigger",
     pygame.CONTROLLER_AXIS_TRIGGERRIGHT: "right trigger",
 }
-# A pad that SDL has no mapping for: most count their buttons in this order.
+# A pad without an SDL mapping: most number their buttons in this order.
 JOYSTICK_NAMES = {0: "a", 1: "b", 2: "x", 3: "y", 4: "left shoulder", 5: "right shoulder", 6: "back", 7: "start"}
 BUTTON_NAMES = (*CONTROLLER_NAMES.values(), *TRIGGER_NAMES.values())
 AXES = {0: ("left", "right"), 1: ("up", "down")}  # of the stick, which always steers
-DEAD_ZONE = 0.25  # of the stick's travel; Celeste's value: less and worn sticks drift
+DEAD_ZONE = 0.25  # of the stick's travel; Celeste's value: with less, worn sticks drift
 
-# pygame's constants for keys whose name in settings is not theirs.
+# pygame's constants for keys with another name in the settings.
 SPELLED = {
     "left shift": "LSHIFT",
     "right shift": "RSHIFT",
@@ -104,23 +104,23 @@ PICTURED = {
     "left stick": "L stick",
     "right stick": "R stick",
 }
-# What a game calls an action in its line of keys, where that is not its name.
+# A game's word for an action in its line of keys, if it differs from the action's name.
 CALLED = {"line": "bomb", "throw": "focus"}
-_NAMES = {}  # key code -> name, made when first asked for
+_NAMES = {}  # key code -> name, filled at the first call
 
 
 def rivals(action: str, other: str) -> bool:
-    """True if one game uses both, so that they cannot share a key."""
+    """Return whether one game uses both actions, so that they cannot share a key."""
     return action != other and any(action in game and other in game for game in USED_TOGETHER)
 
 
 def key_codes(names: Table) -> dict[int, tuple[str, ...]]:
-    """{action: names} -> {key code: actions}, the fixed keys with them. Raises ValueError naming what is wrong."""
+    """Return {key code: actions} of {action: names}, with the fixed keys. Raises ValueError naming the error."""
     return _turned({**names, **FIXED_KEYS}, _code)
 
 
 def button_actions(names: Table) -> dict[str, tuple[str, ...]]:
-    """{action: names} -> {button name: actions}, with the fixed buttons. Raises ValueError naming what is wrong."""
+    """Return {button name: actions} of {action: names}, with the fixed buttons. Raises ValueError naming the error."""
     return _turned({**names, **FIXED_BUTTONS}, _button)
 
 
@@ -135,7 +135,7 @@ def _turned(names, read):
 
 
 def _code(key: str) -> int:
-    """The key code of a key name. The table is pygame's constants, so that no display is needed."""
+    """Return the key code of a key name. The table is pygame's constants, so it needs no display."""
     name = SPELLED.get(key, key)
     for spelling in (name.upper(), name.lower()):
         code = getattr(pygame, f"K_{spelling}", None)
@@ -151,22 +151,22 @@ def _button(name):
 
 
 def key_name(code: int) -> str | None:
-    """A key code as settings spell it, or None for a key without a plain name."""
+    """Return the name of a key code in the settings, or None for a key without a plain name."""
     if not _NAMES:
         spelled = {constant: name for name, constant in SPELLED.items()}
         for constant in dir(pygame):
-            if constant.startswith("K_") and constant != "K_UNKNOWN":  # that is every key without a name
+            if constant.startswith("K_") and constant != "K_UNKNOWN":  # K_UNKNOWN is every key without a name
                 _NAMES.setdefault(getattr(pygame, constant), spelled.get(constant[2:], constant[2:].lower()))
     return _NAMES.get(code)
 
 
 def shown(control: str) -> str:
-    """A key or button as the screen shows it."""
+    """Return the name of a key or button on screen."""
     return PICTURED.get(control, control.capitalize())
 
 
 def help_pairs(actions: Iterable[tuple[str, str]], table: Table) -> list[tuple[str, str]]:
-    """(what to press, what it does) of Scene.actions as the player has bound them; table {action: names}."""
+    """Return (control, effect) of Scene.actions with the player's bindings; table {action: names}."""
     pairs = []
     steering = [table[action][0] for action in ("left", "right", "up", "down")]
     for key, what in actions:

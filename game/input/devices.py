@@ -1,8 +1,8 @@
 """Keyboard, mouse and controllers as one source of InputFrames, fed by pygame events only.
 
-pygame.key.get_pressed() is not asked: posted events do not change it, and a tap that begins and ends
-between two steps would be lost. Pads are keyed by instance id, which never changes and is never reused
-while the program runs; device indexes do and are.
+pygame.key.get_pressed() is not used: posted events do not change it, and a tap that begins and ends between two steps
+would be lost. Pads are keyed by instance id, which is unique while the program runs; device indexes change and are
+reused.
 """
 
 from collections.abc import Callable
@@ -25,12 +25,14 @@ from game.input.inputs import InputFrame
 from game.input.pads import Pads
 
 STICK = {pygame.CONTROLLER_AXIS_LEFTX: AXES[0], pygame.CONTROLLER_AXIS_LEFTY: AXES[1]}
-STICK_RANGE = 32767.0  # CONTROLLERAXISMOTION counts in 16 bits
-PULLED = 0.5  # of a trigger's travel, from where it counts as a button
+STICK_RANGE = 32767.0  # CONTROLLERAXISMOTION has 16 bits
+PULLED = 0.5  # of a trigger's travel, from which it counts as a button
 
 
 class DeviceSource:
-    """`to_canvas(position)` maps the window's pointer to the canvas; `pads` opens controllers (see Pads)."""
+    """Input of all devices. `to_canvas(position)` maps the window's pointer to the canvas; `pads` opens controllers
+    (see Pads).
+    """
 
     def __init__(
         self,
@@ -41,7 +43,7 @@ class DeviceSource:
     ) -> None:
         self.to_canvas = to_canvas
         self.bind(keys or DEFAULT_KEYS, buttons or DEFAULT_BUTTONS)
-        self.menus = False  # True: whatever was rebound, the keys and buttons of the start work the menus
+        self.menus = False  # True: menus use the default keys and buttons, whatever was rebound
         self.pads = pads
         self.held = {}  # (device, control) -> actions
         self.tapped = set()  # actions that went down since the last step
@@ -52,7 +54,7 @@ class DeviceSource:
         self.lost_pad = False  # a pad was pulled out; the app pauses and resets this
 
     def bind(self, keys: Table, buttons: Table) -> None:
-        """Take other bindings: {action: names} each."""
+        """Replace the bindings: {action: names} each."""
         self.keys, self.buttons = key_codes(keys), button_actions(buttons)
         self.menu_keys = {**self.keys, **key_codes(DEFAULT_KEYS)}
         self.menu_buttons = {**self.buttons, **button_actions(DEFAULT_BUTTONS)}
@@ -62,7 +64,7 @@ class DeviceSource:
         self.changes.append((name, value))
 
     def next(self, scene: object | None = None) -> InputFrame:
-        """The input of the next step. A tap between two steps counts as held for one."""
+        """Return the input of the next step. A tap between two steps counts as held for one."""
         actions = frozenset(self.tapped.union(*self.held.values()) if self.held else self.tapped)
         down = self.pointer_down or self.pointer_tapped
         frame = InputFrame(actions, self.pointer, down, self.wheel, tuple(self.changes))
@@ -72,13 +74,13 @@ class DeviceSource:
         return frame
 
     def release_all(self) -> None:
-        """Forget what is held: the window lost focus, or another screen opened."""
+        """Clear what is held: the window lost focus, or another screen opened."""
         self.held.clear()
         self.tapped.clear()
         self.pointer_down = self.pointer_tapped = False
 
     def feed(self, event: pygame.event.Event) -> None:
-        """Take one pygame event."""
+        """Process one pygame event."""
         kind = event.type
         if kind == pygame.KEYDOWN:
             keys = self.menu_keys if self.menus else self.keys
@@ -100,7 +102,7 @@ class DeviceSource:
             self._feed_pad(event)
 
     def button_of(self, event: pygame.event.Event) -> tuple[int, str, bool] | None:
-        """(pad, name of the button, down) of an event of a pad, or None. A trigger is a button once it is pulled."""
+        """Return (pad, name of the button, down) of a pad event, or None. A trigger counts as a button past PULLED."""
         kind = event.type
         if kind in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP) and event.button in CONTROLLER_NAMES:
             return event.instance_id, CONTROLLER_NAMES[event.button], kind == pygame.CONTROLLERBUTTONDOWN
@@ -112,14 +114,14 @@ class DeviceSource:
         return None
 
     def pressed_button(self, event: pygame.event.Event) -> str | None:
-        """The name of the button that this event presses, or None."""
+        """Return the name of the button that this event presses, or None."""
         found = self.button_of(event)
         if found is None or not found[2] or found[:2] in self.held:
             return None
         return found[1]
 
     def _is_mapped(self, instance_id):
-        """A mapped pad sends joystick events too, and is then left to its controller events."""
+        """Return whether SDL maps this pad. It then sends joystick events, too, which are ignored."""
         return self.pads is not None and self.pads.is_controller(instance_id)
 
     def _feed_pad(self, event):
@@ -141,15 +143,15 @@ class DeviceSource:
         control = (pad, name)
         if not down:
             self._release(control)
-        elif control not in self.held:  # a trigger sends many events on its way
+        elif control not in self.held:  # a trigger sends many events while it moves
             self._press(control, (self.menu_buttons if self.menus else self.buttons).get(name, ()))
 
     def _feed_joystick(self, event):
-        """The stick and the hat of a pad without a mapping."""
+        """Process the stick and the hat of a pad without a mapping."""
         pad = event.instance_id
         if event.type == pygame.JOYHATMOTION:
             self._axis(pad, "hat x", event.value[0], AXES[0])
-            self._axis(pad, "hat y", -event.value[1], AXES[1])  # a hat's up is +1
+            self._axis(pad, "hat y", -event.value[1], AXES[1])  # up is +1 on a hat
         elif event.axis in AXES:
             self._stick(pad, event.axis, event.value, AXES[event.axis])
 
@@ -165,7 +167,9 @@ class DeviceSource:
         self._axis(pad, f"axis {axis}", 0 if abs(value) < DEAD_ZONE else value, actions)
 
     def _axis(self, pad, axis, value, actions):
-        """An axis holds one of two actions. It taps only when it enters one: a held stick is not a repeat."""
+        """Set the held action of an axis, one of two. It taps only when the stick enters a side: a held stick does not
+        repeat.
+        """
         control = (pad, axis)
         action = () if value == 0 else (actions[1],) if value > 0 else (actions[0],)
         if self.held.get(control, ()) != action:

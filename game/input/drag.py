@@ -1,8 +1,8 @@
 """Dragging a body with the mouse: a critically damped spring from the grabbed point to the pointer.
 
-The pointer comes through the input of the step like every key, so a recording holds the drag. The pull is the
-force that the implicit spring would give over one step (Catto, "Soft Constraints", GDC 2011): it stays stable at
-any stiffness and for any mass, and it is capped in proportion to the mass.
+The pointer is part of the step's input like every key, so a recording contains the drag. The force is that of the
+implicit spring over one step (Catto, "Soft Constraints", GDC 2011): it is stable at any stiffness and for any mass, and
+it is capped in proportion to the mass.
 """
 
 from collections.abc import Sequence
@@ -16,16 +16,18 @@ import pygame
 from game.input.inputs import InputState
 from physics import Body, Circle, Effects, World
 
-HERTZ = 5.0  # [1/s] of the spring: in 0.2 s the body is where the pointer is
-DAMPING_RATIO = 1.0  # critical: no swinging back and forth about the pointer
+HERTZ = 5.0  # [1/s] of the spring: the body reaches the pointer in 0.2 s
+DAMPING_RATIO = 1.0  # critical: no oscillation about the pointer
 MOST_PULL = 300.0  # [m/s2] times the mass: 30 times its weight, enough to tear a crate out of a stack
-SPIN_DAMPING = 2.0  # [1/s] a hanging body comes to rest instead of swinging for ever
-FOLLOW = 20.0  # [1/s] where no force moves a body, its speed follows the pointer
-REACH = 4.0  # [canvas px] how far beside a body a press may be: a card is 2 px thin
+SPIN_DAMPING = 2.0  # [1/s] makes a hanging body come to rest
+FOLLOW = 20.0  # [1/s] velocity per distance to the pointer, in worlds where forces do not move bodies
+REACH = 4.0  # [canvas px] greatest distance of a press from a body: a card is 2 px thin
 
 
 class View(Protocol):
-    """What is asked of a camera: the world point at its left top corner, its zoom, and its place on the canvas."""
+    """The part of a camera that dragging uses: the world point at its left top corner, its zoom, and its place on the
+    canvas.
+    """
 
     x: float
     y: float
@@ -33,13 +35,13 @@ class View(Protocol):
     viewport: pygame.Rect
 
     def view(self, alpha: float = 1.0) -> tuple[float, float]:
-        """The world point at its left top corner as it is drawn, a shake included."""
+        """Return the world point at its left top corner as drawn, with shake."""
         ...
 
 
 @dataclass(frozen=True)
 class Hold:
-    """A body in hand. `grip`: the grabbed point in body space [px]; `before`: the velocity to fly on with, or None."""
+    """A held body. `grip`: the grabbed point in body space [px]; `before`: the velocity to continue with, or None."""
 
     body: Body
     world: World
@@ -48,18 +50,18 @@ class Hold:
     before: tuple[float, float] | None
 
     def point(self) -> tuple[float, float]:
-        """The grabbed point in the world [px]."""
+        """Return the grabbed point in the world [px]."""
         (x, y), angle = self.body.position, self.body.angle
         c, s = cos(angle), sin(angle)
         return x + c * self.grip[0] - s * self.grip[1], y + s * self.grip[0] + c * self.grip[1]
 
     def is_there(self) -> bool:
-        """True while the world has the body."""
+        """Return whether the world has the body."""
         return bool((self.world.bodies["id"] == self.body.id).any())
 
 
 class Drag:
-    """One pointer's hold on at most one body of a scene; `hold` is None while nothing is held."""
+    """One pointer's hold on at most one body of a scene; `hold` is None if nothing is held."""
 
     def __init__(self) -> None:
         self.hold: Hold | None = None
@@ -71,11 +73,11 @@ class Drag:
 
     @property
     def held(self) -> int:
-        """Id of the body that is held, -1 for none."""
+        """Id of the held body, -1 for none."""
         return -1 if self.hold is None else self.hold.body.id
 
     def release(self) -> None:
-        """Let go. What flies without forces flies on as before."""
+        """Let go. In a world without forces the body continues with its velocity of before."""
         hold, self.hold = self.hold, None
         if hold is not None and hold.before is not None and hold.is_there():
             hold.body.velocity = hold.before
@@ -107,7 +109,9 @@ class Drag:
 
 
 def _goes_on(hold, views):
-    """False where the scene was filled anew, or the body is gone or can no longer be held."""
+    """Return whether the hold can continue. It ends if the scene was rebuilt, or if the body is gone or cannot be
+    held.
+    """
     return any(world is hold.world for world, _ in views) and hold.is_there() and can_be_held(hold.body)
 
 
@@ -130,24 +134,24 @@ def _pull(hold, target):
 
 
 def to_world(camera: View, pointer: tuple[float, float]) -> tuple[float, float]:
-    """The world point under a canvas point. Without the shake, which a player may have switched off."""
+    """Return the world point under a canvas point, without the shake, which the settings may switch off."""
     view = camera.viewport
     return (pointer[0] - view.x) / camera.zoom + camera.x, (pointer[1] - view.y) / camera.zoom + camera.y
 
 
 def has_forces(effects: Effects) -> bool:
-    """True for a world in which a force moves a body."""
+    """Return whether forces move bodies in a world with these effects."""
     return effects.response or effects.gravity or effects.drag or effects.wind
 
 
 def can_be_held(body: Body) -> bool:
-    """True for a dynamic body with a mass that takes part in the simulation."""
+    """Return whether it is an enabled dynamic body with a finite mass."""
     row = body.world.bodies[body.world.rows([body.id])[0]]
     return body.kind == "dynamic" and bool(row["inverse_mass"] > 0.0 and not row["quarantined"])
 
 
 def body_at(world: World, point: tuple[float, float], reach: float) -> Body | None:
-    """The body to grab at a world point: the uppermost that holds it, else the nearest one within reach, or None."""
+    """Return the body to grab at a world point: the uppermost one there, else the nearest within reach, or None."""
     held = [body for body in world.query_point(point) if can_be_held(body)]
     if held:
         return held[-1]
@@ -159,9 +163,9 @@ def body_at(world: World, point: tuple[float, float], reach: float) -> Body | No
 def spring_force(
     row: np.void, point: tuple[float, float], target: tuple[float, float], dt: float, turns: bool
 ) -> tuple[float, float]:
-    """The force at `point` of a spring to `target`, as the end of the step would have it [mass px/s2].
+    """Return the force at `point` of a spring to `target`, implicit over the step [mass px/s2].
 
-    row: the body's row. With K the inverse mass that the point shows, J = -s K^-1 (v + b (point - target)); s and b
+    row: the body's row. With K the inverse effective mass at the point, J = -s K^-1 (v + b (point - target)); s and b
     are the soft constraint's factors for one step of dt.
     """
     omega = 2.0 * pi * HERTZ

@@ -1,8 +1,8 @@
-"""InputState: what is held in this step, whoever holds it.
+"""InputState: the input of this step, from any source.
 
-Devices, bots, scripts and recordings all produce InputFrames; a scene only ever sees an InputState. So a
-replay goes through the same door as a keyboard. Changes (a slider moved, another broad phase) travel in
-the frame too, since they change the simulation and a recording must hold them.
+Devices, bots, scripts and recordings all produce InputFrames; a scene reads only an InputState. So a replay takes the
+same path as a keyboard. Changes (a moved slider, another broad phase) are part of the frame, too, because they change
+the simulation and a recording must contain them.
 """
 
 from dataclasses import dataclass
@@ -26,25 +26,27 @@ NOTHING = InputFrame()
 
 
 class InputState:
-    """Two frames side by side: what is held now, and what was held a step ago."""
+    """The input of this step and of the step before."""
 
     def __init__(self) -> None:
         self.now = self.before = NOTHING
 
     def set(self, frame: InputFrame) -> None:
-        """Take the input of the next step."""
+        """Set the input of the next step."""
         self.before, self.now = self.now, frame
 
     def held(self, action: str) -> bool:
-        """True while the action is held. An unknown action raises ValueError: a typo never reads as 'not held'."""
+        """Return whether the action is held. Raises ValueError for an unknown action: a typo never reads as "not
+        held".
+        """
         return _known(action) in self.now.actions
 
     def pressed(self, action: str) -> bool:
-        """True in the one step in which the action goes down."""
+        """Return whether the action goes down in this step."""
         return _known(action) in self.now.actions and action not in self.before.actions
 
     def released(self, action: str) -> bool:
-        """True in the one step in which the action comes up."""
+        """Return whether the action comes up in this step."""
         return _known(action) not in self.now.actions and action in self.before.actions
 
     @property

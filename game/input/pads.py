@@ -1,4 +1,4 @@
-"""The controllers that are plugged in, by instance id, which never changes and is never used again in one run."""
+"""The connected controllers by instance id, which is unique in one run."""
 
 from types import ModuleType
 
@@ -6,7 +6,7 @@ import pygame
 
 
 def controller_module() -> ModuleType | None:
-    """pygame._sdl2.controller (uniform button names), or None where SDL has none, as in pygame 2.6.1."""
+    """Return pygame._sdl2.controller (uniform button names), or None if SDL has none, as in pygame 2.6.1."""
     try:
         from pygame._sdl2 import controller
     except ImportError:
@@ -15,7 +15,7 @@ def controller_module() -> ModuleType | None:
 
 
 class Pads:
-    """Opens pads as they are plugged in; an open pad is what makes SDL send its events."""
+    """The open pads. SDL sends events only of open pads, so each is opened when it is connected."""
 
     def __init__(self) -> None:
         self.controllers, self.joysticks = {}, {}
@@ -25,7 +25,7 @@ class Pads:
             self.module.init()
 
     def added(self, device_index: int) -> None:
-        """Open the pad at this moment's device index. A pad both modules announce is opened once."""
+        """Open the pad at this device index. A pad that both modules announce is opened once."""
         try:
             joystick = pygame.joystick.Joystick(device_index)
             instance = joystick.get_instance_id()
@@ -36,22 +36,22 @@ class Pads:
             else:
                 self.joysticks[instance] = joystick
         except pygame.error:
-            return  # pulled out again between the event and now; its removal follows
+            return  # disconnected since the event; its removal follows
 
     def removed(self, instance_id: int) -> None:
-        """Forget a pad."""
+        """Remove a pad."""
         self.controllers.pop(instance_id, None)
         self.joysticks.pop(instance_id, None)
 
     def knows(self, instance_id: int) -> bool:
-        """True if the pad is open."""
+        """Return whether the pad is open."""
         return instance_id in self.controllers or instance_id in self.joysticks
 
     def is_controller(self, instance_id: int) -> bool:
-        """True if SDL maps this pad's buttons."""
+        """Return whether SDL maps this pad's buttons."""
         return instance_id in self.controllers
 
     def rumble(self, low: float, high: float, milliseconds: int) -> None:
-        """Shake every mapped pad's motors, 0..1 each, those that have any."""
+        """Run the motors of every mapped pad that has any, at 0..1 each."""
         for controller in self.controllers.values():
             controller.rumble(low, high, milliseconds)

@@ -1,4 +1,4 @@
-"""Giving a key or button to an action: what cannot be taken is refused, what another action had is swapped."""
+"""Rebinding of keys and buttons: fixed ones are refused, those of another action are swapped."""
 
 from string import ascii_lowercase
 
@@ -20,9 +20,10 @@ SPARE = {"keys": tuple(ascii_lowercase), "buttons": BUTTON_NAMES}
 
 
 def rebind(table: dict[str, list[str]], device: str, action: str, control: str | None) -> str:
-    """Make `control` the first of the action's; table {action: [names]} is changed. Returns a line to show.
+    """Make `control` the first of the action's, in table {action: [names]}. Return a line to show.
 
-    device: "keys" or "buttons". A rival that had it gets what the action gave up. No action is ever left without.
+    device: "keys" or "buttons". A rival action that had it gets the control that this action gives up. No action is
+    left without one.
     """
     if control is None:
         return "That key has no name here. Choose another."
@@ -47,7 +48,7 @@ def rebind(table: dict[str, list[str]], device: str, action: str, control: str |
 
 
 def _make_room(table, device, other, control, given_up):
-    """Take a control away from an action; returns what to say, or None where nothing would be left for it."""
+    """Take a control from an action. Return the line to show, or None if no control would be left for it."""
     place = table[other].index(control)
     rest = [each for each in table[other] if each != control]
     choices = (given_up,) if rest else (given_up, *DEFAULTS[device][other], *SPARE[device])
@@ -62,13 +63,13 @@ def _make_room(table, device, other, control, given_up):
 
 
 def _is_free(table, device, action, control):
-    """True if no rival of the action holds the control, nor the action itself, nor the shell."""
+    """Return whether the control is free: not held by a rival of the action, the action itself, or the shell."""
     taken = FIXED[device].union(*(controls for name, controls in table.items() if rivals(action, name)), table[action])
     return control not in taken
 
 
 def clash(table: Table) -> tuple[str, str, str] | None:
-    """The first two rivals that share a control, as (action, other, control), or None."""
+    """Return the first two rivals with a common control, as (action, other, control), or None."""
     for action in table:
         for other in table:
             if rivals(action, other):
@@ -79,12 +80,14 @@ def clash(table: Table) -> tuple[str, str, str] | None:
 
 
 def default_table(device: str) -> dict[str, list[str]]:
-    """A fresh copy of the table that a player starts with."""
+    """Return a new copy of the default table."""
     return {action: list(controls) for action, controls in DEFAULTS[device].items()}
 
 
 def completed(table: Table, device: str) -> dict[str, list[str]]:
-    """The table with what it lacks: an older file may not know all actions. Clashing names are left out."""
+    """Return the table with the missing actions, which an older file may lack. Controls that would clash are left
+    out.
+    """
     full = {}
     for action in DEFAULTS[device]:
         full[action] = list(table[action]) if action in table else []

@@ -1,4 +1,4 @@
-"""The bodies of a world at one moment, as columns, and what physics keeps of them: momentum, spin, energy."""
+"""The bodies of a world at one moment, as columns, and their conserved quantities: momentum, spin, energy."""
 
 import math
 from functools import cached_property
@@ -12,7 +12,7 @@ BODY_NUMBERS = ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "
 
 
 class Bodies:
-    """A copy: what the world does later changes nothing here. Sums are over the dynamic bodies.
+    """A copy, which later steps do not change. Sums are over the dynamic bodies.
 
     Units: px, s, rad; mass in density px2. `gravity` [px/s2] is (0, 0) where the effect is not declared.
     """
@@ -32,7 +32,7 @@ class Bodies:
         return len(self.ids)
 
     def same_as(self, other: "Bodies") -> bool:
-        """Whether all is as it was, to the bit."""
+        """Return whether all values are the same, to the bit."""
         return (
             np.array_equal(self.ids, other.ids)
             and np.array_equal(self.kind, other.kind)
@@ -42,7 +42,7 @@ class Bodies:
         )
 
     def differs_from(self, other: "Bodies | None") -> np.ndarray:
-        """Which are others, or otherwise, than before; all without a before."""
+        """Return which bodies are new or changed since `other`; all of them if it is None."""
         if other is None:
             return np.ones(len(self), bool)
         if np.array_equal(self.ids, other.ids):
@@ -54,12 +54,12 @@ class Bodies:
 
     @cached_property
     def speed(self) -> np.ndarray:
-        """[px/s] of each centre of mass."""
+        """Speed of each centre of mass [px/s]."""
         return np.sqrt(self.vx * self.vx + self.vy * self.vy)
 
     @cached_property
     def heights(self) -> np.ndarray:
-        """[px2/s2] gravity times how far each has come along it: minus its energy of height, per mass."""
+        """Gravity times the position along it [px2/s2]: minus the potential energy per mass."""
         gx, gy = self.gravity
         return gx * self.cx + gy * self.cy
 
@@ -70,7 +70,7 @@ class Bodies:
 
     @cached_property
     def energy_each(self) -> np.ndarray:
-        """Kinetic energy and the energy of height of each body."""
+        """Kinetic and potential energy of each body."""
         return self.kinetic_each - self.mass * self.felt * self.heights
 
     @property
@@ -80,31 +80,31 @@ class Bodies:
 
     @property
     def energy(self) -> float:
-        """Kinetic energy and the energy of height."""
+        """Kinetic and potential energy."""
         return float(self.energy_each.sum())
 
     @property
     def total_mass(self) -> float:
-        """Mass of all."""
+        """Total mass."""
         return float(self.mass.sum())
 
     @property
     def weight(self) -> float:
-        """Mass times gravity, of all."""
+        """Total mass times gravity."""
         return self.total_mass * math.hypot(*self.gravity)
 
     @property
     def momentum(self) -> tuple[float, float]:
-        """Mass times velocity, of all together."""
+        """Total momentum."""
         return float(self.mass @ self.vx), float(self.mass @ self.vy)
 
     @property
     def momentum_scale(self) -> float:
-        """Mass times speed, summed without direction: what a drift of the momentum is measured by."""
+        """Sum of mass times speed: the scale that a drift of the momentum is compared with."""
         return float(self.mass @ self.speed)
 
     def spin(self, among: np.ndarray) -> float:
-        """Angular momenta of those flagged about their common centre of mass, summed without sign."""
+        """Return the sum of the unsigned angular momenta of the flagged bodies about their common centre of mass."""
         mass = self.mass * among
         total = float(mass.sum())
         if total == 0.0:

@@ -1,4 +1,4 @@
-"""U11: what does not fit is told, never dropped."""
+"""U11: every overflow of a cap is reported."""
 
 import numpy as np
 
@@ -12,11 +12,11 @@ class Caps(Invariant):
     id, word = "U11", "caps"
 
     def look(self, step: Step) -> Answer:
-        """Ask it of the step just made."""
+        """Check it for the last step."""
         world = step.world
         hits = world.profile.counters["cap_hits"]
         if not hits:
             return None
-        asking = world.bodies["cooldown"] < 0.0  # those whose island asked for more than the most substeps
+        asking = world.bodies["cooldown"] < 0.0  # islands that need more than the greatest number of substeps
         bodies = np.flatnonzero(asking)[:4]
         return self.broken(step, world.bodies["id"][bodies], hits, 0, "caps hit")

@@ -14,7 +14,7 @@ def _words(dtype, names):
 
 
 def block(rows: np.ndarray, names: tuple[str, ...]) -> np.ndarray:
-    """(len(names), n) float64 of n rows; the names of columns of that type only."""
+    """Return (len(names), n) float64 of n rows. names: columns of type float64 only."""
     table = np.ascontiguousarray(rows)
     words = table.view(np.float64).reshape(len(table), table.dtype.itemsize // 8)
     return np.array(words[:, _words(table.dtype, names)].T, order="C")  # a copy even of a single row

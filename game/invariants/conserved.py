@@ -1,7 +1,7 @@
-"""U3, U4 and U5: what bodies keep while nobody pushes them from outside: momentum, spin, and energy at most.
+"""U3, U4 and U5: conserved quantities of bodies without outside influence: momentum, spin, and energy at most.
 
-They are asked only where the tables prove that nothing acts from outside. What is changed by hand between two steps is
-where the next one starts.
+They are checked only where the tables prove that nothing acts from outside. A change by the game between two steps is
+the start of a new comparison.
 """
 
 import math
@@ -13,25 +13,26 @@ from game.invariants.invariant import Answer, Invariant, NotAsked
 from game.invariants.step import Step
 from physics import World
 
-DRIFT = 1e-10  # of the momentum's scale in LONG steps (invariant U3) …
-TWIST = 1e-3  # … and of the spin's, which letting overlaps out breaks slightly (U4)
+DRIFT = 1e-10  # of the momentum's scale in LONG steps (U3) …
+TWIST = 1e-3  # … and of the spin's, which push-out changes slightly (U4)
 GAIN = 0.01  # of the energy in play (U5)
-STILL = 1e-9  # sleeping speeds: what is slower is what rounding leaves of a stop
+STILL = 1e-9  # sleeping speeds: a slower motion is rounding error of a stop
 LONG = 600  # steps
-APART = 2.0  # slops that bodies may overlap by at the start: what lies deeper is lifted out
+APART = 2.0  # slops that bodies may overlap by at the start: deeper overlaps are pushed out
 
 
 class OfTheAlone(Invariant):
-    """What bodies that are alone with each other keep. In every step those count that nothing from outside acted on
-    (Step.alone), and what they gain in it is added up over the steps."""
+    """A quantity that bodies keep without outside influence. Each step counts the bodies that nothing acted on from
+    outside (Step.alone), and their gain is summed over the steps.
+    """
 
-    gained: str  # what is said of it
+    gained: str  # sentence that reports the gain
 
     def __init__(self) -> None:
         self.drift, self.room, self.steps = np.zeros(2), 0.0, 0
 
     def look(self, step: Step) -> Answer:
-        """Ask it of the step just made."""
+        """Check it for the last step."""
         if step.outside:
             return NotAsked(step.outside)
         alone = step.alone
@@ -43,29 +44,30 @@ class OfTheAlone(Invariant):
         drift, allowed = float(np.hypot(*self.drift)), self.room * max(1.0, self.steps / LONG)
         if drift <= allowed:
             return None
-        self.drift = np.zeros(2)  # told once, not in every step from here on
+        self.drift = np.zeros(2)  # reported once, not in every later step
         return self.broken(step, most(step, np.where(alone, change, 0.0)), drift, allowed, self.gained)
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Why it is not asked, "" where it is."""
+        """Return the reason why it is not asked, "" if it is."""
         if not alone.any():
             return "all that is dynamic touches what stands, sleeps or is driven"
         return "drag acts" if step.world.effects.drag and step.world.drag > 0.0 else ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """(what was gained [2], what may be in LONG steps, the change of each body)."""
+        """Return (gain [2], allowance in LONG steps, change of each body)."""
         raise TypeError(f"{type(self).__name__} must define gain")
 
 
 class Momentum(OfTheAlone):
-    """U3: the momentum of bodies that are alone with each other changes by what gravity gives, and no more than 1e-10
-    of Σ m v in 600 steps."""
+    """U3: the momentum of isolated bodies changes by what gravity gives, and by no more than 1e-10 of Σ m v in 600
+    steps.
+    """
 
     id, word = "U3", "momentum"
     gained = "momentum drifted though nothing pushes from outside"
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """(what was gained [2], what may be in LONG steps, the change of each body)."""
+        """Return (gain [2], allowance in LONG steps, change of each body)."""
         now, before = step.now, step.before
         mass = now.mass * alone
         fall = mass * now.felt * step.dt
@@ -76,21 +78,21 @@ class Momentum(OfTheAlone):
 
 
 class Spin(OfTheAlone):
-    """U4: so does their angular momentum, about their common centre of mass, to 1e-3 of Σ |r × m v| + |I ω| in 600
-    steps, and the rounding of U3 at their arms. What is looked at is the torque of the impulses about the places where
-    the bodies are in the middle of the step.
+    """U4: the angular momentum of isolated bodies about their common centre of mass is constant to 1e-3 of Σ |r × m v|
+    + |I ω| in 600 steps, plus the rounding of U3 at their arms. The check sums the torque of the impulses about the
+    positions of the bodies in the middle of the step.
 
-    Not counted, since neither is a drift but how accurate a step is: places that are pushed out of an overlap, by which
-    momenta get other arms (a column of ten that falls over under projection loses 0.9 % in a step); and what an impulse
-    `slips` in the step, as two bodies that meet at one moment of it go on moving past each other (0.7 % in one hit of
-    two stones of lab/carving, 0.1 % in 214 steps of 130 bodies in lab/tumbler).
+    Two effects are errors of a step rather than a drift, and are not counted. Push-out moves bodies, which gives
+    momenta other arms: a column of ten that falls over under projection loses 0.9 % in a step. After an impact within
+    the step, two bodies go on moving past each other, see `slip`: 0.7 % in one hit of two stones of lab/carving, 0.1 %
+    in 214 steps of 130 bodies in lab/tumbler.
     """
 
     id, word = "U4", "spin"
     gained = "angular momentum drifted though nothing turns from outside"
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Why it is not asked, "" where it is."""
+        """Return the reason why it is not asked, "" if it is."""
         why = super().why_not(step, alone)
         if why:
             return why
@@ -106,7 +108,7 @@ class Spin(OfTheAlone):
         return ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """(what was gained [2], what may be in LONG steps, the change of each body)."""
+        """Return (gain [2], allowance in LONG steps, change of each body)."""
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
         total = float(mass.sum())
@@ -124,7 +126,7 @@ class Spin(OfTheAlone):
 
 
 def slip(step: Step, among: np.ndarray) -> float:
-    """Σ impulse times the way in the step, past each other, and the gap or overlap, of those flagged that touch."""
+    """Return Σ impulse · (relative path in the step + gap or overlap) over the contacts between flagged bodies."""
     rows, (a, b) = step.contacts, step.sides
     pushed = np.flatnonzero(among[a] & among[b])
     if not len(pushed):
@@ -142,12 +144,12 @@ def slip(step: Step, among: np.ndarray) -> float:
 
 
 def most(step: Step, change: np.ndarray) -> tuple[int, ...]:
-    """The id of the body with the greatest change, () where there is none."""
+    """Return the id of the body with the greatest change, () if there is none."""
     return (int(step.now.ids[int(np.argmax(change))]),) if len(change) else ()
 
 
 class Account:
-    """The energy of a world since a moment: `start` and the room that U5 leaves above it."""
+    """The energy of a world since a start: `start`, and the allowance of U5 above it."""
 
     def __init__(self, bodies: Bodies, overlap: float = 0.0) -> None:
         self.start = self.top = bodies.energy
@@ -161,11 +163,11 @@ class Account:
             self.low, self.high = min(self.low, float(heights.min())), max(self.high, float(heights.max()))
 
     def gain(self, world: World, now: Bodies) -> tuple[float, float]:
-        """(how far the energy is above the start, how far it may be).
+        """Return (energy above the start, its allowance).
 
-        1 % of the energy in play and m g slop of each body, and the overlap that it is let out of, and what rounding
-        leaves of a stop. A body that is stopped on its way keeps the speed it would have had at the end of it: m g v dt
-        for those.
+        The allowance is 1 % of the energy in play, m g (slop + overlap at the start) of each body, and the rounding
+        error of a stop. A body stopped at its time of impact keeps the speed it would have had at the end of the step:
+        m g v dt for each of those.
         """
         self._span(now)
         energy = now.energy
@@ -179,10 +181,10 @@ class Account:
 
 
 class Energy(Invariant):
-    """U5: what nobody drives never has more energy than at the start (Account.gain says how much more).
+    """U5: the energy of bodies without a drive never exceeds that of the start by more than Account.gain allows.
 
-    The start is that of the last change by hand, once nothing overlaps by more than two slops: bodies set into each
-    other are pushed out, and some of them up.
+    The start is the last change by the game, once no overlap is deeper than two slops: bodies placed into each other
+    are pushed out, some of them upwards.
     """
 
     id, word = "U5", "energy"
@@ -191,7 +193,7 @@ class Energy(Invariant):
         self.account: Account | None = None
 
     def look(self, step: Step) -> Answer:
-        """Ask it of the step just made."""
+        """Check it for the last step."""
         world = step.world
         why = step.outside or driven(step)
         if why:
@@ -211,7 +213,7 @@ class Energy(Invariant):
 
 
 def driven(step: Step) -> str:
-    """What gives energy to bodies, "" where nothing does."""
+    """Return the drive that gives energy to bodies, "" if there is none."""
     world, effects = step.world, step.world.effects
     if step.forced.any():
         return "forces act"

@@ -1,4 +1,4 @@
-"""What an invariant is, what it can answer, and how it is shown: held, broken, not asked."""
+"""Invariants, their answers (held, broken, not asked), and their display."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from game.invariants.step import Step
 
 @dataclass(frozen=True)
 class Broken:
-    """An invariant that does not hold. `bodies`: ids of those it was found at; `value` of at most `allowed`."""
+    """An invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: of at most `allowed`."""
 
     invariant: str  # U1 ... U11
     word: str
@@ -17,14 +17,14 @@ class Broken:
     value: float
     allowed: float
     sentence: str
-    world: int = 0  # place among the worlds of its scene
+    world: int = 0  # index among the worlds of its scene
 
     def __str__(self) -> str:
         return f"{self.invariant} ({self.word}) is broken in step {self.step}: {self.brief}"
 
     @property
     def brief(self) -> str:
-        """Where, what, how much."""
+        """Place, quantity and amount in a line."""
         world = [f"world {self.world}"] if self.world else []
         bodies = [f"bodies {' '.join(map(str, self.bodies))}"] if self.bodies else []
         where = ", ".join(world + bodies)
@@ -33,26 +33,26 @@ class Broken:
 
 @dataclass(frozen=True)
 class NotAsked:
-    """The invariant says nothing of a world like this; why."""
+    """The invariant does not apply to this world; `why`."""
 
     reason: str
 
 
-Answer = Broken | NotAsked | None  # None: asked, and it holds
+Answer = Broken | NotAsked | None  # None: checked, and it holds
 
 
 class Invariant:
-    """`id` and `word`: of its light. look() is called after every step, in the order of the steps."""
+    """One invariant; `id` and `word` label its light. look() is called after every step, in the order of the steps."""
 
     id: str
     word: str
 
     def look(self, step: Step) -> Answer:
-        """Ask it of the step just made."""
+        """Check it for the last step."""
         raise TypeError(f"{type(self).__name__} must define look")
 
     def broken(self, step: Step, bodies: Iterable[int], value: float, allowed: float, sentence: str) -> Broken:
-        """What look() answers where it does not hold."""
+        """Return the answer of look() for a broken invariant."""
         return Broken(
             self.id, self.word, step.number, tuple(int(b) for b in bodies), float(value), float(allowed), sentence
         )

@@ -1,4 +1,4 @@
-"""Eleven lights of a scene, one an invariant, over all its worlds: green, red or grey, and nothing that latches."""
+"""Eleven lights of a scene, one per invariant, over all its worlds: green, red or grey. No light latches."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -7,13 +7,15 @@ from game.invariants.invariant import Broken
 from game.invariants.watch import Watch, WatchedWorld, all_invariants
 
 GREY, GREEN, RED = "grey", "green", "red"
-AFTERGLOW = 60  # frames that a light stays red after its invariant was broken
+AFTERGLOW = 60  # frames that a light stays red after a break
 NO_STEP = "no step was made yet"
 
 
 @dataclass
 class Light:
-    """`reason`: why it is grey; `breaks`: frames in which it was, since the scene began; `last`: the last one."""
+    """State of one light. `reason`: why it is grey; `breaks`: frames with a break since the scene began; `last`: the
+    last break.
+    """
 
     id: str
     word: str
@@ -25,7 +27,7 @@ class Light:
 
     @property
     def sentence(self) -> str:
-        """What there is to say of it."""
+        """State as a sentence."""
         if self.state == RED:
             return self.last_told
         told = f"{self.id} {self.word}: " + (f"not asked: {self.reason}" if self.state == GREY else "holds")
@@ -33,14 +35,14 @@ class Light:
 
     @property
     def last_told(self) -> str:
-        """The last break in a line, "" where there was none."""
+        """The last break in a line, "" if there was none."""
         return f"frame {self.last_frame}, {self.id}: {self.last.brief}" if self.last is not None else ""
 
 
 class Lights:
-    """take(world) each world of a scene; note() after each of its frames.
+    """Lights of a scene. Call take(world) for each of its worlds, and note() after each of its frames.
 
-    strict: whoever steps the scene ends the run at `first`, and pairs of concave shapes are asked about too.
+    strict: the caller ends the run at `first`, and pairs of concave shapes are checked, too.
     """
 
     def __init__(self, strict: bool = False) -> None:
@@ -48,14 +50,14 @@ class Lights:
         self.lights = tuple(Light(each.id, each.word) for each in all_invariants())
         self.first: tuple[int, Broken] | None = None  # (frame, what)
         self.frame = 0
-        self.seconds = 0.0  # that watching took in the last frame
+        self.seconds = 0.0  # of watching in the last frame
 
     def take(self, world: WatchedWorld) -> None:
         """Watch a world from now on."""
         world.watch = Watch(concave=self.strict)
 
     def note(self, frame: int, worlds: Iterable[WatchedWorld]) -> None:
-        """Frame number `frame` was made: the lights follow."""
+        """Update the lights after frame number `frame`."""
         self.frame, self.seconds = frame, 0.0
         answers = []
         for number, world in enumerate(worlds):

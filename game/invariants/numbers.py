@@ -1,4 +1,4 @@
-"""U1 and U2: every number that a world tells is finite, every normal of unit length."""
+"""U1 and U2: all numbers that a world reports are finite, all normals are of unit length."""
 
 import numpy as np
 
@@ -13,11 +13,11 @@ CONTACT_NUMBERS = (*EVENT_NUMBERS, "separation", "normal_impulse", "tangent_impu
 HIT_NUMBERS = (*EVENT_NUMBERS, "speed", "normal_impulse")
 BOX_NUMBERS = ("min_x", "min_y", "max_x", "max_y")
 UNIT = 2e-12  # of the square of a normal's length: 1e-12 of the length (invariant U2)
-Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, what it is
+Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, quantity
 
 
 def tables(world: World, sleeping: bool) -> list:
-    """(name, rows, columns) of all that a world tells in numbers, but for the boxes of shapes."""
+    """Return (name, rows, columns) of all numbers that a world reports, except the boxes of shapes."""
     events = world.events
     told = [(f"events.{name}", getattr(events, name), EVENT_NUMBERS) for name in TOLD]
     return [
@@ -33,7 +33,7 @@ TOLD = ("begin", "persist", "end", "sensor_begin", "sensor_end")
 
 
 def ids_of(row: np.void) -> tuple[int, ...]:
-    """Of the bodies that a row of any table is about."""
+    """Return the ids of the bodies that a row of any table belongs to."""
     names = row.dtype.names or ()
     return tuple(
         int(row[name])
@@ -43,9 +43,9 @@ def ids_of(row: np.void) -> tuple[int, ...]:
 
 
 def not_finite(world: World, sleeping: bool = False) -> Bad | None:
-    """The first number that is not finite; sleeping: of contacts that sleep too, which are listed for it.
+    """Return the first number that is not finite. sleeping: check sleeping contacts, too, which takes listing them.
 
-    A shape without a solid part has a box from +inf to -inf: that is none.
+    A shape without a solid part has a box from +inf to -inf, which is allowed.
     """
     for name, rows, columns in tables(world, sleeping):
         if not len(rows):
@@ -66,7 +66,7 @@ def not_finite(world: World, sleeping: bool = False) -> Bad | None:
 
 
 def not_unit(world: World, sleeping: bool = False) -> Bad | None:
-    """The first normal that is not of unit length; the value is by how much the square of its length is off."""
+    """Return the first normal that is not of unit length; the value is the error of its squared length."""
     for name, rows, columns in tables(world, sleeping)[1:]:
         if len(rows):
             x, y = block(rows, columns)[2:4]
@@ -78,13 +78,14 @@ def not_unit(world: World, sleeping: bool = False) -> Bad | None:
 
 
 class Finite(Invariant):
-    """U1: no NaN, no Inf in poses, velocities, boxes, impulses, normals, points. A body that stopped being finite is
-    taken out of the world in the same step, so that nobody sees its numbers: that counts as broken too."""
+    """U1: no NaN and no Inf in poses, velocities, boxes, impulses, normals, points. A body with a number that is not
+    finite is disabled in the same step, so its numbers are never seen: that counts as a break, too.
+    """
 
     id, word = "U1", "finite"
 
     def look(self, step: Step) -> Answer:
-        """Ask it of the step just made."""
+        """Check it for the last step."""
         lost = step.world.events.quarantined
         if len(lost):
             return self.broken(step, lost["body"], float("nan"), 0.0, f"quarantined: {lost['reason'][0]}")
@@ -93,11 +94,11 @@ class Finite(Invariant):
 
 
 class Unit(Invariant):
-    """U2: every normal that is told is of unit length, to 1e-12."""
+    """U2: every reported normal is of unit length, to 1e-12."""
 
     id, word = "U2", "normals"
 
     def look(self, step: Step) -> Answer:
-        """Ask it of the step just made."""
+        """Check it for the last step."""
         bad = not_unit(step.world)
         return None if bad is None else self.broken(step, bad[0], bad[1], UNIT, bad[2])

@@ -1,4 +1,4 @@
-"""U9: the order in which bodies were added changes no more than the noise of sums."""
+"""U9: the order in which bodies were added changes results by no more than the rounding of sums."""
 
 import numpy as np
 
@@ -6,29 +6,30 @@ from game.invariants.invariant import Answer, Invariant, NotAsked
 from game.invariants.step import Step
 from physics import World
 
-NOISE = 1e-9  # of where bodies are, after 60 steps, before chaos sets in (invariant U9)
+NOISE = 1e-9  # of the positions of bodies, after 60 steps, before chaos sets in (U9)
 COMPARED = ("x", "y", "angle", "vx", "vy", "angular_velocity")
 
 
 class Order(Invariant):
-    """Cannot be asked of a world that runs, which has one order only: its light is never green. `furthest_apart` asks
-    it of two worlds, and tests do (tests/game/test_invariants.py).
+    """U9, which cannot be checked in one running world, because that has one order only: its light is never green.
+    `furthest_apart` compares two worlds, as tests do (tests/game/test_invariants.py).
 
-    It holds of bodies that do not press on each other. Those that do are solved one contact after the other, in an
-    order that begins with their ids, and what a step leaves unsolved depends on it: four columns of three boxes differ
-    by 2e-7 of where they stand after 60 steps where substeps follow from the loads, by 5e-5 with 4 of them.
+    It holds for bodies that do not press on each other. Loaded contacts are solved one after the other, in an order
+    that begins with the ids, and the remaining error of a step depends on it. Four columns of three boxes differ by
+    2e-7 of their positions after 60 steps with substeps by load, by 5e-5 with 4 substeps.
     """
 
     id, word = "U9", "order"
 
     def look(self, step: Step) -> Answer:
-        """Never asked."""
+        """Return that it is not asked."""
         return NotAsked("takes a second world: tests ask it")
 
 
 def furthest_apart(one: World, other: World, ids: np.ndarray) -> float:
-    """The greatest difference of two worlds, relative to where bodies are and how fast; ids[k]: of the body in `other`
-    that is the k-th of `one`."""
+    """Return the greatest difference of two worlds, relative to the positions and speeds of bodies. ids[k]: id in
+    `other` of the k-th body of `one`.
+    """
     rows, twins = one.bodies, other.bodies[other.rows(ids)]
     worst = 0.0
     for name in COMPARED:

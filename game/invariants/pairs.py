@@ -1,6 +1,8 @@
-"""U7, U8 and U10: what two shapes are told to do does not depend on who is asked first, from where, or in which words.
+"""U7, U8 and U10: the answer about two shapes does not depend on their order, their place, or the function that is
+called.
 
-They ask physics about the pairs of a sample: a few in a step, the next ones in the next, one invariant a step in turn.
+The invariants query physics about a sample of pairs: a few in a step, the next ones in the next. They take turns, one
+invariant a step.
 """
 
 import math
@@ -12,15 +14,17 @@ from game.invariants.sample import Pair, sample
 from game.invariants.step import Step
 from physics import PixelMask, World, collide, distance
 
-ULPS = 4.0  # of the poses, that a turn and a shift may change a distance by (invariant U8)
-SHIFT = (16.0, -32.0)  # [px] whole, so that pixels stay pixels
-BAND = 1e-9  # of where and how large two shapes are: nearer to touching, either answer is right
+ULPS = 4.0  # of the poses: allowed change of a distance by a turn and a shift (U8)
+SHIFT = (16.0, -32.0)  # [px] whole, so that pixels stay on the pixel grid
+BAND = 1e-9  # of the positions and sizes of two shapes: nearer to touching, either answer is right
 TURNS = 3  # invariants that take turns
-SELDOM = 4  # times that one has its turn before it asks about a concave pair again: a tile map takes 5 ms
+SELDOM = 4  # turns of an invariant before it checks a concave pair again: a tile map takes 5 ms
 
 
 class OfPairs(Invariant):
-    """Asks about a sample of pairs in every third step; in between the last answer stands. concave: those pairs too."""
+    """An invariant checked on a sample of pairs in every third step; in between the last answer stays. concave: concave
+    pairs, too.
+    """
 
     turn: int
 
@@ -29,7 +33,7 @@ class OfPairs(Invariant):
         self.answer: Answer = NotAsked("not its turn yet")
 
     def look(self, step: Step) -> Answer:
-        """Ask it of the step just made."""
+        """Check it for the last step."""
         if not step.world.effects.narrowphase:
             return NotAsked("no narrow phase: boxes that meet are a hit")
         if step.number % TURNS != self.turn:
@@ -44,17 +48,17 @@ class OfPairs(Invariant):
         return self.answer
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Ask it of one pair."""
+        """Check it for one pair."""
         raise TypeError(f"{type(self).__name__} must define ask")
 
 
 class Swap(OfPairs):
-    """U7: asked the other way round, a pair has its normal turned round, and the same points and depths, to the bit."""
+    """U7: with its shapes swapped, a pair has the opposite normal and the same points and depths, to the bit."""
 
     id, word, turn = "U7", "swap", 0
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Ask it of one pair."""
+        """Check it for one pair."""
         if pair.same:
             return None
         margin = step.world.tolerances.speculative
@@ -73,17 +77,17 @@ class Swap(OfPairs):
 
 
 class Turn(OfPairs):
-    """U8: turned together by a quarter and shifted by whole pixels, two shapes are as far from each other as before.
+    """U8: two shapes, rotated together by quarter turns and shifted by whole pixels, keep their distance.
 
-    To 4 ulp of the poses: of the coordinates, and of the angles at the reach of the shapes. What is drawn on the pixel
-    grid, or does not turn, is shifted only. That a mirrored scene mirrors, and stays the same for 60 steps, can only be
-    asked of a second world: tests do.
+    The tolerance is 4 ulp of the poses: of the coordinates, and of the angles at the reach of the shapes. Shapes that
+    are drawn on the pixel grid or do not rotate are only shifted. Mirrored scenes need a second world to compare with,
+    for 60 steps: tests do that.
     """
 
     id, word, turn = "U8", "turn", 1
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Ask it of one pair."""
+        """Check it for one pair."""
         quarters = 1 + step.number // TURNS % 3 if pair.hulls else 0
         here = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b)
         there = distance(pair.shape_a, moved(pair.pose_a, quarters), pair.shape_b, moved(pair.pose_b, quarters))
@@ -97,7 +101,7 @@ class Turn(OfPairs):
 
 
 def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float, float]:
-    """A pose turned about the origin by quarters, and shifted."""
+    """Return a pose rotated about the origin by quarter turns, and shifted."""
     x, y, angle = pose
     for _ in range(quarters):
         x, y = -y, x
@@ -105,29 +109,31 @@ def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float
 
 
 def rounding(pair: Pair) -> float:
-    """[px] an ulp of where things are, and of their angles at their reach."""
+    """Return an ulp of the positions, and of the angles at the reach of the shapes [px]."""
     size = pair.size + max(map(abs, SHIFT))
     angle = max(abs(pair.pose_a[2]), abs(pair.pose_b[2])) + 2.0 * math.pi
     return math.ulp(size) + pair.size * math.ulp(angle)
 
 
 class Agree(OfPairs):
-    """U10: two shapes overlap, are no distance apart, have a depth and a contact, all of these or none.
+    """U10: overlap, zero distance, depth and contact of two shapes are true together or not at all.
 
-    Where a world only looks, its contacts are of those pairs as well; where it pushes, they are told of poses that the
-    solver has moved since, and begin a little before.
+    In a world without response its contacts are compared, too. With response they belong to poses that the solver has
+    moved since, and begin a little before touching.
     """
 
     id, word, turn = "U10", "agree", 2
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Ask it of one pair."""
+        """Check it for one pair."""
         found = disagreement(step.world, pair)
         return None if found is None else self.broken(step, pair.bodies, *found)
 
 
 def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
-    """(value, allowed, sentence) where distance, depth, contact and what a world that only looks tells differ."""
+    """Return (value, allowed, sentence) if distance, depth, contact and the contacts of a world without response
+    differ.
+    """
     gap = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b).distance
     if math.isinf(gap) or abs(gap) <= BAND * (abs(gap) + pair.size):
         return None
@@ -148,13 +154,15 @@ def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
 
 
 def looks_only(world: World) -> bool:
-    """Whether nothing has moved since the world looked for contacts."""
+    """Return whether no body has moved since the world looked for contacts."""
     effects = world.effects
     return effects.narrowphase and not effects.response and not effects.continuous
 
 
 def tells_contacts(world: World, pair: Pair) -> bool:
-    """Whether a contact of the two would be told by their shapes: no sensor, no mask, which is told by its pixels."""
+    """Return whether a contact of the two is reported by their shapes: no sensor, and no mask, which is tested by its
+    pixels.
+    """
     shapes = world.shapes
     at = np.searchsorted(shapes["id"], (pair.shape_id_a, pair.shape_id_b))
     masks = isinstance(pair.shape_a, PixelMask) or isinstance(pair.shape_b, PixelMask)

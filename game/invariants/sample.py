@@ -1,4 +1,4 @@
-"""A few of the pairs that a step looked at, others in every step, as shapes at poses to ask physics about."""
+"""A sample of the candidate pairs of a step, other ones in every step, as shapes at poses to query physics with."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -6,19 +6,19 @@ from typing import NamedTuple
 import numpy as np
 
 from game.invariants.step import Step
-from physics import Capsule, Circle, PixelMask, Polygon, Segment, TileGrid, World
-from physics.shapes.kinds import Shape
+from physics import PixelMask, TileGrid, World
+from physics.shapes.shape import Shape
+from physics.shapes.values import Convex
 
-CONVEX = (Circle, Capsule, Polygon, Segment)
-PAIRS = 2  # asked about in a step; a concave one counts for both: it takes ten times as long and more
-TRIES = 8  # candidates looked at to find them
-LARGEST = 1 << 16  # pixels or tiles of a shape that is asked about: a moon of 4096 x 1024 px takes a second
+PAIRS = 2  # checked in a step; a concave one counts for two: it takes ten times as long or more
+TRIES = 8  # candidates examined to find them
+LARGEST = 1 << 16  # pixels or tiles of a shape that is checked: a moon of 4096 x 1024 px takes a second
 
 Pose = tuple[float, float, float]
 
 
 class Pair(NamedTuple):
-    """Two shapes that may touch. `size` [px]: how far from the origin and how large they are, for rounding."""
+    """Two shapes that may touch. `size` [px]: their distance from the origin plus their size, for rounding."""
 
     body_a: int
     body_b: int
@@ -32,34 +32,36 @@ class Pair(NamedTuple):
 
     @property
     def bodies(self) -> tuple[int, int]:
-        """Ids."""
+        """Ids of the bodies."""
         return self.body_a, self.body_b
 
     @property
     def hulls(self) -> bool:
-        """Whether both are convex, and turn."""
-        return isinstance(self.shape_a, CONVEX) and isinstance(self.shape_b, CONVEX)
+        """True if both are convex, and rotate."""
+        return isinstance(self.shape_a, Convex) and isinstance(self.shape_b, Convex)
 
     @property
     def small(self) -> bool:
-        """Whether neither is a mask or a grid beyond LARGEST."""
+        """True if neither is a mask or a grid larger than LARGEST."""
         return max(extent_of(self.shape_a), extent_of(self.shape_b)) <= LARGEST
 
     @property
     def same(self) -> bool:
-        """Whether nothing tells A from B: the same shape at the same place."""
+        """True if A and B are the same shape at the same place."""
         return self.pose_a == self.pose_b and self.shape_a == self.shape_b
 
 
 def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
-    """PAIRS of the candidates of a step, by its number alone; `turn` counts the askings. concave: those too."""
+    """Yield PAIRS of the candidates of a step, chosen by its number alone. turn: number of checks so far. concave:
+    those, too.
+    """
     world = step.world
     rows = world.pairs.rows
     if not len(rows):
         return
     room, seen = PAIRS, set()
     for k in range(min(TRIES, len(rows))):
-        owners = world.shapes["owner"][rows[(turn * PAIRS + k) % len(rows)]]
+        owners = world.shapes["parent"][rows[(turn * PAIRS + k) % len(rows)]]
         ids = int(owners.min()), int(owners.max())
         if ids in seen:
             continue
@@ -74,7 +76,7 @@ def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
 
 
 def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
-    """The pair of two shape ids; None where one is taken out, or is no number."""
+    """Return the pair of two shape ids; None if one is disabled, or is not finite."""
     found_a, found_b = placed(world, shape_a), placed(world, shape_b)
     if found_a is None or found_b is None:
         return None
@@ -86,14 +88,14 @@ def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
 
 
 def extent_of(shape: Shape) -> int:
-    """Pixels of a mask, tiles of a grid, with those that are clear."""
+    """Return the number of pixels of a mask or tiles of a grid, clear ones included."""
     if isinstance(shape, PixelMask):
         return shape.size[0] * shape.size[1]
     return shape.solid.size if isinstance(shape, TileGrid) else 1
 
 
 def placed(world: World, shape_id: int) -> tuple[int, Shape, Pose, float] | None:
-    """(body id, shape, pose, reach [px] from the pose) of a shape; None where its body is taken out."""
+    """Return (body id, shape, pose, reach [px] from the pose) of a shape; None if its body is disabled."""
     shapes, bodies = world.shapes, world.bodies
     at = int(np.searchsorted(shapes["id"], shape_id))
     row = int(shapes["body_row"][at])

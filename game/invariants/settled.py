@@ -1,4 +1,4 @@
-"""U6: what has settled overlaps by no more than a few slops."""
+"""U6: settled bodies overlap by no more than a few slops."""
 
 import math
 
@@ -9,30 +9,31 @@ from game.invariants.step import Step
 from physics import STATIC
 from physics.settings import CONTACT_HERTZ, HERTZ_SHARE
 
-SLOPS, HEAVY_SLOPS = 2.0, 5.0  # allowed overlap; where the masses differ by more than …
-HEAVY = 100.0  # … this ratio (invariant U6)
-CALM_TIME = 0.5  # [s] for which nothing of a heap moves faster than what falls asleep, before it has settled
+SLOPS, HEAVY_SLOPS = 2.0, 5.0  # allowed overlap; with masses that differ by more than …
+HEAVY = 100.0  # … this ratio (U6)
+CALM_TIME = 0.5  # [s] a pile has settled once all of it has been slower than the sleeping speeds for so long
 
 
 class Settled(Invariant):
-    """U6: two slops at most, five where masses differ by more than 100 : 1, of what has been slow for half a second,
-    together with all it touches.
+    """U6: two slops at most, five where masses differ by more than 100 : 1, between bodies that have been slow for half
+    a second, together with all that they touch.
 
-    Where the number of substeps is given, contacts are springs of 60 Hz and not as stiff as their loads ask for: what
-    these let it sink comes on top. The twelve rows of lab/pyramid, hit by its ball, settle at 0.328 px under 4
-    substeps, of 0.320 that two slops are; one of their springs sinks by a tenth of a pixel.
+    With a fixed number of substeps, contacts are springs of 60 Hz, less stiff than their loads need: their sag is
+    added. The twelve rows of lab/pyramid, hit by its ball, settle at 0.328 px under 4 substeps; two slops are 0.320 px.
+    One of their springs sags by a tenth of a pixel.
 
-    Asked of worlds that stack: the other solvers push out what they meet in a step, and promise nothing of piles.
+    It is checked in worlds with stacking: the other solvers separate the overlaps of one step and guarantee nothing for
+    piles.
     """
 
     id, word = "U6", "overlap"
 
     def __init__(self) -> None:
         self.ids = np.zeros(0, np.int64)
-        self.calm = np.zeros(0)  # [s] for which each has been slow
+        self.calm = np.zeros(0)  # [s] for which each body has been slow
 
     def look(self, step: Step) -> Answer:
-        """Ask it of the step just made."""
+        """Check it for the last step."""
         world, now = step.world, step.now
         self._count_calm(step)
         if not world.stacks:
@@ -66,8 +67,9 @@ class Settled(Invariant):
 
 
 def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """[px] that each contact sinks as a spring under the force of the step: F / (m ω²), m the mass that it moves; 0
-    where the substeps follow from the loads."""
+    """Return the sag [px] of each contact as a spring under the force of the step: F / (m ω²), with m its effective
+    mass; 0 if the substeps follow from the loads.
+    """
     world, rows, now = step.world, step.contacts, step.now
     substeps = world.substeps
     if isinstance(substeps, str) or step.dt == 0.0 or not len(rows):  # "auto"

@@ -1,4 +1,4 @@
-"""A step that was made: the world after it, its bodies before and after, and whom anything from outside acted on."""
+"""A finished step: the world after it, its bodies before and after, and the bodies with outside influence."""
 
 from functools import cached_property
 
@@ -9,8 +9,9 @@ from physics import DYNAMIC, KINEMATIC, World
 
 
 class Step:
-    """`dt`: its length [s]; `edited`: somebody changed the world since the step before it. By row of the bodies before
-    it: `changed`, those that were changed; `forced`, those that forces had been applied to."""
+    """One step. `dt`: its length [s]; `edited`: the world was changed since the step before it. By row of the bodies
+    before it: `changed`, the changed bodies; `forced`, the bodies with applied forces.
+    """
 
     def __init__(
         self, world: World, before: Bodies, dt: float, edited: bool, changed: np.ndarray, forced: np.ndarray
@@ -23,18 +24,20 @@ class Step:
 
     @property
     def slop(self) -> float:
-        """[px] the overlap in which a contact is kept."""
+        """Overlap in which a contact is kept [px]."""
         return self.world.tolerances.slop
 
     @cached_property
     def overlap(self) -> float:
-        """[px] of the deepest contact; 0 without one."""
+        """Overlap of the deepest contact [px]; 0 without one."""
         depths = self.contacts["separation"]
         return max(0.0, -float(depths.min())) if len(depths) else 0.0
 
     @cached_property
     def pace(self) -> np.ndarray:
-        """[px/s] how fast each body is or was moved, whichever is more: what overlaps is pushed out without speed."""
+        """Speed of each body or of its displacement in the step, the greater [px/s]: push-out moves a body without
+        velocity.
+        """
         if self.dt == 0.0 or len(self.before) != len(self.now):
             return self.now.speed
         x, y = self.now.cx - self.before.cx, self.now.cy - self.before.cy
@@ -49,7 +52,9 @@ class Step:
         )
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Those flagged, and whom they touch, directly or by others; both bodies of a contact must be `through`."""
+        """Return the flagged bodies and those they touch, directly or through others; both bodies of a contact must be
+        `through`.
+        """
         a, b = self.sides
         open_ones = through[a] & through[b]
         a, b, reached = a[open_ones], b[open_ones], rows.copy()
@@ -68,7 +73,7 @@ class Step:
 
     @cached_property
     def outside(self) -> str:
-        """What may act on any body from outside in this step and stands in no table, "" where nothing does."""
+        """Outside influence that may act on any body and is in no table; "" if there is none."""
         world, effects = self.world, self.world.effects
         if len(self.before) != len(self.now):
             return "bodies came or went"
@@ -80,8 +85,9 @@ class Step:
 
     @cached_property
     def alone(self) -> np.ndarray:
-        """The dynamic bodies that nothing but gravity acted on from outside: no force, and nothing that stands, sleeps
-        or is moved by hand touched them, or one that they touched."""
+        """Dynamic bodies on which nothing but gravity acted from outside: without a force, and without a contact,
+        directly or through others, with a static, sleeping or kinematic body.
+        """
         rows = self.world.bodies
         still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced
         if self.world.effects.response and len(self.contacts):

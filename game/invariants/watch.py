@@ -1,4 +1,4 @@
-"""Watching one world: all invariants after every step of it."""
+"""The watch of one world: all invariants after every step."""
 
 from collections.abc import Callable
 from time import perf_counter
@@ -18,7 +18,9 @@ from physics import World
 
 
 def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
-    """U1 to U11, new. concave: pairs of masks, tiles and chains are asked about too, at ten times the cost."""
+    """Return new invariants U1 to U11. concave: pairs of masks, tiles and chains are checked, too, at ten times the
+    cost.
+    """
     return (
         Finite(),
         Unit(),
@@ -35,9 +37,10 @@ def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
 
 
 class Watch:
-    """before() and after() around each step of one world. `found`: the answers since the last collect(), by id.
+    """Checks around each step of one world. `found`: the answers since the last collect(), by id.
 
-    Of several steps the first that broke an invariant counts. `seconds`: what watching took since then.
+    Of several steps, the first that broke an invariant counts. `seconds`: time of watching since then. Call before()
+    and after() around each step.
     """
 
     def __init__(self, concave: bool = True) -> None:
@@ -49,7 +52,7 @@ class Watch:
         self.edited, self.changed, self.forced, self.time = True, np.zeros(0, bool), np.zeros(0, bool), 0.0
 
     def before(self, world: World) -> None:
-        """To be called right before a step: what has been changed since the last one?"""
+        """Record the changes since the last step. Call it right before a step."""
         started = perf_counter()
         rows, now = world.bodies, Bodies(world)
         same = self.last is not None and now.same_as(self.last)
@@ -60,7 +63,7 @@ class Watch:
         self.seconds += perf_counter() - started
 
     def after(self, world: World) -> None:
-        """To be called right after it."""
+        """Check the invariants. Call it right after a step."""
         started = perf_counter()
         if self.last is None:
             raise ValueError("before() must be called before the step")
@@ -73,23 +76,23 @@ class Watch:
         self.seconds += perf_counter() - started
 
     def collect(self) -> tuple[dict[str, Answer], float]:
-        """(the answers since the last call, the seconds they took)."""
+        """Return (answers since the last call, seconds that they took)."""
         found, self.found = self.found, {}
         seconds, self.seconds = self.seconds, 0.0
         return found, seconds
 
 
 class WatchedWorld(World):
-    """A World that can be watched. `watch`: who looks at each of its steps; None: nobody, at no cost.
+    """A World that can be watched. `watch`: the Watch of its steps, or None, which costs nothing.
 
-    stepped_by(world, dt): makes its steps in place of World.step; None: nobody does.
+    stepped_by(world, dt): replaces World.step; None: World.step itself.
     """
 
     watch: Watch | None = None
     stepped_by: Callable[["WatchedWorld", float | None], None] | None = None
 
     def step(self, dt: float | None = None) -> None:
-        """World.step, between two looks of its watch."""
+        """Step the world between before() and after() of its watch."""
         if self.stepped_by is not None:
             return self.stepped_by(self, dt)
         watch = self.watch

@@ -1,1 +1,1 @@
-"""`--report DIR`: what accuracy costs in time, measured job by job and written as one page."""
+"""`--report DIR`: accuracy against time, measured job by job and written as one page."""

@@ -1,4 +1,4 @@
-"""What a chart of the report is: the jobs that measure it, the panels that show it, and what it claims."""
+"""A chart of the report: its jobs, its panels and its claims."""
 
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
@@ -14,8 +14,9 @@ SECOND = {"ns": 1e9, "us": 1e6, "ms": 1e3, "s": 1.0}
 
 
 class Axis(NamedTuple):
-    """label: with its unit; log: where values span a decade; mark: where a line is drawn, as at what a player can see;
-    decades: of a logarithmic axis, at most."""
+    """One axis. label: with its unit; log: if values span a decade; mark: position of a line, such as the limit of what
+    a player sees; decades: greatest span of a logarithmic axis.
+    """
 
     label: str
     read: Reading
@@ -25,15 +26,16 @@ class Axis(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A line over x that no row stands for, as a limit of arithmetic."""
+    """A line over x that belongs to no row, such as a limit of arithmetic."""
 
     label: str
     at: Callable[[float], float]
 
 
 class Panel(NamedTuple):
-    """One plot. line: "front" joins the dots that none beats, "medians" the series whose medians none
-    beats, "series" the dots of each in the order of x, "" nothing. series: what a row's dot is drawn as one of."""
+    """One plot. line: "front" joins the dots that no other dot beats, "medians" the series whose medians none beats,
+    "series" the dots of each in the order of x; "" no line. series: the series of a row's dot.
+    """
 
     title: str
     x: Axis
@@ -45,21 +47,23 @@ class Panel(NamedTuple):
 
 
 class Chart(NamedTuple):
-    """rows have "series" and "label"; key: the first part of its jobs' names; truth: what errors are measured by."""
+    """One chart. Its rows have "series" and "label"; key: the first part of its jobs' names; truth: the reference of
+    its errors.
+    """
 
     number: int
     key: str
     title: str
     question: str
     truth: str
-    panels: tuple[Panel, ...] | Callable[[Sequence[Row]], list[Panel]]  # of the rows that there are
+    panels: tuple[Panel, ...] | Callable[[Sequence[Row]], list[Panel]]  # of the existing rows
     jobs: Callable[[Plan], list[Job]]
     claims: Callable[[Sequence[Row]], list[Claim]] = lambda rows: []
-    of: str = ""  # the key of the chart whose rows it shows; "" its own
+    of: str = ""  # key of the chart whose rows it shows; "" its own
 
 
 def time(key: str, unit: str = "us") -> Reading:
-    """The least, the median and the upper quartile of a cost."""
+    """Return a reading of the least, the median and the upper quartile of a cost."""
 
     def read(row):
         cost = row.get(key)
@@ -72,7 +76,7 @@ def time(key: str, unit: str = "us") -> Reading:
 
 
 def value(key: str, scale: float = 1.0) -> Reading:
-    """A number, or three: low, middle, high."""
+    """Return a reading of a number, or of three: low, middle, high."""
 
     def read(row):
         found = row.get(key)
@@ -85,7 +89,7 @@ def value(key: str, scale: float = 1.0) -> Reading:
 
 
 def percent(key: str) -> Reading:
-    """A rate, kept as [count, total], in percent, with the interval in which the true one lies (Wilson)."""
+    """Return a reading of a rate, kept as [count, total], in percent, with the interval of the true rate (Wilson)."""
 
     def read(row):
         if row.get(key) is None:
@@ -98,5 +102,5 @@ def percent(key: str) -> Reading:
 
 
 def panel_is(name: str) -> Callable[[Row], bool]:
-    """Rows that name a panel as theirs."""
+    """Return a filter of the rows of the panel with that name."""
     return lambda row: row.get("panel") == name

@@ -1,4 +1,4 @@
-"""A sentence that the measurements bear out, contradict, or leave open."""
+"""A sentence that the measurements confirm, contradict, or leave open."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -9,21 +9,22 @@ HOLDS, FAILS, TIE = "holds", "does not hold", "a tie"
 
 
 class Claim(NamedTuple):
-    """text: what is claimed; figure: what was measured; verdict: HOLDS, FAILS or TIE; source: who claims it."""
+    """One claim. text: the sentence; figure: the measured value; verdict: HOLDS, FAILS or TIE; source: its author."""
 
     text: str
     figure: str
     verdict: str
     source: str = ""
-    order: tuple[str, ...] = ()  # of an ordering: the cheapest, all that may be where that is a tie
-    about: str = ""  # of an ordering: what of, without the winner's name
+    order: tuple[str, ...] = ()  # of an ordering: the cheapest; all candidates if it is a tie
+    about: str = ""  # of an ordering: its subject, without the winner's name
 
 
 def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 1e6, word: str = "us") -> Claim:
-    """Which of several works is the cheapest: claimed where it is sure, else a tie of all that may be.
+    """Return a claim of the cheapest of several works: a winner if it is certain, else a tie of all candidates.
 
-    costs: {name: (least, median) seconds}; a tie where intervals overlap or costs differ by less than 10 %. Raises
-    ValueError for fewer than two."""
+    costs: {name: (least, median) seconds}; a tie if intervals overlap or costs differ by less than 10 %. Raises
+    ValueError for fewer than two.
+    """
     if len(costs) < 2:
         raise ValueError(f"an ordering needs two costs at least (got {len(costs)})")
     ordered = sorted(costs, key=lambda name: costs[name][1])
@@ -36,25 +37,27 @@ def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 
 
 
 def at_least(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
-    """That a figure (low, middle, high) is above a limit: holds or not where it surely is, else a tie."""
+    """Return the claim that a figure (low, middle, high) is above a limit: HOLDS or FAILS if that is certain, else
+    TIE.
+    """
     low, middle, high = ratio
     verdict = HOLDS if low >= limit else FAILS if high < limit else TIE
     return Claim(text, f"{middle:.3g} {unit} ({low:.3g} to {high:.3g})", verdict, source)
 
 
 def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
-    """That a figure (low, middle, high) is below a limit."""
+    """Return the claim that a figure (low, middle, high) is below a limit."""
     low, middle, high = ratio
     verdict = HOLDS if high <= limit else FAILS if low > limit else TIE
     return Claim(text, f"{middle:.3g} {unit} ({low:.3g} to {high:.3g})", verdict, source)
 
 
 def ratio_of(a: Mapping, b: Mapping) -> tuple[float, float, float]:
-    """How one cost (as a row holds it) stands to another: low, middle, high, going by least, median and upper."""
+    """Return the ratio of two costs, as rows hold them: low, middle, high, from least, median and upper."""
     first, second = a["seconds"], b["seconds"]
     return first[0] / second[2], first[1] / second[1], first[2] / second[0]
 
 
 def pair(cost: Mapping) -> tuple[float, float]:
-    """(least, median) of a cost as a row holds it."""
+    """Return (least, median) of a cost, as a row holds it."""
     return cost["seconds"][0], cost["seconds"][1]

@@ -1,4 +1,4 @@
-"""The report as one HTML page that needs nothing else: plots with what stands behind each dot, tables, raw data."""
+"""The report as one self-contained HTML page: plots with the data of each dot, tables, raw data."""
 
 import csv
 import io
@@ -22,7 +22,7 @@ PAGE = Path(__file__).with_name("page.html")
 
 
 class Measured(NamedTuple):
-    """A chart with what its jobs found. failed: {job: why}; left: jobs that are not done yet."""
+    """A chart with the results of its jobs. failed: {job: reason}; left: number of jobs that are not done."""
 
     chart: Chart
     rows: list[Row]  # each with "job"
@@ -31,7 +31,7 @@ class Measured(NamedTuple):
 
 
 def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder: str, spent: float) -> str:
-    """The page's text. folder: as the command line named it, for the commands that measure a dot again."""
+    """Return the page's text. folder: as given on the command line, for the commands that measure a dot again."""
     told: dict[str, Any] = {}
     charts = "\n".join(_chart(each, told, folder, bool(manifest["quick"])) for each in measured)
     rows = {each.chart.key: each.rows for each in measured}
@@ -56,7 +56,7 @@ def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder
 
 
 def _script(value):
-    """JSON that cannot end the element that it stands in."""
+    """Return JSON that cannot close the element around it."""
     return json.dumps(value).replace("</", "<\\/")
 
 
@@ -84,13 +84,13 @@ def _chart(measured, told, folder, quick):
 
 
 def command(row: Row, folder: str, quick: bool) -> str:
-    """Return the line for a shell that measures a row again."""
+    """Return the shell command that measures a row again."""
     report = [f"--report={folder}"] if folder.startswith("-") else ["--report", folder]
     return quoted([*START, *report, *(["--quick"] if quick else []), "--only", row["job"]])
 
 
 def quoted(arguments: Sequence[str]) -> str:
-    """Return the arguments as one line that the system's shell takes apart into them again."""
+    """Return the arguments as one line that the system's shell splits into the same arguments."""
     return subprocess.list2cmdline(arguments) if sys.platform == "win32" else shlex.join(arguments)
 
 
@@ -131,12 +131,12 @@ def _table(rows, folder, quick):
 
 
 def columns(rows: Iterable[Row]) -> list[str]:
-    """The keys of all rows, in the order in which they come."""
+    """Return the keys of all rows, in order of first appearance."""
     return list(dict.fromkeys(name for row in rows for name in row))
 
 
 def cell(value: Any) -> str:
-    """A value of a row as text."""
+    """Return a value of a row as text."""
     if value is None:
         return ""
     if isinstance(value, dict) and "seconds" in value:
@@ -147,7 +147,7 @@ def cell(value: Any) -> str:
 
 
 def as_csv(rows: Sequence[Row]) -> str:
-    """The rows as CSV; times are three columns of seconds: least, median, upper quartile."""
+    """Return the rows as CSV; times are three columns of seconds: least, median, upper quartile."""
     flat = []
     for row in rows:
         line: Row = {}

@@ -1,6 +1,6 @@
-"""Panels drawn as SVG, by matplotlib: light or dark by the page's colours, a dot each that a pointer can find.
+"""Panels drawn as SVG by matplotlib: light or dark by the page's colours, with a hoverable element per dot.
 
-Raises UsageError where matplotlib is not installed.
+Raises UsageError if matplotlib is not installed.
 """
 
 import io
@@ -19,10 +19,10 @@ from game.report.chart import Axis, Interval, Panel
 from game.report.job import Row
 
 SIZE = (6.4, 4.0)  # [inch]
-# Inks that no drawing has by chance, and what the page calls them.
+# Inks that no drawing uses otherwise, and their variables in the page.
 INKS = {"#010203": "var(--ink)", "#040506": "var(--paper)", "#070809": "var(--faint)"}
 INK, PAPER, FAINT = INKS
-# Okabe and Ito's colours, which most who see colours otherwise can tell apart, dark enough for both papers.
+# Okabe and Ito's colours, distinguishable under most kinds of colour blindness, dark enough for both grounds.
 COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56a0d9", "#8064c8", "#7a7a7a", "#c0392b", "#4d8f1f")
 MARKERS = "osD^vP*X<>"
 CURVES = (":", "-.")
@@ -38,7 +38,7 @@ class Dot(NamedTuple):
 
 @cache
 def library() -> Any:
-    """matplotlib's figures, without a window."""
+    """Return matplotlib's figures, without a window."""
     try:
         import matplotlib
         from matplotlib.figure import Figure
@@ -49,7 +49,7 @@ def library() -> Any:
 
 
 def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
-    """What a panel shows of the rows: those with both figures, which are finite."""
+    """Return the dots of a panel: the rows with both figures, if these are finite."""
     found = []
     for row in rows:
         if not panel.shows(row):
@@ -61,7 +61,7 @@ def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
 
 
 def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
-    """(the SVG of a panel, its dots); dot k has the id NAME-k. "" where nothing is to be shown."""
+    """Return (the SVG of a panel, its dots); dot k has the id NAME-k. "" if there is nothing to show."""
     figure = library()(figsize=SIZE, layout="constrained")
     dots = dots_of(panel, rows)
     if not dots:
@@ -116,15 +116,16 @@ def _bars(axes, dot, color):
 
 
 def _curves(axes, panel, dots):
-    """Dotted, over the values of x that are measured; what lies below the axis is cut."""
+    """Draw the curves, dotted, over the measured values of x; values below the axis are cut."""
     at = sorted({dot.x[1] for dot in dots if dot.x[1] > 0.0})
     for curve, style in zip(panel.curves, CURVES, strict=False):
         axes.plot(at, [curve.at(x) for x in at], linestyle=style, color=INK, linewidth=1.0, label=curve.label)
 
 
 def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
-    """Logarithmic where that is asked for and values span a decade: in less, its ticks run into each other. What is so
-    many decades below the largest lies at the foot, with zero. Told after all is drawn."""
+    """Make an axis logarithmic if that is asked for and values span a decade: with less, its ticks overlap. Values more
+    than the given decades below the largest lie at the foot, with zero. Call it after all is drawn.
+    """
     positive = [high for _, _, high in values if high > 0.0]
     if not axis.log or not positive or max(positive) < 10.0 * min(low for low, _, _ in values):
         return
@@ -133,7 +134,7 @@ def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
     if all(low > foot for low, _, _ in values):
         set_scale("log")
         least, most = min(low for low, _, _ in values), max(positive)
-        if most < 100.0 * least:  # its own ticks would run into each other
+        if most < 100.0 * least:  # matplotlib's own ticks would overlap
             powers = range(ceil(log10(least)) - 1, ceil(log10(most)))
             ticks = [each * 10.0**power for power in powers for each in (1.0, 2.0, 5.0)]
             ticks = [each for each in ticks if least <= each <= most]
@@ -174,12 +175,12 @@ def _page_colors(figure) -> str:
     text = text[text.index("<svg") :]
     for ink, name in INKS.items():
         text = text.replace(ink, name)
-    # Numbers of points say how large it is drawn; a page has its own width.
+    # The size in points is dropped: the page sets the width.
     return re.sub(r'<svg ([^>]*?)width="[^"]*" height="[^"]*"', r"<svg \1", text, count=1)
 
 
 def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
-    """What is told of a dot under the pointer: both figures with their intervals, then what else the row knows."""
+    """Return the texts of a dot under the pointer: both figures with their intervals, then the row's other values."""
     told = {
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]
     }

@@ -1,16 +1,18 @@
-"""The report's piles of boxes in pymunk, the peer that pip installs. ModuleNotFoundError names the extra it is in."""
+"""The report's piles of boxes in pymunk, a peer installed by pip. ModuleNotFoundError names the extra that contains
+it.
+"""
 
 from typing import Any
 
 from game import startup
 from game.report.piles import BOX, FRICTION, GRAVITY, Pile
 
-SLOP = 0.1  # [px] its default, which it lets bodies overlap by
+SLOP = 0.1  # [px] pymunk's default overlap of bodies
 ITERATIONS = 10  # its default
 
 
 def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
-    """Boxes, all as dense as each other, on a wide ground."""
+    """Return a space of boxes of equal density on a wide ground."""
     try:
         import pymunk
     except ModuleNotFoundError as error:
@@ -31,7 +33,7 @@ def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
 
 
 def overlap_in(space: Any) -> float:
-    """The deepest by its own contact points, at the poses of now [px]."""
+    """Return the deepest overlap by its own contact points, at the current poses [px]."""
     found = 0.0
     for shape in space.shapes:
         if shape.body is not space.static_body:

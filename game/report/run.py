@@ -1,6 +1,6 @@
-"""`--report DIR`: do the jobs that are not done, keep each, and write the page.
+"""`--report DIR`: run the jobs that are not done, store each, and write the page.
 
-Interrupted, it loses nothing but the job that it was at: the same command goes on.
+An interrupted report resumes where it stopped; only the job that was running is lost.
 """
 
 import json
@@ -27,13 +27,13 @@ from physics.background import StderrProgress, compile_jobs
 
 
 def run_report(options: Options, registry: Registry) -> int:
-    """Measure and write. Returns the exit code: 1 where a job failed. Raises UsageError for what cannot be begun."""
+    """Measure and write. Return the exit code: 1 if a job failed. Raises UsageError if the report cannot begin."""
     assert options.report is not None
-    library()  # what draws is looked for before anything is measured
+    library()  # matplotlib is required before anything is measured
     start_dummy_display()
     jobs = all_jobs(Plan(options.quick, registry.listing))
     chosen = chosen_jobs(jobs, options.only)
-    client = connect(options.dask) if options.dask is not None else None  # before a folder is made for nothing
+    client = connect(options.dask) if options.dask is not None else None  # before a folder is created in vain
     store = Store(Path(options.report), options.quick)
     done = {job.name for job in jobs if _is_done(store, job)}
     due = [job for job in chosen if options.only is not None or job.name not in done]
@@ -62,7 +62,9 @@ def run_report(options: Options, registry: Registry) -> int:
 
 
 def compile_kernels() -> None:
-    """Compile with all cores what most jobs call, so that none waits for the compiler; the rest at its first call."""
+    """Compile the kernels of most jobs with all cores, so that none waits for the compiler; others compile at the first
+    call.
+    """
     worlds = [(effects, solver) for effects in (Effects.rigid_bodies(), Effects.detection()) for solver in SOLVERS]
     kernels = [
         {"effects": effects.names(), "broadphase": "all", "solver": solver, "pieces": None}
@@ -75,12 +77,14 @@ def compile_kernels() -> None:
 
 
 def all_jobs(plan: Plan) -> list[Job]:
-    """Of all charts, in their order."""
+    """Return the jobs of all charts, in their order."""
     return [job for chart in CHARTS for job in chart.jobs(plan)]
 
 
 def chosen_jobs(jobs: Sequence[Job], only: str | None) -> list[Job]:
-    """Those whose name the pattern fits, or begins: `broadphases` are all of that chart. Raises UsageError for none."""
+    """Return the jobs whose name matches the pattern or begins with it: `broadphases` selects all of that chart. Raises
+    UsageError for none.
+    """
     if only is None:
         return list(jobs)
     found = [job for job in jobs if fnmatchcase(job.name, only) or job.name.startswith(f"{only}/")]
@@ -98,7 +102,7 @@ def _is_done(store, job):
 
 
 def gather(store: Store, jobs: Sequence[Job]) -> list[Measured]:
-    """What is kept, by chart."""
+    """Return the stored results, by chart."""
     found = []
     for chart in CHARTS:
         rows, failed, left = [], {}, 0
@@ -112,12 +116,12 @@ def gather(store: Store, jobs: Sequence[Job]) -> list[Measured]:
                 failed[job.name] = result["failed"]
             else:
                 rows += [{**row, "job": job.name} for row in result["rows"]]
-        found.append(Measured(chart, rows, {} if chart.of else failed, 0 if chart.of else left))  # told once
+        found.append(Measured(chart, rows, {} if chart.of else failed, 0 if chart.of else left))  # reported once
     return found
 
 
 def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
-    """The page, and the rows beside it. Raises OSError."""
+    """Write the page, and the rows beside it. Raises OSError."""
     measured = gather(store, jobs)
     spent = sum(found["spent"] for job in jobs if (found := store.result(job.name)) is not None)
     page = write_page(measured, store.manifest, str(options.report), spent)
@@ -128,7 +132,7 @@ def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
 
 
 class Progress:
-    """A line on standard error for each job: how many are done, and about how long the others will take."""
+    """A line on standard error for each job: the number of jobs done, and the time that the others will take."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
         self.weights = {job.name: job.seconds for job in jobs}

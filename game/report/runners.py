@@ -1,6 +1,7 @@
-"""Three ways to do the jobs of a report: here, in processes beside, on a Dask cluster. All yield the same results.
+"""Three ways to run the jobs of a report: in this process, in worker processes, on a Dask cluster, with the same
+results.
 
-A job whose process dies is done once more, and then told as failed.
+A job whose process dies is run once more, and then reported as failed.
 """
 
 import json
@@ -15,18 +16,18 @@ from game.report.job import Job, Row, run_job
 from physics.jit.workers import end_all, start_module
 
 TRIES = 2
-PATIENCE = "10s"  # until a scheduler answers
+PATIENCE = "10s"  # wait for a scheduler
 DIED = "the process that did it ended, twice"
 
 
 def run_here(jobs: Sequence[Job]) -> Iterator[Row]:
-    """One after the other, in this process."""
+    """Run the jobs one after the other, in this process."""
     for job in jobs:
         yield run_job(*job[:3])
 
 
 def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
-    """As they are done, in so many processes; what they measure shares the machine's cores and caches."""
+    """Yield results as they finish, from so many processes, which share the machine's cores and caches."""
     waiting: queue.SimpleQueue[tuple[Job, int]] = queue.SimpleQueue()
     found: queue.SimpleQueue[Row | Exception] = queue.SimpleQueue()
     for job in jobs:
@@ -53,7 +54,7 @@ def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
 
 
 def _serve(waiting, found, running, stopped):
-    """Do jobs in a process of its own, a new one after each that died."""
+    """Run jobs in a process of its own, and start a new one after each that died."""
     process: Any = None
     while not stopped.is_set():
         try:
@@ -77,7 +78,7 @@ def _serve(waiting, found, running, stopped):
         if line:
             found.put(json.loads(line))
             continue
-        process = None  # it has ended, however
+        process = None  # it has ended, for whatever reason
         if attempt < TRIES:
             waiting.put((job, attempt + 1))
         else:
@@ -85,15 +86,16 @@ def _serve(waiting, found, running, stopped):
 
 
 def connect(address: str) -> Any:
-    """A client of the Dask cluster at an address. Raises UsageError where there is no Dask, the address is none, or
-    no scheduler answers there."""
+    """Return a client of the Dask cluster at an address. Raises UsageError without Dask, for an invalid address, or if
+    no scheduler answers there.
+    """
     try:
         from dask.distributed import Client  # pyright: ignore[reportMissingImports]
         from distributed.comm.addressing import get_address_host_port  # pyright: ignore[reportMissingImports]
     except ImportError as error:
         raise UsageError(f"--dask needs Dask; it comes with: {startup.install('cluster')}") from error
     try:
-        get_address_host_port(address)  # a client that cannot even try waits for itself when it is thrown away
+        get_address_host_port(address)  # checked first: a client with an invalid address blocks when it is deleted
     except ValueError as error:
         raise UsageError(f"--dask: {address} is no address such as tcp://host:8786: {error}") from error
     try:
@@ -103,7 +105,9 @@ def connect(address: str) -> Any:
 
 
 def run_on_dask(jobs: Sequence[Job], client: Any) -> Iterator[Row]:
-    """As they are done, on the workers of a cluster that has this program; its client is closed at the end."""
+    """Yield results as they finish, from the workers of a cluster that has this program. The client is closed at the
+    end.
+    """
     from dask.distributed import as_completed  # pyright: ignore[reportMissingImports]
 
     with client:

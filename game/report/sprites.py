@@ -1,4 +1,4 @@
-"""The game's sprites as the report measures them."""
+"""The game's sprites that the report measures."""
 
 from game.drawing.sprites import load_atlas
 from physics import PixelMask
@@ -19,5 +19,5 @@ FEW = (SPRITES[1], SPRITES[2], SPRITES[5])
 
 
 def mask_of(atlas: str, name: str) -> PixelMask:
-    """A sprite's pixels."""
+    """Return a sprite's pixels."""
     return load_atlas(atlas).mask(name)

@@ -1,4 +1,4 @@
-"""How well a pile stands: looked at after every step, told at the end."""
+"""Accuracy of a standing pile: checked after every step, reported at the end."""
 
 from collections import deque
 
@@ -6,13 +6,13 @@ from game.report.job import Row
 from game.report.piles import BOX, Pile, energy, overlap, sunk
 from physics import World
 
-SETTLE, LAST = 120, 30  # steps until what stands is measured, of which the worst of the last counts
+SETTLE, LAST = 120, 30  # steps before the measurement, of which the worst of the last counts
 VISIBLE = 1.0  # [px]
-FALLEN = 0.5 * BOX  # [px] the highest came down by more
+FALLEN = 0.5 * BOX  # [px] sag of the highest body that counts as a fall
 
 
 class Watch:
-    """Of one world: what was worst so far, and when it fell [s]."""
+    """Measurements of one world: the worst values so far, and the time of its fall [s]."""
 
     settle = SETTLE
 
@@ -23,7 +23,7 @@ class Watch:
         self.sunk: deque[float] = deque(maxlen=LAST)
 
     def look(self) -> None:
-        """After a step."""
+        """Measure after a step."""
         self.overlaps.append(overlap(self.world))
         self.sunk.append(sunk(self.world, self.pile))
         self.deepest = max(self.deepest, self.overlaps[-1])
@@ -32,9 +32,10 @@ class Watch:
             self.fell = self.world.time - self.began
 
     def found(self) -> Row:
-        """overlap, and off: how far the highest is from where it was set, up or down, both the worst of the LAST steps;
-        error: the worse of the two; deepest [px]; won: energy, as a share of that of the pile's height; stands_s: when
-        it fell, None: not yet. A pile that must rise to rest is nowhere to be off from."""
+        """Return the row: overlap, and off, the distance of the highest body from its start, up or down: both the worst
+        of the LAST steps. error: the greater of the two; deepest [px]; won: energy gain, as a share of the pile's
+        potential energy; stands_s: time of the fall, None without one. A pile that must rise to rest has no off.
+        """
         deep, off = max(self.overlaps), max(map(abs, self.sunk)) if self.pile.rests else None
         return {
             "overlap": deep,

@@ -1,6 +1,6 @@
-"""The folder of a report: what is measured is kept there at once, a file per job, so that nothing is lost.
+"""The folder of a report: each result is stored there at once, a file per job, so that nothing is lost.
 
-manifest.json tells what the report is of: another version, or another choice of jobs, does not go on in it.
+manifest.json describes the report: another version, or another choice of jobs, is not continued in it.
 """
 
 import json
@@ -16,11 +16,11 @@ from game.files.leftovers import remove_leftovers
 from game.measure.machine import machine
 
 MANIFEST, RESULTS, DATA = "manifest.json", "results", "data"
-FORMAT = 2  # of the rows: one higher whenever a chart asks something else of them
+FORMAT = 2  # of the rows: incremented whenever a chart changes its rows
 
 
 class Store:
-    """Results by the name of their job. Raises UsageError for a folder that cannot be used, with the reason."""
+    """The stored results by job name. Raises UsageError for an unusable folder, with the reason."""
 
     def __init__(self, folder: Path, quick: bool) -> None:
         self.folder, self.quick = folder, quick
@@ -40,7 +40,7 @@ class Store:
             self._check_writable()
         except OSError as error:
             raise UsageError(f"--report: {shown} cannot be written: {error.strerror or error}") from error
-        except ValueError as error:  # a name that no system has
+        except ValueError as error:  # a name that no system allows
             raise UsageError(f"--report: {shown} cannot be written: {error}") from error
         remove_leftovers(folder, ("", RESULTS, DATA))
         for name, word in (("format", "format"), ("version", "version")):
@@ -72,7 +72,9 @@ class Store:
         return self.folder / RESULTS / f"{name.replace('/', '--')}.json"
 
     def result(self, name: str) -> dict[str, Any] | None:
-        """What is kept of a job; None where it is not done, or where its file is damaged: it is then done again."""
+        """Return the stored result of a job. Return None if it is not done or its file is damaged: the job then runs
+        again.
+        """
         try:
             found = read_json(self._path(name))
         except FileError:
@@ -80,5 +82,5 @@ class Store:
         return found if isinstance(found, dict) and found.get("name") == name else None
 
     def keep(self, found: dict[str, Any]) -> None:
-        """Keep what a job has found. Raises OSError."""
+        """Store the result of a job. Raises OSError."""
         write_atomically(self._path(found["name"]), json.dumps(found))

@@ -1,6 +1,7 @@
-"""`python -m game.report.worker`: does jobs of a report, one after the other.
+"""`python -m game.report.worker`: run jobs of a report, one after the other.
 
-A line of JSON on standard input is a job; a line on standard output is what it found. The process ends with its input.
+Each line of JSON on standard input is a job; each line on standard output is its result. The process ends with its
+input.
 """
 
 import json
@@ -11,9 +12,9 @@ from game.report.job import run_job
 
 
 def main() -> None:
-    """Do jobs for as long as there is somebody to give them."""
+    """Run jobs until standard input ends."""
     startup.prepare_environment()
-    told, sys.stdout = sys.stdout, sys.stderr  # what a job prints is nobody's result
+    told, sys.stdout = sys.stdout, sys.stderr  # prints of a job must not mix with the results
     for line in sys.stdin:
         order = json.loads(line)
         told.write(json.dumps(run_job(order["name"], order["work"], order["params"])) + "\n")

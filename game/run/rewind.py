@@ -1,11 +1,12 @@
-"""Rewind: the last ten seconds of a scene that is being played, every step of them within reach.
+"""Rewind: the last ten seconds of a scene in play, with access to every step.
 
-Between key frames lie the inputs of the steps, and a seek puts the key frame before back and makes the steps again.
-A key frame is taken as soon as the steps since the last took KEY_SECONDS together, or there are MOST_STEPS of them, so
-a seek takes no longer than that and putting back. One that takes long itself waits until they took twice as long, or is
-not taken at all; where key frames hold more than MOST_BYTES the past is shorter. Where a player restarts, it begins
-anew. While kernels run plain, and steps take all the time there is, a key frame waits PLAIN times as long, and nothing
-is compressed: a seek in the first seconds of a first start may take as much longer.
+The inputs of the steps are stored between key frames. A seek restores the key frame before the step and makes the steps
+again. A key frame is taken once the steps since the last took KEY_SECONDS together, or there are MOST_STEPS of them;
+that bounds the time of a seek. An expensive key frame waits until the steps took twice as long as it, or is not taken
+at all. If key frames hold more than MOST_BYTES, the past is shorter. A restart by the player clears it.
+
+While kernels run plain, which makes steps slow, a key frame waits PLAIN times as long, and nothing is compressed: a
+seek in the first seconds of a first start may take as much longer.
 """
 
 import pickle
@@ -20,76 +21,77 @@ from game.run.key_frame import KeyFrame, bytes_held
 from game.run.session import Session
 from physics.jit import tiers
 
-STEPS = 600  # that can be gone back: ten seconds
-KEY_SECONDS = 0.05  # of steps lie between two key frames: with what putting back takes, below a tenth of a second
-PLAIN = 4  # measured with the lander, whose key frames take 6 ms: 1.3 in place of 5.4 ms of each frame
-DEAREST = 0.1  # [s] that a key frame may take
+STEPS = 600  # of the past: ten seconds
+KEY_SECONDS = 0.05  # [s] of steps between two key frames: with restoring, a seek stays below a tenth of a second
+PLAIN = 4  # measured with the lander, whose key frames take 6 ms: 1.3 instead of 5.4 ms per frame
+DEAREST = 0.1  # [s] greatest cost of a key frame
 MOST_STEPS = 90  # between two key frames
-STONE_COSTS = 5  # times what a key frame takes: after so long a seek leaves one more, for the next step back
-PACK_SECONDS = 0.001  # of each step, at least one chunk, go into compressing
-MOST_BYTES = 2**29  # of key frames, before they are compressed
-FIXED = 2**18  # bytes: what a key frame of nothing takes is as much as this much of tables
-MOST_RAW = 2048  # chunks wait for that, 16 MB; where there are more, the oldest stay as they are
+STONE_COSTS = 5  # times the cost of a key frame: after so long, a seek takes one more for the next step back
+PACK_SECONDS = 0.001  # of each step, for compression of at least one chunk
+MOST_BYTES = 2**29  # of key frames, before compression
+FIXED = 2**18  # bytes: the fixed cost of a key frame equals that of so many bytes of tables
+MOST_RAW = 2048  # chunks that wait for compression, 16 MB; beyond that the oldest stay uncompressed
 
 
 class Stretch:
-    """A key frame, and the inputs of the steps from there to the next one. `before`: the input of the step before."""
+    """A key frame, and the inputs of the steps up to the next one. `before`: the input of the step before it."""
 
     def __init__(self, start: int, key: KeyFrame, before: InputFrame) -> None:
         self.start, self.key, self.before = start, key, before
-        self.spent = 0.0  # [s] that these steps took
-        self.bytes = 0  # that the key frame shares with none before it, before they are compressed
+        self.spent = 0.0  # [s] duration of these steps
+        self.bytes = 0  # that the key frame does not share with earlier ones, before compression
         self.packed = b""
         self.open: list[InputFrame] | None = []
 
     @property
     def inputs(self) -> list[InputFrame]:
-        """The inputs, one a step."""
+        """The inputs, one per step."""
         return pickle.loads(zlib.decompress(self.packed)) if self.open is None else self.open
 
     def close(self) -> None:
-        """Keep the inputs in few bytes: no more are to come."""
+        """Compress the inputs; no more will follow."""
         if self.open is not None:
             self.packed, self.open = zlib.compress(pickle.dumps(self.open, 5)), None
 
     def cut(self, steps: int) -> None:
-        """Forget the inputs after so many, and take new ones."""
+        """Drop the inputs after so many steps, and accept new ones."""
         inputs = self.inputs
         self.spent *= steps / max(1, len(inputs))
         self.open = inputs[:steps]
 
 
 class Rewind:
-    """note() after every step that the session makes. `position`: steps up to where the scene stands; `end`: in all.
+    """The past of a session. `position`: step of the scene's current state; `end`: last step made. Call note() after
+    every step of the session.
 
-    prepared: called whenever a key frame was put back, before steps are made from there.
+    prepared: called after a key frame was restored, before steps are made from it.
     """
 
     def __init__(self, session: Session, prepared: Callable[[], None] = lambda: None) -> None:
         self.session, self.prepared = session, prepared
         self.position = self.end = 0
-        self.ended_at = 0  # the step that the game ended with, if it did
-        self.recorder, self.recorded_from = session.recorder, 0  # the last one, and the step at which it began
+        self.ended_at = 0  # the step in which the game ended, if it did
+        self.recorder, self.recorded_from = session.recorder, 0  # the last recorder, and the step at which it began
         self.stretches: list[Stretch] = []
         self.stones: dict[int, KeyFrame] = {}  # by step
         self.steps_made = 0  # by the last seek
         self.raw: deque[Chunk] = deque(maxlen=MOST_RAW)
-        self.rates: deque[float] = deque(maxlen=8)  # [s] per byte of the tables, of the last key frames
+        self.rates: deque[float] = deque(maxlen=8)  # [s] per byte of the tables, for the last key frames
         self._begin_stretch()
 
     @property
     def start(self) -> int:
-        """The earliest step that can be gone back to."""
+        """Earliest step that a seek can reach."""
         return max(self.stretches[0].start, self.end - STEPS)
 
     @property
     def live(self) -> bool:
-        """True where the last step made is the last there is."""
+        """True if the scene's state is that of the last step made."""
         return self.position == self.end
 
     @property
     def following(self) -> InputFrame | None:
-        """The input of the step that came after where the scene stands; None where it stands at the end."""
+        """The input of the step after the current state; None at the end."""
         if self.live:
             return None
         stretch = next(each for each in reversed(self.stretches) if each.start <= self.position)
@@ -97,17 +99,19 @@ class Rewind:
 
     @property
     def bytes(self) -> int:
-        """What is kept of the past takes."""
+        """Memory of the past [bytes]."""
         inputs = sum(len(each.packed) + 300 * len(each.open or ()) for each in self.stretches)
         return inputs + bytes_held([each.key for each in self.stretches])
 
     @property
     def since_result(self) -> int:
-        """Steps since the game has ended, as of where the scene stands."""
+        """Steps since the game ended, at the current state."""
         return 0 if self.session.scene.result is None else self.position - self.ended_at + 1
 
     def note(self) -> None:
-        """The session made a step. Raises ValueError where it was made in the past: drop_future() comes before it."""
+        """Record a step of the session. Raises ValueError for a step made in the past, before which drop_future() is
+        needed.
+        """
         if not self.live:
             raise ValueError(f"step {self.position} of {self.end} is not the last: drop_future() before it is made")
         session, last = self.session, self.stretches[-1]
@@ -131,15 +135,16 @@ class Rewind:
                 self.raw.pop().pack()
 
     def _is_due(self, last):
-        """Whether a key frame is to be taken: not one that takes more than half the time of the steps it saves, nor one
-        that could not be put back in a tenth of a second."""
+        """Return whether to take a key frame: it must cost at most half the time of the steps it saves, and at most
+        DEAREST, so that restoring takes at most a tenth of a second.
+        """
         enough = KEY_SECONDS * (PLAIN if tiers.wanted else 1)
         if last.spent < enough and len(last.open) < MOST_STEPS:
             return False
         return self._cost() <= min(DEAREST, 0.5 * max(last.spent, enough))
 
     def _cost(self):
-        """[s] that a key frame will take, if nothing comes in between."""
+        """Return the expected cost of a key frame [s], without interruptions."""
         return min(self.rates) * _weight(self.session.scene)
 
     def _begin_stretch(self):
@@ -160,7 +165,7 @@ class Rewind:
             del self.stretches[0]
 
     def seek(self, step: int) -> None:
-        """Go to a step from `start` to `end`; what lies outside is as near to it as there is."""
+        """Go to a step, clamped to `start` .. `end`."""
         step = max(self.start, min(self.end, step))
         self.steps_made = 0
         if step == self.position:
@@ -182,7 +187,7 @@ class Rewind:
         session.scene.cues.clear()
 
     def _put_back(self, stretch, inputs, step):
-        """The key frame or the stone at a step, or the last before it."""
+        """Restore the last key frame or stone at or before a step."""
         last = stretch.start + len(inputs)
         self.stones = {at: stone for at, stone in self.stones.items() if stretch.start < at <= last}
         at = max((at for at in self.stones if at <= step), default=stretch.start)
@@ -194,7 +199,7 @@ class Rewind:
         self.prepared()
 
     def drop_future(self) -> None:
-        """Play on from here: what came after is forgotten, by the recorder too."""
+        """Continue from here: drop the steps after the current state, also in the recorder."""
         self.stones.clear()
         if self.live:
             return
@@ -209,6 +214,6 @@ class Rewind:
 
 
 def _weight(scene):
-    """Bytes of the largest tables: what a key frame takes grows with them."""
+    """Return the bytes of the largest tables, with which the cost of a key frame grows."""
     tables = ((world.bodies, world.shapes, world.contact_rows) for world in scene.worlds)
     return FIXED + sum(table.nbytes for each in tables for table in each)

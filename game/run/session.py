@@ -1,4 +1,4 @@
-"""Session: a scene being stepped, with its input, its recording, its judge and its measurements."""
+"""Session: the stepping of a scene, with its input, recording, invariants and measurements."""
 
 from time import perf_counter
 
@@ -11,7 +11,9 @@ from game.scene import Scene
 
 
 class Session:
-    """`source.next(scene)` gives the input; recorder and replay may be None. strict: a broken invariant ends it."""
+    """One run of a scene. `source.next(scene)` gives the input; recorder and replay may be None. strict: a broken
+    invariant ends it.
+    """
 
     def __init__(
         self,
@@ -31,9 +33,10 @@ class Session:
             scene.watch_invariants(strict=True)
 
     def step(self) -> None:
-        """One fixed step. Raises ReplayDiverged when a replay's digest differs, StrictFailure for a broken invariant.
+        """Make one fixed step. Raises ReplayDiverged if a replay's digest differs, StrictFailure for a broken
+        invariant.
 
-        What watching took is not counted as the scene's time.
+        The time of checking invariants is not counted as the scene's.
         """
         frame = self.source.next(self.scene)
         self.inputs.set(frame)

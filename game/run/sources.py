@@ -1,4 +1,4 @@
-"""Who plays a scene: a script, its own bot, nobody. Devices and recordings are sources of input too."""
+"""Sources of input besides devices and recordings: a script, the scene's bot, no input."""
 
 from collections.abc import Iterable
 from typing import Protocol
@@ -8,34 +8,34 @@ from game.scene import Scene
 
 
 class Source(Protocol):
-    """Whatever gives the input of a step."""
+    """A source of the input of each step."""
 
     def next(self, scene: Scene) -> InputFrame:
-        """The input of the next step."""
+        """Return the input of the next step."""
         ...
 
 
 class ScriptSource:
-    """Plays a list of InputFrames, or of action sets, then nothing."""
+    """A source that plays a list of InputFrames, or of action sets, then nothing."""
 
     def __init__(self, frames: Iterable[InputFrame | Iterable[str]]) -> None:
         self.frames = [f if isinstance(f, InputFrame) else InputFrame(frozenset(f)) for f in frames]
         self.index = 0
 
     def next(self, scene: object) -> InputFrame:
-        """The input of the next step."""
+        """Return the input of the next step."""
         self.index += 1
         return self.frames[self.index - 1] if self.index <= len(self.frames) else NOTHING
 
 
 class BotSource:
-    """Asks the scene's own bot. What people change in the panel meanwhile comes along from `person`."""
+    """A source that plays the scene's own bot. Changes that a person makes in the panel are added from `person`."""
 
     def __init__(self, person: Source | None = None) -> None:
         self.person = person
 
     def next(self, scene: Scene) -> InputFrame:
-        """The input of the next step."""
+        """Return the input of the next step."""
         played = scene.bot()
         frame = played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
         if self.person is None:
@@ -45,8 +45,8 @@ class BotSource:
 
 
 class IdleSource:
-    """Nobody plays."""
+    """A source without input."""
 
     def next(self, scene: object) -> InputFrame:
-        """Nothing held."""
+        """Return an empty frame."""
         return NOTHING

@@ -1,8 +1,8 @@
-"""One step of a scene, taken apart: its worlds stand still after any one of its stages, forwards and back.
+"""Step inspector: stop one step of a scene after any stage of its worlds, forwards and backwards.
 
-The scene makes its step as always, from a key frame: its rules run up to the step of the world, which stops after the
-stage that is asked for, and from there the scene is left as it stands. Every place is reached that way, from the start,
-so that one that is gone back to is the same to the bit; in the end the key frame is put back.
+The scene makes its step from a key frame: its rules run up to the step of the world, which stops after the chosen
+stage, and the scene is left in that state. Every stop is reached from the start, so going back gives the same state to
+the bit. At the end the key frame is restored.
 """
 
 from collections.abc import Callable
@@ -26,23 +26,24 @@ TABLES = ("bodies", "shapes", "characters", "contact_rows", "candidates")
 
 
 class Halted(Exception):
-    """A step stands still where it was to."""
+    """The step has reached its stop."""
 
 
 class Done(NamedTuple):
-    """A stage that has run, and what it did."""
+    """A finished stage and its changes."""
 
     stage: Stage
-    counted: dict[str, int]  # what was added to the counters
-    changed: list[tuple[str, int, list[str]]]  # (table, rows, columns) that it wrote other values to
-    rows: list[tuple[str, int, int]]  # (table, rows before, rows now) of those that it made longer or shorter
+    counted: dict[str, int]  # increments of the counters
+    changed: list[tuple[str, int, list[str]]]  # (table, rows, columns) with changed values
+    rows: list[tuple[str, int, int]]  # (table, rows before, rows now) of tables with another length
 
 
 class TakenApart:
-    """world: whose steps are taken apart; before: the input of the step before; following(): that of this one.
+    """Inspector of one step. world: whose steps are inspected; before: the input of the step before; following(): that
+    of this one.
 
-    `stages`: of all steps that this world makes in this frame, in order, none where it makes no step; `starts`: at
-    which of them a step begins; `place`: how many have run, where the scene stands now; `done`: the last of them.
+    `stages`: of all steps that this world makes in this frame, in order, empty if it makes none; `starts`: indices at
+    which a step begins; `place`: number of stages made; `done`: the last of them.
     """
 
     def __init__(
@@ -52,16 +53,16 @@ class TakenApart:
         self.key = KeyFrame(scene)
         self.stages: list[Stage] = []
         self.starts: list[int] = []
-        self.seconds: list[list[float]] = []  # that each stage took, in every run so far
+        self.seconds: list[list[float]] = []  # of each stage, in every run so far
         self.place = self.ran = 0
         self.done: Done | None = None
-        self.tables: dict[str, np.ndarray] = {}  # as they were before the last of them
-        self.stop: int | None = None  # None: the whole frame is made, to see which stages there are
+        self.tables: dict[str, np.ndarray] = {}  # before the last stage
+        self.stop: int | None = None  # None: make the whole frame, to list its stages
         self._run()
         self.go(0)
 
     def go(self, place: int) -> None:
-        """Stand where so many stages have run, or at the first or last place that there is."""
+        """Go to the state after so many stages, clamped to those that exist."""
         self.key.restore()
         if not self.stages:
             return
@@ -77,7 +78,7 @@ class TakenApart:
             )
 
     def leave(self) -> None:
-        """Put the scene back to where it stood before the step."""
+        """Restore the scene to its state before the step."""
         self.key.restore()
 
     def _run(self):
@@ -93,7 +94,7 @@ class TakenApart:
             self.world.stepped_by = None
 
     def _make(self, world, dt):
-        """A step of the world, as far as it is to go."""
+        """Make a step of the world up to the stop."""
         with closing(staged_step(world, dt)) as steps:
             for stage in steps:
                 if stage is None:
@@ -118,7 +119,7 @@ class TakenApart:
 
 
 def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFrame], str]:
-    """What gives the input of the next step, asked where the scene stands before it, and in words whose it is."""
+    """Return (function that gives the input of the next step from the state before it, sentence on its origin)."""
     recorded, held = rewind.following, replace(session.inputs.now, wheel=0, changes=())
     if recorded is not None:
         return lambda: recorded, "the input is that which was recorded"
@@ -128,13 +129,13 @@ def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFram
 
 
 def photographed(world: WatchedWorld) -> dict[str, np.ndarray]:
-    """Copies of the tables that a stage may write to, and of the counters."""
+    """Return copies of the tables that a stage may write to, and of the counters."""
     found = {name: getattr(world, name).copy() for name in TABLES if name != "characters"}
     return {**found, "characters": world.characters.rows.copy(), "work": world.profile.work.copy()}
 
 
 def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.ndarray]) -> Done:
-    """What a stage changed. Values are compared as bytes: nan is nan, and -0 is not 0."""
+    """Return the changes of a stage. Values are compared as bytes: nan equals nan, and -0 differs from 0."""
     work = (after["work"] - before["work"]).tolist()
     counted = {name: count for name, count in zip(COUNTERS, work, strict=True) if count}
     changed, rows = [], []
@@ -155,7 +156,7 @@ def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.nd
 
 
 def _differing(old, new):
-    """In how many rows two columns of one length differ."""
+    """Return the number of rows in which two columns of equal length differ."""
     if not len(new):
         return 0
     old, new = (np.ascontiguousarray(each).view(np.uint8).reshape(len(each), -1) for each in (old, new))

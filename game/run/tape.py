@@ -1,7 +1,7 @@
-"""A recording being played: forward step by step, and to any frame by key frames.
+"""Playback of a recording: forward step by step, and to any frame by key frames.
 
-A key frame is a deep copy of the scene and its input; no rule of a game paints, so its pictures may be shared. They
-lie KEY_SECONDS apart, further in a recording so long that there would be more than MOST_KEYS: `spacing` says how far.
+A key frame is a deep copy of the scene and its input. No game rule paints on pictures, so copies share them. Key frames
+are KEY_SECONDS apart, or further if a long recording would need more than MOST_KEYS, see `spacing`.
 """
 
 import copy
@@ -17,7 +17,7 @@ from game.run.session import Session
 from game.scene import Scene
 
 if not hasattr(pygame.Surface, "__deepcopy__"):
-    # pygame 2.6.1 cannot copy pictures. A reduction that is a name tells copy to hand on the thing itself.
+    # pygame 2.6.1 cannot copy pictures. A reduction that is a name makes copy return the object itself.
     copyreg.pickle(pygame.Surface, lambda picture: "picture")
 
 KEY_SECONDS = 5
@@ -25,7 +25,7 @@ MOST_KEYS = 48
 
 
 class Tape:
-    """`make()` builds the scene as it was at the start; `recording` is a Replay."""
+    """Playback of a Replay, `recording`. `make()` builds the scene as at the start."""
 
     def __init__(self, make: Callable[[], Scene], recording: Replay) -> None:
         self.recording = recording
@@ -33,21 +33,21 @@ class Tape:
         seconds = max(KEY_SECONDS, -(-self.length // (60 * MOST_KEYS)))
         self.spacing = 60 * seconds  # [frames] between two key frames
         self.session = Session(make(), recording, replay=recording)
-        self.diverged = ""  # the line that names the frame, once it happened
+        self.diverged = ""  # the line that names the frame, after a divergence
         self.diverged_at = None
-        self.goal = None  # the frame that is being sought
+        self.goal = None  # the frame of the seek under way
         self.keys = {}
         recording.index = 0
         self._note_key()
 
     @property
     def scene(self) -> Scene:
-        """The scene as it stands."""
+        """The scene in its current state."""
         return self.session.scene
 
     @property
     def position(self) -> int:
-        """How many frames were played up to here."""
+        """Number of frames played."""
         return self.recording.index
 
     @property
@@ -56,7 +56,7 @@ class Tape:
         return self.position >= self.length
 
     def step(self) -> None:
-        """Play one frame; nothing after the last. A divergence is noted and the tape plays on."""
+        """Play one frame; do nothing after the last. A divergence is recorded and playback continues."""
         if self.ended:
             return
         try:
@@ -73,13 +73,13 @@ class Tape:
             self.keys[self.position] = copy.deepcopy((self.scene, self.session.inputs))
 
     def seek(self, frame: int) -> None:
-        """Go to a frame, whatever it takes."""
+        """Go to a frame, however long it takes."""
         self.begin_seek(frame)
         while self.goal is not None:
             self.seek_on(60.0)
 
     def begin_seek(self, frame: int) -> None:
-        """Go to the nearest key frame; seek_on() goes the rest. An earlier search is given up."""
+        """Go to the nearest key frame before; seek_on() makes the rest. An earlier seek is cancelled."""
         frame = max(0, min(self.length, frame))
         nearest = max(key for key in self.keys if key <= frame)
         if frame < self.position or nearest > self.position:
@@ -88,7 +88,7 @@ class Tape:
         self.goal = frame if frame != self.position else None
 
     def seek_on(self, seconds: float) -> None:
-        """Play on towards the frame that is sought, for so long at most."""
+        """Play towards the frame of the seek, for so long at most."""
         started = perf_counter()
         while self.goal is not None and self.position < self.goal:
             self.step()

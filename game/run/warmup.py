@@ -1,4 +1,4 @@
-"""Compiling the kernels of scenes before they are needed."""
+"""Compilation of the kernels of scenes before they are needed."""
 
 import sys
 from time import perf_counter
@@ -12,14 +12,14 @@ from physics.background import StderrProgress, compile_ahead, compile_jobs
 from physics.jit import tiers
 from physics.warmup import run_warmup
 
-Job = dict[str, Any]  # what physics.warmup takes, as JSON can hold it
+Job = dict[str, Any]  # arguments of physics.warmup, as JSON
 BAR = 32  # characters
 
 
 def jobs_of(
     scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None, everything: bool = False
 ) -> list[Job]:
-    """Return what one scene's worlds need at their start, as jobs for physics.warmup.
+    """Return the needs of one scene's worlds at their start, as jobs for physics.warmup.
 
     everything: all pieces and all broad phases, whatever the scene declares.
     """
@@ -35,7 +35,9 @@ def jobs_of(
 
 
 def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None) -> None:
-    """Compile with all cores what one scene needs at its start, and load it; progress goes to standard error."""
+    """Compile the kernels that one scene needs at its start, with all cores, and load them; progress goes to standard
+    error.
+    """
     progress = StderrProgress()
     with tiers.collecting() as found:
         for effects, name in worlds_of(scene_class, solver):
@@ -45,31 +47,31 @@ def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solve
 
 
 def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
-    """The broad phase that a scene's worlds begin with; "all" where each has its own."""
+    """Return the broad phase that a scene's worlds begin with; "all" if each has its own."""
     return (chosen or scene_class.broadphase) if scene_class.switches_broadphase else "all"
 
 
 def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str | None, ...]:
-    """Names of all solvers that a scene's worlds may use; None is the World's own choice."""
+    """Return the names of all solvers that a scene's worlds may use; None is the World's own choice."""
     return tuple(dict.fromkeys((chosen or scene_class.solver, *scene_class.solvers)))
 
 
 def worlds_of(scene_class: type[Scene], chosen: str | None = None) -> list[tuple[Effects, str | None]]:
-    """(effects, solver) of all kinds of worlds that a scene may have; None is the World's own choice."""
+    """Return (effects, solver) of all kinds of worlds that a scene may have; None is the World's own choice."""
     names = solvers_of(scene_class, chosen)
     others = [(each, name if each.stacking else None) for each in scene_class.other_effects for name in names]
     return list(dict.fromkeys([*((scene_class.effects, name) for name in names), *others]))
 
 
 def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
-    """What of the physics a scene says it meets, and what dragging asks."""
+    """Return the pieces of physics that a scene declares, and those of dragging."""
     if scene_class.pieces is None:
         return None
     return (*scene_class.pieces, *("queries",) * (scene_class.draggable and "queries" not in scene_class.pieces))
 
 
 def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
-    """--warmup: every scene under every broad phase, with all cores. Returns the exit code."""
+    """Run --warmup: compile every scene under every broad phase, with all cores. Return the exit code."""
     stream: TextIO = sys.stdout if out is None else out
     started = perf_counter()
     classes = registry.all_classes()
@@ -86,7 +88,7 @@ def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
 
 
 def draw_bar(out: TextIO, share: float, name: str) -> None:
-    """One line that overwrites itself on a terminal; a file or a pipe gets none."""
+    """Draw a progress line that overwrites itself on a terminal; draw nothing to a file or a pipe."""
     if not out.isatty():
         return
     filled = int(share * BAR)

@@ -1,4 +1,4 @@
-"""What all screens share: settings, high scores, devices, sound and the window's picture."""
+"""Resources shared by all screens: settings, high scores, devices, sound and the window's picture."""
 
 import pygame
 
@@ -15,7 +15,7 @@ from game.startup import say
 
 
 class Arcade:
-    """`running` turns False when the program is to end. `message`: what there is to say of the files that were read."""
+    """Shared state. `running` turns False to end the program. `message`: report on the files that were read."""
 
     def __init__(
         self, options: Options, registry: Registry, settings: Settings, surface: pygame.Surface, message: str = ""
@@ -32,7 +32,7 @@ class Arcade:
         self.running = True
 
     def apply_settings(self) -> None:
-        """Put changed settings to work."""
+        """Apply changed settings."""
         if mode_of(self.settings) != self.mode:
             self.mode = mode_of(self.settings)
             try:
@@ -43,7 +43,7 @@ class Arcade:
         self.sounds.master, self.sounds.effects = self.settings.master, self.settings.effects
 
     def save_settings(self) -> None:
-        """Write the settings; a failed save is said and does not stop the game."""
+        """Write the settings. A failed save is reported and does not stop the game."""
         try:
             save_settings(self.settings)
         except OSError as error:

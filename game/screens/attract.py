@@ -1,4 +1,4 @@
-"""What the title shows when nobody is there: the games and two labs, played by their bots. Any key ends it."""
+"""The title's idle demonstration: the games and two labs, played by their bots. Any key ends it."""
 
 from collections.abc import Callable, Sequence
 
@@ -18,13 +18,13 @@ from game.screens.screen import SceneScreen
 SCENES = ("shooter", "platformer", "lander", "lab/pyramid", "lab/masks")
 SECONDS = 25  # of each
 STEPS = SECONDS * 60
-AFTER_END = 180  # steps that an ended game is still shown
+AFTER_END = 180  # steps for which an ended game stays on screen
 LINE = "DEMO - press any key"
 ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, pygame.JOYBUTTONDOWN)
 
 
 class Attract(SceneScreen):
-    """`make(name)` builds a scene.
+    """The demonstration. `make(name)` builds a scene.
 
     `outcome` becomes ("back",). `quiet` tells the app to play the music low.
     """
@@ -38,28 +38,28 @@ class Attract(SceneScreen):
         self.names = [name for name in SCENES if name in names] or list(names[:1])
         self.at = 0
         self.steps = 0
-        self.ended = False  # the bot's game is over
+        self.ended = False  # the bot's game has ended
         self.demo = None
 
     @property
     def running_clock(self) -> FixedStep | None:
-        """The clock by which the scene's steps are due."""
+        """Clock that schedules the scene's steps."""
         return self.demo.clock if self.demo else None
 
     @property
     def tune(self) -> str | None:
-        """The music of the scene that is shown."""
+        """Music of the current scene."""
         return self.demo.scene.music if self.demo else "title"
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Any key, button or click ends it."""
+        """End on any key, button or click."""
         if event.type in ENDS_IT:
             self.outcome = ("back",)
             return True
         return False
 
     def advance(self, now: float) -> None:
-        """Make the steps that are due at `now` [s]; the next scene when one has had its time."""
+        """Make the steps due at `now` [s]; change to the next scene after SECONDS."""
         if self.demo is None:
             self._begin()
         if self.demo is not None:
@@ -71,7 +71,7 @@ class Attract(SceneScreen):
                 self.demo = None
 
     def _begin(self):
-        """The next scene; one whose files are damaged is left out: the menu says what is wrong with it."""
+        """Start the next scene. A scene with damaged files is skipped; the menu shows its error."""
         if self.at >= len(self.names):
             self.outcome = ("back",)
             return
@@ -84,7 +84,7 @@ class Attract(SceneScreen):
         self.demo = Demo(scene, self.accessibility)
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene, and that it is a demonstration."""
+        """Draw the scene, and a line that it is a demonstration."""
         if self.demo is None:
             return picture.presenter.frame
         frame = self.demo.draw(picture)

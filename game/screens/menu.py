@@ -1,4 +1,4 @@
-"""The scene menu: games and labs with a picture, what they are about, and the best result so far."""
+"""The scene menu: games and labs with a picture, a description, and the best result so far."""
 
 import pygame
 
@@ -23,7 +23,7 @@ FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
 
 
 class Menu(CanvasScreen):
-    """Chooses a scene. `outcome` becomes ("play", name, level file or None) or ("back",)."""
+    """Choice of a scene. `outcome` becomes ("play", name, level file or None) or ("back",)."""
 
     tune = "title"
 
@@ -31,7 +31,7 @@ class Menu(CanvasScreen):
         super().__init__()
         self.registry, self.records = registry, records
         self.ground = DuskBackground()
-        self.tables = {}  # (scene class, level file) -> its table, asked once: the file is read
+        self.tables = {}  # (scene class, level file) -> its table, cached: the file is read for it
         self.entries = self._entries()  # (scene class or None for Back, level file or None) of each row
         inside = LIST.inflate(-32, 0)
         self.list = RowList(lambda: self.rows, (inside.x, LIST.y + 36, inside.width, 192), self.cues)
@@ -42,7 +42,7 @@ class Menu(CanvasScreen):
         self.time = 0.0
 
     def _entries(self):
-        """One entry per row, built together with the rows."""
+        """Return one entry per row, built together with the rows."""
         entries, self.rows, group = [], [], None
         for scene_class in self.registry.all_classes():
             own = scene_class.name.split("/")[0] if "/" in scene_class.name else ""
@@ -67,7 +67,7 @@ class Menu(CanvasScreen):
         self.outcome = ("back",)
 
     def resume(self) -> None:
-        """Called when the screen is seen again: levels may have been put into the folder meanwhile."""
+        """Refresh when the screen is shown again: the folder may have new levels."""
         mark = self.list.mark
         self.tables.clear()
         self.entries = self._entries()
@@ -75,7 +75,7 @@ class Menu(CanvasScreen):
         self.list.show_marked()
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.time += dt
         if inputs.pressed("cancel"):
             self.cues.append("back")
@@ -113,7 +113,7 @@ class Menu(CanvasScreen):
             y += height
 
     def _table(self, scene_class, level):
-        """The key of a scene's table; None for a level that cannot be read: who plays it is told why."""
+        """Return the key of a scene's table; None for an unreadable level, whose error is shown when it is played."""
         if (scene_class, level) not in self.tables:
             try:
                 self.tables[scene_class, level] = table_of(scene_class.name, level)
@@ -122,7 +122,7 @@ class Menu(CanvasScreen):
         return self.tables[scene_class, level]
 
     def _draw_best(self, canvas, scene_class, level, x, y):
-        """The first place of the scene's table, beside the picture."""
+        """Draw the first place of the scene's table, beside the picture."""
         if scene_class.ranked_by is None or self.records is None:
             return
         best = self.records.best(self._table(scene_class, level))

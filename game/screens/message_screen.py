@@ -1,4 +1,4 @@
-"""One thing to be told: a file that cannot be used, with its place and the reason. Any yes or no goes back."""
+"""A message, such as an unusable file with place and reason. Any confirm or cancel goes back."""
 
 from collections.abc import Sequence
 
@@ -11,11 +11,11 @@ from game.screens.parts.rows import confirmed
 from game.screens.screen import CanvasScreen
 
 WIDTH = 400
-MOST_LINES = 6  # of one part; a longer one is cut where it ends
+MOST_LINES = 6  # of one part; a longer one is cut
 
 
 class MessageScreen(CanvasScreen):
-    """`parts`: (label, text) pairs. `outcome` becomes ("back",)."""
+    """A screen of `parts`: (label, text) pairs. `outcome` becomes ("back",)."""
 
     def __init__(self, title: str, parts: Sequence[tuple[str, str]], ground: Background | None = None) -> None:
         super().__init__()
@@ -24,7 +24,7 @@ class MessageScreen(CanvasScreen):
         self.time = 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.time += dt
         if confirmed(inputs) or inputs.pressed("cancel") or inputs.pointer_pressed:
             self.cues.append("back")
@@ -50,7 +50,7 @@ class MessageScreen(CanvasScreen):
 
 
 def _broken(canvas, line, width):
-    """A line without a space that is too long (a path), in pieces that fit."""
+    """Return a line without spaces that is too long (a path), split into pieces that fit."""
     while canvas.measure(line)[0] > width:
         end = len(line)
         while canvas.measure(line[:end])[0] > width:
@@ -61,5 +61,5 @@ def _broken(canvas, line, width):
 
 
 def error_message(error: UsageError, ground: Background | None = None) -> MessageScreen:
-    """The screen for a UsageError: a FileError in its three parts."""
+    """Return the screen of a UsageError; a FileError is shown in its three parts."""
     return MessageScreen(error.headline, error.parts, ground)

@@ -15,10 +15,10 @@ WIDTH = 192
 
 
 class PauseMenu(CanvasScreen):
-    """`outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
+    """The menu. `outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
 
-    can_save: a replay of this run can be saved. message: why the game stopped by itself, or "".
-    pairs: (key, what it does) of the game.
+    can_save: a replay of this run can be saved. message: reason why the game stopped by itself, or "". pairs: (key,
+    function) of the game.
     """
 
     holds_music = True
@@ -56,11 +56,11 @@ class PauseMenu(CanvasScreen):
         return (480 - WIDTH) // 2 + 16, (270 - high) // 2 + 14, WIDTH - 32, high
 
     def tell(self, message: str) -> None:
-        """Say it under the menu."""
+        """Show a message under the menu."""
         self.message = message
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.time += dt
         if inputs.pressed("cancel") or inputs.pressed("pause"):
             self.cues.append("back")

@@ -1,4 +1,4 @@
-"""The screen in which a scene is played: its clock, overlays, panel, keys, and how a game ends."""
+"""The screen that plays a scene: its clock, overlays, panel, keys, and the end of a game."""
 
 from collections.abc import Iterable
 from functools import partial
@@ -35,12 +35,12 @@ from game.screens.parts.switches import Switches
 from game.screens.parts.why import Why
 from game.screens.screen import SceneScreen
 
-RECORDED_ON = 120  # steps that are still recorded after the end, so that a replay shows it
+RECORDED_ON = 120  # steps recorded after the end, so that a replay shows it
 EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assisted one
 
 
 class Play(SceneScreen):
-    """One scene on the screen. `outcome`: ("pause", message), ("result",), or ("menu",) where nobody plays.
+    """One scene on the screen. `outcome`: ("pause", message), ("result",), or ("menu",) for a bot's game.
 
     settings: the player's, or None in a test. A person's run is recorded in `recorder`, from its last restart on.
     """
@@ -61,15 +61,15 @@ class Play(SceneScreen):
     ) -> None:
         super().__init__()
         self.scene, self.devices, self.sounds, self.settings = scene, devices, sounds, settings
-        self.last_frame: int | None = None  # the step that the run ends with, None for no end
+        self.last_frame: int | None = None  # the last step of the run, None for no end
         self.person = not bot and recording is None
         source = recording or (BotSource(devices) if bot else devices)
-        self.renews = self.person and not records  # each attempt is a recording of its own
-        self.table = table_of(scene.name, scene.level_file)  # now: by the end the level's file may be another, or gone
+        self.renews = self.person and not records  # each attempt gets its own recording
+        self.table = table_of(scene.name, scene.level_file)  # before the level's file may change or vanish
         self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
         self.session = Session(scene, source, self.recorder, recording, strict)
         self.overlays = Overlays(scene.overlays if overlays is None else overlays)
-        self.scrub: Scrub | None = None  # a recording has no other way back than Watch's
+        self.scrub: Scrub | None = None  # a recording is rewound by Watch only
         if recording is None:
             self.scrub = Scrub(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
         self.apart = Apart(self.session, self.scrub and self.scrub.rewind, self.overlays)
@@ -86,7 +86,7 @@ class Play(SceneScreen):
         self.settings_changed = lambda: None
         self.assisted = False
         self.since_result = 0
-        self.helped_since = 0  # the step from which the keys are shown
+        self.helped_since = 0  # the step from which the help line is shown
         self.now = 0.0  # [s] of the last turn
         self.switches = Switches(scene, devices)
         self.hint = first_card(scene, settings) if self.person and settings is not None else None
@@ -94,33 +94,33 @@ class Play(SceneScreen):
 
     @property
     def running_clock(self) -> FixedStep:
-        """The clock by which the scene's steps are due."""
+        """Clock that schedules the scene's steps."""
         return self.clock
 
     def note_busy(self, seconds: float) -> None:
-        """Take note of how long [s] the steps and the picture of this frame took."""
+        """Record the time [s] that the steps and the picture of this frame took."""
         super().note_busy(seconds)
         if self.lighter is not None:
             self.lighter.note(seconds)
 
     @property
     def tune(self) -> str | None:
-        """The music for this moment."""
+        """Music of this moment."""
         return self.scene.music
 
     @property
     def open_panel(self) -> Panel | CostPanel | None:
-        """The panel that is open, else None."""
+        """The open panel, else None."""
         return self.costs if self.costs_open else self.panel if self.panel_open else None
 
     @property
     def shows_pointer(self) -> bool:
-        """True while the mouse has something to do."""
+        """True while the mouse has a function."""
         working = self.open_panel is not None or self.clock.paused or self.hint is not None
         return working or self.scene.draggable or not self.scene.hides_pointer
 
     def apply_settings(self) -> None:
-        """Put the player's settings to work; what changes the game goes in as input, so that a recording holds it."""
+        """Apply the player's settings. Changes of the game are input, so that a recording contains them."""
         if self.settings is None:
             return
         self.scene.set_accessibility(self.settings.accessibility())
@@ -133,7 +133,7 @@ class Play(SceneScreen):
                 self.devices.change(f"assist:{name}", value)
 
     def resume(self) -> None:
-        """Called when the screen is seen again."""
+        """Update when the screen is shown again."""
         self.clock.rest()
         self.apply_settings()
         if self.scrub is not None:
@@ -141,16 +141,16 @@ class Play(SceneScreen):
 
     @property
     def finished(self) -> bool:
-        """True when the last step of a run of given length is made."""
+        """True after the last step of a run of given length."""
         return self.last_frame is not None and self.session.report.steps >= self.last_frame
 
     def lose_focus(self) -> None:
-        """Whoever plays is busy elsewhere: the pause menu waits."""
+        """Open the pause menu, because the window lost focus."""
         if self.person:
             self.outcome = self.outcome or ("pause", "")
 
     def advance(self, now: float) -> None:
-        """Make the steps that are due at `now` [s], up to the last one of the run."""
+        """Make the steps due at `now` [s], up to the last one of the run."""
         self.now = self.switches.now = now
         if self.devices.lost_pad and self.person:
             self.devices.lost_pad = False
@@ -164,9 +164,9 @@ class Play(SceneScreen):
             self.clock.rest()
             return
         if self.session.replay is not None:
-            self.devices.next()  # a replay takes no advice
+            self.devices.next()  # recorded input replaces it
         elif self.clock.paused and self.devices.changes and not self.clock.requested:
-            self.clock.request_step()  # a change while paused costs one step, so that its effect is seen
+            self.clock.request_step()  # a change while paused makes one step, so that its effect is visible
         for _ in range(self.clock.advance(now)):
             if self.finished:
                 return
@@ -175,7 +175,7 @@ class Play(SceneScreen):
                 return
 
     def _went(self):
-        """The scene was taken to another step of its past."""
+        """Update after the scene moved to another step of its past."""
         assert self.scrub is not None
         self.assisted = True
         self.measuring.end_race()
@@ -184,7 +184,7 @@ class Play(SceneScreen):
             self.scene.set_accessibility(self.settings.accessibility())
 
     def drop_future(self) -> None:
-        """From a step of the past the game is played on, its recording too, with what was set since."""
+        """Continue the game and its recording from a step of the past, with the settings made since."""
         self.apart.leave()
         if self.scrub is not None and not self.scrub.rewind.live:
             self.apply_settings()
@@ -192,7 +192,7 @@ class Play(SceneScreen):
             self.scrub.rewind.drop_future()
 
     def step(self) -> None:
-        """One fixed step, its sounds and its measurements."""
+        """Make one fixed step, with its sounds and measurements."""
         self.drop_future()
         self.session.step()
         if self.scrub is not None:
@@ -207,7 +207,7 @@ class Play(SceneScreen):
             self._note_result()
 
     def _note_help(self):
-        """Notice whatever makes a score an assisted one."""
+        """Record the changes that make a score an assisted one."""
         slow = self.clock.speed < 1.0 or self.clock.pace < 1.0 or self.clock.paused
         changed = any(name.startswith(EASIER) for name, _ in self.session.inputs.now.changes)
         if slow or changed or self.scene.assist.get("invincible") or self.scene.drag.holds:
@@ -228,16 +228,16 @@ class Play(SceneScreen):
             self.outcome = ("result",)
 
     def end_run(self) -> None:
-        """The run is over: hand its recording on, once."""
+        """Hand on the recording of the ended run, once."""
         self.drop_future()
         if self.renews and self.recorder is not None:
             self.run_ended(self.recorder, self.scene.result)
             self.recorder = self.session.recorder = None
 
     def restart(self) -> None:
-        """From the first frame. A person's attempt is a run of its own: its recording begins here.
+        """Restart from the first frame. A person's attempt is a run of its own, with its own recording.
 
-        Its first input holds what was chosen before, so that the recording needs nothing of the runs before it.
+        Its first input contains the choices made before, so that the recording is independent of earlier runs.
         """
         self.apart.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)
@@ -251,23 +251,23 @@ class Play(SceneScreen):
         self.devices.change("restart", True)
 
     def wish_restart(self) -> None:
-        """Restart; from a game that has ended to its result first: no score is lost by a hasty key."""
+        """Restart; in an ended game open its result first, so that a hasty key loses no score."""
         if self.person and self.scene.result is not None:
             self.outcome = ("result",)
         else:
             self.restart()
 
     def switch_solver(self, way: int) -> None:
-        """The next solver, or the one before."""
+        """Change to the next solver, or the previous one."""
         self.switches.solver(way)
 
     @property
     def news(self) -> str:
-        """One line about what was just switched, "" when that is long ago."""
+        """Line about the last switch, "" once it is old."""
         return self.switches.news
 
     def toggle_pause(self) -> None:
-        """Stop or go on."""
+        """Pause or continue."""
         self.clock.paused = not self.clock.paused
 
     def single_step(self) -> None:
@@ -276,7 +276,7 @@ class Play(SceneScreen):
         self.clock.request_step()
 
     def take_apart(self) -> None:
-        """Freeze, and go into the next step, stage by stage; from there back out of it."""
+        """Freeze, and inspect the next step stage by stage; if a step is inspected, leave it."""
         if self.apart.open:
             self.apart.leave()
         else:
@@ -285,7 +285,7 @@ class Play(SceneScreen):
             self.switches.tell(self.apart.enter())
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Take an event before the game does; True if it is used up."""
+        """Process an event before the game does; return whether it was used."""
         hint = None if self.open_panel is not None else self.hint
         if hint is not None and hint.dismissed_by(event, self.devices.pressed_button(event)):
             if self.settings is not None:
@@ -306,7 +306,7 @@ class Play(SceneScreen):
         if self.scrub is not None and self.scrub.feed(event, self.devices, self.clock.paused, self.now):
             return True
         if self.measuring.split is not None and event.type == pygame.MOUSEBUTTONDOWN:
-            return True  # nothing is where a click on a half would look for it
+            return True  # clicks on the halves of a split screen have no effect
         if self.why.feed(event, self.clock.paused):
             return True
         if event.type == pygame.KEYDOWN and asks_for_card(event) and what_to_see(type(self.scene)):
@@ -316,14 +316,14 @@ class Play(SceneScreen):
         return event.type == pygame.KEYDOWN and press(self, event.key)
 
     def stop(self) -> None:
-        """To the pause menu; from a game that has ended, to its result; where nobody plays, to the menu."""
+        """Go to the pause menu; from an ended game to its result; from a bot's game to the menu."""
         if not self.person:
             self.outcome = ("menu",)
         else:
             self.outcome = ("result",) if self.scene.result is not None else ("pause", "")
 
     def toggle_panel(self) -> None:
-        """Open the panel, or close what is open."""
+        """Open the panel, or close the open one."""
         was_open = self.open_panel is not None
         self.close_costs()
         self.panel_open = not was_open
@@ -331,7 +331,7 @@ class Play(SceneScreen):
         self.devices.release_all()
 
     def toggle_costs(self) -> None:
-        """What accuracy costs here: the plot opens beside the game, in place of the panel, or closes."""
+        """Open the plot of accuracy and cost beside the game, in place of the panel, or close it."""
         if self.costs_open:
             self.close_costs()
         else:
@@ -339,22 +339,22 @@ class Play(SceneScreen):
         self.devices.release_all()
 
     def close_costs(self) -> None:
-        """Nothing is measured any more; what was is kept for the next look."""
+        """Stop measuring; results are kept."""
         self.costs_open = False
         self.measuring.close()
 
     def try_setting(self, setting: Setting) -> None:
-        """Put a setting that was measured to work."""
+        """Apply a measured setting."""
         self.switches.tell(self.measuring.apply(setting))
 
     def start_race(self, setting: Setting) -> None:
-        """From the start, against the same scene under a setting that was measured."""
+        """Restart, in a race against the same scene under a measured setting."""
         self.switches.tell(self.measuring.start_race(setting))
         if self.measuring.race is not None:
             self.restart()
 
     def close(self) -> None:
-        """Called when the screen is left for good."""
+        """Clean up when the screen is left for good."""
         super().close()
         self.apart.leave()
         self.close_costs()
@@ -366,15 +366,15 @@ class Play(SceneScreen):
             self.switches.tell(news)
 
     def _below(self) -> Apart | Scrub | None:
-        """What lies over the bottom of the picture while the game stands."""
+        """Return the element over the bottom of the picture while the game is paused."""
         if self.apart.open:
             return self.apart
         return self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene and what lies over it; returns the frame."""
+        """Draw the scene and the elements over it; return the frame."""
         started = perf_counter()
-        if not self.apart.open:  # half a step is no moment to measure from
+        if not self.apart.open:  # a part of a step is no moment to measure from
             self._measure()
         below = self._below()
         reserve = None if below is None else below.reserve

@@ -1,4 +1,4 @@
-"""The replays of this user: what each is, and watching, keeping and finding it."""
+"""The replays of this user: description, playback, keeping and locating."""
 
 from collections.abc import Callable
 from functools import partial
@@ -24,7 +24,9 @@ MISSING = object()  # not read yet
 
 
 class ReplaysScreen(CanvasScreen):
-    """`outcome` becomes ("watch", path) or ("back",). `copy(text)` puts text on the clipboard, True if that worked."""
+    """List of replays. `outcome` becomes ("watch", path) or ("back",). `copy(text)` copies to the clipboard, True if
+    that worked.
+    """
 
     tune = "title"
 
@@ -35,9 +37,9 @@ class ReplaysScreen(CanvasScreen):
         self.registry, self.copy = registry, copy
         self.ground = ground or DuskBackground()
         self.message = ""
-        self.inside = False  # the keys work the card, not the list
-        self.entries = shelf()  # (path, kept on purpose) each
-        self.read = {}  # path -> (replay, reason); one more is read in each step
+        self.inside = False  # the keys operate the card, not the list
+        self.entries = shelf()  # (path, kept by the player) each
+        self.read = {}  # path -> (replay, reason); each step reads one more
         self.list = RowList(self._rows, (LIST.x + 16, LIST.y + 36, LIST.width - 32, 192), self.cues)
         self.card = RowList(
             self._card_rows, (CARD.x + 16, CARD.bottom - 20 - 4 * LINE, CARD.width - 32, 4 * LINE), self.cues
@@ -46,7 +48,7 @@ class ReplaysScreen(CanvasScreen):
 
     @property
     def chosen(self) -> tuple[Path, bool] | None:
-        """(path, kept on purpose) of the marked replay, or None."""
+        """(path, kept by the player) of the marked replay, or None."""
         return self.entries[self.list.mark] if self.list.mark < len(self.entries) else None
 
     def _rows(self):
@@ -104,7 +106,7 @@ class ReplaysScreen(CanvasScreen):
         self.message = "The path is on the clipboard: send the file to a friend." if copied else f"The file: {path}"
 
     def resume(self) -> None:
-        """Called when the screen is seen again: there may be other files now."""
+        """Refresh when the screen is shown again: there may be other files."""
         before = self.chosen
         self.entries = shelf()
         if before in self.entries:
@@ -113,7 +115,7 @@ class ReplaysScreen(CanvasScreen):
         self.inside = False
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.time += dt
         unread = next((path for path, _ in self.entries if path not in self.read), None)
         if unread is not None:
@@ -162,7 +164,7 @@ class ReplaysScreen(CanvasScreen):
         self.card.draw(canvas, self.inside)
 
     def _about(self, chosen, width):
-        """(text, color, font, height) lines about the chosen replay."""
+        """Return (text, color, font, height) lines about the chosen replay."""
         path, kept = chosen
         replay, reason = self.read.get(path, (MISSING, ""))
         if replay is MISSING:
@@ -190,7 +192,7 @@ class ReplaysScreen(CanvasScreen):
 
 
 def _path_lines(text, width):
-    """Wrap at spaces, and a path at its slashes."""
+    """Return a text wrapped at spaces, and a path at its slashes."""
     return [
         line.replace("/ ", "/").replace("\\ ", "\\")
         for line in wrap(text.replace("/", "/ ").replace("\\", "\\ "), width, SMALL)

@@ -1,4 +1,4 @@
-"""After a game: won or lost, points and time, the place in the table, initials, and where to go from here."""
+"""The result of a game: won or lost, points and time, the place in the table, initials, and the next screens."""
 
 from collections.abc import Callable, Iterable
 
@@ -20,7 +20,7 @@ COUNT_SECONDS = 0.8  # the numbers count up this long
 
 
 class ResultScreen(CanvasScreen):
-    """`place`: 1..10 in the table, or None. `enter(initials)` is called once when they are accepted.
+    """The result. `place`: 1..10 in the table, or None. `enter(initials)` is called once when they are accepted.
 
     `outcome`: ("again",), ("save_replay",), ("scores",) or ("menu",).
     """
@@ -41,7 +41,7 @@ class ResultScreen(CanvasScreen):
         super().__init__()
         self.scene, self.result, self.place, self.enter = scene, result, place, enter
         self.can_save, self.assisted = can_save, assisted
-        self.notes = list(notes)  # what else is to be said: a ghost kept, a file that cannot be written
+        self.notes = list(notes)  # further messages: a ghost kept, a file that cannot be written
         self.ground = SceneBackground(scene)
         x = PAGE[0] + (PAGE[2] - 152) // 2
         self.initials = Initials(initials, x, 146, self.cues) if place is not None else None
@@ -50,12 +50,12 @@ class ResultScreen(CanvasScreen):
 
     @property
     def asked(self) -> Initials | None:
-        """The initials while they are asked for."""
+        """The initials while they are entered, else None."""
         return self.initials if self.initials is not None and not self.initials.done else None
 
     @property
     def entering(self) -> bool:
-        """True while initials are asked for."""
+        """True while initials are entered."""
         return self.asked is not None
 
     def _rows(self):
@@ -70,11 +70,11 @@ class ResultScreen(CanvasScreen):
         self.outcome = outcome
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Typed letters of the initials; True if the event is used up."""
+        """Process typed letters of the initials; return whether the event was used."""
         return self.asked is not None and self.asked.feed(event)
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.time += dt
         asked = self.asked
         if asked is not None:
@@ -90,11 +90,11 @@ class ResultScreen(CanvasScreen):
         self.list.step(inputs, dt)
 
     def tell(self, message: str) -> None:
-        """Say it under the list, in place of what was said before."""
+        """Show a message under the list, in place of the last one."""
         self.notes[:] = [message]
 
     def accept(self) -> None:
-        """Take the initials as they stand: a place is not lost by a hasty Esc, nor with the window."""
+        """Accept the initials as they are, so that neither a hasty Esc nor closing the window loses a place."""
         asked = self.asked
         if asked is not None:
             asked.done = True

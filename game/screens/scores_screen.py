@@ -1,4 +1,4 @@
-"""High scores: one page per ranked scene and per level of one's own that has been played; left and right turn them."""
+"""High scores: one page per ranked scene and per own level that was played; left and right change it."""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -24,7 +24,7 @@ HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
 
 
 class Page(NamedTuple):
-    """What stands over a table, its key in the records, and what it is ordered by."""
+    """The heading of a table, its key in the records, and its order."""
 
     title: str
     table: str
@@ -32,7 +32,9 @@ class Page(NamedTuple):
 
 
 def pages_of(registry: Registry, records: Records, played: tuple[str, Path | None] | None = None) -> list[Page]:
-    """The pages in menu order; played: (scene name, level file) of a game that need not be in the levels' folder."""
+    """Return the pages in menu order; played: (scene name, level file) of a game that need not be in the levels'
+    folder.
+    """
     found = []
     for scene_class in registry.all_classes():
         if scene_class.ranked_by is None:
@@ -44,7 +46,7 @@ def pages_of(registry: Registry, records: Records, played: tuple[str, Path | Non
         for level in levels:
             try:
                 table = table_of(scene_class.name, level)
-            except FileError:  # it cannot be read: who plays it is told why
+            except FileError:  # unreadable; its error is shown when it is played
                 continue
             if records.entries(table) and all(page.table != table for page in found):
                 found.append(Page(f"{scene_class.title}: {level.stem}", table, scene_class.ranked_by))
@@ -52,7 +54,7 @@ def pages_of(registry: Registry, records: Records, played: tuple[str, Path | Non
 
 
 class ScoresScreen(CanvasScreen):
-    """`outcome`: ("back",). pages: see pages_of; shown: the table to begin with; newest: (table, place) to mark."""
+    """The pages. `outcome`: ("back",). pages: see pages_of; shown: the first table; newest: (table, place) to mark."""
 
     def __init__(
         self,
@@ -78,11 +80,11 @@ class ScoresScreen(CanvasScreen):
 
     @property
     def arrows(self) -> tuple[pygame.Rect, pygame.Rect]:
-        """Where a click turns the page: (left, right)."""
+        """Rects whose click changes the page: (left, right)."""
         return pygame.Rect(PAGE.x + 8, PAGE.y + 36, 24, 16), pygame.Rect(PAGE.right - 32, PAGE.y + 36, 24, 16)
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.time += dt
         way = self.sideways.move(inputs, dt) - (inputs.wheel > 0) + (inputs.wheel < 0)
         if inputs.pointer_pressed:

@@ -1,4 +1,4 @@
-"""What the program asks of the screen on top; every screen answers for itself.
+"""The interface between the program and the screen on top.
 
 A screen is drawn on the canvas and moved in fixed steps (CanvasScreen), or it shows a scene, keeps its own time and
 draws at the window's resolution (SceneScreen).
@@ -17,24 +17,24 @@ from game.run.loop import FixedStep
 from game.run.picture import Picture
 from game.scene import STEP_SECONDS
 
-Outcome = tuple[str, *tuple[Any, ...]]  # a name in the table of game/screens/stack.py, and what it takes
+Outcome = tuple[str, *tuple[Any, ...]]  # a name in the table of game/screens/stack.py, and its arguments
 
 
 class Screen:
-    """The questions, and the answers of a screen that is nothing special.
+    """The interface, with default answers.
 
-    `outcome`: where the screen leads, None while it stays. `cues`: the sounds of its menus since they were last played.
+    `outcome`: the next screen, None while it stays. `cues`: sounds of its menus since they were last played.
     """
 
     shows_pointer: bool = True
-    tune: str | None = None  # the music; None: what plays, plays on
-    quiet: bool = False  # the music is played low: nobody plays
+    tune: str | None = None  # the music; None: the music continues
+    quiet: bool = False  # the music is low: a demonstration
     holds_music: bool = False  # the music stops until another screen is on top
-    takes_game_input: bool = False  # keys and buttons mean what the player bound them to, not what menus need
-    shows_scene: bool = False  # its files may turn out to be damaged: it is then closed
-    shows_result: bool = False  # what came of the game is told here
+    takes_game_input: bool = False  # keys and buttons have the player's bindings, not those of menus
+    shows_scene: bool = False  # a scene with damaged files, which is then closed
+    shows_result: bool = False  # messages about the game are shown here
     wants_screenshot: bool = False  # the picture just drawn is to be saved; the program resets this
-    failure: str = ""  # a line for the terminal and exit code 1, where the program ends on this screen
+    failure: str = ""  # a line for the terminal, with exit code 1, if the program ends on this screen
 
     def __init__(self) -> None:
         self.outcome: Outcome | None = None
@@ -42,37 +42,37 @@ class Screen:
 
     @property
     def running_clock(self) -> FixedStep | None:
-        """The clock by which a scene's steps are due; None where none is shown."""
+        """Clock that schedules a scene's steps; None without a scene."""
         return None
 
     def note_busy(self, seconds: float) -> None:
-        """Take note of how long [s] the steps and the picture of this frame took."""
+        """Record the time [s] that the steps and the picture of this frame took."""
         if self.running_clock is not None:
             self.running_clock.note(seconds)
 
     @property
     def finished(self) -> bool:
-        """True when the run that the command line asked for has made its last step: the program ends."""
+        """True after the last step of the run given on the command line: the program ends."""
         return False
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Take an event before the devices do; True if it is used up."""
+        """Process an event before the devices do; return whether it was used."""
         return False
 
     def resume(self) -> None:
-        """It is seen again: what lay over it was left."""
+        """Update when the screen is shown again."""
 
     def lose_focus(self) -> None:
-        """The window is no longer the one that is worked in."""
+        """React to the loss of the window's focus."""
 
     def close(self) -> None:
-        """It is left for the screen below."""
+        """Clean up when it is left for the screen below."""
 
     def accept(self) -> None:
-        """The window closes: take what is being entered as it stands."""
+        """Accept a pending entry, because the window closes."""
 
     def tell(self, message: str) -> None:
-        """Show one line about what was done from here."""
+        """Show one line about an action of this screen."""
 
 
 class CanvasScreen(Screen, ABC):
@@ -80,14 +80,14 @@ class CanvasScreen(Screen, ABC):
 
     @abstractmethod
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step of dt [s]."""
+        """Make one fixed step of dt [s]."""
 
     @abstractmethod
     def draw(self, canvas: Canvas, alpha: float) -> None:
         """Draw the picture."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """One turn of the program's loop: the steps that are due, each with its input, until the screen is left."""
+        """Make one turn of the program's loop: the due steps, each with its input, until the screen is left."""
         for inputs in steps:
             self.step(inputs, STEP_SECONDS)
             if self.outcome is not None:
@@ -97,19 +97,21 @@ class CanvasScreen(Screen, ABC):
 
 
 class SceneScreen(Screen, ABC):
-    """A scene that is played, watched or shown."""
+    """A scene that is played, watched or demonstrated."""
 
     shows_scene = True
 
     @abstractmethod
     def advance(self, now: float) -> None:
-        """Make the steps that are due at `now` [s]."""
+        """Make the steps due at `now` [s]."""
 
     @abstractmethod
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene and what lies over it; returns the frame."""
+        """Draw the scene and the elements over it; return the frame."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """One turn of the program's loop at `now` [s]. Returns the frame, which the frame time may be written on."""
+        """Make one turn of the program's loop at `now` [s]. Return the frame, on which the frame time may be
+        written.
+        """
         self.advance(now)
         return self.draw(picture)

@@ -1,4 +1,4 @@
-"""The settings: pages on the left, the marked page's rows on the right. Every change works at once."""
+"""The settings: pages at the left, the marked page's rows at the right. Every change applies at once."""
 
 from collections.abc import Callable
 
@@ -26,9 +26,9 @@ BINDING_FOOT = "Enter or click, then press the new one   Esc keeps the old"
 
 
 class SettingsScreen(CanvasScreen):
-    """Works on a Settings object. `changed()` puts it to work; `saved()` is called when the screen is left.
+    """Editor of a Settings object. `changed()` applies it; `saved()` is called when the screen is left.
 
-    `outcome` becomes ("back",). page: the name of the page to begin with, inside it.
+    `outcome` becomes ("back",). page: the name of the first page, already entered.
     """
 
     def __init__(
@@ -50,14 +50,14 @@ class SettingsScreen(CanvasScreen):
             PAGES.index(page) if page else 0,
         )
         self.list = RowList(self._rows, (PAGE.x + 16, PAGE.y + 12, PAGE.width - 32, 192), self.cues)
-        self.inside = page is not None  # the keys work the page, not the list of pages
-        self.waiting_for = None  # (device, action) whose next key or button is its new one
+        self.inside = page is not None  # the keys operate the page, not the list of pages
+        self.waiting_for = None  # (device, action) that waits for its new key or button
         self.message = ""
         self.time = 0.0
 
     @property
     def page(self) -> str | None:
-        """The page that is shown, or None while Back is marked."""
+        """The current page, or None while Back is marked."""
         return PAGES[self.pages.mark] if self.pages.mark < len(PAGES) else None
 
     def _page_rows(self):
@@ -83,11 +83,11 @@ class SettingsScreen(CanvasScreen):
         self.message = ""
 
     def close(self) -> None:
-        """What was changed is kept."""
+        """Save the changes."""
         self.saved()
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Catch the key or button that an action is waiting for; True if the event is used up."""
+        """Take the key or button that an action waits for; return whether the event was used."""
         if self.waiting_for is None:
             return False
         device, action = self.waiting_for
@@ -111,7 +111,7 @@ class SettingsScreen(CanvasScreen):
         return True
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.time += dt
         if self.waiting_for is not None:
             return

@@ -1,4 +1,4 @@
-"""The stack of screens, and what each outcome of a screen leads to. A screen is what game/screens/screen.py says."""
+"""The stack of screens, and the effect of each outcome. For the interface of a screen see game/screens/screen.py."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -37,7 +37,7 @@ AnyScreen = CanvasScreen | SceneScreen
 
 
 class Screens:
-    """The one on top is seen and heard. `played`: the game on the stack, or None."""
+    """The stack; the screen on top is visible and audible. `played`: the game on the stack, or None."""
 
     def __init__(self, arcade: Arcade) -> None:
         self.arcade = arcade
@@ -66,7 +66,7 @@ class Screens:
         self.newest: tuple[str, int | None] | None = None  # (table, place) of the last entry, marked in the high scores
 
     def open_first(self) -> None:
-        """What the command line asks for: a recording, a scene, or the title."""
+        """Open the screen of the command line: a recording, a scene, or the title."""
         arcade, options = self.arcade, self.arcade.options
         if options.replay and not options.is_a_run:
             self.watch(options.replay)
@@ -77,11 +77,11 @@ class Screens:
 
     @property
     def top(self) -> AnyScreen:
-        """The screen that is seen and heard."""
+        """The screen on top."""
         return self.stack[-1]
 
     def follow(self, outcome: Outcome) -> None:
-        """Open what the top screen named. A file that cannot be used becomes a message."""
+        """Open the screen that the top screen named. An unusable file becomes a message."""
         name, *rest = outcome
         self.top.outcome = None
         try:
@@ -90,9 +90,9 @@ class Screens:
             self.complain(error, name not in ("watch", "file"))
 
     def complain(self, error: UsageError, ends_scene: bool = True) -> None:
-        """Show why a file cannot be used, over what can be gone on with.
+        """Show the error of an unusable file, over the screen to continue with.
 
-        ends_scene: False where it is about another file than that of the scene on top, which then goes on.
+        ends_scene: False for a file other than that of the scene on top, which then continues.
         """
         if ends_scene and self.top.shows_scene:
             self.stack.pop()
@@ -109,24 +109,24 @@ class Screens:
         return SceneBackground(self.played.scene) if self.played else None
 
     def title(self, message: str = "") -> None:
-        """The title and nothing else."""
+        """Show the title alone."""
         self._leave_play()
         self.stack = [Title(message)]
 
     def menu(self) -> None:
-        """The scene menu, over the title."""
+        """Open the scene menu, over the title."""
         self._leave_play()
         self.stack = [Title(), self._scene_menu()]
 
     def back(self) -> None:
-        """The screen below; the title where there is none."""
+        """Go back to the screen below; to the title if there is none."""
         self.stack.pop().close()
         if not self.stack:
             self.stack = [Title()]
         self.top.resume()
 
     def settings(self, page: str | None = None) -> None:
-        """The settings, over a game or over the title."""
+        """Open the settings, over a game or over the title."""
         arcade = self.arcade
         changed, saved = self._settings_changed, arcade.save_settings
         self.stack.append(SettingsScreen(arcade.settings, arcade.devices, changed, self._ground(), page, saved))
@@ -137,19 +137,19 @@ class Screens:
             self.played.apply_settings()
 
     def scores(self) -> None:
-        """The high scores, from a game those of its scene or level."""
+        """Open the high scores; from a game those of its scene or level."""
         arcade, play = self.arcade, self.played
         pages = pages_of(arcade.registry, arcade.records, play and (play.scene.name, play.scene.level_file))
         self.stack.append(ScoresScreen(pages, arcade.records, play and play.table, self.newest, self._ground()))
 
     def replays(self) -> None:
-        """The list of replays."""
+        """Open the list of replays."""
         self.stack.append(ReplaysScreen(self.arcade.registry, copy_text))
 
     def open_file(self, path: str | Path) -> None:
-        """A file that was dropped on the window: a picture goes to the scene that takes pictures, all else is watched.
+        """Open a file dropped on the window: a picture goes to a scene that takes pictures, all else is watched.
 
-        What is being played goes on where the file cannot be used. Raises UsageError then.
+        The game continues if the file is unusable. Raises UsageError then.
         """
         classes = self.arcade.registry.all_classes() if Path(path).suffix.lower() == ".png" else []
         taker = next((each for each in classes if each.takes_level and each.level_suffix == ".png"), None)
@@ -164,7 +164,7 @@ class Screens:
         self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
 
     def watch(self, path: str | Path) -> None:
-        """A recording. Raises UsageError for one that cannot be used."""
+        """Play a recording. Raises UsageError for an unusable one."""
         arcade = self.arcade
         recording, scene_class = load_replay_for(path, arcade.registry)
         level = recording.level_path()
@@ -176,26 +176,26 @@ class Screens:
         self.stack.append(Watch(tape, arcade.devices, arcade.sounds, arcade.settings.accessibility(), name))
 
     def tour(self) -> None:
-        """The tour of the overlays."""
+        """Open the tour of the overlays."""
         arcade = self.arcade
         accessibility = arcade.settings.accessibility()
         self.stack.append(Tour(self._make_shown, arcade.registry.names, arcade.devices, accessibility))
 
     def attract(self) -> None:
-        """The bots play, until somebody comes."""
+        """Start the demonstration, until any input."""
         self.stack.append(Attract(self._make_shown, self.arcade.registry.names, self.arcade.settings.accessibility()))
 
     def _make_shown(self, name):
         return self.arcade.registry.scene_class(name)(0)
 
     def play(self, name: str, level: Path | None = None) -> None:
-        """A scene from the menu."""
+        """Play a scene of the menu."""
         arcade = self.arcade
         scene = arcade.registry.scene_class(name)(arcade.options.seed or 0, level=level)
         self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
 
     def play_first(self) -> None:
-        """The scene that the command line names, with all it says about it."""
+        """Play the scene of the command line, with its options."""
         arcade, options = self.arcade, self.arcade.options
         scene = make_scene(options, arcade.registry)
         play = Play(
@@ -223,7 +223,7 @@ class Screens:
         self.played = play
 
     def _bring_best(self, play):
-        """What the scene shows of the best run so far: its points, or its ghost."""
+        """Pass the best run to the scene: its points, or its ghost."""
         scene = play.scene
         best = self.arcade.records.best(play.table)
         if best is not None:
@@ -246,12 +246,12 @@ class Screens:
             self.played = None
 
     def _game(self) -> Play:
-        """The game on the stack: its pause menu and its result are only ever reached from it."""
+        """Return the game on the stack; its pause menu and its result are only reached from it."""
         assert self.played is not None
         return self.played
 
     def pause(self, message: str = "") -> None:
-        """The pause menu; after the end of a game its result, or its place in the table would be lost."""
+        """Open the pause menu; after the end of a game its result, so that its place in the table is not lost."""
         play = self._game()
         if play.scene.result is not None:
             self.result()
@@ -260,7 +260,7 @@ class Screens:
         self.stack.append(PauseMenu(play.scene, play.renews, message, pairs))
 
     def restart(self) -> None:
-        """From the pause menu or the result back into the game, from its start."""
+        """Go back from the pause menu or the result into the game, from its start."""
         play = self._game()
         while self.top is not play:
             self.stack.pop()
@@ -269,7 +269,7 @@ class Screens:
         play.resume()
 
     def result(self) -> None:
-        """What came of the game; a run that ranks asks for initials."""
+        """Open the result of the game; a ranked run asks for initials."""
         arcade, play = self.arcade, self._game()
         scene, result = play.scene, play.scene.result
         assert result is not None
@@ -303,7 +303,7 @@ class Screens:
         self.stack.append(screen)
 
     def enter_results(self) -> None:
-        """The window closes: a place in the table that waits for its initials is taken with those entered last."""
+        """Enter a place in the table that waits for initials, with the last ones entered, because the window closes."""
         play = self.played
         if play is not None and play.since_result and not any(screen.shows_result for screen in self.stack):
             self.result()
@@ -311,9 +311,9 @@ class Screens:
             screen.accept()
 
     def save_replay(self) -> None:
-        """Keep the run so far for good, and say where."""
+        """Keep the run so far, and show its path."""
         play = self._game()
-        assert play.recorder is not None  # else the screens do not offer it
+        assert play.recorder is not None  # otherwise the screens do not offer it
         play.drop_future()
         try:
             path = free_name(replays_folder(), play.scene.name)
@@ -323,6 +323,6 @@ class Screens:
             self.top.tell(f"It could not be saved: {error.strerror or error}")
 
     def quit(self) -> None:
-        """Out of the program."""
+        """End the program."""
         self._leave_play()
         self.arcade.running = False

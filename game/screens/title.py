@@ -1,4 +1,6 @@
-"""The title: two planes pass, their boxes meet, and only where pixels meet it says HIT. Left alone, it shows games."""
+"""The title: two planes pass, their boxes overlap, and HIT appears only where pixels overlap. When idle, it starts the
+demonstration.
+"""
 
 from math import pi, sin
 
@@ -14,7 +16,7 @@ from game.screens.parts.rows import LINE, Row, RowList
 from game.screens.screen import CanvasScreen
 
 LOOP = 9.0  # [s] one pass of the planes
-IDLE = 10.0  # [s] without any input before the games play themselves
+IDLE = 10.0  # [s] without input before the demonstration
 LOGO_Y, LINE_Y, WORD_Y, FOOT_Y = 6, 82, 104, 256
 MENU = pygame.Rect(24, 112, 128, 6 * LINE)
 ENTRIES = (
@@ -28,7 +30,7 @@ ENTRIES = (
 
 
 class Title(CanvasScreen):
-    """The first screen. `outcome` becomes what the chosen entry leads to, or ("attract",) after a while."""
+    """The first screen. `outcome` becomes that of the chosen entry, or ("attract",) after IDLE."""
 
     tune = "title"
 
@@ -50,11 +52,11 @@ class Title(CanvasScreen):
         self.outcome = outcome
 
     def resume(self) -> None:
-        """Called when the screen is seen again."""
+        """Update when the screen is shown again."""
         self.idle = 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.time += dt
         busy = (
             inputs.now.actions or inputs.now.pointer_down or inputs.now.wheel or inputs.pointer != inputs.before.pointer
@@ -84,7 +86,7 @@ class Title(CanvasScreen):
         canvas.text(foot, canvas.rect.centerx, FOOT_Y, FOG, SMALL, 1, "center", True)
 
     def _draw_planes(self, canvas):
-        """Both planes, their boxes coloured by what pygame's own masks say."""
+        """Draw both planes, with boxes coloured by the result of pygame's own masks."""
         phase = self.time % LOOP / LOOP
         sway = sin(phase * 2 * pi)
         a = self.left.get_rect(center=(round(262 + 40 * sway), round(180 + 4 * sin(phase * 4 * pi))))

@@ -1,6 +1,6 @@
-"""One minute through the overlays: bots play, one layer after the other comes on, two lines say what it shows.
+"""One minute of overlays: bots play, one layer after the other is shown, and two lines describe it.
 
-Each stop waits until what it speaks of is there, stands still on that step with a ring around it, and then goes on.
+Each stop waits until its subject appears, freezes that step with a ring around it, and then continues.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,12 +23,12 @@ from game.screens.parts.panel_rows import layer_rows
 from game.screens.parts.subjects import SUBJECTS, subject_of
 from game.screens.screen import SceneScreen
 
-SECONDS, STILL = 5, 3  # of each stop, twelve are a minute; of them it stands still on its subject
+SECONDS, STILL = 5, 3  # of each stop, twelve are a minute; for STILL of them the step is frozen
 PATIENCE = 900  # steps that a stop waits for its subject
 MARGIN = 6  # [canvas px] between a subject and its ring
 EDGE = 6  # [text px] between the card and the border of the picture
 CARD = (312, 66)  # [text px]
-# Scene and how many steps its bot has played before it is shown; layer, or the panel; title; two lines.
+# Scene and steps its bot plays first; layer, or the panel; title; two lines.
 GAME, LEVEL = ("shooter", 800), ("platformer", 240)
 HEAPS, PILE, SHOTS = ("lab/sleeping", 100), ("lab/pyramid", 120), ("lab/tunnelling", 90)
 STOPS = (
@@ -114,7 +114,7 @@ KEYS = {
     pygame.K_ESCAPE: LEAVE,
     pygame.K_BACKSPACE: LEAVE,
 }
-AHEAD = 0.03  # [s] of each picture are spent on playing up to where it gets interesting
+AHEAD = 0.03  # [s] of each picture spent on the steps before the stop
 BUTTONS = {
     "a": NEXT,
     "right shoulder": NEXT,
@@ -128,7 +128,9 @@ BUTTONS = {
 
 
 class Tour(SceneScreen):
-    """`make(name)` builds a scene; a stop whose scene is not there shows the first. `outcome` becomes ("back",)."""
+    """The tour. `make(name)` builds a scene; a stop whose scene is missing shows the first one. `outcome` becomes
+    ("back",).
+    """
 
     tune = "title"
 
@@ -138,14 +140,14 @@ class Tour(SceneScreen):
         super().__init__()
         self.make, self.devices, self.accessibility = make, devices, accessibility
         self.stops = [stop if stop[0][0] in names else ((names[0], 0), *stop[1:]) for stop in STOPS]
-        self.demos = {}  # scene name -> Demo, each played on from stop to stop
+        self.demos = {}  # scene name -> Demo, which continues from stop to stop
         self.at = 0
-        self.shown = 0  # steps of this stop, from where its subject is there
+        self.shown = 0  # steps of this stop, from the appearance of its subject
         self.waited = 0  # steps until then
-        self.subject: pygame.Rect | None = None  # where it is on the canvas, while the picture stands still on it
-        self.ring: pygame.Rect | None = None  # around what the last picture spoke of [frame px]
+        self.subject: pygame.Rect | None = None  # its place on the canvas, while the step is frozen
+        self.ring: pygame.Rect | None = None  # around the subject of the last picture [frame px]
         self.card = pygame.Rect(0, 0, 0, 0)  # of the last picture [frame px]
-        self.places = []  # (rect, what it does) of the last picture
+        self.places = []  # (rect, action) of the last picture
         self.panel = Panel(self._panel_rows)
         self.panel.focused = False
 
@@ -159,7 +161,7 @@ class Tour(SceneScreen):
 
     @property
     def begins_in(self) -> int:
-        """How many steps the bot plays first, fast, up to where there is something to see."""
+        """Number of steps that the bot plays first, fast."""
         return self.stops[self.at][0][1] - self.demo.session.report.steps
 
     def _panel_rows(self):
@@ -176,11 +178,11 @@ class Tour(SceneScreen):
 
     @property
     def waits(self) -> bool:
-        """Whether the bot still plays, fast, up to where the subject of this stop is there."""
+        """True while the bot plays fast, up to the appearance of the stop's subject."""
         return not self.shown and self.subject is None and (self.begins_in > 0 or self.waited < PATIENCE)
 
     def advance(self, now: float) -> None:
-        """Make the steps that are due at `now` [s]; the next stop when this one has had its time."""
+        """Make the steps due at `now` [s]; go to the next stop after SECONDS."""
         try:
             due = self.demo.clock.advance(now)
             if self.waits:
@@ -189,7 +191,7 @@ class Tour(SceneScreen):
                 self.subject = None
                 for _ in range(due):
                     self.demo.step()
-        except UsageError:  # a scene whose files are damaged cannot be shown; the menu says why
+        except UsageError:  # a scene with damaged files cannot be shown; the menu shows the error
             self.outcome = ("back",)
             return
         if not self.waits:
@@ -200,11 +202,11 @@ class Tour(SceneScreen):
             self._go(NEXT)
 
     def _play_ahead(self):
-        """Steps for as long as a picture allows, up to the one in which the subject is there."""
+        """Make steps for as long as a picture allows, up to the appearance of the subject."""
         layer, started = self.stops[self.at][1], perf_counter()
         while self.waits and perf_counter() - started < AHEAD:
             if self.begins_in <= 0:
-                if layer not in SUBJECTS:  # it is on the frame, always
+                if layer not in SUBJECTS:  # it is always on the frame
                     self.waited = PATIENCE
                     return
                 self.subject = subject_of(self.demo.scene, layer)
@@ -215,7 +217,7 @@ class Tour(SceneScreen):
                     self._play_again()
 
     def _play_again(self):
-        """A bot that has come to its end starts over, so that there is always something to see."""
+        """Restart a bot that has finished, so that the scene never stops."""
         self.demo.scene.restart()
 
     def _go(self, what):
@@ -229,11 +231,11 @@ class Tour(SceneScreen):
 
     @property
     def running_clock(self) -> FixedStep | None:
-        """The clock by which the scene's steps are due."""
+        """Clock that schedules the scene's steps."""
         return self.demo.clock if self.demo else None
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Take an event; True if it is used up."""
+        """Process an event; return whether it was used."""
         what = None
         if event.type == pygame.KEYDOWN:
             what = KEYS.get(event.key)
@@ -252,7 +254,7 @@ class Tour(SceneScreen):
         with_panel = layer == "panel"
         demo.overlays.on = {"contacts"} if with_panel else {layer}
         frame = demo.draw(picture, self.panel if with_panel else None, self._reserve)
-        alone = with_panel and picture.presenter.crowded  # then the panel is all there is
+        alone = with_panel and picture.presenter.crowded  # then the panel is the whole picture
         self.ring = None
         if layer in SUBJECTS:
             self.ring = self._ring_on(frame)
@@ -265,13 +267,13 @@ class Tour(SceneScreen):
         return frame
 
     def _ring_on(self, frame):
-        """Around the subject, in the pixels of a frame; None where there is no subject."""
+        """Return the ring around the subject on a frame [frame px]; None without a subject."""
         if self.subject is None:
             return None
         return frame.from_canvas(self.subject.inflate(2 * MARGIN, 2 * MARGIN))
 
     def _reserve(self, frame):
-        """Place the card where it leaves the ring free and covers the least text, and keep other text away from it."""
+        """Place the card off the ring where it covers the least text, and reserve its place."""
         ring = self._ring_on(frame)
         beside_panel = self.stops[self.at][1] == "panel"
         self.card = docked(frame, frame.area.clip(frame.rect) if beside_panel else frame.rect, ring)
@@ -300,7 +302,7 @@ class Tour(SceneScreen):
         self._draw_foot(frame, rect, scale)
 
     def _draw_foot(self, frame, rect, scale):
-        """Dots for the stops, and what the keys do; all of it can be clicked."""
+        """Draw dots for the stops, and the functions of the keys; all of it can be clicked."""
         self.places = []
         y = rect.bottom - 11 * scale
         for number in range(len(self.stops)):
@@ -318,7 +320,9 @@ class Tour(SceneScreen):
 
 
 def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.Rect:
-    """Where in an area the card goes: a corner, or the middle of a border, clear of the ring, over the least text."""
+    """Return the card's place in an area: a corner, or the middle of a border, clear of the ring, over the least
+    text.
+    """
     scale = frame.scale_for(CARD[0])
     size = (min(CARD[0] * scale, area.width), CARD[1] * scale)
     room = area.inflate(-2 * EDGE * scale, -2 * EDGE * scale)
@@ -331,7 +335,7 @@ def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.
 
 
 def draw_ring(frame: Frame, ring: pygame.Rect) -> None:
-    """Gold between two dark lines, so that it is seen on any ground."""
+    """Draw a golden ring between two dark lines, visible on any ground."""
     thick = max(2, frame.scale)
     outer = ring.inflate(2 * thick, 2 * thick).clip(frame.rect)
     corner = 5 * frame.scale

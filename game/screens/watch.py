@@ -1,4 +1,4 @@
-"""Watching a replay: play, freeze, slow, step, seek; overlays and panel as in play, but nothing can be changed."""
+"""The replay screen: play, freeze, slow motion, step, seek; overlays and panel as in play, but no changes."""
 
 import pygame
 
@@ -21,8 +21,8 @@ from game.screens.screen import SceneScreen
 SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 SPEED_NAMES = ("1/4", "1/2", "1", "2", "4")
 LEAP = 5 * 60  # frames of one leap by left or right
-SEEK_SECONDS = 0.025  # of each picture are spent on the way to a sought frame
-HIDE_SECONDS = 3.0  # after the last input the controls go, and come back with the next
+SEEK_SECONDS = 0.025  # of each picture, spent on a seek
+HIDE_SECONDS = 3.0  # after the last input, before the controls disappear; the next input shows them
 LEAST_WIDTH = 360  # [text px] that the controls need
 BAR_HEIGHT = 26  # [text px] of the controls at the bottom
 KEYS_LINE = (
@@ -45,7 +45,7 @@ BUTTON_KEYS = {
 
 
 class Watch(SceneScreen):
-    """Plays a Tape. `outcome` becomes ("back",). `recorded`: how the file is called."""
+    """Player of a Tape. `outcome` becomes ("back",). `recorded`: the name of the file."""
 
     def __init__(
         self, tape: Tape, devices: DeviceSource, sounds: Sounds, accessibility: Accessibility, name: str = ""
@@ -58,7 +58,7 @@ class Watch(SceneScreen):
         self.panel = Panel(lambda: watch_rows(self))
         self.panel_open = False
         self.dragging = False
-        self.alone = 0.0  # [s] since the last key or move of the mouse
+        self.alone = 0.0  # [s] since the last key or mouse motion
         self.before = None
         self.bar = self.button = pygame.Rect(0, 0, 0, 0)  # of the last picture
 
@@ -69,7 +69,7 @@ class Watch(SceneScreen):
 
     @property
     def running_clock(self) -> FixedStep:
-        """The clock by which the scene's steps are due."""
+        """Clock that schedules the scene's steps."""
         return self.clock
 
     @property
@@ -79,7 +79,9 @@ class Watch(SceneScreen):
 
     @property
     def failure(self) -> str:
-        """Where the game differed from the recording, if it did; of another physics nothing else is to be expected."""
+        """Difference between game and recording, if any; with another version of physics it is expected and not a
+        failure.
+        """
         return "" if self.tape.recording.outdated else self.tape.diverged
 
     @property
@@ -88,8 +90,8 @@ class Watch(SceneScreen):
         return self.tape.diverged_at is not None and self.tape.position >= self.tape.diverged_at
 
     def advance(self, now: float) -> None:
-        """Make the steps that are due at `now` [s], or go on towards the frame that is sought."""
-        self.devices.next()  # a replay takes no advice
+        """Make the steps due at `now` [s], or continue a seek."""
+        self.devices.next()  # recorded input replaces it
         self.alone += 0.0 if self.before is None else now - self.before
         self.before = now
         due = self.clock.advance(now)
@@ -103,7 +105,7 @@ class Watch(SceneScreen):
             self.clock.paused = True
 
     def step(self) -> None:
-        """One recorded step, with its sounds where they are as fast as they were."""
+        """Play one recorded step, with its sounds at normal speed."""
         if not self.tape.ended:
             self.tape.step()
             self.overlays.note(self.tape.scene)
@@ -111,7 +113,7 @@ class Watch(SceneScreen):
                 self.sounds.play_cues(self.tape.scene.cues)
 
     def toggle(self) -> None:
-        """Freeze or play; at the end, from the start again."""
+        """Freeze or play; at the end, play from the start."""
         if self.tape.ended:
             self.tape.begin_seek(0)
             self.clock.paused = False
@@ -119,22 +121,22 @@ class Watch(SceneScreen):
             self.clock.paused = not self.clock.paused
 
     def turn_speed(self, way: int) -> None:
-        """The next speed, or the one before."""
+        """Change to the next speed, or the previous one."""
         self.speed = max(0, min(len(SPEEDS) - 1, self.speed + way))
         self.clock.pace = SPEEDS[self.speed]
 
     def leap(self, frames: int) -> None:
-        """Go so many frames on or back; from where a search under way leads to."""
+        """Move by so many frames, from the current frame or from the goal of a seek."""
         start = self.tape.position if self.tape.goal is None else self.tape.goal
         self.tape.begin_seek(start + frames)
 
     @property
     def shows_controls(self) -> bool:
-        """False while it just plays: the controls would hide a part of the game."""
+        """False during plain playback, so that the controls hide no part of the game."""
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Take an event; True if it is used up."""
+        """Process an event; return whether it was used."""
         self.alone = 0.0
         if self.panel_open and self.panel.feed(event):
             return True
@@ -165,7 +167,7 @@ class Watch(SceneScreen):
         self.tape.begin_seek(round(max(0.0, min(1.0, share)) * self.tape.length))
 
     def single(self, way: int) -> None:
-        """Freeze, and go one frame on or back."""
+        """Freeze, and move one frame forward or back."""
         self.clock.paused = True
         self.leap(way)
 
@@ -208,7 +210,7 @@ class Watch(SceneScreen):
         self.outcome = ("back",)
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene with what lies over it, and the controls."""
+        """Draw the scene, the elements over it, and the controls."""
         panel = self.panel if self.panel_open else None
         frame = picture.draw_scene(self.tape.scene, self.overlays, self.clock.alpha, panel, self._reserve)
         if self.shows_controls and not (panel and picture.presenter.crowded):
@@ -218,7 +220,7 @@ class Watch(SceneScreen):
         return frame
 
     def _reserve(self, frame):
-        """Keep the legend of the overlays away from the controls."""
+        """Reserve the place of the controls, for the legend of the overlays."""
         if self.shows_controls:
             frame.reserve(self._controls_rect(frame))
 
@@ -230,7 +232,7 @@ class Watch(SceneScreen):
     def _draw_controls(self, frame):
         scale, rect = frame.scale_for(LEAST_WIDTH), self._controls_rect(frame)
         frame.surface.fill(INK, rect)
-        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]  # covered now
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]  # now hidden
         self.button = pygame.Rect(rect.x + 4 * scale, rect.y + 4 * scale, 14 * scale, 9 * scale)
         _draw_button(frame.surface, self.button, self.clock.paused, scale)
         total = (
@@ -244,7 +246,7 @@ class Watch(SceneScreen):
             frame.text(KEYS_LINE, rect.centerx, rect.bottom - 9 * scale, FOG, SMALL, scale, "center")
 
     def _draw_bar(self, frame, scale):
-        """Where we are, where key frames lie, and where it diverged."""
+        """Draw the current frame, the key frames, and the divergence."""
         surface, tape, bar = frame.surface, self.tape, self.bar
         line = pygame.Rect(bar.x, bar.centery - scale, bar.width, 2 * scale)
         surface.fill(DUSK, line)
@@ -275,7 +277,7 @@ class Watch(SceneScreen):
 
 
 def _draw_button(surface, rect, paused, scale):
-    """Two bars while it plays, a triangle while it does not."""
+    """Draw two bars while it plays, a triangle while it is frozen."""
     x, y, high = rect.x + 3 * scale, rect.y, rect.height
     if paused:
         pygame.draw.polygon(surface, GOLD, ((x, y), (x, y + high), (x + high, y + high // 2)))
@@ -285,7 +287,7 @@ def _draw_button(surface, rect, paused, scale):
 
 
 def watch_rows(watch: Watch) -> list[Row]:
-    """Rows of the panel: what is seen can be changed, what happened cannot."""
+    """Return the rows of the panel: the view can be changed, the recorded game cannot."""
     scene, tape = watch.tape.scene, watch.tape
     spacing = tape.spacing // 60
     solver = plain_name(solver_name(scene) or "no solver")

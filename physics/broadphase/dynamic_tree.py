@@ -202,9 +202,11 @@ class DynamicTree:
             return lambda pairs, work: find_pairs_in_bvh4(
                 proxies, changed, self.nodes, self.bvh4, self.kin, self.state, self.stack, pairs, work
             )
-        return lambda pairs, work: find_pairs_in_trees(proxies, changed, self.nodes, self.state, self.stack, pairs, work)
+        return lambda pairs, work: find_pairs_in_trees(
+            proxies, changed, self.nodes, self.state, self.stack, pairs, work
+        )
 
-    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
+    def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         roots = self.state[ROOT_MOVING:]
         if self.width == WIDTH:

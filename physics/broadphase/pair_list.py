@@ -12,7 +12,7 @@ from physics.broadphase.proxies import (
     tell_rows,
     write_states,
 )
-from physics.shapes.values import Filter
+from physics.shapes.shape import Filter
 from physics.tables.shape import PART, PROXY
 from physics.tables.step_state import CANDIDATES, COUNTERS, StepState, stage
 
@@ -83,7 +83,7 @@ class PairList:
     def name(self, shapes: np.ndarray) -> np.ndarray:
         """Return the (n, 2) owner ids of the candidates, read while the given SHAPE rows are still valid."""
         if self.owners is None:
-            self.owners = shapes["owner"][self.rows]
+            self.owners = shapes["parent"][self.rows]
         return self.owners
 
     def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:

@@ -137,9 +137,7 @@ def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, work
             if apart <= 0.0:
                 deepest = max(deepest, depth_at_start(count, radius, n, radius_b, workspace))
             continue
-        travel = (
-            norm(move_x, move_y) + abs(r.motion_a[TURN]) * reach + abs(r.motion_b[TURN]) * reach_of(r.local_b, n)
-        )
+        travel = norm(move_x, move_y) + abs(r.motion_a[TURN]) * reach + abs(r.motion_b[TURN]) * reach_of(r.local_b, n)
         if apart > travel * min(1.0, best_out[0]):
             continue
         fraction, _ = sweep_part(count, radius, n, radius_b, 0.0, depth, 0.0, workspace)

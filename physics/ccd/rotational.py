@@ -24,7 +24,7 @@ from physics.ccd.time_of_impact import (
     separate_at,
 )
 from physics.collision.chains import lies_across
-from physics.collision.hulls import ALL_EDGES, part_feature
+from physics.collision.hulls import ALL_EDGES, Hull, part_feature
 from physics.collision.tiles import tile_at
 from physics.distance.gjk import FIRST_A, FIRST_B, NX, NY, copy_part
 from physics.jit import kernel, subkernel
@@ -385,9 +385,7 @@ def starts_across(geometry, chain, local_x, local_y, count, radius, slack, works
         other[CENTER_X] - motion[CENTER_X] - u,
         other[CENTER_Y] - motion[CENTER_Y] - v,
         other[ANGLE],
-        workspace.advance.a,
-        count,
-        radius,
+        Hull(workspace.advance.a, count, radius, ALL_EDGES),
         slack,
         workspace.advance.b,
     )

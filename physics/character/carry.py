@@ -25,7 +25,16 @@ from physics.character.solids import (
     settle,
     walk_for,
 )
-from physics.character.walk import depth_in, drop_onto, foot_of, is_crushed, press, write_weight, way_aside, whole_pixels
+from physics.character.walk import (
+    depth_in,
+    drop_onto,
+    foot_of,
+    is_crushed,
+    press,
+    way_aside,
+    whole_pixels,
+    write_weight,
+)
 from physics.collision.hulls import ALL_EDGES
 from physics.islands.sleep import disturb
 from physics.jit import kernel, subkernel
@@ -172,7 +181,7 @@ def carry_riders(along_x, walk_inout):
     """Carry the riders of a carried character, and their riders: a stack of any height."""
     characters = walk_inout.characters
     for _ in range(len(characters)):
-        can_recycle = False
+        repeated = False
         for me in range(len(characters)):
             c = characters[me]
             under = character_of(characters, c.riding) if c.riding >= 0 and c.carried == 0 else -1
@@ -183,8 +192,8 @@ def carry_riders(along_x, walk_inout):
             c.carried = carried_by(u.carried, stopped)
             if stopped > 0 and along_x == 0 and u.carried < 0:
                 c.squeezed = True
-            can_recycle = can_recycle or c.carried != 0
-        if not can_recycle:
+            repeated = repeated or c.carried != 0
+        if not repeated:
             return
 
 

@@ -16,14 +16,15 @@ from physics.collision.chains import (
 from physics.collision.hulls import (
     ALL_EDGES,
     COVERED,
-    LEFT,
+    COVERED_OVERLAP,
+    Hull,
     collide_circles,
     collide_hull_circle,
     collide_hulls,
-    faces_of,
+    pushing_edges,
 )
 from physics.collision.manifold import POINTS
-from physics.collision.tiles import edges_facing, run_at, tile_at
+from physics.collision.tiles import pushing_edges_on_tile, run_at, tile_at
 from physics.dynamics.non_finite import is_finite_character
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate
@@ -155,7 +156,7 @@ def meet_disc(scratch, count, radius, x, y, other):
     if count == 1:
         nx, ny, px, py, separation = collide_circles(mine[0, 0], mine[0, 1], radius, x, y, other)
         return max(-separation, 0.0), nx, ny, px, py
-    hit, nx, ny, px, py, separation, feature = collide_hull_circle(mine, count, ALL_EDGES, radius, x, y, other)
+    hit, nx, ny, px, py, separation, feature = collide_hull_circle(Hull(mine, count, radius, ALL_EDGES), x, y, other)
     return -separation if hit and separation < 0.0 else 0.0, nx, ny, px, py
 
 
@@ -163,24 +164,22 @@ def meet_disc(scratch, count, radius, x, y, other):
 def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
     """Return the result of meet for the hull in scratch.theirs, of so many corners and that rounding radius [px].
 
-    edges, deepest: as in hulls.collide_hulls. scratch.points[0] is LEFT where a neighbouring part reports the contact.
+    edges, deepest: as in hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP where a neighbouring part reports
+    the contact.
     """
     mine = scratch.mine
+    theirs = Hull(scratch.theirs, corners, rounded, edges)
     scratch.points[0] = 0.0
     if count == 1:
-        hit, nx, ny, x, y, separation, feature = collide_hull_circle(
-            scratch.theirs, corners, edges, rounded, mine[0, 0], mine[0, 1], radius
-        )
+        hit, nx, ny, x, y, separation, feature = collide_hull_circle(theirs, mine[0, 0], mine[0, 1], radius)
         depth = -separation if hit and separation < 0.0 else 0.0
         if feature == COVERED or (edges != ALL_EDGES and depth > deepest):
-            scratch.points[0] = LEFT
+            scratch.points[0] = COVERED_OVERLAP
             return 0.0, -nx, -ny, x, y
         scratch.points[0] = 1.0 if depth > 0.0 else 0.0
         return depth, -nx, -ny, x, y
-    own = faces_of(mine, count, scratch.theirs, corners, edges) if edges != ALL_EDGES else ALL_EDGES
-    points = collide_hulls(
-        mine, count, radius, own, scratch.theirs, corners, rounded, edges, 0.0, 0.0, deepest, scratch.points
-    )
+    own = pushing_edges(Hull(mine, count, radius, ALL_EDGES), theirs)
+    points = collide_hulls(Hull(mine, count, radius, own), theirs, 0.0, 0.0, deepest, scratch.points)
     return manifold_depth(points, scratch.points)
 
 
@@ -192,9 +191,8 @@ def meet_link(links, link, scratch, count, radius):
             links[link], scratch.theirs, scratch.mine[0, 0], scratch.mine[0, 1], radius
         )
         return -separation if hit and separation < 0.0 else 0.0, -nx, -ny, x, y
-    points = collide_link_hull(
-        links[link], scratch.theirs, scratch.mine, count, radius, 0.0, 0.0, False, scratch.points
-    )
+    hull = Hull(scratch.mine, count, radius, ALL_EDGES)
+    points = collide_link_hull(links[link], scratch.theirs, hull, 0.0, 0.0, False, scratch.points)
     depth, nx, ny, x, y = manifold_depth(points, scratch.points)
     return depth, -nx, -ny, x, y
 
@@ -204,7 +202,7 @@ def meet(walk, row, count, radius):
     """Return (depth [px], normal from the character, middle of the contact) of scratch.mine in a hull or a disc.
 
     count, radius: of the character, see place_outline. Depth 0: apart, or a neighbouring part of the outline has the
-    nearer surface, for which scratch.points[0] is LEFT.
+    nearer surface, for which scratch.points[0] is COVERED_OVERLAP.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -262,9 +260,8 @@ def is_across(walk, me, row, left, top):
         most = deepest_on(walk, b)
         # A link that moves down does not approach the characters on it, and does not lift those that it passes.
         most -= max(0.0, b.vy * math.cos(b.angle) - b.vx * math.sin(b.angle)) * walk.settings.dt
-    return lies_across(
-        walk.geometry, s.geometry, b.x, b.y, b.angle, walk.scratch.mine, count, radius, most, walk.scratch.theirs
-    )
+    hull = Hull(walk.scratch.mine, count, radius, ALL_EDGES)
+    return lies_across(walk.geometry, s.geometry, b.x, b.y, b.angle, hull, most, walk.scratch.theirs)
 
 
 @subkernel
@@ -403,20 +400,16 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
     edges.
     """
     mine = scratch.mine
+    tile = Hull(scratch.theirs, corners, 0.0, edges)
     if count == 1:
-        hit, nx, ny, x, y, separation, feature = collide_hull_circle(
-            scratch.theirs, corners, edges, 0.0, mine[0, 0], mine[0, 1], radius
-        )
+        hit, nx, ny, x, y, separation, feature = collide_hull_circle(tile, mine[0, 0], mine[0, 1], radius)
         return -separation if hit and separation < 0.0 else 0.0, -nx, -ny
-    if edges == ALL_EDGES:
-        facing = edges
-    elif is_slope:
-        facing = faces_of(mine, count, scratch.theirs, corners, edges)
-    else:
-        facing = edges_facing(mine, count, edges)
-    points = collide_hulls(
-        scratch.theirs, corners, 0.0, edges, mine, count, radius, facing, 0.0, 0.0, deepest, scratch.points
-    )
+    facing = ALL_EDGES
+    if is_slope:
+        facing = pushing_edges(Hull(mine, count, radius, ALL_EDGES), tile)
+    elif edges != ALL_EDGES:
+        facing = pushing_edges_on_tile(mine, count, edges)
+    points = collide_hulls(tile, Hull(mine, count, radius, facing), 0.0, 0.0, deepest, scratch.points)
     depth, nx, ny, x, y = manifold_depth(points, scratch.points)
     return depth, -nx, -ny
 
@@ -459,17 +452,9 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
                     next_column = column + 1
                     corners, edges = tile_at(walk.geometry, s.geometry, grid_x, grid_y, line, column, scratch.theirs)
                 else:
+                    under = (first_column, last_column)
                     corners, edges = run_at(
-                        walk.geometry.grids,
-                        cells,
-                        s.geometry,
-                        grid_x,
-                        grid_y,
-                        line,
-                        column,
-                        first_column,
-                        last_column,
-                        scratch.theirs,
+                        walk.geometry, s.geometry, grid_x, grid_y, line, column, under, scratch.theirs
                     )
                 depth, nx, ny = meet_tile(
                     scratch, count, radius, corners, edges if attempt == 0 else ALL_EDGES, deepest, cell.kind == SLOPE
@@ -776,10 +761,10 @@ def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
     for k in range(1, rows[0] + 1):
         row = rows[k] if rows[k] >= 0 else -1 - rows[k]
         s = walk.shapes[row]
-        if s.owner != owner:
+        if s.parent != owner:
             if left_by >= 0:
                 return BLOCKED, left_by, 0.0
-            owner = s.owner
+            owner = s.parent
             told = False
         walk.scratch.points[0] = 0.0
         what, rise = in_shape(walk, me, row, left, top, way_x, way_y, give)
@@ -790,7 +775,7 @@ def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
             by = row
             slope = rise
         told = told or walk.scratch.points[0] > 0.0
-        if s.inner != 0 and walk.scratch.points[0] == LEFT and walk.bodies[s.body_row].kind == STATIC:
+        if s.inner != 0 and walk.scratch.points[0] == COVERED_OVERLAP and walk.bodies[s.body_row].kind == STATIC:
             left_by = row
         if told:
             left_by = -1

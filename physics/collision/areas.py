@@ -8,24 +8,17 @@ import math
 import numpy as np
 
 from physics.collision.chains import BACKING, link_at
-from physics.collision.hulls import ALL_EDGES, part_of
-from physics.collision.manifold import by_parent, circle_at, copy_manifold, corners_of
-from physics.collision.masks import (
-    collide_mask_circle,
-    collide_mask_line,
-    collide_mask_polygon,
-    collide_mask_rounded,
-    thick_line,
-)
-from physics.collision.masks_exact import exact_area, exact_mask_area, meet_polygon
+from physics.collision.hulls import ALL_EDGES, Hull, part_of
+from physics.collision.manifold import by_parent, copy_manifold
+from physics.collision.masks import offset_line
+from physics.collision.masks_exact import collide_mask_part, collide_mask_shape, exact_mask_area
 from physics.collision.narrow_phase import no_work
 from physics.collision.tiles import tile_at
 from physics.jit import kernel, subkernel
 from physics.raster.bits import shared_area
 from physics.shapes.library import draw_masks
-from physics.shapes.placement import rounding
 from physics.tables.geometry import SLOPE
-from physics.tables.shape import CHAIN, CIRCLE, MASK, PIXELS, TILES
+from physics.tables.shape import CHAIN, MASK, PIXELS, TILES
 from physics.tables.step_state import WorldTables
 from physics.tables.table import rows_of
 
@@ -38,7 +31,7 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
     if s.kind == CHAIN:
         link = geometry.chains[s.geometry].offset + part
         link_at(geometry.links, link, b.x, b.y, math.cos(b.angle), math.sin(b.angle), workspace.a)
-        thick_line(workspace.a, 0.0, BACKING, workspace.b)
+        offset_line(workspace.a, 0.0, BACKING, workspace.b)
         return 4
     g = geometry.grids[s.geometry]
     cell = geometry.cells[g.offset + part]
@@ -53,23 +46,13 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
 
 
 @subkernel
-def area_in_hull(geometry, mask, count, radius, workspace):
-    """Return the area [px2] a MASK row of SHAPE shares with the hull in workspace.b: `count` corners, radius [px]."""
-    rasters = geometry.rasters
-    words = geometry.words
-    if radius > 0.0:
-        return collide_mask_rounded(rasters, words, mask.raster, mask.left, mask.top, workspace.b, count, radius)[0]
-    if count == 2:
-        return collide_mask_line(rasters, words, mask.raster, mask.left, mask.top, workspace.b, workspace.depths)[0]
-    return collide_mask_polygon(
-        rasters, words, mask.raster, mask.left, mask.top, workspace.b, count, ALL_EDGES, workspace.depths
-    )[0]
-
-
-@subkernel
-def area_in_part(geometry, body, mask, count, workspace):
-    """Return the area [px2] that a MASK row of SHAPE shares with the polygon in workspace.b, of `count` corners."""
-    return meet_polygon(geometry, body, mask, workspace.b, count, ALL_EDGES, workspace.a, workspace.depths)[0]
+def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
+    """Return the area [px2] that a mask shares with a run of tiles, or with a link and its backing; rows of SHAPE."""
+    count = outline_of_part(geometry, bodies, shapes, other, part, workspace)
+    s = shapes[mask]
+    body = bodies[s.body_row]
+    hull = Hull(workspace.b, count, 0.0, ALL_EDGES)
+    return collide_mask_part(geometry, body, s, hull, workspace.a, workspace.depths)[0]
 
 
 @kernel
@@ -97,29 +80,14 @@ def count_areas(
                 shared_area(geometry.rasters, geometry.words, a.raster, b.raster, b.left - a.left, b.top - a.top)
             )
             continue
-        mask = a if a.kind == MASK else b
+        mask = m.row_a if a.kind == MASK else m.row_b
         other = m.row_b if a.kind == MASK else m.row_a
-        kind = shapes[other].kind
-        if kind != CHAIN and kind != TILES and not mask.snap:
-            row = m.row_a if a.kind == MASK else m.row_b
-            m.area_1 = exact_area(
-                geometry, bodies, shapes, row, other, rounding(shapes, other), workspace.b, workspace.depths
-            )
-        elif kind == CIRCLE:
-            x, y, radius = circle_at(bodies, shapes, other)
-            m.area_1 = float(
-                collide_mask_circle(geometry.rasters, geometry.words, mask.raster, mask.left, mask.top, x, y, radius)[0]
-            )
-        elif kind == CHAIN or kind == TILES:
-            count = outline_of_part(geometry, bodies, shapes, other, part_of(m.feature_1), workspace)
-            body = bodies[mask.body_row]
-            m.area_1 = area_in_part(geometry, body, mask, count, workspace)
+        if shapes[other].kind == CHAIN or shapes[other].kind == TILES:
+            m.area_1 = area_in_part(geometry, bodies, shapes, mask, other, part_of(m.feature_1), workspace)
             if m.count == 2:
-                count = outline_of_part(geometry, bodies, shapes, other, part_of(m.feature_2), workspace)
-                m.area_2 = area_in_part(geometry, body, mask, count, workspace)
+                m.area_2 = area_in_part(geometry, bodies, shapes, mask, other, part_of(m.feature_2), workspace)
         else:
-            count = corners_of(geometry, bodies, shapes, other, workspace.b)
-            m.area_1 = float(area_in_hull(geometry, mask, count, rounding(shapes, other), workspace))
+            m.area_1 = collide_mask_shape(geometry, bodies, shapes, mask, other, workspace)[0]
 
 
 def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:

@@ -6,26 +6,37 @@ from physics.collision.hulls import (
     ALL_EDGES,
     CIRCLE_CORNER,
     OPEN_END,
-    best_edge,
+    Hull,
+    aabb_corners,
     clip_edges,
+    clip_tolerance,
     corner_manifold,
-    edge_gap,
+    distance_to_edge,
+    find_max_separation,
     least_separation,
+    move_corners,
     nearest_corners,
     part_feature,
-    segments_gap,
-    slack_of,
+    segment_distance,
     support_manifold,
-    upright_corners,
 )
-from physics.collision.manifold import CHAIN_ANY, NOTHING, SURFACE_ANY, add_point, add_points
-from physics.collision.masks import thick_line
-from physics.collision.masks_exact import meet_polygon
-from physics.jit import kernel, subkernel
+from physics.collision.manifold import (
+    CHAIN_ANY,
+    NOTHING,
+    SURFACE_ANY,
+    add_point,
+    add_points,
+    hull_of,
+    make_pass,
+    sides_by_kind,
+)
+from physics.collision.masks import offset_line
+from physics.collision.masks_exact import collide_mask_part, tested_aabb
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotate, unit
-from physics.shapes.placement import box_as_tested, hull_at, polygon_at, rounding
+from physics.shapes.placement import hull_at, rounding
 from physics.tables.geometry import BLOCK_LINKS
-from physics.tables.shape import BOUNDS, CHAIN, MASK, POLYGON
+from physics.tables.shape import BOUNDS, CHAIN, MASK
 from physics.tables.step_state import MASK_TESTS
 
 # ---- chains ----------------------------------------------------------------------------------------------------------
@@ -59,7 +70,7 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
 
 
 @subkernel
-def along(points, i, j, x, y, origin):
+def dot_along(points, i, j, x, y, origin):
     """Return the dot product [px2] of (x, y) relative to point `origin` with the vector from point i to j."""
     return (points[j, 0] - points[i, 0]) * (x - points[origin, 0]) + (points[j, 1] - points[i, 1]) * (
         y - points[origin, 1]
@@ -67,7 +78,7 @@ def along(points, i, j, x, y, origin):
 
 
 @subkernel
-def in_front(points, i, j, x, y):
+def height_over(points, i, j, x, y):
     """Return the distance [px] of (x, y) in front of the line from point i to j."""
     nx, ny = unit(points[j, 1] - points[i, 1], points[i, 0] - points[j, 0], 0.0, -1.0)
     return nx * (x - points[i, 0]) + ny * (y - points[i, 1])
@@ -101,20 +112,20 @@ def is_behind(link, points, x, y):
     In a hollow of many short links a centre pressed close to one link slides past its end, behind the next one. While
     it is in front of the link it comes from, it still touches the next one.
     """
-    if in_front(points, 0, 1, x, y) >= 0.0:
+    if height_over(points, 0, 1, x, y) >= 0.0:
         return False
     if (
         link.has_before
         and is_gentle_hollow(points, 2, 0, 1)
-        and in_front(points, 2, 0, x, y) >= 0.0
-        and along(points, 2, 0, x, y, 0) >= 0.0
+        and height_over(points, 2, 0, x, y) >= 0.0
+        and dot_along(points, 2, 0, x, y, 0) >= 0.0
     ):
         return False
     if (
         link.has_after
         and is_gentle_hollow(points, 0, 1, 3)
-        and in_front(points, 1, 3, x, y) >= 0.0
-        and along(points, 1, 3, x, y, 1) <= 0.0
+        and height_over(points, 1, 3, x, y) >= 0.0
+        and dot_along(points, 1, 3, x, y, 1) <= 0.0
     ):
         return False
     return True
@@ -123,7 +134,7 @@ def is_behind(link, points, x, y):
 @subkernel
 def owns_start(link, points, x, y):
     """Return whether this link reports the corner at a to a shape with its centre at (x, y)."""
-    return link.first_owned or in_front(points, 2, 0, x, y) < 0.0
+    return link.first_owned or height_over(points, 2, 0, x, y) < 0.0
 
 
 @subkernel
@@ -137,10 +148,10 @@ def collide_link_circle(link, points, x, y, radius):
     if is_behind(link, points, x, y):
         return False, nx, ny, x, y, 0.0, 0
     corner = -1
-    if along(points, 0, 1, x, y, 0) < 0.0:
+    if dot_along(points, 0, 1, x, y, 0) < 0.0:
         if link.has_before:
             # The same product, bit for bit, by which the previous link decides that this point is beyond its end.
-            if along(points, 2, 0, x, y, 0) < 0.0:
+            if dot_along(points, 2, 0, x, y, 0) < 0.0:
                 return False, nx, ny, x, y, 0.0, 0
             if is_convex(points, 2, 0, 1):
                 if not owns_start(link, points, x, y):
@@ -148,9 +159,9 @@ def collide_link_circle(link, points, x, y, radius):
                 corner = 0
         else:
             corner = 0
-    elif along(points, 0, 1, x, y, 1) >= 0.0:
+    elif dot_along(points, 0, 1, x, y, 1) >= 0.0:
         if link.has_after:
-            if not is_convex(points, 0, 1, 3) or along(points, 1, 3, x, y, 1) >= 0.0:
+            if not is_convex(points, 0, 1, 3) or dot_along(points, 1, 3, x, y, 1) >= 0.0:
                 return False, nx, ny, x, y, 0.0, 0
         corner = 1
     if corner >= 0 and height < 0.0:
@@ -166,10 +177,10 @@ def collide_link_circle(link, points, x, y, radius):
 
 
 @subkernel
-def judge_normal(link, points, nx, ny):
+def classify_normal(link, points, nx, ny):
     """Return the verdict on a normal from a link to a hull: ADMIT, SNAP to the link's normal, or SKIP (a
     neighbour's)."""
-    towards_end = along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
+    towards_end = dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
     has_neighbour = link.has_after if towards_end else link.has_before
     own_x, own_y = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     if not has_neighbour:
@@ -184,57 +195,58 @@ def judge_normal(link, points, nx, ny):
             return SNAP
         mx, my = unit(points[0, 1] - points[2, 1], points[2, 0] - points[0, 0], 0.0, -1.0)
         inside = mx * ny - my * nx
-    ahead = nx * own_x + ny * own_y >= -STRAIGHT or nx * mx + ny * my >= -STRAIGHT
+    is_outward = nx * own_x + ny * own_y >= -STRAIGHT or nx * mx + ny * my >= -STRAIGHT
     # A normal that points backwards at both links belongs to neither.
-    if not ahead:
+    if not is_outward:
         return SNAP
     return ADMIT if inside >= -STRAIGHT else SKIP
 
 
 @subkernel
-def neighbour_separates(points, nx, ny, hull, count, x, y, face):
-    """Return whether the neighbour on the normal's side has the hull's centre (x, y) in front and overlaps it by less.
+def neighbour_separates(points, nx, ny, hull, x, y, face):
+    """Return whether the neighbour on the normal's side has the Hull's centre (x, y) in front and overlaps it by less.
 
     face [px]: the separation of this link's face.
     """
-    towards_end = along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
+    towards_end = dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
     i = 1 if towards_end else 2
     j = 3 if towards_end else 0
-    if in_front(points, i, j, x, y) < 0.0:
+    if height_over(points, i, j, x, y) < 0.0:
         return False
-    for k in range(count):
-        if in_front(points, i, j, hull[k, 0], hull[k, 1]) <= face:
+    for k in range(hull.count):
+        if height_over(points, i, j, hull.corners[k, 0], hull.corners[k, 1]) <= face:
             return False
     return True
 
 
 @subkernel
-def push_at_open_end(link, points, hull, count, radius, face, margin, manifold_out):
+def push_at_open_end(link, points, hull, face, margin, manifold_out):
     """Write one point on the plane across an open end if its separation exceeds `face` [px]. Return the number of
     points."""
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
     best = face
+    corners = hull.corners
     for end in range(2):
         if link.has_before if end == 0 else link.has_after:
             continue
         sign = -1.0 if end == 0 else 1.0
         nearest = 0
-        least = sign * (ex * (hull[0, 0] - points[end, 0]) + ey * (hull[0, 1] - points[end, 1]))
-        for k in range(1, count):
-            gap = sign * (ex * (hull[k, 0] - points[end, 0]) + ey * (hull[k, 1] - points[end, 1]))
+        least = sign * (ex * (corners[0, 0] - points[end, 0]) + ey * (corners[0, 1] - points[end, 1]))
+        for k in range(1, hull.count):
+            gap = sign * (ex * (corners[k, 0] - points[end, 0]) + ey * (corners[k, 1] - points[end, 1]))
             if gap < least:
                 least = gap
                 nearest = k
-        if least > best and least - radius <= margin:
+        if least > best and least - hull.radius <= margin:
             best = least
-            middle = 0.5 * (least + radius)
+            middle = 0.5 * (least + hull.radius)
             manifold_out[0] = 1.0
             manifold_out[1] = sign * ex
             manifold_out[2] = sign * ey
-            manifold_out[3] = hull[nearest, 0] - middle * sign * ex
-            manifold_out[4] = hull[nearest, 1] - middle * sign * ey
-            manifold_out[5] = least - radius
+            manifold_out[3] = corners[nearest, 0] - middle * sign * ex
+            manifold_out[4] = corners[nearest, 1] - middle * sign * ey
+            manifold_out[5] = least - hull.radius
             manifold_out[6] = float(OPEN_END + end)
     return int(manifold_out[0])
 
@@ -244,7 +256,7 @@ def keep_owned(link, points, x, y, count, manifold_out):
     """Drop the points at a corner that the previous link reports. Return how many are left."""
     nx = manifold_out[1]
     ny = manifold_out[2]
-    if along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0 or owns_start(link, points, x, y):
+    if dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0 or owns_start(link, points, x, y):
         return count
     length = norm(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1])
     kept = 0
@@ -252,7 +264,7 @@ def keep_owned(link, points, x, y, count, manifold_out):
         at = 3 + 4 * k
         px = manifold_out[at] - 0.5 * manifold_out[at + 2] * nx
         py = manifold_out[at + 1] - 0.5 * manifold_out[at + 2] * ny
-        if along(points, 0, 1, px, py, 0) > 1e-6 * length * length:
+        if dot_along(points, 0, 1, px, py, 0) > 1e-6 * length * length:
             for field in range(4):
                 manifold_out[3 + 4 * kept + field] = manifold_out[at + field]
             kept += 1
@@ -261,70 +273,70 @@ def keep_owned(link, points, x, y, count, manifold_out):
 
 
 @subkernel
-def collide_link_hull(link, points, hull, count, radius, margin, bias, alone, manifold_out):
-    """Write the manifold of a link and a hull of two or more corners; see hulls.collide_hulls. Return the points.
+def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
+    """Write the manifold of a link and a Hull of two or more corners; see hulls.collide_hulls. Return the points.
 
-    alone: second pass, after every link left the hull to a neighbour; nothing is left to neighbours now.
+    is_second: second pass, after every link left the hull to a neighbour; nothing is left to neighbours now.
     """
+    corners = hull.corners
+    count = hull.count
+    radius = hull.radius
+    face_hull = Hull(points, 2, 0.0, ALL_EDGES)
     x = 0.0
     y = 0.0
     for k in range(count):
-        x += hull[k, 0] / count
-        y += hull[k, 1] / count
+        x += corners[k, 0] / count
+        y += corners[k, 1] / count
     manifold_out[0] = 0.0
     if is_behind(link, points, x, y):
         return 0
-    _, face, _ = best_edge(points, 2, 1, hull, count)
-    edge, other, _ = best_edge(hull, count, ALL_EDGES, points, 2)
+    _, face, _ = find_max_separation(points, 2, 1, corners, count)
+    edge, other, _ = find_max_separation(corners, count, ALL_EDGES, points, 2)
     if max(face, other) > margin + radius:
         return 0
-    apart = max(face, other) > 0.0 or (count == 2 and segments_gap(points, hull) > 0.0)
+    apart = max(face, other) > 0.0 or (count == 2 and segment_distance(points, corners) > 0.0)
     verdict = SNAP
-    own = clip_edges(points, 2, 0.0, 0, hull, count, radius, margin, False, manifold_out)
-    stands = own > 0 and least_separation(own, manifold_out) <= face - radius + max(
-        bias if radius == 0.0 else 0.0, slack_of(points, 2, 0)
+    own = clip_edges(face_hull, 0, hull, margin, False, manifold_out)
+    is_over_face = own > 0 and least_separation(own, manifold_out) <= face - radius + max(
+        bias if radius == 0.0 else 0.0, clip_tolerance(points, 2, 0)
     )
-    if other > face + bias or (apart and not stands):
-        nx, ny = unit(
-            hull[edge, 1] - hull[edge + 1 if edge + 1 < count else 0, 1],
-            hull[edge + 1 if edge + 1 < count else 0, 0] - hull[edge, 0],
-            0.0,
-            -1.0,
-        )
-        verdict = judge_normal(link, points, nx, ny)
-        if alone and verdict == SKIP:
+    if other > face + bias or (apart and not is_over_face):
+        following = edge + 1 if edge + 1 < count else 0
+        nx, ny = unit(corners[edge, 1] - corners[following, 1], corners[following, 0] - corners[edge, 0], 0.0, -1.0)
+        verdict = classify_normal(link, points, nx, ny)
+        if is_second and verdict == SKIP:
             verdict = ADMIT
         if other <= face + bias:
             verdict = ADMIT if verdict == ADMIT else SNAP
         elif verdict == SKIP:
-            if apart or neighbour_separates(points, nx, ny, hull, count, x, y, face):
+            if apart or neighbour_separates(points, nx, ny, hull, x, y, face):
                 manifold_out[0] = 0.0
                 return 0
             verdict = SNAP
         if verdict == ADMIT:
-            found = clip_edges(hull, count, radius, edge, points, 2, 0.0, margin, True, manifold_out)
+            found = clip_edges(hull, edge, face_hull, margin, True, manifold_out)
             least = least_separation(found, manifold_out)
             if not apart and least > -radius:
-                found = support_manifold(hull, count, radius, edge, points, 2, 0.0, True, manifold_out)
+                found = support_manifold(hull, edge, face_hull, True, manifold_out)
                 least = manifold_out[5]
-            if not apart or (found > 0 and least <= other - radius + slack_of(hull, count, edge)):
-                return found if alone else keep_owned(link, points, x, y, found, manifold_out)
+            if not apart or (found > 0 and least <= other - radius + clip_tolerance(corners, count, edge)):
+                return found if is_second else keep_owned(link, points, x, y, found, manifold_out)
         if apart:
-            i, j, _ = nearest_corners(points, 2, hull, count)
-            nx, ny = unit(hull[j, 0] - points[i, 0], hull[j, 1] - points[i, 1], 0.0, -1.0)
-            at_corner = judge_normal(link, points, nx, ny)
-            if at_corner == ADMIT or (alone and at_corner == SKIP):
-                found = corner_manifold(points, i, 0.0, hull, j, radius, margin, manifold_out)
-                return found if alone else keep_owned(link, points, x, y, found, manifold_out)
+            i, j, _ = nearest_corners(points, 2, corners, count)
+            nx, ny = unit(corners[j, 0] - points[i, 0], corners[j, 1] - points[i, 1], 0.0, -1.0)
+            at_corner = classify_normal(link, points, nx, ny)
+            if at_corner == ADMIT or (is_second and at_corner == SKIP):
+                found = corner_manifold(face_hull, i, hull, j, margin, manifold_out)
+                return found if is_second else keep_owned(link, points, x, y, found, manifold_out)
             if at_corner == SKIP:
                 manifold_out[0] = 0.0
                 return 0
         elif verdict == SNAP and not (link.has_before and link.has_after):
-            if push_at_open_end(link, points, hull, count, radius, face, margin, manifold_out) > 0:
+            if push_at_open_end(link, points, hull, face, margin, manifold_out) > 0:
                 return 1
-        own = clip_edges(points, 2, 0.0, 0, hull, count, radius, margin, False, manifold_out)
+        own = clip_edges(face_hull, 0, hull, margin, False, manifold_out)
     if own == 0 and not apart:
-        return support_manifold(points, 2, 0.0, 0, hull, count, radius, False, manifold_out)
+        return support_manifold(face_hull, 0, hull, False, manifold_out)
     return own
 
 
@@ -351,17 +363,9 @@ def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
     return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
 
 
-@kernel
-def collide_chain_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of a chain and a hull or mask from `found` on. Return the new count.
+@inlined
+def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+    """Append the contacts of a chain and a hull or mask, link by link. Return the new count.
 
     O(links near the other shape).
     """
@@ -369,116 +373,70 @@ def collide_chain_pairs(
     bodies = batch.bodies
     shapes = batch.shapes
     candidates = batch.candidates
-    kinds = batch.kinds
     margin = batch.margin
     links = geometry.links
-    polygons = geometry.polygons
-    table = geometry.corners
     points = workspace.a
-    manifold = workspace.points
-    for i in range(batch.count):
-        if kinds[i] != CHAIN_ANY:
-            continue
-        sign = 1.0 if shapes[candidates[i, 0]].kind == CHAIN else -1.0
-        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
-        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-        o = shapes[other]
-        p = bodies[shapes[row].body_row]
-        q = bodies[o.body_row]
-        span = geometry.chains[shapes[row].geometry]
-        cosine = math.cos(p.angle)
-        sine = math.sin(p.angle)
-        min_x = o.min_x
-        min_y = o.min_y
-        max_x = o.max_x
-        max_y = o.max_y
-        if o.kind == MASK:
-            min_x, min_y, max_x, max_y = box_as_tested(geometry, o)
-        n = 0
-        if o.kind == POLYGON:
-            n = polygon_at(polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b)
-        elif o.kind == BOUNDS:
-            n = upright_corners(o, workspace.b)
-        elif o.kind != MASK:
-            n = hull_at(geometry, shapes, other, q.x, q.y, q.angle, workspace.b)
-        middle_x = 0.5 * (min_x + max_x)
-        middle_y = 0.5 * (min_y + max_y)
-        # Slightly more than the margin: rounding of the rotated box must not lose a contact.
-        rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
-        min_x, min_y, max_x, max_y = box_in_body(
-            min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine
-        )
-        radius = 0.0
-        if o.kind == MASK:
-            work_inout[MASK_TESTS] += 1
-        else:
-            radius = rounding(shapes, other)
-        start = found
-        near = 0
-        for attempt in range(2):
-            # Second pass, for a hull that every link left to its neighbour: only links that overlap it.
-            if attempt == 1 and (near == 0 or found > start):
-                break
-            reach = margin if attempt == 0 else 0.0
-            for block in range(span.blocks):
-                box = geometry.link_blocks[span.first_block + block]
-                if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
+    sign, row, other = sides_by_kind(batch, pair, CHAIN)
+    o = shapes[other]
+    p = bodies[shapes[row].body_row]
+    q = bodies[o.body_row]
+    span = geometry.chains[shapes[row].geometry]
+    cosine = math.cos(p.angle)
+    sine = math.sin(p.angle)
+    min_x, min_y, max_x, max_y = tested_aabb(geometry, o)
+    middle_x = 0.5 * (min_x + max_x)
+    middle_y = 0.5 * (min_y + max_y)
+    # Slightly more than the margin: rounding of the rotated box must not lose a contact.
+    rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
+    min_x, min_y, max_x, max_y = box_in_body(min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine)
+    hull = Hull(workspace.b, 0, 0.0, ALL_EDGES)
+    if o.kind == MASK:
+        work_inout[MASK_TESTS] += 1
+    else:
+        hull = hull_of(geometry, bodies, shapes, other, workspace.b)
+    start = found
+    near = 0
+    for attempt in range(2):
+        # Second pass, for a hull that every link left to its neighbour: only links that overlap it.
+        if attempt == 1 and (near == 0 or found > start):
+            break
+        reach = margin if attempt == 0 else 0.0
+        for block in range(span.blocks):
+            box = geometry.link_blocks[span.first_block + block]
+            if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
+                continue
+            for k in range(block * BLOCK_LINKS, min(span.count, (block + 1) * BLOCK_LINKS)):
+                link = links[span.offset + k]
+                if misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
                     continue
-                for k in range(block * BLOCK_LINKS, min(span.count, (block + 1) * BLOCK_LINKS)):
-                    link = links[span.offset + k]
-                    if misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
+                link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
+                if o.kind == MASK:
+                    if height_over(points, 0, 1, middle_x, middle_y) < 0.0:
                         continue
-                    link_at(links, span.offset + k, p.x, p.y, cosine, sine, points)
-                    if o.kind == MASK:
-                        if in_front(points, 0, 1, middle_x, middle_y) < 0.0:
-                            continue
-                        thick_line(points, 0.0, BACKING, workspace.b)
-                        area, nx, ny, x, y, separation, which = meet_polygon(
-                            geometry, q, o, workspace.b, 4, 1, points, workspace.depths
-                        )
-                        if area > 0.0:
-                            found = add_point(
-                                shapes,
-                                candidates,
-                                i,
-                                found,
-                                -sign * nx,
-                                -sign * ny,
-                                x,
-                                y,
-                                separation,
-                                area,
-                                part_feature(k, 0),
-                                manifolds_out,
-                            )
-                    elif n == 1:
-                        hit, nx, ny, x, y, separation, which = collide_link_circle(
-                            link, points, workspace.b[0, 0], workspace.b[0, 1], radius
-                        )
-                        if hit and separation <= margin:
-                            found = add_point(
-                                shapes,
-                                candidates,
-                                i,
-                                found,
-                                sign * nx,
-                                sign * ny,
-                                x,
-                                y,
-                                separation,
-                                0.0,
-                                part_feature(k, which),
-                                manifolds_out,
-                            )
-                    else:
-                        near += 1
-                        met = collide_link_hull(
-                            link, points, workspace.b, n, radius, reach, batch.bias, attempt == 1, manifold
-                        )
-                        found = add_points(
-                            shapes, candidates, i, found, sign, manifold, met, part_feature(k, 0), manifolds_out
-                        )
+                    offset_line(points, 0.0, BACKING, workspace.b)
+                    area, nx, ny, x, y, separation, _ = collide_mask_part(
+                        geometry, q, o, Hull(workspace.b, 4, 0.0, 1), points, workspace.depths
+                    )
+                    if area > 0.0:
+                        point = (-sign * nx, -sign * ny, x, y, separation, area, part_feature(k, 0))
+                        found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                elif hull.count == 1:
+                    hit, nx, ny, x, y, separation, feature = collide_link_circle(
+                        link, points, hull.corners[0, 0], hull.corners[0, 1], hull.radius
+                    )
+                    if hit and separation <= margin:
+                        point = (sign * nx, sign * ny, x, y, separation, 0.0, part_feature(k, feature))
+                        found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                else:
+                    near += 1
+                    collide_link_hull(link, points, hull, reach, batch.bias, attempt == 1, workspace.points)
+                    found = add_points(
+                        shapes, candidates, pair, sign, workspace.points, part_feature(k, 0), manifolds_out, found
+                    )
     return found
+
+
+collide_chain_pairs = make_pass(CHAIN_ANY, collide_chain_pair)
 
 
 # ---- surfaces --------------------------------------------------------------------------------------------------------
@@ -491,31 +449,32 @@ def collide_chain_pairs(
 
 
 @subkernel
-def line_gap(line, hull, count, radius):
-    """Return the separation [px] of a rounded hull from a line of two points; negative if it lies across the line."""
+def line_separation(line, hull):
+    """Return the separation [px] of a Hull from a line of two points; negative if it lies across the line."""
+    corners = hull.corners
+    count = hull.count
     if count > 1:
-        _, _, own = best_edge(line, 2, ALL_EDGES, hull, count)
-        _, _, other = best_edge(hull, count, ALL_EDGES, line, 2)
+        _, _, own = find_max_separation(line, 2, ALL_EDGES, corners, count)
+        _, _, other = find_max_separation(corners, count, ALL_EDGES, line, 2)
         if max(own, other) < 0.0:
-            return max(own, other) - radius
+            return max(own, other) - hull.radius
     gap = math.inf
     for k in range(count):
-        gap = min(gap, edge_gap(line[0, 0], line[0, 1], line[1, 0], line[1, 1], hull[k, 0], hull[k, 1]))
+        x = corners[k, 0]
+        y = corners[k, 1]
+        gap = min(gap, distance_to_edge(line[0, 0], line[0, 1], line[1, 0], line[1, 1], x, y))
         if count > 1:
             after = k + 1 if k + 1 < count else 0
             for end in range(2):
-                gap = min(
-                    gap, edge_gap(hull[k, 0], hull[k, 1], hull[after, 0], hull[after, 1], line[end, 0], line[end, 1])
-                )
-    return gap - radius
+                gap = min(gap, distance_to_edge(x, y, corners[after, 0], corners[after, 1], line[end, 0], line[end, 1]))
+    return gap - hull.radius
 
 
 @subkernel
-def lies_across(geometry, chain, x, y, angle, hull, count, radius, most, line_out):
-    """Return whether a hull reaches deeper than `most` [px] across a chain that is extended horizontally at both ends.
+def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
+    """Return whether a Hull reaches deeper than `most` [px] across a chain that is extended horizontally at both ends.
 
-    chain: its row; x, y, angle: pose of its body; hull (count, 2) [px], grown by radius; line_out (16, 2): scratch for
-    a link. O(links near).
+    chain: its row; x, y, angle: pose of its body; line_out (16, 2): scratch for a link. O(links near).
     """
     span = geometry.chains[chain]
     cosine = math.cos(angle)
@@ -524,12 +483,12 @@ def lies_across(geometry, chain, x, y, angle, hull, count, radius, most, line_ou
     min_y = math.inf
     max_x = -math.inf
     max_y = -math.inf
-    for k in range(count):
-        u, v = rotate(hull[k, 0] - x, hull[k, 1] - y, cosine, -sine)
-        min_x = min(min_x, u - radius)
-        min_y = min(min_y, v - radius)
-        max_x = max(max_x, u + radius)
-        max_y = max(max_y, v + radius)
+    for k in range(hull.count):
+        u, v = rotate(hull.corners[k, 0] - x, hull.corners[k, 1] - y, cosine, -sine)
+        min_x = min(min_x, u - hull.radius)
+        min_y = min(min_y, v - hull.radius)
+        max_x = max(max_x, u + hull.radius)
+        max_y = max(max_y, v + hull.radius)
     for block in range(span.blocks):
         box = geometry.link_blocks[span.first_block + block]
         if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
@@ -539,7 +498,7 @@ def lies_across(geometry, chain, x, y, angle, hull, count, radius, most, line_ou
             link = geometry.links[k]
             if not misses_box(link.ax, link.ay, link.bx, link.by, min_x, min_y, max_x, max_y):
                 link_at(geometry.links, k, x, y, cosine, sine, line_out)
-                if line_gap(line_out, hull, count, radius) < -most:
+                if line_separation(line_out, hull) < -most:
                     return True
     for end in range(2):
         link = geometry.links[span.offset if end == 0 else span.offset + span.count - 1]
@@ -551,7 +510,7 @@ def lies_across(geometry, chain, x, y, angle, hull, count, radius, most, line_ou
                 du, dv = rotate(u if k == 0 else beyond, v, cosine, sine)
                 line_out[k, 0] = x + du
                 line_out[k, 1] = y + dv
-            if line_gap(line_out, hull, count, radius) < -most:
+            if line_separation(line_out, hull) < -most:
                 return True
     return False
 
@@ -563,26 +522,17 @@ def was_across(batch, surface, other, most, workspace):
     o = batch.shapes[other]
     p = batch.bodies[s.body_row]
     q = batch.bodies[o.body_row]
+    corners = workspace.b
     radius = 0.0
     if o.kind == BOUNDS:
-        count = upright_corners(o, workspace.b)
-        for k in range(count):
-            workspace.b[k, 0] += q.previous_x - q.x
-            workspace.b[k, 1] += q.previous_y - q.y
+        count = aabb_corners(o, corners)
+        move_corners(count, q.previous_x - q.x, q.previous_y - q.y, corners)
     else:
-        count = hull_at(batch.geometry, batch.shapes, other, q.previous_x, q.previous_y, q.previous_angle, workspace.b)
+        count = hull_at(batch.geometry, batch.shapes, other, q.previous_x, q.previous_y, q.previous_angle, corners)
         radius = rounding(batch.shapes, other)
+    hull = Hull(corners, count, radius, ALL_EDGES)
     return lies_across(
-        batch.geometry,
-        s.geometry,
-        p.previous_x,
-        p.previous_y,
-        p.previous_angle,
-        workspace.b,
-        count,
-        radius,
-        most,
-        workspace.a,
+        batch.geometry, s.geometry, p.previous_x, p.previous_y, p.previous_angle, hull, most, workspace.a
     )
 
 
@@ -605,9 +555,7 @@ def admit_to_surfaces(
             continue
         kind = CHAIN_ANY
         if not (known and workspace.memory[i, 1] > 0):
-            first = batch.shapes[batch.candidates[i, 0]].kind == CHAIN
-            surface = batch.candidates[i, 0] if first else batch.candidates[i, 1]
-            other = batch.candidates[i, 1] if first else batch.candidates[i, 0]
+            _, surface, other = sides_by_kind(batch, i, CHAIN)
             if was_across(batch, surface, other, batch.margin, workspace):
                 kind = NOTHING
         kinds_inout[i] = kind

@@ -1,6 +1,9 @@
 """Rounded convex hulls and circles against each other: separating axis test, clipping, feature ids."""
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from physics.distance.gjk import support
 from physics.jit import subkernel
@@ -77,10 +80,19 @@ def pixel_feature(row, column, width):
 #
 # Source: Gregorius, The Separating Axis Test, GDC 2013; Catto, Contact Manifolds, GDC 2007.
 
-TURN = 1.0 / TURNS  # [rad]
+ANGLE_STEP = 1.0 / TURNS  # [rad]
 # A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
-LEFT = -1.0  # in place of the count: the hulls overlap, and a neighbour that covers the nearer edges has to report it
+COVERED_OVERLAP = -1.0  # in place of the count: the hulls overlap, and a neighbour covers the nearer edges
 ALL_EDGES = 0xFFFFFFFF  # low 16 bits: touchable edges; next 16: touchable corners; above: as SHAPE's inner
+
+
+class Hull(NamedTuple):
+    """A convex hull with rounded corners. One corner is a disc, two are a line or a capsule."""
+
+    corners: np.ndarray  # (16, 2) [px], clockwise on the screen
+    count: int  # of the corners
+    radius: float  # [px] rounding
+    edges: int  # bits of the touchable edges and corners, see ALL_EDGES
 
 
 @subkernel
@@ -96,7 +108,7 @@ def edge_normal(corners, count, k):
 
 
 @subkernel
-def meets_corner(corners, count, edges, corner, nx, ny):
+def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     """Return whether a corner is the nearest point of the outline to a point in the unit direction (nx, ny) from it.
 
     A corner covered by another part is reported by that neighbour. At a blunt corner the part is sharper than the
@@ -107,7 +119,7 @@ def meets_corner(corners, count, edges, corner, nx, ny):
         return False
     if (edges >> (32 + corner)) & 1 == 0:
         return True
-    least = math.cos((edges >> 48) * TURN)
+    least = math.cos((edges >> 48) * ANGLE_STEP)
     for back in range(2):
         side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
         if (edges >> side) & 1:
@@ -117,7 +129,7 @@ def meets_corner(corners, count, edges, corner, nx, ny):
 
 
 @subkernel
-def best_edge(corners, count, allowed, other, other_count):
+def find_max_separation(corners, count, allowed, other, other_count):
     """Return the edge of the first polygon with the greatest separation (separating axis test).
 
     allowed: bits of the edges that may serve as a reference face. Return (edge, separation over the allowed edges [px],
@@ -139,47 +151,38 @@ def best_edge(corners, count, allowed, other, other_count):
 
 
 @subkernel
-def clip_edges(
-    reference,
-    reference_count,
-    reference_radius,
-    edge,
-    incident,
-    incident_count,
-    incident_radius,
-    limit,
-    flipped,
-    manifold_out,
-):
-    """Write the manifold of a reference face and the incident edge of the other polygon, each grown by a radius [px].
+def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
+    """Write the manifold of an edge of the reference Hull and the incident edge of the other Hull.
 
     limit [px]: points with a larger separation are dropped; flipped: the reference belongs to B, so the normal is
     inverted. manifold_out: see above. Feature: bits of reference edge, incident corner, side. Return the number of
     points.
     """
-    following = edge + 1 if edge + 1 < reference_count else 0
-    nx, ny = edge_normal(reference, reference_count, edge)
+    corners, count, radius, _ = reference
+    others, other_count, other_radius, _ = incident
+    following = edge + 1 if edge + 1 < count else 0
+    nx, ny = edge_normal(corners, count, edge)
     facing = 0
     most = math.inf
-    for k in range(incident_count):
-        mx, my = edge_normal(incident, incident_count, k)
+    for k in range(other_count):
+        mx, my = edge_normal(others, other_count, k)
         if mx * nx + my * ny < most:
             most = mx * nx + my * ny
             facing = k
-    far = facing + 1 if facing + 1 < incident_count else 0
+    far = facing + 1 if facing + 1 < other_count else 0
     tx = -ny
     ty = nx
-    start = tx * reference[edge, 0] + ty * reference[edge, 1]
-    end = tx * reference[following, 0] + ty * reference[following, 1]
+    start = tx * corners[edge, 0] + ty * corners[edge, 1]
+    end = tx * corners[following, 0] + ty * corners[following, 1]
     # The incident edge has the opposite direction of the reference edge.
-    px = incident[far, 0]
-    py = incident[far, 1]
-    qx = incident[facing, 0]
-    qy = incident[facing, 1]
+    px = others[far, 0]
+    py = others[far, 1]
+    qx = others[facing, 0]
+    qy = others[facing, 1]
     p_along = tx * px + ty * py
     q_along = tx * qx + ty * qy
     span = q_along - p_along
-    count = 0
+    found = 0
     sign = -1.0 if flipped else 1.0
     for side in range(2):
         along = p_along if side == 0 else q_along
@@ -193,33 +196,33 @@ def clip_edges(
             t = (bound - p_along) / span
             x = px + t * (qx - px)
             y = py + t * (qy - py)
-        height = nx * (x - reference[edge, 0]) + ny * (y - reference[edge, 1])
-        separation = height - reference_radius - incident_radius
+        height = nx * (x - corners[edge, 0]) + ny * (y - corners[edge, 1])
+        separation = height - radius - other_radius
         if separation <= limit:
-            at = 3 + 4 * count
-            down = 0.5 * (height + incident_radius - reference_radius)
+            at = 3 + 4 * found
+            down = 0.5 * (height + other_radius - radius)
             manifold_out[at] = x - down * nx
             manifold_out[at + 1] = y - down * ny
             manifold_out[at + 2] = separation
             corner = far if side == 0 else facing
             manifold_out[at + 3] = float(clipped_feature(edge, corner, side, 1 if flipped else 0))
-            count += 1
-    manifold_out[0] = float(count)
+            found += 1
+    manifold_out[0] = float(found)
     manifold_out[1] = sign * nx
     manifold_out[2] = sign * ny
-    return count
+    return found
 
 
 @subkernel
-def support_manifold(
-    reference, reference_count, reference_radius, edge, incident, incident_count, incident_radius, flipped, manifold_out
-):
-    """Write one point: the corner of the other polygon deepest under the reference face, radii [px]. Return 1."""
-    nx, ny = edge_normal(reference, reference_count, edge)
+def support_manifold(reference, edge, incident, flipped, manifold_out):
+    """Write one point: the corner of the incident Hull deepest under an edge of the reference Hull. Return 1."""
+    corners, count, radius, _ = reference
+    others, other_count, other_radius, _ = incident
+    nx, ny = edge_normal(corners, count, edge)
     deepest = 0
     least = math.inf
-    for k in range(incident_count):
-        separation = nx * (incident[k, 0] - reference[edge, 0]) + ny * (incident[k, 1] - reference[edge, 1])
+    for k in range(other_count):
+        separation = nx * (others[k, 0] - corners[edge, 0]) + ny * (others[k, 1] - corners[edge, 1])
         if separation < least:
             least = separation
             deepest = k
@@ -227,10 +230,10 @@ def support_manifold(
     manifold_out[0] = 1.0
     manifold_out[1] = sign * nx
     manifold_out[2] = sign * ny
-    down = 0.5 * (least + incident_radius - reference_radius)
-    manifold_out[3] = incident[deepest, 0] - down * nx
-    manifold_out[4] = incident[deepest, 1] - down * ny
-    manifold_out[5] = least - reference_radius - incident_radius
+    down = 0.5 * (least + other_radius - radius)
+    manifold_out[3] = others[deepest, 0] - down * nx
+    manifold_out[4] = others[deepest, 1] - down * ny
+    manifold_out[5] = least - radius - other_radius
     manifold_out[6] = float(support_feature(edge, deepest, 1 if flipped else 0))
     return 1
 
@@ -293,7 +296,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
             dy = y - corners[corner, 1]
             distance = norm(dx, dy)
             nx, ny = unit(dx, dy, nx, ny)
-            if not meets_corner(corners, count, edges, corner, nx, ny):
+            if not is_normal_at_corner(corners, count, edges, corner, nx, ny):
                 return False, 0.0, -1.0, x, y, 0.0, 0
             separation = distance - radius
             along = 0.5 * separation
@@ -313,34 +316,48 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
     return True, nx, ny, x - along * nx, y - along * ny, separation, best
 
 
-# ---- upright ---------------------------------------------------------------------------------------------------------
+# ---- aabbs -----------------------------------------------------------------------------------------------------------
 # Axis-aligned boxes, read from the AABBs in the shape table: nothing is rotated, and only their own axes are tested.
 #
 # Points, separations and features are those of collide_hulls for the same boxes.
 
 
 @subkernel
-def upright_corners(shape, corners_out):
-    """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Return their number."""
-    corners_out[0, 0] = shape.min_x
-    corners_out[0, 1] = shape.min_y
-    corners_out[1, 0] = shape.max_x
-    corners_out[1, 1] = shape.min_y
-    corners_out[2, 0] = shape.max_x
-    corners_out[2, 1] = shape.max_y
-    corners_out[3, 0] = shape.min_x
-    corners_out[3, 1] = shape.max_y
+def box_corners(min_x, min_y, max_x, max_y, corners_out):
+    """Write the corners [px] of a box, clockwise on the screen from the top left. Return their number."""
+    corners_out[0, 0] = min_x
+    corners_out[0, 1] = min_y
+    corners_out[1, 0] = max_x
+    corners_out[1, 1] = min_y
+    corners_out[2, 0] = max_x
+    corners_out[2, 1] = max_y
+    corners_out[3, 0] = min_x
+    corners_out[3, 1] = max_y
     return 4
 
 
 @subkernel
-def between(value, low, high):
+def aabb_corners(shape, corners_out):
+    """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Return their number."""
+    return box_corners(shape.min_x, shape.min_y, shape.max_x, shape.max_y, corners_out)
+
+
+@subkernel
+def move_corners(count, x, y, corners_inout):
+    """Move corners by x, y [px]."""
+    for k in range(count):
+        corners_inout[k, 0] += x
+        corners_inout[k, 1] += y
+
+
+@subkernel
+def clamp(value, low, high):
     """Return the value, clamped to low..high."""
     return max(low, min(high, value))
 
 
 @subkernel
-def corner_of_upright(a, b, margin, manifold_out):
+def collide_aabb_corners(a, b, margin, manifold_out):
     """Write one point between the nearest corners of two boxes separated along both axes. Return the number of
     points."""
     right = b.min_x > a.max_x
@@ -365,7 +382,7 @@ def corner_of_upright(a, b, margin, manifold_out):
 
 
 @subkernel
-def collide_upright(a, b, margin, manifold_out):
+def collide_aabbs(a, b, margin, manifold_out):
     """Write the manifold of the AABBs of two SHAPE rows, normal from A to B.
 
     Return the number of points, 0 if the separation exceeds the margin [px]. manifold_out: see "clipping" above.
@@ -389,7 +406,7 @@ def collide_upright(a, b, margin, manifold_out):
     if separation > margin:
         return 0
     if max(up, down) > 0.0 and max(left, right) > 0.0:
-        return corner_of_upright(a, b, margin, manifold_out)
+        return collide_aabb_corners(a, b, margin, manifold_out)
     manifold_out[0] = 2.0
     manifold_out[5] = separation
     manifold_out[9] = separation
@@ -398,18 +415,18 @@ def collide_upright(a, b, margin, manifold_out):
         y = a.min_y - half if edge == 0 else a.max_y + half
         manifold_out[1] = 0.0
         manifold_out[2] = -1.0 if edge == 0 else 1.0
-        manifold_out[3] = between(b.min_x if edge == 0 else b.max_x, a.min_x, a.max_x)
+        manifold_out[3] = clamp(b.min_x if edge == 0 else b.max_x, a.min_x, a.max_x)
         manifold_out[4] = y
-        manifold_out[7] = between(b.max_x if edge == 0 else b.min_x, a.min_x, a.max_x)
+        manifold_out[7] = clamp(b.max_x if edge == 0 else b.min_x, a.min_x, a.max_x)
         manifold_out[8] = y
     else:
         x = a.min_x - half if edge == 3 else a.max_x + half
         manifold_out[1] = -1.0 if edge == 3 else 1.0
         manifold_out[2] = 0.0
         manifold_out[3] = x
-        manifold_out[4] = between(b.min_y if edge == 1 else b.max_y, a.min_y, a.max_y)
+        manifold_out[4] = clamp(b.min_y if edge == 1 else b.max_y, a.min_y, a.max_y)
         manifold_out[7] = x
-        manifold_out[8] = between(b.max_y if edge == 1 else b.min_y, a.min_y, a.max_y)
+        manifold_out[8] = clamp(b.max_y if edge == 1 else b.min_y, a.min_y, a.max_y)
     manifold_out[6] = float(clipped_feature(edge, (edge + 3) % 4, 0, 0))
     manifold_out[10] = float(clipped_feature(edge, (edge + 2) % 4, 1, 0))
     return 2
@@ -441,14 +458,14 @@ def nearest_on_edge(ax, ay, bx, by, x, y):
 
 
 @subkernel
-def edge_gap(ax, ay, bx, by, x, y):
+def distance_to_edge(ax, ay, bx, by, x, y):
     """Return the distance [px] of a point from an edge."""
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     return norm(x - ax - t * (bx - ax), y - ay - t * (by - ay))
 
 
 @subkernel
-def sides_of(a, b):
+def same_side(a, b):
     """Return -1.0 if the ends of a are on opposite sides of the line through b, 0.0 if one is on it, else 1.0."""
     ex = b[1, 0] - b[0, 0]
     ey = b[1, 1] - b[0, 1]
@@ -460,22 +477,22 @@ def sides_of(a, b):
 
 
 @subkernel
-def segments_gap(a, b):
+def segment_distance(a, b):
     """Return the distance [px] of two hulls of two corners, 0 when they cross.
 
     The face normals do not separate two segments along their line.
     """
-    if sides_of(a, b) < 0.0 and sides_of(b, a) < 0.0:
+    if same_side(a, b) < 0.0 and same_side(b, a) < 0.0:
         return 0.0
     gap = min(
-        edge_gap(a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[0, 0], b[0, 1]),
-        edge_gap(a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[1, 0], b[1, 1]),
+        distance_to_edge(a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[0, 0], b[0, 1]),
+        distance_to_edge(a[0, 0], a[0, 1], a[1, 0], a[1, 1], b[1, 0], b[1, 1]),
     )
     return min(
         gap,
         min(
-            edge_gap(b[0, 0], b[0, 1], b[1, 0], b[1, 1], a[0, 0], a[0, 1]),
-            edge_gap(b[0, 0], b[0, 1], b[1, 0], b[1, 1], a[1, 0], a[1, 1]),
+            distance_to_edge(b[0, 0], b[0, 1], b[1, 0], b[1, 1], a[0, 0], a[0, 1]),
+            distance_to_edge(b[0, 0], b[0, 1], b[1, 0], b[1, 1], a[1, 0], a[1, 1]),
         ),
     )
 
@@ -497,61 +514,65 @@ def nearest_corners(a, a_count, b, b_count):
 
 
 @subkernel
-def corner_manifold(a, i, a_radius, b, j, b_radius, limit, manifold_out):
-    """Write one point between rounded corners of A and B, if within the limit [px]. Return the number of points."""
-    dx = b[j, 0] - a[i, 0]
-    dy = b[j, 1] - a[i, 1]
+def corner_manifold(a, i, b, j, limit, manifold_out):
+    """Write one point between corners of the Hulls A and B, if within the limit [px]. Return the number of points."""
+    x = a.corners[i, 0]
+    y = a.corners[i, 1]
+    dx = b.corners[j, 0] - x
+    dy = b.corners[j, 1] - y
     nx, ny = unit(dx, dy, 0.0, -1.0)
     distance = norm(dx, dy)
     manifold_out[0] = 0.0
-    if distance - a_radius - b_radius > limit:
+    if distance - a.radius - b.radius > limit:
         return 0
-    along = 0.5 * (distance + a_radius - b_radius)
+    along = 0.5 * (distance + a.radius - b.radius)
     manifold_out[0] = 1.0
     manifold_out[1] = nx
     manifold_out[2] = ny
-    manifold_out[3] = a[i, 0] + along * nx
-    manifold_out[4] = a[i, 1] + along * ny
-    manifold_out[5] = distance - a_radius - b_radius
+    manifold_out[3] = x + along * nx
+    manifold_out[4] = y + along * ny
+    manifold_out[5] = distance - a.radius - b.radius
     manifold_out[6] = float(corners_feature(i, j))
     return 1
 
 
 @subkernel
-def faces_of(a, count, b, b_count, b_edges):
-    """Return the edges of A that may push it out of B: those that face an exposed corner of B.
+def pushing_edges(a, b):
+    """Return the edges of Hull A that may push it out of Hull B: those that face a touchable corner of B.
 
-    b_edges: bits as in collide_hulls. The other edges face a corner behind which B's neighbour continues the surface.
+    The other edges face a corner behind which B's neighbour continues the surface.
     """
-    if b_edges == ALL_EDGES:
+    if b.edges == ALL_EDGES:
         return ALL_EDGES
     found = 0xFFFF0000
-    for k in range(count):
-        nx, ny = edge_normal(a, count, k)
-        if meets_corner(b, b_count, b_edges, support(b, b_count, -nx, -ny), -nx, -ny):
+    for k in range(a.count):
+        nx, ny = edge_normal(a.corners, a.count, k)
+        if is_normal_at_corner(b.corners, b.count, b.edges, support(b.corners, b.count, -nx, -ny), -nx, -ny):
             found |= 1 << k
     return found
 
 
 @subkernel
-def lies_along(corners, count, edge, other, other_count):
-    """Return whether another polygon lies over an edge: their extents along the edge share more than a point."""
-    following = edge + 1 if edge + 1 < count else 0
+def overlaps_edge(hull, edge, other):
+    """Return whether another Hull lies over an edge: their extents along the edge share more than a point."""
+    corners = hull.corners
+    others = other.corners
+    following = edge + 1 if edge + 1 < hull.count else 0
     x = corners[edge, 0]
     y = corners[edge, 1]
     dx = corners[following, 0] - x
     dy = corners[following, 1] - y
     low = math.inf
     high = -math.inf
-    for k in range(other_count):
-        along = dx * (other[k, 0] - x) + dy * (other[k, 1] - y)
+    for k in range(other.count):
+        along = dx * (others[k, 0] - x) + dy * (others[k, 1] - y)
         low = min(low, along)
         high = max(high, along)
     return high > 0.0 and low < dx * dx + dy * dy
 
 
 @subkernel
-def slack_of(corners, count, edge):
+def clip_tolerance(corners, count, edge):
     """Return the rounding error [px] allowed for a point that is clipped against an edge."""
     n = edge + 1 if edge + 1 < count else 0
     ex = abs(corners[n, 0] - corners[edge, 0]) + abs(corners[n, 1] - corners[edge, 1])
@@ -567,94 +588,102 @@ def least_separation(count, manifold):
 
 
 @subkernel
-def passes_by(a, a_count, b, b_count, rounding, vx, vy):
-    """Return whether B, moved along a velocity, never meets A: across its path the gap exceeds the radii [px].
+def extent_along(corners, count, nx, ny):
+    """Return the least and greatest projection [px] of the corners on a direction."""
+    low = math.inf
+    high = -math.inf
+    for k in range(count):
+        low = min(low, nx * corners[k, 0] + ny * corners[k, 1])
+        high = max(high, nx * corners[k, 0] + ny * corners[k, 1])
+    return low, high
+
+
+@subkernel
+def path_misses(a, b, allowed, vx, vy):
+    """Return whether Hull B, moved along a velocity, never overlaps Hull A by more than `allowed` [px].
 
     A corner against a corner keeps one normal for the whole step, which would deflect a body that only passes.
     """
     nx, ny = unit(-vy, vx, 0.0, 0.0)
-    low = math.inf
-    high = -math.inf
-    for k in range(a_count):
-        low = min(low, nx * a[k, 0] + ny * a[k, 1])
-        high = max(high, nx * a[k, 0] + ny * a[k, 1])
-    least = math.inf
-    most = -math.inf
-    for k in range(b_count):
-        least = min(least, nx * b[k, 0] + ny * b[k, 1])
-        most = max(most, nx * b[k, 0] + ny * b[k, 1])
-    return least - high > rounding or low - most > rounding
+    low, high = extent_along(a.corners, a.count, nx, ny)
+    least, most = extent_along(b.corners, b.count, nx, ny)
+    gap = a.radius + b.radius - allowed
+    return least - high > gap or low - most > gap
 
 
 @subkernel
-def collide_hulls(a, a_count, a_radius, a_edges, b, b_count, b_radius, b_edges, margin, bias, deepest, manifold_out):
-    """Write the manifold of two hulls of two or more corners, normal from A to B (separating axis test, clipping).
+def collide_hulls(a, b, margin, bias, deepest, manifold_out):
+    """Write the manifold of two Hulls of two or more corners, normal from A to B (separating axis test, clipping).
 
-    Return the number of points, 0 if the separation exceeds the margin [px]. a, b: world corners (n, 2) [px], grown by
-    the radii [px]; a_edges, b_edges: bits of the touchable edges. bias [px]: by how much B's separation must exceed A's
-    to make B the reference, so that the reference does not flip between equal faces. deepest [px]: limit for parts. A
-    deeper overlap, less deep behind an edge that is not touchable, is left to the neighbour that covers that edge; then
-    manifold_out[0] is LEFT. O(a_count · b_count).
+    Return the number of points, 0 if the separation exceeds the margin [px]. bias [px]: by how much B's separation must
+    exceed A's to make B the reference, so that the reference does not flip between equal faces. deepest [px]: limit for
+    parts. A deeper overlap, less deep behind an edge that is not touchable, is left to the neighbour that covers that
+    edge; then manifold_out[0] is COVERED_OVERLAP. O(corners of A · corners of B).
     """
+    a_corners, a_count, a_radius, a_edges = a
+    b_corners, b_count, b_radius, b_edges = b
     rounding = a_radius + b_radius
     manifold_out[0] = 0.0
-    a_edge, a_separation, a_all = best_edge(a, a_count, a_edges, b, b_count)
+    a_edge, a_separation, a_all = find_max_separation(a_corners, a_count, a_edges, b_corners, b_count)
     if a_all > margin + rounding:
         return 0
-    b_edge, b_separation, b_all = best_edge(b, b_count, b_edges, a, a_count)
+    b_edge, b_separation, b_all = find_max_separation(b_corners, b_count, b_edges, a_corners, a_count)
     if b_all > margin + rounding:
         return 0
+    covered = COVERED_OVERLAP if max(a_all, b_all) < 0.0 else 0.0
     if a_edge < 0 and b_edge < 0:
-        manifold_out[0] = LEFT if max(a_all, b_all) < 0.0 else 0.0
+        manifold_out[0] = covered
         return 0
     apart = max(a_all, b_all) > 0.0
     if a_count == 2 and b_count == 2 and not apart:
-        apart = segments_gap(a, b) > 0.0
+        apart = segment_distance(a_corners, b_corners) > 0.0
     allowed = max(a_separation, b_separation)
     if -allowed > deepest and max(a_all, b_all) > allowed:
-        manifold_out[0] = LEFT if max(a_all, b_all) < 0.0 else 0.0
+        manifold_out[0] = covered
         return 0
     from_b = b_edge >= 0 and (a_edge < 0 or b_separation > a_separation + bias)
     if (
         not apart
         and max(a_all, b_all) > allowed
-        and not (lies_along(b, b_count, b_edge, a, a_count) if from_b else lies_along(a, a_count, a_edge, b, b_count))
+        and not (overlaps_edge(b, b_edge, a) if from_b else overlaps_edge(a, a_edge, b))
     ):
         # The nearer face belongs to a neighbour, and this one is not over the other hull.
-        manifold_out[0] = LEFT if max(a_all, b_all) < 0.0 else 0.0
+        manifold_out[0] = covered
         return 0
     for attempt in range(2):
         flipped = from_b if attempt == 0 else not from_b
         if (b_edge if flipped else a_edge) < 0:
             continue
         if flipped:
-            count = clip_edges(b, b_count, b_radius, b_edge, a, a_count, a_radius, margin, True, manifold_out)
+            count = clip_edges(b, b_edge, a, margin, True, manifold_out)
             own = b_separation
-            slack = slack_of(b, b_count, b_edge)
+            slack = clip_tolerance(b_corners, b_count, b_edge)
         else:
-            count = clip_edges(a, a_count, a_radius, a_edge, b, b_count, b_radius, margin, False, manifold_out)
+            count = clip_edges(a, a_edge, b, margin, False, manifold_out)
             own = a_separation
-            slack = slack_of(a, a_count, a_edge)
+            slack = clip_tolerance(a_corners, a_count, a_edge)
         least = least_separation(count, manifold_out)
         if apart and own < -slack:
             continue  # separated by an edge that is not touchable: nothing is over this face
         if not apart:
             if least > -rounding:
                 if flipped:
-                    return support_manifold(b, b_count, b_radius, b_edge, a, a_count, a_radius, True, manifold_out)
-                return support_manifold(a, a_count, a_radius, a_edge, b, b_count, b_radius, False, manifold_out)
+                    return support_manifold(b, b_edge, a, True, manifold_out)
+                return support_manifold(a, a_edge, b, False, manifold_out)
             return count
         # If a point is over this face, no feature is nearer. Of sharp faces along each other either face will do.
         if rounding == 0.0 and abs(a_separation - b_separation) <= bias:
             slack = max(bias, slack)
         if count > 0 and least <= own - rounding + slack:
             return count
-    i, j, _ = nearest_corners(a, a_count, b, b_count)
+    i, j, _ = nearest_corners(a_corners, a_count, b_corners, b_count)
     manifold_out[0] = 0.0
-    nx, ny = unit(b[j, 0] - a[i, 0], b[j, 1] - a[i, 1], 0.0, -1.0)
-    if not meets_corner(a, a_count, a_edges, i, nx, ny) or not meets_corner(b, b_count, b_edges, j, -nx, -ny):
+    nx, ny = unit(b_corners[j, 0] - a_corners[i, 0], b_corners[j, 1] - a_corners[i, 1], 0.0, -1.0)
+    if not is_normal_at_corner(a_corners, a_count, a_edges, i, nx, ny):
         return 0
-    return corner_manifold(a, i, a_radius, b, j, b_radius, margin, manifold_out)
+    if not is_normal_at_corner(b_corners, b_count, b_edges, j, -nx, -ny):
+        return 0
+    return corner_manifold(a, i, b, j, margin, manifold_out)
 
 
 @subkernel
@@ -687,17 +716,21 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
 
 
 @subkernel
-def collide_hull_circle(corners, count, edges, hull_radius, x, y, radius):
-    """Return (found, normal from the hull to the disc, point midway, separation, feature) of a hull of two or more
+def collide_hull_circle(hull, x, y, radius):
+    """Return (found, normal from the hull to the disc, point midway, separation, feature) of a Hull of two or more
     corners and a disc [px].
 
-    See collide_polygon_circle for `edges` and for a centre inside.
+    See collide_polygon_circle for the touchable edges and for a centre inside.
     """
-    if count == 2:
+    corners = hull.corners
+    rounding = hull.radius
+    if hull.count == 2:
         nx, ny, px, py, separation, feature = collide_line_circle(
-            corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y, hull_radius + radius
+            corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y, rounding + radius
         )
-        along = hull_radius + 0.5 * separation
+        along = rounding + 0.5 * separation
         return True, nx, ny, px + along * nx, py + along * ny, separation, feature
-    hit, nx, ny, px, py, separation, feature = collide_polygon_circle(corners, count, edges, x, y, hull_radius + radius)
-    return hit, nx, ny, px + hull_radius * nx, py + hull_radius * ny, separation, feature
+    hit, nx, ny, px, py, separation, feature = collide_polygon_circle(
+        corners, hull.count, hull.edges, x, y, rounding + radius
+    )
+    return hit, nx, ny, px + rounding * nx, py + rounding * ny, separation, feature

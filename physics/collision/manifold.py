@@ -1,17 +1,18 @@
 """Rows of the CONTACT table, their materials, and the order in which they are reported."""
 
 import math
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.collision.hulls import part_of, upright_corners
+from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, part_of
 from physics.jit import copy_head, inlined, kernel, subkernel
-from physics.math2d import rotation_of, rotate
-from physics.shapes.placement import corners_at
+from physics.math2d import rotate, rotation_of
+from physics.shapes.placement import polygon_at
 from physics.tables.contact import CONTACT, CONTACT_POINT, MANIFOLD_BYTES
 from physics.tables.geometry import Geometry
-from physics.tables.shape import BOUNDS, CHAIN, MASK, TILES
+from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 
 # ---- owners ----------------------------------------------------------------------------------------------------------
 # Manifolds as reported: they name the shapes that touch, not their parts.
@@ -41,15 +42,15 @@ def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     order = np.lexsort((np.maximum(a, b), np.minimum(a, b)))
     found = manifolds[order]
     found["shape_a"], found["shape_b"], found["of_child"] = found["parent_a"], found["parent_b"], False
-    rotate = np.flatnonzero(found["parent_a"] > found["parent_b"])
-    if len(rotate):
+    swapped = np.flatnonzero(found["parent_a"] > found["parent_b"])
+    if len(swapped):
         for name in SIDES:
-            found[name + "a"][rotate], found[name + "b"][rotate] = (
-                found[name + "b"][rotate],
-                found[name + "a"][rotate],
+            found[name + "a"][swapped], found[name + "b"][swapped] = (
+                found[name + "b"][swapped],
+                found[name + "a"][swapped],
             )
         for name in ("normal_x", "normal_y"):
-            found[name][rotate] = 0.0 - found[name][rotate]
+            found[name][swapped] = 0.0 - found[name][swapped]
     return found, order
 
 
@@ -95,11 +96,10 @@ def mixed(geometry, a, b, manifold):
 # ---- manifold --------------------------------------------------------------------------------------------------------
 # Rows of the manifold table: written by the passes over pairs, then sorted in the order of the candidates.
 
-# Kinds of pairs; each pass takes the candidates of its kinds.
-CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASK_CIRCLE, MASK_POLYGON = range(6)
-MASKS_EXACT, MASK_HULL_EXACT, GRID_ANY, CHAIN_ANY = range(6, 10)  # exact: with a mask that is not snapped
-SURFACE_ANY, NOTHING = 10, 11  # surface: a chain that is the upper side of a mask open from below
-BLOCK = 64  # pairs of masks in one block
+# Kinds of pairs; each pass takes the candidates of one kind.
+CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASKS_EXACT, MASK_HULL, GRID_ANY, CHAIN_ANY = range(8)  # exact: not snapped
+SURFACE_ANY, NOTHING = 8, 9  # surface: a chain that is the upper side of a mask open from below
+BLOCK = 64  # candidates that a pass lists before it collides them
 POINTS = 11  # floats of a manifold in flight: see hulls.py
 
 
@@ -115,7 +115,7 @@ class Batch(NamedTuple):
     margin: float  # [px] largest gap of a pair that gets a contact
     bias: float  # [px] see hulls.collide_hulls
     graze: float = 0.0  # [px] largest overlap of bodies that only pass each other: see hull_pairs.py
-    ahead: float = 0.0  # [s] pairs that meet within this time get a contact: see hull_pairs.py
+    lookahead: float = 0.0  # [s] pairs that meet within this time get a contact: see hull_pairs.py
 
 
 class Workspace(NamedTuple):
@@ -127,8 +127,8 @@ class Workspace(NamedTuple):
     depths: np.ndarray  # (16,)
     previous: np.ndarray  # CONTACT rows of the last step, for pairs with one-way ground
     memory: np.ndarray  # (candidates, 2) first row in previous, number of rows
-    near: np.ndarray  # (BLOCK, 6) mask pairs whose bounds overlap, see masks.list_near
-    left: np.ndarray  # (candidates + 1,) number of overlapping candidates left to a neighbour, then their rows
+    block: np.ndarray  # (BLOCK,) candidates that a pass collides next
+    fallback: np.ndarray  # (candidates + 1,) number of candidates for the fallback of mask_parts.py, then their rows
 
 
 def new_workspace() -> Workspace:
@@ -140,16 +140,16 @@ def new_workspace() -> Workspace:
         np.zeros(16),
         np.zeros(0, CONTACT),
         np.zeros((0, 2), np.int64),
-        np.zeros((BLOCK, 6), np.int64),
+        np.zeros(BLOCK, np.int64),
         np.zeros(2, np.int64),
     )
 
 
 @subkernel
-def leave(pair, left_inout):
-    """Add a candidate to the list of those that are left to a neighbour."""
-    left_inout[0] += 1
-    left_inout[left_inout[0]] = pair
+def queue_fallback(pair, fallback_inout):
+    """Add a candidate whose overlap is left to a neighbour, see mask_parts.py."""
+    fallback_inout[0] += 1
+    fallback_inout[fallback_inout[0]] = pair
 
 
 @subkernel
@@ -164,9 +164,9 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.body_b = b.body
     m.shape_a = a.id
     m.shape_b = b.id
-    m.parent_a = a.owner
-    m.parent_b = b.owner
-    m.of_child = a.owner != a.id or b.owner != b.id
+    m.parent_a = a.parent
+    m.parent_b = b.parent
+    m.of_child = a.parent != a.id or b.parent != b.id
     m.body_row_a = a.body_row
     m.body_row_b = b.body_row
     m.row_a = row_a
@@ -189,9 +189,14 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
 
 
 @subkernel
-def add_manifold(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
-    """Add a manifold of one point; see add_point. Return the number of manifolds, which may exceed the capacity."""
+def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
+    """Add a manifold of one point. Return the number of manifolds, which may exceed the capacity.
+
+    point: (unit normal from A to B, x, y, separation [px], shared area [px2], feature). Fields that depend on the
+    bodies' motion are written in hull_pairs.py.
+    """
     if found < len(manifolds_out):
+        nx, ny, x, y, separation, area, feature = point
         m = manifolds_out[found]
         # Plus 0.0 turns -0.0 into 0.0, for printing and comparison.
         open_manifold(shapes, candidates, pair, nx + 0.0, ny + 0.0, m)
@@ -205,12 +210,13 @@ def add_manifold(shapes, candidates, pair, found, nx, ny, x, y, separation, area
 
 
 @subkernel
-def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out):
-    """Add a point to the last manifold if it has this pair, this normal and one point; otherwise add a manifold.
+def add_point(shapes, candidates, pair, point, manifolds_out, found):
+    """Add a point, see add_manifold, to the last manifold if it has this pair, this normal and one point; otherwise add
+    a manifold.
 
-    Return the number of manifolds, which may exceed the capacity. nx, ny: unit, from A to B; x, y, separation [px];
-    area [px2]. Fields that depend on the bodies' motion are written in hull_pairs.py.
+    Return the number of manifolds, which may exceed the capacity.
     """
+    nx, ny, x, y, separation, area, feature = point
     if 0 < found <= len(manifolds_out):
         m = manifolds_out[found - 1]
         if m.candidate == pair and m.count == 1 and m.normal_x == nx and m.normal_y == ny:
@@ -221,31 +227,21 @@ def add_point(shapes, candidates, pair, found, nx, ny, x, y, separation, area, f
             m.area_2 = area
             m.feature_2 = feature
             return found
-    return add_manifold(shapes, candidates, pair, found, nx, ny, x, y, separation, area, feature, manifolds_out)
+    return add_manifold(shapes, candidates, pair, point, manifolds_out, found)
 
 
 @subkernel
-def add_points(shapes, candidates, pair, found, sign, points, count, part, manifolds_out):
+def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, found):
     """Add the points of a manifold in flight (see hulls.py). Return the number of manifolds.
 
     sign: -1.0 where the sides were swapped for the test; part: offset that is added to the features.
     """
-    for k in range(count):
+    for k in range(int(points[0])):
         at = 3 + 4 * k
-        found = add_point(
-            shapes,
-            candidates,
-            pair,
-            found,
-            sign * points[1],
-            sign * points[2],
-            points[at],
-            points[at + 1],
-            points[at + 2],
-            0.0,
-            part + int(points[at + 3]),
-            manifolds_out,
-        )
+        nx = sign * points[1]
+        ny = sign * points[2]
+        point = (nx, ny, points[at], points[at + 1], points[at + 2], 0.0, part + int(points[at + 3]))
+        found = add_point(shapes, candidates, pair, point, manifolds_out, found)
     return found
 
 
@@ -258,14 +254,82 @@ def circle_at(bodies, shapes, row):
     return b.x + u, b.y + v, s.radius
 
 
-@subkernel
-def corners_of(geometry, bodies, shapes, row, corners_out):
-    """Write the world corners of a hull of two or more at its body's pose, of a BOUNDS from its AABB. Return their
-    number."""
-    b = bodies[shapes[row].body_row]
-    if shapes[row].kind == BOUNDS:
-        return upright_corners(shapes[row], corners_out)
-    return corners_at(geometry, shapes, row, b.x, b.y, b.angle, corners_out)
+@inlined
+def hull_of(geometry, bodies, shapes, row, corners_out):
+    """Return the Hull of a shape at its body's pose: of a BOUNDS its AABB, of a CIRCLE its centre. corners_out (16, 2):
+    its corners.
+    """
+    s = shapes[row]
+    b = bodies[s.body_row]
+    radius = 0.0 if s.kind == BOUNDS else s.radius
+    if s.kind == BOUNDS:
+        count = aabb_corners(s, corners_out)
+    elif s.kind == CIRCLE:
+        corners_out[0, 0], corners_out[0, 1], _ = circle_at(bodies, shapes, row)
+        count = 1
+    else:
+        c = math.cos(b.angle)
+        count = polygon_at(geometry.polygons, geometry.corners, s.geometry, b.x, b.y, c, math.sin(b.angle), corners_out)
+    return Hull(corners_out, count, radius, ALL_EDGES ^ s.inner)
+
+
+# ---- passes ----------------------------------------------------------------------------------------------------------
+# A pass over the candidate pairs: one loop for all colliders.
+
+
+@inlined
+def always(batch, pair):
+    """Return True: every pair of the kind is tested."""
+    return True
+
+
+def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -> Any:
+    """Return the pass over the candidate pairs of one kind.
+
+    collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the contacts of one candidate from
+    `found` on, and returns the new count. may_touch(batch, pair): a cheap test without a branch, made for a block of
+    pairs before any of them is collided, so a mispredicted branch costs one wait with all operands at hand. Both are
+    inlined: passing a whole Batch costs more than a pair of circles.
+    """
+
+    @kernel
+    def collide_pairs(
+        # read
+        batch,
+        # write
+        workspace,
+        manifolds_out,
+        found,
+        work_inout,
+    ):
+        """Append the contacts of all pairs of the kind from `found` on. Return the new count. O(candidates)."""
+        kinds = batch.kinds
+        block = workspace.block
+        for start in range(0, batch.count, BLOCK):
+            count = 0
+            for pair in range(start, min(start + BLOCK, batch.count)):
+                if kinds[pair] == kind:
+                    block[count] = pair
+                    count += int(may_touch(batch, pair))
+            for k in range(count):
+                found = collide_pair(batch, block[k], workspace, manifolds_out, found, work_inout)
+        return found
+
+    return collide_pairs
+
+
+@inlined
+def sides_by_kind(batch, pair, kind):
+    """Return (1.0 if A is of a kind of shape, -1.0 if B is; its SHAPE row; the row of the other)."""
+    row_a = batch.candidates[pair, 0]
+    row_b = batch.candidates[pair, 1]
+    if batch.shapes[row_a].kind == kind:
+        return 1.0, row_a, row_b
+    return -1.0, row_b, row_a
+
+
+# ---- order -----------------------------------------------------------------------------------------------------------
+# Manifolds in the order of their candidates, and as reported.
 
 
 @subkernel

@@ -2,10 +2,13 @@
 
 import math
 from collections.abc import Callable
+from typing import Any, NamedTuple
 
-from physics.collision.hulls import ALL_EDGES, edge_gap, edge_normal, nearest_on_edge, pixel_feature
-from physics.collision.manifold import BLOCK, MASK_CIRCLE, MASK_POLYGON, MASKS, add_manifold, circle_at, corners_of
-from physics.jit import kernel, subkernel
+import numpy as np
+
+from physics.collision.hulls import Hull, distance_to_edge, edge_normal, extent_along, nearest_on_edge, pixel_feature
+from physics.collision.manifold import MASKS, add_manifold, make_pass
+from physics.jit import inlined, subkernel
 from physics.jit.plain import word
 from physics.math2d import norm, unit
 from physics.raster.bits import (
@@ -19,8 +22,6 @@ from physics.raster.bits import (
     shared_rectangle,
     shared_row,
 )
-from physics.shapes.placement import rounding
-from physics.tables.shape import MASK
 from physics.tables.step_state import MASK_TESTS
 
 # ---- mask depth ------------------------------------------------------------------------------------------------------
@@ -45,12 +46,8 @@ def center_normal(a, b, dx, dy):
 
 
 @subkernel
-def least_axis(a, b, dx, dy):
-    """Return (normal, depth [px]) of the shortest move of B along an axis that separates the solid bounds."""
-    right = float(a.set_right - (b.set_left + dx))
-    left = float(b.set_right + dx - a.set_left)
-    down = float(a.set_bottom - (b.set_top + dy))
-    up = float(b.set_bottom + dy - a.set_top)
+def least_overlap(right, left, down, up):
+    """Return (normal, depth [px]) of the shortest move of B along an axis, of the moves that separate two boxes."""
     least = min(min(right, left), min(down, up))
     if least == up:
         return 0.0, -1.0, least
@@ -61,15 +58,38 @@ def least_axis(a, b, dx, dy):
     return -1.0, 0.0, least
 
 
-@subkernel
-def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by, nx, ny, most):
-    """Return the least whole number of pixels along the normal that ends the overlap; > most if none up to it does.
+class RasterPair(NamedTuple):
+    """Two rasters, the second moved by whole pixels."""
 
-    rest_* [px] in 0..1: the parts of the positions removed by snapping. They round the tested move as the real one will
-    be, whether B moves along the normal or A against it.
+    rasters: np.ndarray  # RASTER
+    words: np.ndarray  # uint64
+    a: int  # rows of RASTER
+    b: int
+    dx: int  # [px] of B's top left corner from A's
+    dy: int
+
+
+class Remainders(NamedTuple):
+    """The parts [px] in 0..1 of two positions that snapping has removed.
+
+    They round a tested move as the real one will be, whether B moves along the normal or A against it.
     """
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+
+    ax: float
+    ay: float
+    bx: float
+    by: float
+
+
+@subkernel
+def separation_along(pair, remainders, nx, ny, most):
+    """Return the least whole number of pixels along the normal that ends the overlap of a RasterPair; > most if none up
+    to it does.
+    """
+    rasters = pair.rasters
+    words = pair.words
+    a = rasters[pair.a]
+    b = rasters[pair.b]
     lines = a.stride == 1 and b.stride == 1
     box_a = (a.set_left, a.set_top, a.set_right, a.set_bottom)
     box_b = (b.set_left, b.set_top, b.set_right, b.set_bottom)
@@ -80,47 +100,56 @@ def way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, r
     row = 0  # row of the last shared pixel: a pixel further there usually is one too
     while found and depth <= most:
         depth += 1.0
-        x = dx + math.floor(rest_bx + nx * depth)
-        y = dy + math.floor(rest_by + ny * depth)
+        x = pair.dx + math.floor(remainders.bx + nx * depth)
+        y = pair.dy + math.floor(remainders.by + ny * depth)
         if lines:
             row = line_shared(words, row_a, box_a, row_b, box_b, x, y, row)
             found = row >= 0
         else:
-            found, _, _ = first_pixel(rasters, words, mask_a, mask_b, x, y)
+            found, _, _ = first_pixel(rasters, words, pair.a, pair.b, x, y)
         if found:
             continue
-        other_x = dx - math.floor(rest_ax - nx * depth)
-        other_y = dy - math.floor(rest_ay - ny * depth)
+        other_x = pair.dx - math.floor(remainders.ax - nx * depth)
+        other_y = pair.dy - math.floor(remainders.ay - ny * depth)
         if lines and (other_x != x or other_y != y):
             row = line_shared(words, row_a, box_a, row_b, box_b, other_x, other_y, row)
             found = row >= 0
         elif other_x != x or other_y != y:
-            found, _, _ = first_pixel(rasters, words, mask_a, mask_b, other_x, other_y)
+            found, _, _ = first_pixel(rasters, words, pair.a, pair.b, other_x, other_y)
     return depth
 
 
 @subkernel
-def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by):
-    """Return (area, point x, point y in A's raster, normal from A to B, separation) of two masks that share pixels.
+def mask_contact(pair, remainders):
+    """Return (area, point x, point y in A's raster, normal from A to B, separation) of a RasterPair that shares pixels.
 
-    rest_*: see way_out. The point is the centroid of the shared pixels [px]. The separation is negative: minus the move
-    that ends the overlap.
+    The point is the centroid of the shared pixels [px]. The separation is negative: minus the move that ends the
+    overlap.
     """
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+    rasters = pair.rasters
+    words = pair.words
+    dx = pair.dx
+    dy = pair.dy
+    a = rasters[pair.a]
+    b = rasters[pair.b]
     if a.stride == 1 and b.stride == 1:
         box_a = (a.set_left, a.set_top, a.set_right, a.set_bottom)
         box_b = (b.set_left, b.set_top, b.set_right, b.set_bottom)
         area, sum_x, sum_y, more_x = line_moments(words, a.offset, box_a, b.offset, box_b, dx, dy)
     else:
-        area, sum_x, sum_y = shared_moments(rasters, words, mask_a, mask_b, dx, dy)
-        more_x = shared_area(rasters, words, mask_a, mask_b, dx - 1, dy)
-        more_x -= shared_area(rasters, words, mask_a, mask_b, dx + 1, dy)
-    more_y = shared_area(rasters, words, mask_a, mask_b, dx, dy - 1)
-    more_y -= shared_area(rasters, words, mask_a, mask_b, dx, dy + 1)
+        area, sum_x, sum_y = shared_moments(rasters, words, pair.a, pair.b, dx, dy)
+        more_x = shared_area(rasters, words, pair.a, pair.b, dx - 1, dy)
+        more_x -= shared_area(rasters, words, pair.a, pair.b, dx + 1, dy)
+    more_y = shared_area(rasters, words, pair.a, pair.b, dx, dy - 1)
+    more_y -= shared_area(rasters, words, pair.a, pair.b, dx, dy + 1)
     slope_x = float(more_x)
     slope_y = float(more_y)
-    axis_x, axis_y, least = least_axis(a, b, dx, dy)
+    axis_x, axis_y, least = least_overlap(
+        float(a.set_right - (b.set_left + dx)),
+        float(b.set_right + dx - a.set_left),
+        float(a.set_bottom - (b.set_top + dy)),
+        float(b.set_bottom + dy - a.set_top),
+    )
     nx, ny = unit(slope_x, slope_y, 0.0, 0.0)
     if norm(slope_x, slope_y) == 0.0:
         nx, ny = center_normal(a, b, dx, dy)
@@ -129,7 +158,7 @@ def mask_contact(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_
         ):
             nx = axis_x
             ny = axis_y
-    depth = way_out(rasters, words, mask_a, mask_b, dx, dy, rest_ax, rest_ay, rest_bx, rest_by, nx, ny, least)
+    depth = separation_along(pair, remainders, nx, ny, least)
     if depth > least:
         depth = least
         nx = axis_x
@@ -156,8 +185,82 @@ def pixel_range(low, high, start, set_low, set_high):
     return first, last
 
 
+class PlacedRaster(NamedTuple):
+    """A mask's raster with its top left corner at whole pixels of the space in which the other shape is given."""
+
+    rasters: np.ndarray  # RASTER
+    words: np.ndarray  # uint64
+    row: int  # of RASTER
+    left: int  # [px]
+    top: int
+
+
 @subkernel
-def leave_square(x, y, nx, ny, radius):
+def hull_bounds(hull):
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a Hull."""
+    min_x = math.inf
+    max_x = -math.inf
+    min_y = math.inf
+    max_y = -math.inf
+    for k in range(hull.count):
+        min_x = min(min_x, hull.corners[k, 0] - hull.radius)
+        max_x = max(max_x, hull.corners[k, 0] + hull.radius)
+        min_y = min(min_y, hull.corners[k, 1] - hull.radius)
+        max_y = max(max_y, hull.corners[k, 1] + hull.radius)
+    return min_x, min_y, max_x, max_y
+
+
+@subkernel
+def pixels_under(raster, hull):
+    """Return (first column, last + 1, first row, last + 1) of the pixels of a PlacedRaster under the bounds of a
+    Hull.
+    """
+    r = raster.rasters[raster.row]
+    min_x, min_y, max_x, max_y = hull_bounds(hull)
+    first_x, last_x = pixel_range(min_x, max_x, raster.left, r.set_left, r.set_right)
+    first_y, last_y = pixel_range(min_y, max_y, raster.top, r.set_top, r.set_bottom)
+    return first_x, last_x, first_y, last_y
+
+
+def make_pixel_sum(touches: Callable) -> Any:
+    """Return the sum over the solid pixels that overlap a hull: touches(hull, x, y, depths_out) is the test of one."""
+
+    @subkernel
+    def sum_pixels(raster, hull, depths_out):
+        """Return (number of pixels, their centroid [px], number of the first one) of a PlacedRaster and a Hull."""
+        r = raster.rasters[raster.row]
+        first_x, last_x, first_y, last_y = pixels_under(raster, hull)
+        area = 0
+        sum_x = 0.0
+        sum_y = 0.0
+        first = 0
+        for j in range(first_y, last_y):
+            y = float(raster.top + j)
+            for i in range(first_x, last_x):
+                x = float(raster.left + i)
+                if is_set(raster.words, r.offset + j * r.stride, i) and touches(hull, x, y, depths_out):
+                    if area == 0:
+                        first = pixel_feature(j, i, r.width)
+                    area += 1
+                    sum_x += x + 0.5
+                    sum_y += y + 0.5
+        if area == 0:
+            return 0, 0.0, 0.0, 0
+        return area, sum_x / area, sum_y / area, first
+
+    return sum_pixels
+
+
+@inlined
+def square_in_disc(hull, x, y, depths_out):
+    """Return whether the pixel square at x, y and a disc share area."""
+    beside = max(max(x - hull.corners[0, 0], hull.corners[0, 0] - (x + 1.0)), 0.0)
+    above = max(max(y - hull.corners[0, 1], hull.corners[0, 1] - (y + 1.0)), 0.0)
+    return beside * beside + above * above < hull.radius * hull.radius
+
+
+@subkernel
+def square_exit_distance(x, y, nx, ny, radius):
     """Return the distance [px] a disc at the origin moves along a unit normal to clear the unit square at (x, y).
 
     The disc's centre leaves the square grown by the radius through a rounded corner or a straight side.
@@ -180,48 +283,37 @@ def leave_square(x, y, nx, ny, radius):
     return depth
 
 
-@subkernel
-def collide_mask_circle(rasters, words, mask, left, top, x, y, radius):
-    """Return (area in whole pixels, normal from mask to disc, point, separation, first pixel number) of a mask and a
-    disc.
+sum_pixels_in_disc = make_pixel_sum(square_in_disc)
 
-    left, top: raster position [px]. The point is the centroid of the overlapping pixels. The separation is minus the
-    move of the disc along the normal that clears all pixels. O(pixels under the disc's bounds).
+
+@subkernel
+def collide_mask_circle(raster, hull, depths_out):
+    """Return (area in whole pixels, normal from mask to disc, point, separation, first pixel number) of a PlacedRaster
+    and a disc.
+
+    The point is the centroid of the overlapping pixels. The separation is minus the move of the disc along the normal
+    that clears all pixels. O(pixels under the disc's bounds).
     """
-    r = rasters[mask]
-    first_x, last_x = pixel_range(x - radius, x + radius, left, r.set_left, r.set_right)
-    first_y, last_y = pixel_range(y - radius, y + radius, top, r.set_top, r.set_bottom)
-    area = 0
-    sum_x = 0.0
-    sum_y = 0.0
-    first = -1
-    for j in range(first_y, last_y):
-        gap_y = max(max(top + j - y, y - (top + j + 1)), 0.0)
-        for i in range(first_x, last_x):
-            gap_x = max(max(left + i - x, x - (left + i + 1)), 0.0)
-            if gap_x * gap_x + gap_y * gap_y < radius * radius and is_set(words, r.offset + j * r.stride, i):
-                area += 1
-                sum_x += left + i + 0.5
-                sum_y += top + j + 0.5
-                if first < 0:
-                    first = j * r.width + i
+    r = raster.rasters[raster.row]
+    cx = hull.corners[0, 0]
+    cy = hull.corners[0, 1]
+    area, point_x, point_y, first = sum_pixels_in_disc(raster, hull, depths_out)
     if area == 0:
-        return 0, 0.0, -1.0, x, y, 0.0, 0
-    point_x = sum_x / area
-    point_y = sum_y / area
-    nx, ny = unit(x - point_x, y - point_y, 0.0, -1.0)
+        return 0, 0.0, -1.0, cx, cy, 0.0, 0
+    nx, ny = unit(cx - point_x, cy - point_y, 0.0, -1.0)
     depth = 0.0
+    first_x, last_x, first_y, last_y = pixels_under(raster, hull)
     for j in range(first_y, last_y):
-        gap_y = max(max(top + j - y, y - (top + j + 1)), 0.0)
+        y = float(raster.top + j)
         for i in range(first_x, last_x):
-            gap_x = max(max(left + i - x, x - (left + i + 1)), 0.0)
-            if gap_x * gap_x + gap_y * gap_y < radius * radius and is_set(words, r.offset + j * r.stride, i):
-                depth = max(depth, leave_square(left + i - x, top + j - y, nx, ny, radius))
+            x = float(raster.left + i)
+            if is_set(raster.words, r.offset + j * r.stride, i) and square_in_disc(hull, x, y, depths_out):
+                depth = max(depth, square_exit_distance(x - cx, y - cy, nx, ny, hull.radius))
     return area, nx, ny, point_x, point_y, -depth, first
 
 
 @subkernel
-def thick_line(points, front, back, corners_out):
+def offset_line(points, front, back, corners_out):
     """Write the rectangle that extends `front` and `back` [px] to the sides of the line from points[0] to points[1]."""
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     for k in range(4):
@@ -252,68 +344,57 @@ def square_in_polygon(corners, count, x, y):
     return x < max_x and x + 1.0 > min_x and y < max_y and y + 1.0 > min_y
 
 
-@subkernel
-def collide_mask_polygon(rasters, words, mask, left, top, corners, count, edges, depths_out):
-    """Return the result of collide_mask_circle for a convex polygon, world corners (n, 2) [px] clockwise on the screen.
+@inlined
+def square_depths(hull, x, y, depths_out):
+    """Return whether the pixel square at x, y and a convex polygon share area, with its depth behind each edge."""
+    corners = hull.corners
+    if not square_in_polygon(corners, hull.count, x, y):
+        return False
+    for k in range(hull.count):
+        nx, ny = edge_normal(corners, hull.count, k)
+        px = x if nx > 0.0 else x + 1.0
+        py = y if ny > 0.0 else y + 1.0
+        depths_out[k] = max(depths_out[k], -(nx * (px - corners[k, 0]) + ny * (py - corners[k, 1])))
+    return True
 
-    edges: bits of the edges that may be touched; depths_out (16,): scratch. The normal is that of the touchable edge
-    with the least depth of the overlapping pixels.
+
+sum_pixels_in_polygon = make_pixel_sum(square_depths)
+
+
+@subkernel
+def collide_mask_polygon(raster, hull, depths_out):
+    """Return the result of collide_mask_circle for a convex polygon, a Hull without radius.
+
+    depths_out (16,): scratch. The normal is that of the touchable edge with the least depth of the overlapping pixels.
     """
-    r = rasters[mask]
-    min_x = math.inf
-    max_x = -math.inf
-    min_y = math.inf
-    max_y = -math.inf
+    count = hull.count
     for k in range(count):
-        min_x = min(min_x, corners[k, 0])
-        max_x = max(max_x, corners[k, 0])
-        min_y = min(min_y, corners[k, 1])
-        max_y = max(max_y, corners[k, 1])
         depths_out[k] = 0.0
-    first_x, last_x = pixel_range(min_x, max_x, left, r.set_left, r.set_right)
-    first_y, last_y = pixel_range(min_y, max_y, top, r.set_top, r.set_bottom)
-    area = 0
-    sum_x = 0.0
-    sum_y = 0.0
-    first = -1
-    for j in range(first_y, last_y):
-        for i in range(first_x, last_x):
-            x = float(left + i)
-            y = float(top + j)
-            if not is_set(words, r.offset + j * r.stride, i) or not square_in_polygon(corners, count, x, y):
-                continue
-            area += 1
-            sum_x += x + 0.5
-            sum_y += y + 0.5
-            if first < 0:
-                first = j * r.width + i
-            for k in range(count):
-                nx, ny = edge_normal(corners, count, k)
-                px = x if nx > 0.0 else x + 1.0
-                py = y if ny > 0.0 else y + 1.0
-                depths_out[k] = max(depths_out[k], -(nx * (px - corners[k, 0]) + ny * (py - corners[k, 1])))
+    area, x, y, first = sum_pixels_in_polygon(raster, hull, depths_out)
     if area == 0:
         return 0, 0.0, -1.0, 0.0, 0.0, 0.0, 0
     best = -1
     for k in range(count):
-        if (edges >> k) & 1 and (best < 0 or depths_out[k] < depths_out[best]):
+        if (hull.edges >> k) & 1 and (best < 0 or depths_out[k] < depths_out[best]):
             best = k
     if best < 0:
         for k in range(count):
             if best < 0 or depths_out[k] < depths_out[best]:
                 best = k
-    nx, ny = edge_normal(corners, count, best)
-    return area, -nx, -ny, sum_x / area, sum_y / area, -depths_out[best], first
+    nx, ny = edge_normal(hull.corners, count, best)
+    return area, -nx, -ny, x, y, -depths_out[best], first
 
 
 @subkernel
-def border_pixels(rasters, words, mask, line, low, high, level):
+def border_pixels(raster, line, low, high, level):
     """Return (pairs of solid pixels on both sides of a grid border along an open interval, sum of their middles along
     it, first pixel number).
 
-    line: the border's column or row in the raster; low, high [px]: the interval in the raster; level: it is a row.
+    raster: a PlacedRaster; line: the border's column or row in it; low, high [px]: the interval in it; level: it is a
+    row.
     """
-    r = rasters[mask]
+    words = raster.words
+    r = raster.rasters[raster.row]
     size = r.height if level else r.width
     across = r.width if level else r.height
     found = 0
@@ -337,26 +418,27 @@ def border_pixels(rasters, words, mask, line, low, high, level):
 
 
 @subkernel
-def collide_mask_line(rasters, words, mask, left, top, points, depths_out):
-    """Return the result of collide_mask_circle for the line from points[0] to points[1] [px], solid from both sides.
+def collide_mask_line(raster, hull, depths_out):
+    """Return the result of collide_mask_circle for a line, a Hull of two corners, solid from both sides.
 
     The line is hit where it crosses a solid pixel, or runs along the border of two solid pixels. At a border the normal
     points to the side further from the middle of the mask. depths_out (16,): scratch.
     """
-    area, nx, ny, x, y, separation, first = collide_mask_polygon(
-        rasters, words, mask, left, top, points, 2, 3, depths_out
-    )
+    points = hull.corners
+    left = raster.left
+    top = raster.top
+    area, nx, ny, x, y, separation, first = collide_mask_polygon(raster, Hull(points, 2, 0.0, 3), depths_out)
     level = points[0, 1] == points[1, 1] and points[0, 1] == math.floor(points[0, 1])
     upright = points[0, 0] == points[1, 0] and points[0, 0] == math.floor(points[0, 0])
     if area > 0 or level == upright:
         return area, nx, ny, x, y, separation, first
-    r = rasters[mask]
+    r = raster.rasters[raster.row]
     along = 0 if level else 1
     start = left if level else top
     border = points[0, 1] - top if level else points[0, 0] - left
     low = min(points[0, along], points[1, along]) - start
     high = max(points[0, along], points[1, along]) - start
-    found, middle, first = border_pixels(rasters, words, mask, math.floor(border), low, high, level)
+    found, middle, first = border_pixels(raster, math.floor(border), low, high, level)
     if found == 0:
         return 0, 0.0, -1.0, 0.0, 0.0, 0.0, 0
     inside = 0.5 * (r.set_top + r.set_bottom) if level else 0.5 * (r.set_left + r.set_right)
@@ -372,28 +454,33 @@ def collide_mask_line(rasters, words, mask, left, top, points, depths_out):
 
 
 @subkernel
-def square_gap(corners, count, x, y):
+def square_distance(corners, count, x, y):
     """Return the distance [px] between a core and the pixel square at x, y; 0 where they share area."""
     if square_in_polygon(corners, count, x, y):
         return 0.0
     gap = math.inf
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
+        ax = corners[k, 0]
+        ay = corners[k, 1]
         for corner in range(4):
-            gap = min(
-                gap,
-                edge_gap(
-                    corners[k, 0], corners[k, 1], corners[n, 0], corners[n, 1], x + (corner & 1), y + (corner >> 1)
-                ),
-            )
-        beside = max(max(x - corners[k, 0], corners[k, 0] - x - 1.0), 0.0)
-        above = max(max(y - corners[k, 1], corners[k, 1] - y - 1.0), 0.0)
+            px = x + (corner & 1)
+            py = y + (corner >> 1)
+            gap = min(gap, distance_to_edge(ax, ay, corners[n, 0], corners[n, 1], px, py))
+        beside = max(max(x - ax, ax - x - 1.0), 0.0)
+        above = max(max(y - ay, ay - y - 1.0), 0.0)
         gap = min(gap, norm(beside, above))
     return gap
 
 
+@inlined
+def square_in_rounded(hull, x, y, depths_out):
+    """Return whether the pixel square at x, y and a rounded hull share area."""
+    return square_distance(hull.corners, hull.count, x, y) < hull.radius
+
+
 @subkernel
-def way_to_core(corners, count, x, y):
+def direction_to_core(corners, count, x, y):
     """Return the unit direction from (x, y) to the nearest point of a core's outline, (0, -1) on it."""
     best = math.inf
     dx = 0.0
@@ -411,62 +498,39 @@ def way_to_core(corners, count, x, y):
 
 
 @subkernel
-def depth_along(rasters, words, mask, left, top, corners, count, radius, first_x, last_x, first_y, last_y, nx, ny):
+def depth_along(raster, hull, nx, ny):
     """Return the move [px] of a rounded hull along a unit direction after which a line separates it from its pixels."""
-    r = rasters[mask]
-    least = math.inf
-    for k in range(count):
-        least = min(least, nx * corners[k, 0] + ny * corners[k, 1])
+    r = raster.rasters[raster.row]
+    least, _ = extent_along(hull.corners, hull.count, nx, ny)
     most = -math.inf
+    first_x, last_x, first_y, last_y = pixels_under(raster, hull)
     for j in range(first_y, last_y):
         for i in range(first_x, last_x):
-            x = float(left + i)
-            y = float(top + j)
-            if is_set(words, r.offset + j * r.stride, i) and square_gap(corners, count, x, y) < radius:
+            x = float(raster.left + i)
+            y = float(raster.top + j)
+            if (
+                is_set(raster.words, r.offset + j * r.stride, i)
+                and square_distance(hull.corners, hull.count, x, y) < hull.radius
+            ):
                 most = max(most, nx * (x + 1.0 if nx > 0.0 else x) + ny * (y + 1.0 if ny > 0.0 else y))
-    return most - least + radius
+    return most - least + hull.radius
+
+
+sum_pixels_in_rounded = make_pixel_sum(square_in_rounded)
 
 
 @subkernel
-def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius):
-    """Return (area in whole pixels, normal from mask to hull, point, separation, first pixel number) of a mask and a
-    rounded hull.
+def collide_mask_rounded(raster, hull, depths_out):
+    """Return the result of collide_mask_circle for a rounded Hull of two or more corners.
 
-    corners (n, 2) [px] world, clockwise on the screen; left, top: raster position [px]. The point is the centroid of
-    the overlapping pixels. The normal is against a face's, or from the centroid to the core, whichever has the least
+    The normal is against a face's, or from the centroid of the overlapping pixels to the core, whichever has the least
     depth. The separation is minus the move along it that clears the pixels. O(pixels under the hull's bounds · count).
     """
-    r = rasters[mask]
-    min_x = math.inf
-    max_x = -math.inf
-    min_y = math.inf
-    max_y = -math.inf
-    for k in range(count):
-        min_x = min(min_x, corners[k, 0] - radius)
-        max_x = max(max_x, corners[k, 0] + radius)
-        min_y = min(min_y, corners[k, 1] - radius)
-        max_y = max(max_y, corners[k, 1] + radius)
-    first_x, last_x = pixel_range(min_x, max_x, left, r.set_left, r.set_right)
-    first_y, last_y = pixel_range(min_y, max_y, top, r.set_top, r.set_bottom)
-    area = 0
-    sum_x = 0.0
-    sum_y = 0.0
-    first = -1
-    for j in range(first_y, last_y):
-        for i in range(first_x, last_x):
-            if (
-                is_set(words, r.offset + j * r.stride, i)
-                and square_gap(corners, count, float(left + i), float(top + j)) < radius
-            ):
-                area += 1
-                sum_x += left + i + 0.5
-                sum_y += top + j + 0.5
-                if first < 0:
-                    first = j * r.width + i
+    corners = hull.corners
+    count = hull.count
+    area, point_x, point_y, first = sum_pixels_in_rounded(raster, hull, depths_out)
     if area == 0:
         return 0, 0.0, -1.0, 0.0, 0.0, 0.0, 0
-    point_x = sum_x / area
-    point_y = sum_y / area
     best_x = 0.0
     best_y = -1.0
     depth = math.inf
@@ -476,10 +540,8 @@ def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius
             nx = -mx
             ny = -my
         else:
-            nx, ny = way_to_core(corners, count, point_x, point_y)
-        out = depth_along(
-            rasters, words, mask, left, top, corners, count, radius, first_x, last_x, first_y, last_y, nx, ny
-        )
+            nx, ny = direction_to_core(corners, count, point_x, point_y)
+        out = depth_along(raster, hull, nx, ny)
         if out < depth:
             depth = out
             best_x = nx
@@ -487,203 +549,90 @@ def collide_mask_rounded(rasters, words, mask, left, top, corners, count, radius
     return area, best_x, best_y, point_x, point_y, -depth, first
 
 
-# ---- mask pairs ------------------------------------------------------------------------------------------------------
-# Passes over the candidate pairs with snapped masks: mask against mask by AND; mask against circle, polygon and bounds.
-
-
 @subkernel
-def list_near(rasters, shapes, candidates, kinds, start, end, near_out):
-    """List the mask candidates from start up to end whose solid bounds overlap as drawn. Return their number.
-
-    near_out (BLOCK, 6) int64: candidate; first word of the shared rectangle in A and in B; its first column in A and in
-    B; its rows, -1 where a raster has several words per row. The loop has no branch and is separate from the search for
-    a shared pixel, so a mispredicted branch costs one wait with all operands at hand. O(candidates).
+def collide_mask_hull(raster, hull, depths_out):
+    """Return the result of collide_mask_circle for any Hull, in the space of a PlacedRaster. depths_out (16,):
+    scratch.
     """
-    found = 0
-    for i in range(start, end):
-        if kinds[i] == MASKS:
-            a = shapes[candidates[i, 0]]
-            b = shapes[candidates[i, 1]]
-            dx = b.left - a.left
-            dy = b.top - a.top
-            r = rasters[a.raster]
-            s = rasters[b.raster]
-            left, top, right, bottom = shared_rectangle(r, s, dx, dy)
-            near_out[found, 0] = i
-            near_out[found, 1] = r.offset + top
-            near_out[found, 2] = s.offset + top - dy
-            near_out[found, 3] = left
-            near_out[found, 4] = left - dx
-            near_out[found, 5] = bottom - top if r.stride == 1 and s.stride == 1 else -1
-            found += int((left < right) & (top < bottom))
-    return found
+    if hull.count == 1:
+        return collide_mask_circle(raster, hull, depths_out)
+    if hull.radius > 0.0:
+        return collide_mask_rounded(raster, hull, depths_out)
+    if hull.count == 2:
+        return collide_mask_line(raster, hull, depths_out)
+    return collide_mask_polygon(raster, hull, depths_out)
 
 
-def make_mask_pass(full: bool) -> Callable:
-    """Return the pass over mask pairs: with area, centroid, normal and depth, or with the first shared pixel alone.
+# ---- mask pairs ------------------------------------------------------------------------------------------------------
+# Pairs with snapped masks: mask against mask by AND.
+
+
+@inlined
+def bounds_overlap(batch, pair):
+    """Return whether the solid bounds of two masks overlap as drawn."""
+    a = batch.shapes[batch.candidates[pair, 0]]
+    b = batch.shapes[batch.candidates[pair, 1]]
+    rasters = batch.geometry.rasters
+    left, top, right, bottom = shared_rectangle(rasters[a.raster], rasters[b.raster], b.left - a.left, b.top - a.top)
+    return (left < right) & (top < bottom)
+
+
+def make_mask_pass(full: bool) -> Any:
+    """Return the pass over pairs of snapped masks: with area, centroid, normal and depth, or the first shared pixel.
 
     In the second form the normal is the direction between the centres and the separation is -1.
     """
 
-    @kernel
-    def collide_mask_pairs(
-        # read
-        batch,
-        # write
-        workspace,
-        manifolds_out,
-        found,
-        work_inout,
-    ):
-        """Append the contacts of all pairs of masks as drawn, by AND of words, from `found` on. Return the new
-        count."""
-        geometry = batch.geometry
-        bodies = batch.bodies
+    @inlined
+    def collide_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+        """Append the contact of two masks as drawn, by AND of words. Return the new count."""
         shapes = batch.shapes
         candidates = batch.candidates
-        kinds = batch.kinds
-        near = workspace.near
-        for start in range(0, batch.count, BLOCK):
-            count = list_near(geometry.rasters, shapes, candidates, kinds, start, min(start + BLOCK, batch.count), near)
-            work_inout[MASK_TESTS] += count
-            for k in range(count):
-                i = near[k, 0]
-                row = 0
-                shared = word(0)
-                if near[k, 5] >= 0:
-                    # Sprites up to 64 px wide: one word per row, so both shifts are the same in every row.
-                    row, shared = shared_row(geometry.words, near[k, 1], near[k, 3], near[k, 2], near[k, 4], near[k, 5])
-                    if shared == word(0):
-                        continue
-                a = shapes[candidates[i, 0]]
-                b = shapes[candidates[i, 1]]
-                left = a.left
-                top = a.top
-                dx = b.left - left
-                dy = b.top - top
-                r = geometry.rasters[a.raster]
-                s = geometry.rasters[b.raster]
-                if near[k, 5] >= 0:
-                    x = near[k, 3] + lowest_bit(shared)
-                    y = near[k, 1] - r.offset + row
-                else:
-                    hit, x, y = first_pixel(geometry.rasters, geometry.words, a.raster, b.raster, dx, dy)
-                    if not hit:
-                        continue
-                feature = pixel_feature(y, x, r.width)
-                if full:
-                    q = bodies[b.body_row]
-                    p = bodies[a.body_row]
-                    area, px, py, nx, ny, separation = mask_contact(
-                        geometry.rasters,
-                        geometry.words,
-                        a.raster,
-                        b.raster,
-                        dx,
-                        dy,
-                        p.x - r.origin_x + 0.5 - a.left,
-                        p.y - r.origin_y + 0.5 - a.top,
-                        q.x - s.origin_x + 0.5 - b.left,
-                        q.y - s.origin_y + 0.5 - b.top,
-                    )
-                    found = add_manifold(
-                        shapes,
-                        candidates,
-                        i,
-                        found,
-                        nx,
-                        ny,
-                        left + px,
-                        top + py,
-                        separation,
-                        float(area),
-                        feature,
-                        manifolds_out,
-                    )
-                else:
-                    nx, ny = center_normal(r, s, dx, dy)
-                    found = add_manifold(
-                        shapes,
-                        candidates,
-                        i,
-                        found,
-                        nx,
-                        ny,
-                        left + x + 0.5,
-                        top + y + 0.5,
-                        -1.0,
-                        0.0,
-                        feature,
-                        manifolds_out,
-                    )
-        return found
+        rasters = batch.geometry.rasters
+        words = batch.geometry.words
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        dx = b.left - a.left
+        dy = b.top - a.top
+        r = rasters[a.raster]
+        s = rasters[b.raster]
+        left, top, right, bottom = shared_rectangle(r, s, dx, dy)
+        work_inout[MASK_TESTS] += 1
+        if r.stride == 1 and s.stride == 1:
+            # Sprites up to 64 px wide: one word per row, so both shifts are the same in every row.
+            row, shared = shared_row(words, r.offset + top, left, s.offset + top - dy, left - dx, bottom - top)
+            if shared == word(0):
+                return found
+            x = left + lowest_bit(shared)
+            y = top + row
+        else:
+            hit, x, y = first_pixel(rasters, words, a.raster, b.raster, dx, dy)
+            if not hit:
+                return found
+        area = 0.0
+        px = x + 0.5
+        py = y + 0.5
+        separation = -1.0
+        if full:
+            p = batch.bodies[a.body_row]
+            q = batch.bodies[b.body_row]
+            remainders = Remainders(
+                p.x - r.origin_x + 0.5 - a.left,
+                p.y - r.origin_y + 0.5 - a.top,
+                q.x - s.origin_x + 0.5 - b.left,
+                q.y - s.origin_y + 0.5 - b.top,
+            )
+            pixels, px, py, nx, ny, separation = mask_contact(
+                RasterPair(rasters, words, a.raster, b.raster, dx, dy), remainders
+            )
+            area = float(pixels)
+        else:
+            nx, ny = center_normal(r, s, dx, dy)
+        point = (nx, ny, a.left + px, a.top + py, separation, area, pixel_feature(y, x, r.width))
+        return add_manifold(shapes, candidates, pair, point, manifolds_out, found)
 
-    return collide_mask_pairs
+    return make_pass(MASKS, collide_mask_pair, bounds_overlap)
 
 
 collide_mask_pairs_full = make_mask_pass(full=True)
 collide_mask_pairs_hit = make_mask_pass(full=False)
-
-
-@kernel
-def collide_mask_shape_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of a snapped mask and a hull from `found` on. Return the new count."""
-    geometry = batch.geometry
-    bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    kinds = batch.kinds
-    for i in range(batch.count):
-        if kinds[i] != MASK_CIRCLE and kinds[i] != MASK_POLYGON:
-            continue
-        work_inout[MASK_TESTS] += 1
-        sign = 1.0 if shapes[candidates[i, 0]].kind == MASK else -1.0
-        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
-        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-        mask = shapes[row].raster
-        left = shapes[row].left
-        top = shapes[row].top
-        if kinds[i] == MASK_CIRCLE:
-            cx, cy, radius = circle_at(bodies, shapes, other)
-            area, nx, ny, x, y, separation, feature = collide_mask_circle(
-                geometry.rasters, geometry.words, mask, left, top, cx, cy, radius
-            )
-        else:
-            n = corners_of(geometry, bodies, shapes, other, workspace.a)
-            radius = rounding(shapes, other)
-        if kinds[i] == MASK_POLYGON and radius > 0.0:
-            area, nx, ny, x, y, separation, feature = collide_mask_rounded(
-                geometry.rasters, geometry.words, mask, left, top, workspace.a, n, radius
-            )
-        elif kinds[i] == MASK_POLYGON and n == 2:
-            area, nx, ny, x, y, separation, feature = collide_mask_line(
-                geometry.rasters, geometry.words, mask, left, top, workspace.a, workspace.depths
-            )
-        elif kinds[i] == MASK_POLYGON:
-            area, nx, ny, x, y, separation, feature = collide_mask_polygon(
-                geometry.rasters, geometry.words, mask, left, top, workspace.a, n, ALL_EDGES, workspace.depths
-            )
-        if area > 0:
-            found = add_manifold(
-                shapes,
-                candidates,
-                i,
-                found,
-                sign * nx,
-                sign * ny,
-                x,
-                y,
-                separation,
-                float(area),
-                feature,
-                manifolds_out,
-            )
-    return found

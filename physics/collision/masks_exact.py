@@ -1,12 +1,14 @@
 """Masks that are not snapped, at their exact poses, against masks, hulls and tiles."""
 
 import math
-from collections.abc import Callable
+from typing import Any, NamedTuple
 
-from physics.collision.hulls import ALL_EDGES, edge_normal, pixel_feature, upright_corners
-from physics.collision.manifold import MASK_HULL_EXACT, MASKS_EXACT, add_point
-from physics.collision.masks import collide_mask_circle, collide_mask_line, collide_mask_polygon, collide_mask_rounded
-from physics.jit import kernel, subkernel
+import numpy as np
+
+from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, edge_normal, pixel_feature
+from physics.collision.manifold import MASK_HULL, MASKS_EXACT, add_manifold, hull_of, make_pass, sides_by_kind
+from physics.collision.masks import PlacedRaster, collide_mask_hull, hull_bounds, least_overlap
+from physics.jit import inlined, subkernel
 from physics.math2d import cosine_and_sine, norm, rotate, unit
 from physics.raster.bits import is_set
 from physics.raster.exact import (
@@ -25,7 +27,6 @@ from physics.shapes.placement import (
     polygon_at,
     raster_in_raster,
     raster_of_shape,
-    rounding,
 )
 from physics.tables.shape import BOUNDS, CIRCLE, MASK
 from physics.tables.step_state import MASK_TESTS
@@ -51,11 +52,14 @@ def arc_at(corners, count, k):
 
 
 @subkernel
-def hull_share(corners, count, radius, x, y, width, height):
-    """Return (area, moment of x, moment of y) of a rounded hull within a box with its top left corner at x, y [px].
+def hull_share(hull, x, y, width, height):
+    """Return (area, moment of x, moment of y) of a Hull within a box with its top left corner at x, y [px].
 
-    The moments are about that corner. corners (n, 2) [px], clockwise on the screen; one is a disc's centre. O(count).
+    The moments are about that corner. O(corners).
     """
+    corners = hull.corners
+    count = hull.count
+    radius = hull.radius
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
@@ -84,21 +88,13 @@ def hull_share(corners, count, radius, x, y, width, height):
 
 
 @subkernel
-def shared_with_hull(rasters, words, mask, corners, count, radius):
-    """Return (area [px2], moment of x, moment of y) of the overlap of a mask and a rounded hull in its raster's space.
+def shared_with_hull(rasters, words, mask, hull):
+    """Return (area [px2], moment of x, moment of y) of the overlap of a mask and a Hull in its raster's space.
 
-    O(runs of solid pixels under the hull's bounds · count).
+    O(runs of solid pixels under the hull's bounds · corners).
     """
     r = rasters[mask]
-    min_x = math.inf
-    max_x = -math.inf
-    min_y = math.inf
-    max_y = -math.inf
-    for k in range(count):
-        min_x = min(min_x, corners[k, 0] - radius)
-        max_x = max(max_x, corners[k, 0] + radius)
-        min_y = min(min_y, corners[k, 1] - radius)
-        max_y = max(max_y, corners[k, 1] + radius)
+    min_x, min_y, max_x, max_y = hull_bounds(hull)
     left = max(r.set_left, math.floor(min_x))
     right = min(r.set_right, math.ceil(max_x))
     area = 0.0
@@ -111,7 +107,7 @@ def shared_with_hull(rasters, words, mask, corners, count, radius):
                 if start < 0:
                     start = column
             elif start >= 0:
-                part, mx, my = hull_share(corners, count, radius, float(start), float(row), float(column - start), 1.0)
+                part, mx, my = hull_share(hull, float(start), float(row), float(column - start), 1.0)
                 area += part
                 moment_x += mx + start * part
                 moment_y += my + row * part
@@ -135,10 +131,20 @@ def least_area(raster):
 
 
 @subkernel
-def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
-    """Write the corners [px] of a hull in the raster space of a mask that is not snapped. Return their number.
+def move_into_raster(raster, body, count, corners_inout):
+    """Transform corners [px] in the world into the raster of a mask that is not snapped."""
+    cosine, sine = cosine_and_sine(body.angle, body.angle)
+    for k in range(count):
+        x, y = into_raster(raster, body, cosine, sine, corners_inout[k, 0], corners_inout[k, 1])
+        corners_inout[k, 0] = x
+        corners_inout[k, 1] = y
 
-    mask, other: rows of SHAPE. The angles are subtracted first, so that two bodies at quarter turns stay exact.
+
+@subkernel
+def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
+    """Return the Hull of a shape in the raster space of a mask that is not snapped; mask, other: rows of SHAPE.
+
+    The angles are subtracted first, so that two bodies at quarter turns stay exact. corners_out (16, 2): its corners.
     """
     s = shapes[mask]
     o = shapes[other]
@@ -147,47 +153,33 @@ def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
     r = geometry.rasters[raster_of_shape(geometry, s)]
     cosine, sine = cosine_and_sine(b.angle, b.angle)
     if o.kind == BOUNDS:
-        count = upright_corners(o, corners_out)
-        for k in range(count):
-            x, y = into_raster(r, b, cosine, sine, corners_out[k, 0], corners_out[k, 1])
-            corners_out[k, 0] = x
-            corners_out[k, 1] = y
-        return count
+        count = aabb_corners(o, corners_out)
+        move_into_raster(r, b, count, corners_out)
+        return Hull(corners_out, count, 0.0, ALL_EDGES)
     x, y = into_raster(r, b, cosine, sine, p.x, p.y)
     cosine, sine = cosine_and_sine(p.angle - b.angle, max(abs(p.angle), abs(b.angle)))
+    count = 1
     if o.kind == CIRCLE:
         u, v = rotate(o.local_x, o.local_y, cosine, sine)
         corners_out[0, 0] = x + u
         corners_out[0, 1] = y + v
-        return 1
-    return polygon_at(geometry.polygons, geometry.corners, o.geometry, x, y, cosine, sine, corners_out)
+    else:
+        count = polygon_at(geometry.polygons, geometry.corners, o.geometry, x, y, cosine, sine, corners_out)
+    return Hull(corners_out, count, o.radius, ALL_EDGES)
 
 
 @subkernel
-def meet_in_raster(rasters, words, mask, corners, count, radius, edges, depths_out):
-    """Return (area [px2], normal from the mask, point, separation, first pixel) of a mask and a rounded hull in its
-    raster.
+def collide_in_raster(rasters, words, mask, hull, depths_out):
+    """Return (area [px2], normal from the mask, point, separation, first pixel) of a mask and a Hull in its raster.
 
-    edges: bits of the edges that may be touched; depths_out (16,): scratch. The area is 0 without overlap.
+    depths_out (16,): scratch. The area is 0 without overlap.
     """
-    if count == 1:
-        pixels, nx, ny, x, y, separation, first = collide_mask_circle(
-            rasters, words, mask, 0, 0, corners[0, 0], corners[0, 1], radius
-        )
-    elif radius > 0.0:
-        pixels, nx, ny, x, y, separation, first = collide_mask_rounded(
-            rasters, words, mask, 0, 0, corners, count, radius
-        )
-    elif count == 2:
-        pixels, nx, ny, x, y, separation, first = collide_mask_line(rasters, words, mask, 0, 0, corners, depths_out)
+    pixels, nx, ny, x, y, separation, first = collide_mask_hull(
+        PlacedRaster(rasters, words, mask, 0, 0), hull, depths_out
+    )
+    if pixels == 0 or (hull.count == 2 and hull.radius == 0.0):
         return float(pixels), nx, ny, x, y, separation, first
-    else:
-        pixels, nx, ny, x, y, separation, first = collide_mask_polygon(
-            rasters, words, mask, 0, 0, corners, count, edges, depths_out
-        )
-    if pixels == 0:
-        return 0.0, nx, ny, x, y, separation, first
-    area, moment_x, moment_y = shared_with_hull(rasters, words, mask, corners, count, radius)
+    area, moment_x, moment_y = shared_with_hull(rasters, words, mask, hull)
     least = least_area(rasters[mask])
     if area > least:
         x = moment_x / area
@@ -205,44 +197,48 @@ def out_of_mask(geometry, body, shape, nx, ny, x, y):
 
 
 @subkernel
-def meet_polygon(geometry, body, shape, corners, count, edges, scratch, depths_out):
-    """Return the result of meet_in_raster, in world space, for a MASK row, snapped or not, and a convex polygon.
-
-    corners: of the polygon, in the world [px]; scratch (16, 2): for the corners in the raster.
+def collide_as_drawn(geometry, shape, hull, depths_out):
+    """Return the result of collide_in_raster for a snapped MASK row and a Hull in the world. The area is the number of
+    its pixels that the hull touches.
     """
-    mask = raster_of_shape(geometry, shape)
-    rasters = geometry.rasters
-    words = geometry.words
+    raster = PlacedRaster(geometry.rasters, geometry.words, shape.raster, shape.left, shape.top)
+    pixels, nx, ny, x, y, separation, first = collide_mask_hull(raster, hull, depths_out)
+    return float(pixels), nx, ny, x, y, separation, first
+
+
+@subkernel
+def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
+    """Return the result of collide_in_raster, in world space, for a MASK row, snapped or not, and a convex polygon.
+
+    hull: of the polygon in the world; scratch (16, 2): for its corners in the raster.
+    """
     if shape.snap:
-        pixels, nx, ny, x, y, separation, first = collide_mask_polygon(
-            rasters, words, mask, shape.left, shape.top, corners, count, edges, depths_out
-        )
-        return float(pixels), nx, ny, x, y, separation, first
-    cosine, sine = cosine_and_sine(body.angle, body.angle)
-    for k in range(count):
-        x, y = into_raster(rasters[mask], body, cosine, sine, corners[k, 0], corners[k, 1])
-        scratch[k, 0] = x
-        scratch[k, 1] = y
-    area, nx, ny, x, y, separation, first = meet_in_raster(rasters, words, mask, scratch, count, 0.0, edges, depths_out)
+        return collide_as_drawn(geometry, shape, hull, depths_out)
+    mask = raster_of_shape(geometry, shape)
+    for k in range(hull.count):
+        scratch[k, 0] = hull.corners[k, 0]
+        scratch[k, 1] = hull.corners[k, 1]
+    move_into_raster(geometry.rasters[mask], body, hull.count, scratch)
+    inner = Hull(scratch, hull.count, hull.radius, hull.edges)
+    area, nx, ny, x, y, separation, first = collide_in_raster(geometry.rasters, geometry.words, mask, inner, depths_out)
     nx, ny, x, y = out_of_mask(geometry, body, shape, nx, ny, x, y)
     return area, nx, ny, x, y, separation, first
 
 
 @subkernel
-def exact_area(geometry, bodies, shapes, mask, other, radius, corners_out, depths_out):
-    """Return the area [px2] that a mask that is not snapped shares with a hull, rows of SHAPE, of this rounding
-    [px]."""
-    count = hull_in_raster(geometry, bodies, shapes, mask, other, corners_out)
-    return meet_in_raster(
-        geometry.rasters,
-        geometry.words,
-        raster_of_shape(geometry, shapes[mask]),
-        corners_out,
-        count,
-        radius,
-        ALL_EDGES,
-        depths_out,
-    )[0]
+def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
+    """Return the result of collide_in_raster, in world space, for a mask, snapped or not, and a hull, rows of SHAPE."""
+    s = shapes[mask]
+    if s.snap:
+        hull = hull_of(geometry, bodies, shapes, other, workspace.a)
+        whole = Hull(hull.corners, hull.count, hull.radius, ALL_EDGES)
+        return collide_as_drawn(geometry, s, whole, workspace.depths)
+    hull = hull_in_raster(geometry, bodies, shapes, mask, other, workspace.a)
+    area, nx, ny, x, y, separation, first = collide_in_raster(
+        geometry.rasters, geometry.words, raster_of_shape(geometry, s), hull, workspace.depths
+    )
+    nx, ny, x, y = out_of_mask(geometry, bodies[s.body_row], s, nx, ny, x, y)
+    return area, nx, ny, x, y, separation, first
 
 
 # ---- mask exact depth ------------------------------------------------------------------------------------------------
@@ -267,64 +263,82 @@ def boxes_normal(a, b):
     return nx, ny, x != 0.0 or y != 0.0
 
 
-@subkernel
-def boxes_axis(a, b):
-    """Return (normal, depth [px]) of the shortest move of B along a world axis that separates two SHAPE rows' AABBs."""
-    up = b.max_y - a.min_y
-    down = a.max_y - b.min_y
-    right = a.max_x - b.min_x
-    left = b.max_x - a.min_x
-    least = min(min(right, left), min(down, up))
-    if least == up:
-        return 0.0, -1.0, least
-    if least == down:
-        return 0.0, 1.0, least
-    if least == right:
-        return 1.0, 0.0, least
-    return -1.0, 0.0, least
+class SquaresPair(NamedTuple):
+    """Two masks as unions of pixel squares, the second rotated and moved in the raster of the first, the frame."""
+
+    rasters: np.ndarray  # RASTER
+    words: np.ndarray  # uint64
+    frame: int  # rows of RASTER
+    other: int
+    u: float  # [px] of the other's top left corner
+    v: float
+    cosine: float  # of the other's angle
+    sine: float
 
 
 @subkernel
-def area_normal(rasters, words, mask_a, mask_b, u, v, cosine, sine, area):
-    """Return (unit normal in A's raster, whether there is one): the direction in which B's area in A shrinks
+def shared_at(pair, u, v):
+    """Return (area [px2], moments) of the squares that a SquaresPair shares, with the other's corner at u, v [px]."""
+    return shared_squares(pair.rasters, pair.words, pair.frame, pair.other, u, v, pair.cosine, pair.sine)
+
+
+@subkernel
+def area_normal(pair, area):
+    """Return (unit normal in the frame, whether there is one): the direction in which the shared area shrinks
     fastest."""
-    before, _, _ = shared_squares(rasters, words, mask_a, mask_b, u - 1.0, v, cosine, sine)
-    behind, _, _ = shared_squares(rasters, words, mask_a, mask_b, u + 1.0, v, cosine, sine)
-    above, _, _ = shared_squares(rasters, words, mask_a, mask_b, u, v - 1.0, cosine, sine)
-    below, _, _ = shared_squares(rasters, words, mask_a, mask_b, u, v + 1.0, cosine, sine)
+    before, _, _ = shared_at(pair, pair.u - 1.0, pair.v)
+    behind, _, _ = shared_at(pair, pair.u + 1.0, pair.v)
+    above, _, _ = shared_at(pair, pair.u, pair.v - 1.0)
+    below, _, _ = shared_at(pair, pair.u, pair.v + 1.0)
     nx, ny = unit(before - behind, above - below, 1.0, 0.0)
     return nx, ny, norm(before - behind, above - below) > NOISE * area
 
 
 @subkernel
-def exact_contact(rasters, words, mask_a, mask_b, u, v, cosine, sine, a, b, turn_cosine, turn_sine):
-    """Return (area [px2], point in A's raster, normal from A to B in the world, separation [px]) of overlapping masks.
+def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
+    """Return the move [px] along a normal in the world that ends the overlap; > most if none up to it does."""
+    rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
+    return squares_way_out(
+        pair.rasters, pair.words, pair.frame, pair.other, pair.u, pair.v, pair.cosine, pair.sine, rx, ry, most
+    )
+
+
+@subkernel
+def exact_contact(pair, a, b, turn_cosine, turn_sine):
+    """Return (area [px2], point in the frame, normal from A to B in the world, separation [px]) of a SquaresPair that
+    overlaps.
 
     a, b: their SHAPE rows; turn: cosine and sine of A's angle. The point is the centroid of the overlap. The separation
     is negative: minus the move along the normal that ends the overlap.
     """
-    area, x, y = shared_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine)
-    slack = slack_of(rasters[mask_a], rasters[mask_b])
+    area, x, y = shared_at(pair, pair.u, pair.v)
+    slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     area = max(area, slack * slack)
-    axis_x, axis_y, least = boxes_axis(a, b)
-    nx, ny, is_sloped = area_normal(rasters, words, mask_a, mask_b, u, v, cosine, sine, area)
+    axis_x, axis_y, least = least_overlap(a.max_x - b.min_x, b.max_x - a.min_x, a.max_y - b.min_y, b.max_y - a.min_y)
+    nx, ny, is_sloped = area_normal(pair, area)
     nx, ny = rotate(nx, ny, turn_cosine, turn_sine)
     if not is_sloped:
         nx, ny, is_sloped = boxes_normal(a, b)
     depth = math.inf
     if is_sloped:
-        rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
-        depth = squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, rx, ry, least)
+        depth = depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, least)
     if depth > least:
         nx = axis_x
         ny = axis_y
-        rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
-        depth = squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, rx, ry, least)
+        depth = depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, least)
     return area, x / area, y / area, nx, ny, -depth
 
 
 # ---- mask exact pairs ------------------------------------------------------------------------------------------------
 # Passes over the candidate pairs with masks that are not snapped: mask against mask, mask against hull.
+
+
+@subkernel
+def tested_aabb(geometry, shape):
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] by which a SHAPE row is tested: of a mask see box_as_tested."""
+    if shape.kind == MASK:
+        return box_as_tested(geometry, shape)
+    return shape.min_x, shape.min_y, shape.max_x, shape.max_y
 
 
 @subkernel
@@ -360,111 +374,75 @@ def exact_mask_area(geometry, bodies, a, b):
     return area
 
 
-def make_exact_mask_pass(full: bool) -> Callable:
-    """Return the pass over mask pairs: with area, centroid, normal and depth, or with two overlapping pixel squares
-    alone.
+def make_exact_mask_pass(full: bool) -> Any:
+    """Return the pass over mask pairs: with area, centroid, normal and depth, or with two overlapping pixel squares.
 
     In the second form the normal is the direction between the centres of the boxes and the separation is -1.
     """
 
-    @kernel
-    def collide_exact_mask_pairs(
-        # read
-        batch,
-        # write
-        workspace,
-        manifolds_out,
-        found,
-        work_inout,
-    ):
-        """Append the contacts of all pairs of masks at exact poses from `found` on. Return the new count."""
+    @inlined
+    def collide_exact_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+        """Append the contact of two masks at their exact poses. Return the new count."""
         geometry = batch.geometry
         bodies = batch.bodies
         shapes = batch.shapes
         candidates = batch.candidates
-        kinds = batch.kinds
         rasters = geometry.rasters
         words = geometry.words
-        for i in range(batch.count):
-            if kinds[i] != MASKS_EXACT:
-                continue
-            work_inout[MASK_TESTS] += 1
-            a = shapes[candidates[i, 0]]
-            b = shapes[candidates[i, 1]]
-            if share_no_area(geometry, a, b):
-                continue
-            first = is_first_the_frame(geometry, a, b)
-            f = a if first else b
-            o = b if first else a
-            p = bodies[f.body_row]
-            frame = raster_of_shape(geometry, f)
-            other = raster_of_shape(geometry, o)
-            u, v, cosine, sine = raster_in_raster(geometry, p, f, bodies[o.body_row], o)
-            hit, x, y, column, row = first_squares(rasters, words, frame, other, u, v, cosine, sine)
-            if not hit:
-                continue
-            if first:
-                feature = pixel_feature(y, x, rasters[frame].width)
-            else:
-                feature = pixel_feature(row, column, rasters[other].width)
-            turn_cosine, turn_sine = cosine_and_sine(p.angle, p.angle)
-            px = x + 0.5
-            py = y + 0.5
-            area = 0.0
-            separation = -1.0
-            if full:
-                area, px, py, nx, ny, separation = exact_contact(
-                    rasters, words, frame, other, u, v, cosine, sine, f, o, turn_cosine, turn_sine
-                )
-            else:
-                nx, ny, _ = boxes_normal(f, o)
-            px, py = out_of_raster(rasters[frame], p, turn_cosine, turn_sine, px, py)
-            sign = 1.0 if first else -1.0
-            found = add_point(
-                shapes, candidates, i, found, sign * nx, sign * ny, px, py, separation, area, feature, manifolds_out
+        work_inout[MASK_TESTS] += 1
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        if share_no_area(geometry, a, b):
+            return found
+        first = is_first_the_frame(geometry, a, b)
+        f = a if first else b
+        o = b if first else a
+        p = bodies[f.body_row]
+        frame = raster_of_shape(geometry, f)
+        other = raster_of_shape(geometry, o)
+        u, v, cosine, sine = raster_in_raster(geometry, p, f, bodies[o.body_row], o)
+        hit, x, y, column, row = first_squares(rasters, words, frame, other, u, v, cosine, sine)
+        if not hit:
+            return found
+        if first:
+            feature = pixel_feature(y, x, rasters[frame].width)
+        else:
+            feature = pixel_feature(row, column, rasters[other].width)
+        turn_cosine, turn_sine = cosine_and_sine(p.angle, p.angle)
+        px = x + 0.5
+        py = y + 0.5
+        area = 0.0
+        separation = -1.0
+        if full:
+            area, px, py, nx, ny, separation = exact_contact(
+                SquaresPair(rasters, words, frame, other, u, v, cosine, sine), f, o, turn_cosine, turn_sine
             )
-        return found
+        else:
+            nx, ny, _ = boxes_normal(f, o)
+        px, py = out_of_raster(rasters[frame], p, turn_cosine, turn_sine, px, py)
+        sign = 1.0 if first else -1.0
+        point = (sign * nx, sign * ny, px, py, separation, area, feature)
+        return add_manifold(shapes, candidates, pair, point, manifolds_out, found)
 
-    return collide_exact_mask_pairs
+    return make_pass(MASKS_EXACT, collide_exact_mask_pair)
 
 
 collide_exact_mask_pairs_full = make_exact_mask_pass(full=True)
 collide_exact_mask_pairs_hit = make_exact_mask_pass(full=False)
 
 
-@kernel
-def collide_exact_hull_pairs(
-    # read
-    batch,
-    # write
-    workspace,
-    manifolds_out,
-    found,
-    work_inout,
-):
-    """Append the contacts of all pairs of a mask that is not snapped and a hull. Return the new count."""
-    geometry = batch.geometry
-    bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    kinds = batch.kinds
-    for i in range(batch.count):
-        if kinds[i] != MASK_HULL_EXACT:
-            continue
-        work_inout[MASK_TESTS] += 1
-        sign = 1.0 if shapes[candidates[i, 0]].kind == MASK else -1.0
-        row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
-        other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-        s = shapes[row]
-        mask = raster_of_shape(geometry, s)
-        count = hull_in_raster(geometry, bodies, shapes, row, other, workspace.a)
-        radius = rounding(shapes, other)
-        area, nx, ny, x, y, separation, feature = meet_in_raster(
-            geometry.rasters, geometry.words, mask, workspace.a, count, radius, ALL_EDGES, workspace.depths
-        )
-        if area > 0.0:
-            nx, ny, x, y = out_of_mask(geometry, bodies[s.body_row], s, nx, ny, x, y)
-            found = add_point(
-                shapes, candidates, i, found, sign * nx, sign * ny, x, y, separation, area, feature, manifolds_out
-            )
-    return found
+@inlined
+def collide_mask_hull_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+    """Append the contact of a mask and a hull. Return the new count."""
+    work_inout[MASK_TESTS] += 1
+    sign, mask, other = sides_by_kind(batch, pair, MASK)
+    area, nx, ny, x, y, separation, feature = collide_mask_shape(
+        batch.geometry, batch.bodies, batch.shapes, mask, other, workspace
+    )
+    if area == 0.0:
+        return found
+    point = (sign * nx, sign * ny, x, y, separation, area, feature)
+    return add_manifold(batch.shapes, batch.candidates, pair, point, manifolds_out, found)
+
+
+collide_mask_hull_pairs = make_pass(MASK_HULL, collide_mask_hull_pair)

@@ -4,21 +4,19 @@ import numpy as np
 
 from physics.collision.chains import admit_to_surfaces, collide_chain_pairs
 from physics.collision.hull_pairs import (
+    center_velocity,
+    closing_speed_bound,
     collide_circle_pairs,
     collide_polygon_circle_pairs,
     collide_polygon_pairs,
     measure_approach,
-    most_nearing,
-    nearing,
-    reach_of,
+    speculative_distance,
 )
 from physics.collision.manifold import (
     CHAIN_ANY,
     CIRCLES,
     GRID_ANY,
-    MASK_CIRCLE,
-    MASK_HULL_EXACT,
-    MASK_POLYGON,
+    MASK_HULL,
     MASKS,
     MASKS_EXACT,
     NOTHING,
@@ -26,18 +24,18 @@ from physics.collision.manifold import (
     POLYGONS,
     SURFACE_ANY,
     Batch,
-    add_point,
+    add_manifold,
     is_before,
     is_of,
     new_workspace,
     place_in_order,
 )
-from physics.collision.mask_parts import drop_opposed, settle_left
-from physics.collision.masks import collide_mask_pairs_full, collide_mask_pairs_hit, collide_mask_shape_pairs
+from physics.collision.mask_parts import drop_opposed, fallback_manifolds
+from physics.collision.masks import collide_mask_pairs_full, collide_mask_pairs_hit
 from physics.collision.masks_exact import (
-    collide_exact_hull_pairs,
     collide_exact_mask_pairs_full,
     collide_exact_mask_pairs_hit,
+    collide_mask_hull_pairs,
 )
 from physics.collision.tiles import collide_grid_pairs_closed, collide_grid_pairs_one_way
 from physics.islands.awake import is_active, wakes
@@ -119,7 +117,7 @@ def collide_boxes(
             ny = 1.0
         x = 0.5 * (max(a.min_x, b.min_x) + min(a.max_x, b.max_x))
         y = 0.5 * (max(a.min_y, b.min_y) + min(a.max_y, b.max_y))
-        found = add_point(shapes, candidates, i, found, nx, ny, x, y, -least, 0.0, 0, manifolds_out)
+        found = add_manifold(shapes, candidates, i, (nx, ny, x, y, -least, 0.0, 0), manifolds_out, found)
     return found
 
 
@@ -143,7 +141,7 @@ def kind_of_pair(low, high):
     if low == MASK and high == MASK:
         return MASKS
     if low == MASK or high == MASK:
-        return MASK_CIRCLE if low == CIRCLE else MASK_POLYGON
+        return MASK_HULL
     return POLYGON_CIRCLE if low == CIRCLE else POLYGONS
 
 
@@ -151,16 +149,14 @@ def kind_of_pair(low, high):
 def as_snapped(kind, a, b):
     """Return the kind of pair of two SHAPE rows, where `kind` is that of their shape kinds.
 
-    Two snapped masks are tested as drawn, and so is a snapped mask against a hull. A mask that is not snapped is tested
-    at its exact pose. A chain that is part of a mask is its surface.
+    Two snapped masks are tested by AND, any other two masks at their exact poses. A chain that is part of a mask is its
+    surface.
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
         return SURFACE_ANY if chain.role == PART else kind
     if kind == MASKS:
         return kind if a.snap and b.snap else MASKS_EXACT
-    if kind == MASK_CIRCLE or kind == MASK_POLYGON:
-        return kind if a.snap or b.snap else MASK_HULL_EXACT
     return kind
 
 
@@ -176,7 +172,7 @@ def boxes_apart(a, b, margin):
 
 
 @inlined
-def kind_asked(bodies, a, b, margin, ahead, which):
+def kind_asked(bodies, a, b, margin, lookahead, which):
     """Return the kind of a candidate pair of SHAPE rows, NOTHING if this pass does not read it. which: see classify."""
     if not is_wanted(which, a, b):
         return NOTHING
@@ -186,14 +182,14 @@ def kind_asked(bodies, a, b, margin, ahead, which):
     if which == SENSORS:
         margin += drawn_beyond(bodies[a.body_row], a) + drawn_beyond(bodies[b.body_row], b)
     if boxes_apart(a, b, margin):
-        if ahead <= 0.0 or kind > POLYGONS:
+        if lookahead <= 0.0 or kind > POLYGONS:
             return NOTHING
         p = bodies[a.body_row]
         q = bodies[b.body_row]
-        if ahead * most_nearing(p, q) <= margin:
+        if lookahead * closing_speed_bound(p, q) <= margin:
             return NOTHING
-        _, _, speed = nearing(p, q)
-        if boxes_apart(a, b, reach_of(p, q, speed, margin, ahead)):
+        _, _, speed = center_velocity(p, q)
+        if boxes_apart(a, b, speculative_distance(p, q, speed, margin, lookahead)):
             return NOTHING
     if which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
         return NOTHING
@@ -203,7 +199,7 @@ def kind_asked(bodies, a, b, margin, ahead, which):
 @inlined
 def is_of_child(a, b):
     """Return whether a side of a pair of SHAPE rows is a part of another shape."""
-    return a.owner != a.id or b.owner != b.id
+    return a.parent != a.id or b.parent != b.id
 
 
 @kernel
@@ -214,7 +210,7 @@ def classify(
     candidates,
     count,
     margin,
-    ahead,
+    lookahead,
     which,
     # write
     kind_out,
@@ -225,7 +221,7 @@ def classify(
 
     counts_out[PARTED]: pairs with a part of another shape; counts_out[DRAWN_PAIRS]: pairs with a mask drawn for the
     test. which: ALL, NO_SENSORS, SENSORS, or SOLIDS. SOLIDS are pairs whose contact can change, with boxes within
-    `margin` [px], or that meet within `ahead` [s]. All other pairs are NOTHING.
+    `margin` [px], or that meet within `lookahead` [s]. All other pairs are NOTHING.
     """
     for i in range(len(counts_out)):
         counts_out[i] = 0
@@ -233,7 +229,7 @@ def classify(
     for i in range(count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        kind = kind_asked(bodies, a, b, margin, ahead, which)
+        kind = kind_asked(bodies, a, b, margin, lookahead, which)
         kind_out[i] = kind
         counts_out[kind] += 1
         if kind != NOTHING:
@@ -295,15 +291,14 @@ class NarrowPhase:
         exact = collide_exact_mask_pairs_full if full_masks else collide_exact_mask_pairs_hit
         grids = collide_grid_pairs_one_way if one_way else collide_grid_pairs_closed
         self.passes = (
-            ((CIRCLES,), collide_circle_pairs),
-            ((POLYGON_CIRCLE,), collide_polygon_circle_pairs),
-            ((POLYGONS,), collide_polygon_pairs),
-            ((MASKS,), masks),
-            ((MASK_CIRCLE, MASK_POLYGON), collide_mask_shape_pairs),
-            ((MASKS_EXACT,), exact),
-            ((MASK_HULL_EXACT,), collide_exact_hull_pairs),
-            ((GRID_ANY,), grids),
-            ((CHAIN_ANY,), collide_chain_pairs),
+            (CIRCLES, collide_circle_pairs),
+            (POLYGON_CIRCLE, collide_polygon_circle_pairs),
+            (POLYGONS, collide_polygon_pairs),
+            (MASKS, masks),
+            (MASKS_EXACT, exact),
+            (MASK_HULL, collide_mask_hull_pairs),
+            (GRID_ANY, grids),
+            (CHAIN_ANY, collide_chain_pairs),
         )
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
@@ -322,7 +317,7 @@ class NarrowPhase:
         bias: float = 0.0,
         previous: np.ndarray | None = None,
         graze: float = 0.0,
-        ahead: float = 0.0,
+        lookahead: float = 0.0,
     ) -> np.ndarray:
         """Return the manifolds of the candidate pairs, in their order: a view that the call after the next one
         overwrites.
@@ -330,16 +325,16 @@ class NarrowPhase:
         The masks among them are drawn at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2)
         int64 shape rows; margin [px]: largest gap of a contact; work: counters; which: see classify; bias [px]: see
         hulls.collide_hulls. previous: manifolds of the last step, which report the bodies on one-way ground. graze
-        [px], ahead [s]: see Batch.
+        [px], lookahead [s]: see Batch.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
         count = len(candidates)
-        margin, bias, graze, ahead = float(margin), float(bias), float(graze), float(ahead)
-        batch = self.batch_of(library, bodies, shapes, candidates, margin, bias, graze, ahead)
+        margin, bias, graze, lookahead = float(margin), float(bias), float(graze), float(lookahead)
+        batch = self.batch_of(library, bodies, shapes, candidates, margin, bias, graze, lookahead)
         if self.boxes_only:
             return self.find_boxes(batch, which, work)
-        classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
+        classify(bodies, shapes, candidates, count, margin, lookahead, which, self.kinds, self.counts, work)
         if self.counts[DRAWN_PAIRS]:
             draw_masks(library, np.unique(candidates[self.kinds[:count] != NOTHING]), bodies, shapes)
             batch = batch._replace(geometry=library.tables)
@@ -354,21 +349,22 @@ class NarrowPhase:
         margin: float,
         bias: float,
         graze: float,
-        ahead: float,
+        lookahead: float,
     ) -> Batch:
         """Return the input of the passes over these candidates, with room for their kinds; see collide and Batch."""
         count = len(candidates)
         self._make_room_for_pairs(count)
-        return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
+        return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, lookahead)
 
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
         """Return the contacts of the candidates from their AABBs alone; see is_asked."""
-        return self.raw[: self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))]
+        found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
+        return self.raw[:found]  # a larger table than before, where there was no room
 
-    def complete(self, batch: Batch, previous: np.ndarray | None, can_recycle: int, work: np.ndarray) -> np.ndarray:
+    def complete(self, batch: Batch, previous: np.ndarray | None, recycled: int, work: np.ndarray) -> np.ndarray:
         """Return the manifolds of all pairs whose kinds are counted, in the order of the candidates.
 
-        again: number of manifolds that are in self.raw already.
+        recycled: number of manifolds that are in self.raw already.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -376,11 +372,11 @@ class NarrowPhase:
             workspace = self._remember(batch, previous) if remembered else workspace
             if counts[SURFACE_ANY]:
                 admit_to_surfaces(batch, remembered, workspace, self.kinds, counts)
-        counts, found, orders = counts.tolist(), can_recycle, int(can_recycle > 0)
+        counts, found, orders = counts.tolist(), recycled, int(recycled > 0)
         if any(counts[:NOTHING]):
-            found, parts = self._detect(batch, workspace, previous, counts, can_recycle, work)
+            found, parts = self._detect(batch, workspace, previous, counts, recycled, work)
             orders += parts
-        if counts[WITH_CHILD] and (counts[POLYGONS] or can_recycle):
+        if counts[WITH_CHILD] and (counts[POLYGONS] or recycled):
             found = drop_opposed(batch.bodies, found, batch.margin, self._deep_for(found), self.raw)
         if orders < 2:
             return self.raw[:found]
@@ -389,28 +385,28 @@ class NarrowPhase:
         place_in_order(self.raw, found, batch.count, self.kinds, self.ordered)
         return self.ordered[:found]
 
-    def _detect(self, batch, workspace, previous, counts, can_recycle, work) -> tuple[int, int]:
-        """Add the manifolds of the pairs whose kinds are counted after the first `can_recycle`.
+    def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
+        """Add the manifolds of the pairs whose kinds are counted after the first `recycled`.
 
         Return their number, with the first ones, and the number of runs added, each in the order of the candidates.
         """
-        used = [run for kinds, run in self.passes if any(counts[kind] for kind in kinds)]
-        if len(workspace.left) < batch.count + 1:
-            workspace = workspace._replace(left=np.zeros(2 * batch.count + 1, np.int64))
-            self.workspace = self.workspace._replace(left=workspace.left)
+        used = [run for kind, run in self.passes if counts[kind]]
+        if len(workspace.fallback) < batch.count + 1:
+            workspace = workspace._replace(fallback=np.zeros(2 * batch.count + 1, np.int64))
+            self.workspace = self.workspace._replace(fallback=workspace.fallback)
 
         def run_all():
-            found = can_recycle
-            workspace.left[0] = 0
+            found = recycled
+            workspace.fallback[0] = 0
             for run in used:
                 found = run(batch, workspace, self.raw, found, work)
             return found
 
         found = self._with_room(work, run_all)
-        if not workspace.left[0]:
+        if not workspace.fallback[0]:
             return found, len(used)
         before = self.raw[:0] if previous is None else previous
-        rest = settle_left(batch, self.raw[:found], before, workspace)
+        rest = fallback_manifolds(batch, self.raw[:found], before, workspace)
         self._make_room(found + len(rest))
         self.raw[found : found + len(rest)] = rest
         return found + len(rest), len(used) + (len(rest) > 0)

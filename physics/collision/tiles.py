@@ -1,15 +1,23 @@
 """Tile grids against other shapes: equal adjacent cells are one rectangle."""
 
 import math
-from collections.abc import Callable
+from typing import Any
 
-from physics.collision.hulls import ALL_EDGES, collide_hull_circle, collide_hulls, edge_normal, part_feature, part_of
-from physics.collision.manifold import GRID_ANY, add_point, add_points, circle_at, corners_of
-from physics.collision.masks_exact import meet_polygon
-from physics.jit import kernel, subkernel
-from physics.shapes.placement import box_as_tested, polygon_at, rounding
+from physics.collision.hulls import (
+    ALL_EDGES,
+    Hull,
+    box_corners,
+    collide_hull_circle,
+    collide_hulls,
+    edge_normal,
+    part_feature,
+    part_of,
+)
+from physics.collision.manifold import GRID_ANY, add_point, add_points, hull_of, make_pass, sides_by_kind
+from physics.collision.masks_exact import collide_mask_part, tested_aabb
+from physics.jit import inlined, subkernel
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE, SOLID
-from physics.tables.shape import BOUNDS, CIRCLE, MASK, TILES
+from physics.tables.shape import MASK, TILES
 from physics.tables.step_state import MASK_TESTS
 
 # ---- tiles -----------------------------------------------------------------------------------------------------------
@@ -20,7 +28,7 @@ from physics.tables.step_state import MASK_TESTS
 
 
 @subkernel
-def covered(grids, cells, grid, row, column, from_row, from_column):
+def is_covered(grids, cells, grid, row, column, from_row, from_column):
     """Return whether the cell at (row, column) covers the whole edge shared with the one at (from_row, from_column)."""
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
@@ -41,7 +49,7 @@ def covered(grids, cells, grid, row, column, from_row, from_column):
 
 
 @subkernel
-def turns_away(grids, cells, grid, row, column, side):
+def bends_down(grids, cells, grid, row, column, side):
     """Return whether the ground bends down where a tile meets its neighbour at side -1 or 1: an exposed corner."""
     g = grids[grid]
     other = column + side
@@ -56,49 +64,47 @@ def turns_away(grids, cells, grid, row, column, side):
 
 
 @subkernel
-def between(edges, count):
+def corners_between(edges, count):
     """Return the bits of the corners of which both edges are set."""
     return edges & ((edges << 1) | (edges >> (count - 1)))
 
 
-@subkernel
-def run_at(grids, cells, grid, x, y, row, column, low, high, corners_out):
+@inlined
+def run_at(geometry, grid, x, y, row, column, under, corners_out):
     """Write the world corners [px] of the run of solid or one-way cells that a cell belongs to. Return (corners,
     edges).
 
-    The bits of `edges` are those of tile_at, for one rectangle, so that no seam between its cells is felt. low..high:
-    columns under the other shape; top and bottom are touchable where a cell among these is not covered.
+    The bits of `edges` are those of tile_at, for one rectangle, so that no seam between its cells is felt. under: first
+    and last column under the other shape; top and bottom are touchable where a cell among these is not covered.
     """
+    grids = geometry.grids
+    cells = geometry.cells
+    low, high = under
     g = grids[grid]
     cell = cells[g.offset + row * g.columns + column]
-    corners_out[0, 0] = x + cell.first * g.tile_size
-    corners_out[0, 1] = y + row * g.tile_size
-    corners_out[1, 0] = x + (cell.last + 1) * g.tile_size
-    corners_out[1, 1] = y + row * g.tile_size
-    corners_out[2, 0] = x + (cell.last + 1) * g.tile_size
-    corners_out[2, 1] = y + (row + 1) * g.tile_size
-    corners_out[3, 0] = x + cell.first * g.tile_size
-    corners_out[3, 1] = y + (row + 1) * g.tile_size
+    left = x + cell.first * g.tile_size
+    right = x + (cell.last + 1) * g.tile_size
+    box_corners(left, y + row * g.tile_size, right, y + (row + 1) * g.tile_size, corners_out)
     if cell.kind == ONE_WAY:
         return 4, 1
     edges = 0
     corners = 0
     for k in range(min(max(low, cell.first), cell.last), max(min(high, cell.last), cell.first) + 1):
-        if not covered(grids, cells, grid, row - 1, k, row, k):
+        if not is_covered(grids, cells, grid, row - 1, k, row, k):
             edges |= 1
-        if not covered(grids, cells, grid, row + 1, k, row, k):
+        if not is_covered(grids, cells, grid, row + 1, k, row, k):
             edges |= 4
-    if not covered(grids, cells, grid, row, cell.last + 1, row, cell.last):
+    if not is_covered(grids, cells, grid, row, cell.last + 1, row, cell.last):
         edges |= 2
-    elif turns_away(grids, cells, grid, row, cell.last, 1):
+    elif bends_down(grids, cells, grid, row, cell.last, 1):
         corners |= 2
-    if not covered(grids, cells, grid, row, cell.first - 1, row, cell.first):
+    if not is_covered(grids, cells, grid, row, cell.first - 1, row, cell.first):
         edges |= 8
-    elif turns_away(grids, cells, grid, row, cell.first, -1):
+    elif bends_down(grids, cells, grid, row, cell.first, -1):
         corners |= 8
     if edges == 0:
         return 4, ALL_EDGES
-    return 4, edges | (between(edges | corners, 4) << 16)
+    return 4, edges | (corners_between(edges | corners, 4) << 16)
 
 
 @subkernel
@@ -119,15 +125,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
     top = y + row * g.tile_size
     bottom = y + (row + 1) * g.tile_size
     if cell.kind == ONE_WAY:
-        corners_out[0, 0] = left
-        corners_out[0, 1] = top
-        corners_out[1, 0] = right
-        corners_out[1, 1] = top
-        corners_out[2, 0] = right
-        corners_out[2, 1] = bottom
-        corners_out[3, 0] = left
-        corners_out[3, 1] = bottom
-        return 4, 1
+        return box_corners(left, top, right, bottom, corners_out), 1
     heights_left = 1.0
     heights_right = 1.0
     if cell.kind == SLOPE:
@@ -140,40 +138,44 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
     if heights_left > 0.0:
         corners_out[n, 0] = left
         corners_out[n, 1] = bottom - heights_left * g.tile_size
-        if heights_left < 1.0 or heights_right < 1.0 or not covered(grids, cells, grid, row - 1, column, row, column):
+        if (
+            heights_left < 1.0
+            or heights_right < 1.0
+            or not is_covered(grids, cells, grid, row - 1, column, row, column)
+        ):
             edges |= 1 << n
         n += 1
     if heights_right > 0.0:
         corners_out[n, 0] = right
         corners_out[n, 1] = bottom - heights_right * g.tile_size
         # Without a left side this is the second corner: the surface runs from the bottom left corner, written last.
-        if not covered(grids, cells, grid, row, column + 1, row, column):
+        if not is_covered(grids, cells, grid, row, column + 1, row, column):
             edges |= 1 << n
-        elif turns_away(grids, cells, grid, row, column, 1):
+        elif bends_down(grids, cells, grid, row, column, 1):
             corners |= 1 << n
         n += 1
     corners_out[n, 0] = right
     corners_out[n, 1] = bottom
-    if not covered(grids, cells, grid, row + 1, column, row, column):
+    if not is_covered(grids, cells, grid, row + 1, column, row, column):
         edges |= 1 << n
     n += 1
     corners_out[n, 0] = left
     corners_out[n, 1] = bottom
     if heights_left > 0.0:
-        if not covered(grids, cells, grid, row, column - 1, row, column):
+        if not is_covered(grids, cells, grid, row, column - 1, row, column):
             edges |= 1 << n
-        elif turns_away(grids, cells, grid, row, column, -1):
+        elif bends_down(grids, cells, grid, row, column, -1):
             corners |= 1 << n
     else:
         edges |= 1 << n  # the edge back to the first corner is the surface
     n += 1
     if edges == 0:
         return n, ALL_EDGES
-    return n, edges | (between(edges | corners, n) << 16)
+    return n, edges | (corners_between(edges | corners, n) << 16)
 
 
 @subkernel
-def edges_facing(corners, count, tile_edges):
+def pushing_edges_on_tile(corners, count, tile_edges):
     """Return the edges of another polygon that may push it out of a tile: those that do not face a covered side.
 
     tile_edges: bits of tile_at for a tile of four corners (surface, right, bottom, left).
@@ -203,7 +205,7 @@ def edges_facing(corners, count, tile_edges):
 
 
 @subkernel
-def stood_on(workspace, pair, run):
+def touched_run(workspace, pair, run):
     """Return whether this candidate had a contact with this run of tiles in the last step."""
     if pair >= len(workspace.memory):
         return False
@@ -217,166 +219,101 @@ def stood_on(workspace, pair, run):
     return False
 
 
-def make_grid_pass(one_way: bool) -> Callable:
+def make_grid_pass(one_way: bool) -> Any:
     """Return the pass over pairs of a tile grid and any other shape; one_way: with one-way tiles."""
 
-    @kernel
-    def collide_grid_pairs(
-        # read
-        batch,
-        # write
-        workspace,
-        manifolds_out,
-        found,
-        work_inout,
-    ):
-        """Append the contacts of all pairs with a tile grid, run by run, from `found` on. Return the new count."""
+    @inlined
+    def collide_grid_pair(batch, pair, workspace, manifolds_out, found, work_inout):
+        """Append the contacts of a tile grid and another shape, run by run. Return the new count."""
         geometry = batch.geometry
         bodies = batch.bodies
         shapes = batch.shapes
         candidates = batch.candidates
-        kinds = batch.kinds
         margin = batch.margin
-        grids = geometry.grids
         cells = geometry.cells
-        polygons = geometry.polygons
-        table = geometry.corners
-        for i in range(batch.count):
-            if kinds[i] != GRID_ANY:
-                continue
-            sign = 1.0 if shapes[candidates[i, 0]].kind == TILES else -1.0
-            row = candidates[i, 0] if sign > 0.0 else candidates[i, 1]
-            other = candidates[i, 1] if sign > 0.0 else candidates[i, 0]
-            s = shapes[row]
-            o = shapes[other]
-            p = bodies[s.body_row]
-            q = bodies[o.body_row]
-            g = grids[s.geometry]
-            min_x = o.min_x
-            min_y = o.min_y
-            max_x = o.max_x
-            max_y = o.max_y
-            if o.kind == MASK:
-                min_x, min_y, max_x, max_y = box_as_tested(geometry, o)
-            first_column = max(0, math.ceil((min_x - margin - p.x) / g.tile_size) - 1)
-            last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
-            first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)
-            last_row = min(g.rows - 1, math.floor((max_y + margin - p.y) / g.tile_size))
-            n = 0
-            cx = 0.0
-            cy = 0.0
-            radius = 0.0
-            if o.kind == MASK:
-                work_inout[MASK_TESTS] += 1
-            elif o.kind == CIRCLE:
-                cx, cy, radius = circle_at(bodies, shapes, other)
-            else:
-                if o.kind == BOUNDS:
-                    n = corners_of(geometry, bodies, shapes, other, workspace.b)
-                else:
-                    n = polygon_at(
-                        polygons, table, o.geometry, q.x, q.y, math.cos(q.angle), math.sin(q.angle), workspace.b
-                    )
-                radius = rounding(shapes, other)
-            # Columns that the shape overlaps, not only touches.
-            low = math.floor((min_x - p.x) / g.tile_size)
-            high = math.ceil((max_x - p.x) / g.tile_size) - 1
-            was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
-            start = found
-            seen = 0
-            for attempt in range(2):
-                # Second pass, for a deep overlap that every tile left to a neighbour: with every edge touchable.
-                if attempt == 1 and (seen == 0 or found > start):
-                    break
-                deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
-                for tile_row in range(first_row, last_row + 1):
-                    next_column = first_column
-                    while next_column <= last_column:
-                        tile_column = next_column
-                        cell = cells[g.offset + tile_row * g.columns + tile_column]
-                        kind = cell.kind
-                        next_column = cell.last + 1
-                        if kind == EMPTY or (kind == ONE_WAY and not one_way):
-                            continue
-                        # One-way: only a shape that came from above the tile, or was in contact with it, may touch it.
-                        if kind == ONE_WAY and (
-                            attempt == 1
-                            or (
-                                was_above > p.y + tile_row * g.tile_size + margin
-                                and not stood_on(workspace, i, tile_row * g.columns + cell.first)
-                            )
-                        ):
-                            continue
-                        if kind == SLOPE:
-                            corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, workspace.a)
-                        else:
-                            corners, edges = run_at(
-                                grids, cells, s.geometry, p.x, p.y, tile_row, tile_column, low, high, workspace.a
-                            )
-                        seen += 1
-                        edges = edges if attempt == 0 else ALL_EDGES
-                        feature = part_feature(tile_row * g.columns + cell.first, 0)
-                        if o.kind == MASK:
-                            area, nx, ny, x, y, separation, which = meet_polygon(
-                                geometry, q, o, workspace.a, corners, edges, workspace.b, workspace.depths
-                            )
-                            if area > 0.0:
-                                found = add_point(
-                                    shapes,
-                                    candidates,
-                                    i,
-                                    found,
-                                    -sign * nx,
-                                    -sign * ny,
-                                    x,
-                                    y,
-                                    separation,
-                                    area,
-                                    feature,
-                                    manifolds_out,
-                                )
-                        elif o.kind == CIRCLE:
-                            hit, nx, ny, x, y, separation, which = collide_hull_circle(
-                                workspace.a, corners, edges, 0.0, cx, cy, radius
-                            )
-                            if hit and separation <= margin:
-                                found = add_point(
-                                    shapes,
-                                    candidates,
-                                    i,
-                                    found,
-                                    sign * nx,
-                                    sign * ny,
-                                    x,
-                                    y,
-                                    separation,
-                                    0.0,
-                                    feature + which,
-                                    manifolds_out,
-                                )
-                        else:
-                            manifold = workspace.points
-                            facing = edges_facing(workspace.b, n, edges) if corners == 4 else ALL_EDGES
-                            points = collide_hulls(
-                                workspace.a,
-                                corners,
-                                0.0,
-                                edges,
-                                workspace.b,
-                                n,
-                                radius,
-                                facing,
-                                margin,
-                                batch.bias,
-                                deepest,
-                                manifold,
-                            )
-                            found = add_points(
-                                shapes, candidates, i, found, sign, manifold, points, feature, manifolds_out
-                            )
+        tile = workspace.a
+        sign, row, other = sides_by_kind(batch, pair, TILES)
+        s = shapes[row]
+        o = shapes[other]
+        p = bodies[s.body_row]
+        q = bodies[o.body_row]
+        g = geometry.grids[s.geometry]
+        min_x, min_y, max_x, max_y = tested_aabb(geometry, o)
+        first_column = max(0, math.ceil((min_x - margin - p.x) / g.tile_size) - 1)
+        last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
+        first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)
+        last_row = min(g.rows - 1, math.floor((max_y + margin - p.y) / g.tile_size))
+        hull = Hull(workspace.b, 0, 0.0, ALL_EDGES)
+        if o.kind == MASK:
+            work_inout[MASK_TESTS] += 1
+        else:
+            hull = hull_of(geometry, bodies, shapes, other, workspace.b)
+        # Columns that the shape overlaps, not only touches.
+        under = (math.floor((min_x - p.x) / g.tile_size), math.ceil((max_x - p.x) / g.tile_size) - 1)
+        was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
+        start = found
+        seen = 0
+        for attempt in range(2):
+            # Second pass, for a deep overlap that every tile left to a neighbour: with every edge touchable.
+            if attempt == 1 and (seen == 0 or found > start):
+                break
+            deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
+            for tile_row in range(first_row, last_row + 1):
+                next_column = first_column
+                while next_column <= last_column:
+                    tile_column = next_column
+                    cell = cells[g.offset + tile_row * g.columns + tile_column]
+                    kind = cell.kind
+                    next_column = cell.last + 1
+                    if kind == EMPTY or (kind == ONE_WAY and not one_way):
+                        continue
+                    run = tile_row * g.columns + cell.first
+                    # One-way: only a shape that came from above the tile, or was in contact with it, may touch it.
+                    if kind == ONE_WAY and (
+                        attempt == 1
+                        or (was_above > p.y + tile_row * g.tile_size + margin and not touched_run(workspace, pair, run))
+                    ):
+                        continue
+                    if kind == SLOPE:
+                        corners, edges = tile_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, tile)
+                    else:
+                        corners, edges = run_at(geometry, s.geometry, p.x, p.y, tile_row, tile_column, under, tile)
+                    seen += 1
+                    if attempt == 1:
+                        edges = ALL_EDGES
+                    feature = part_feature(run, 0)
+                    if o.kind == MASK:
+                        area, nx, ny, x, y, separation, _ = collide_mask_part(
+                            geometry, q, o, Hull(tile, corners, 0.0, edges), workspace.b, workspace.depths
+                        )
+                        if area > 0.0:
+                            point = (-sign * nx, -sign * ny, x, y, separation, area, feature)
+                            found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                    elif hull.count == 1:
+                        hit, nx, ny, x, y, separation, which = collide_hull_circle(
+                            Hull(tile, corners, 0.0, edges), hull.corners[0, 0], hull.corners[0, 1], hull.radius
+                        )
+                        if hit and separation <= margin:
+                            point = (sign * nx, sign * ny, x, y, separation, 0.0, feature + which)
+                            found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                    else:
+                        facing = ALL_EDGES
+                        if corners == 4:
+                            facing = pushing_edges_on_tile(hull.corners, hull.count, edges)
+                        collide_hulls(
+                            Hull(tile, corners, 0.0, edges),
+                            Hull(hull.corners, hull.count, hull.radius, facing),
+                            margin,
+                            batch.bias,
+                            deepest,
+                            workspace.points,
+                        )
+                        found = add_points(
+                            shapes, candidates, pair, sign, workspace.points, feature, manifolds_out, found
+                        )
         return found
 
-    return collide_grid_pairs
+    return make_pass(GRID_ANY, collide_grid_pair)
 
 
 collide_grid_pairs_one_way = make_grid_pass(one_way=True)

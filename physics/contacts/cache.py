@@ -4,7 +4,7 @@ import math
 
 from physics.collision.hulls import CIRCLE_CORNER, CORNERS, PART
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import rotation_of, norm, rotate, unit
+from physics.math2d import norm, rotate, rotation_of, unit
 from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE, RECYCLE_WANDER
 from physics.shapes.library import add_missing_rasters
 from physics.shapes.placement import is_hull, refresh_boxes
@@ -157,7 +157,9 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
     c.held_ay_2 = 0.0
     half = 0.5 * c.separation_1
     c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, c.x_1, c.y_1, nx, ny, -(half + c.radius_a), 0.0)
-    c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, c.x_1, c.y_1, nx, ny, half + c.radius_b, c.tangential_offset)
+    c.local_bx_1, c.local_by_1 = core_in_body(
+        b, b_cosine, b_sine, c.x_1, c.y_1, nx, ny, half + c.radius_b, c.tangential_offset
+    )
     c.base_1 = c.separation_1
     c.share_1 = share_of(polygons, table, a, b, c, s, o, False)
     c.local_ax_2 = 0.0
@@ -171,7 +173,9 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
         c.held_ay_2 = c.y_2 - a.center_y
         half = 0.5 * c.separation_2
         c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, c.x_2, c.y_2, nx, ny, -(half + c.radius_a), 0.0)
-        c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, c.x_2, c.y_2, nx, ny, half + c.radius_b, c.tangential_offset)
+        c.local_bx_2, c.local_by_2 = core_in_body(
+            b, b_cosine, b_sine, c.x_2, c.y_2, nx, ny, half + c.radius_b, c.tangential_offset
+        )
         c.base_2 = c.separation_2
         c.share_2 = share_of(polygons, table, a, b, c, s, o, True)
 

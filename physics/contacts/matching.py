@@ -7,7 +7,16 @@ import numpy as np
 
 from physics.collision.hull_pairs import approach
 from physics.collision.manifold import NOTHING, Batch, is_before, is_of, mixed
-from physics.collision.narrow_phase import BIAS, GRAZE, WITH_CHILD, SOLIDS, NarrowPhase, is_of_child, kind_asked, no_work
+from physics.collision.narrow_phase import (
+    BIAS,
+    GRAZE,
+    SOLIDS,
+    WITH_CHILD,
+    NarrowPhase,
+    is_of_child,
+    kind_asked,
+    no_work,
+)
 from physics.contacts.cache import can_recycle, is_finite, is_unmoved, reset_impulses, write_cache
 from physics.islands.sleep import order_of
 from physics.jit import copy_head, copy_row, inlined, kernel, subkernel
@@ -201,7 +210,7 @@ def recycle_contacts(
     for i in range(batch.count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        kind = kind_asked(bodies, a, b, batch.margin, batch.ahead, SOLIDS)
+        kind = kind_asked(bodies, a, b, batch.margin, batch.lookahead, SOLIDS)
         kinds_out[i] = kind
         counts_out[kind] += 1
         if kind == NOTHING:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.math2d import rotation_of, rotate
+from physics.math2d import rotate, rotation_of
 from physics.shapes.library import add_missing_rasters
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.body import DYNAMIC, STATIC

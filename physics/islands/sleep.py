@@ -85,7 +85,8 @@ class SleepingSet:
 
     def keep_touching(self, rows: np.ndarray, fell_asleep: np.ndarray, keys: np.ndarray) -> None:
         """Store the touching pairs, EVENT rows, of islands that have just fallen asleep."""
-        place = np.searchsorted(fell_asleep["shape_a"] << 32 | fell_asleep["shape_b"], rows["shape_a"] << 32 | rows["shape_b"])
+        known = fell_asleep["shape_a"] << 32 | fell_asleep["shape_b"]
+        place = np.searchsorted(known, rows["shape_a"] << 32 | rows["shape_b"])
         owners = keys[place]
         order = np.argsort(owners, kind="stable")
         names, starts = np.unique(owners[order], return_index=True)

@@ -212,7 +212,7 @@ class QueryIndex:
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Whether a query searches the broad phase, which holds some shape."""
+        """Return whether a query searches the broad phase, which holds some shape."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:
@@ -271,7 +271,7 @@ class QueryIndex:
         self.asked.append(box)
         found = 0
         if self.asks_broadphase(world):
-            found = world.broadphase.near(world.pairs.proxies, box, self.slots, self.work)
+            found = world.broadphase.query_box(world.pairs.proxies, box, self.slots, self.work)
         count = rows_meeting(
             world.shapes, self.row_of_slot, self.slots, found, self.loose, self.loose_count, *box, self.rows, self.work
         )

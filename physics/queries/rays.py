@@ -3,7 +3,7 @@
 import math
 
 from physics.ccd.time_of_impact import MISS, cast_on_polygon, sweep_circle_polygon, sweep_circles
-from physics.collision.hulls import ALL_EDGES, collide_hull_circle, edge_gap, edge_normal
+from physics.collision.hulls import ALL_EDGES, Hull, collide_hull_circle, distance_to_edge, edge_normal
 from physics.collision.tiles import tile_at
 from physics.jit import subkernel
 from physics.math2d import cosine_and_sine, rotate, unit
@@ -47,7 +47,7 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
 def cast_on_segment(corners, x, y, dx, dy):
     """Return (fraction or MISS, normal against the ray) of a ray and a two-sided segment [px]."""
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
-    if edge_gap(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y) == 0.0:
+    if distance_to_edge(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y) == 0.0:
         return 0.0, back_x, back_y
     fraction = cast_on_line(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y, dx, dy)
     nx, ny = edge_normal(corners, 2, 0)
@@ -77,7 +77,7 @@ def cast_on_hull(corners, count, radius, x, y, dx, dy):
     if radius == 0.0 and count == 2:
         return cast_on_segment(corners, x, y, dx, dy)
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
-    _, _, _, _, _, separation, _ = collide_hull_circle(corners, count, ALL_EDGES, radius, x, y, 0.0)
+    _, _, _, _, _, separation, _ = collide_hull_circle(Hull(corners, count, radius, ALL_EDGES), x, y, 0.0)
     if separation <= 0.0:
         return 0.0, back_x, back_y
     if dx == 0.0 and dy == 0.0:
@@ -154,7 +154,7 @@ def cast_on_chain(chains, links, blocks, chain, x, y, cosine, sine, dx, dy, bloc
         for k in range(block * block_links, min(span.count, (block + 1) * block_links)):
             link = links[span.offset + k]
             if point:
-                if edge_gap(link.ax, link.ay, link.bx, link.by, x, y) == 0.0:
+                if distance_to_edge(link.ax, link.ay, link.bx, link.by, x, y) == 0.0:
                     return 0.0, 0.0, -1.0
                 continue
             nx, ny = unit(link.by - link.ay, link.ax - link.bx, 0.0, -1.0)

@@ -3,7 +3,7 @@
 import math
 
 from physics.jit import kernel, subkernel
-from physics.math2d import cosine_and_sine, rotation_of, rotate
+from physics.math2d import cosine_and_sine, rotate, rotation_of
 from physics.settings import DRAWN, MASK_ANGLE_BUCKETS
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 

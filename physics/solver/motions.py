@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from physics.dynamics.integrate import put_center, refresh_center
-from physics.dynamics.non_finite import is_within_limits, is_finite_in_step
+from physics.dynamics.non_finite import is_finite_in_step, is_within_limits
 from physics.jit import kernel, subkernel
-from physics.math2d import rotation_of, norm, rotate
+from physics.math2d import norm, rotate, rotation_of
 from physics.shapes.library import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.contact import MOTION

@@ -84,10 +84,10 @@ CONTACT = in_lines(
         ("tangent_impulse_1", np.float64),
         ("normal_impulse_2", np.float64),
         ("tangent_impulse_2", np.float64),
-        ("tangential_offset", np.float64),  # [px] tangential offset: B slides along (-ny, nx) before contact; see hull_pairs.py
+        ("tangential_offset", np.float64),  # [px] B slides by it along (-ny, nx) before contact; see hull_pairs.py
         ("persisted_1", np.bool_),  # the same feature was in contact in the step before
         ("persisted_2", np.bool_),
-        ("can_recycle", np.bool_),  # can be recycled in the next step while both bodies keep the poses at the end of this one
+        ("can_recycle", np.bool_),  # in the next step, while both bodies keep the poses at the end of this one
         # Report.
         ("feature_1", np.int64),  # feature id of the corner, edge, tile or pixel; see collision/hulls.py
         ("feature_2", np.int64),

@@ -1,4 +1,4 @@
-"""The billiard table: cloth, cushions, pockets and the rack, and the lines that a cue ball may run along."""
+"""The billiard table: cloth, cushions, pockets and the rack, and the paths that a cue ball may take."""
 
 from math import cos, hypot, pi
 
@@ -6,7 +6,7 @@ import pygame
 
 from physics import Polygon
 
-CLOTH = pygame.Rect(24, 44, 344, 168)  # [px] between the cushions; the canvas and the world are the same
+CLOTH = pygame.Rect(24, 44, 344, 168)  # [px] between the cushions; canvas and world have the same coordinates
 BALL, MOUTH = 5.0, 5.0  # [px] radius of a ball and of the sensor in a pocket
 HOLES = tuple((x, y) for x in (CLOTH.left, CLOTH.centerx, CLOTH.right) for y in (CLOTH.top, CLOTH.bottom))
 CORNER_GAP, SIDE_GAP, JAW, DEEP = 14, 12, 6, 12  # [px] of the cushions: cut at corner and side, slant, depth
@@ -17,7 +17,7 @@ RACK = (1, 9, 2, 10, 8, 3, 4, 11, 5, 12, 13, 6, 14, 7, 15)
 
 
 def cushions():
-    """Six cushions with slanted jaws, and the wooden frame behind the pockets."""
+    """Return six cushions with slanted jaws, and the wooden frame behind the pockets."""
     left, top, right, bottom, middle = CLOTH.left, CLOTH.top, CLOTH.right, CLOTH.bottom, CLOTH.centerx
     shapes = []
     for y, way in ((top, -1), (bottom, 1)):
@@ -38,7 +38,7 @@ def cushions():
 
 
 def rack(random):
-    """(number, place) of the fifteen balls, each a little off its spot, as no hand racks them the same twice."""
+    """Return (number, place) of the fifteen balls, each slightly off its spot, so that no two racks are equal."""
     step_x, step_y = (2 * BALL + RACK_GAP) * cos(pi / 6), BALL + RACK_GAP / 2
     numbers = iter(RACK)
     for row in range(5):
@@ -49,7 +49,7 @@ def rack(random):
 
 
 def first_in_the_way(start, heading, balls):
-    """How far [px] a cue ball runs from `start` to a ball or a cushion's line, and that ball's place or None.
+    """Return the distance [px] of a cue ball from `start` to a ball or a cushion's line, and that ball's place or None.
 
     heading: a unit vector; balls: places of the other balls.
     """
@@ -71,7 +71,7 @@ def first_in_the_way(start, heading, balls):
 
 
 def best_point(cue, balls):
-    """Where the cue ball has to be to send a ball into a pocket [whole canvas px]: the straightest and nearest."""
+    """Return the place of the cue ball for potting a ball [whole canvas px]: the straightest and nearest shot."""
     x, y = cue
     best = (-2.0, (round(x) + 40, round(y)))
     for bx, by in balls:

@@ -1,8 +1,8 @@
 """Fifteen balls, a cue ball and six pockets: does a break keep the momentum it was given?
 
 What to see: seen from above there is no gravity, only the cloth's drag. Until the first ball meets a cushion the
-momentum of all balls together is the cue ball's, in size and direction, however they scatter; and no collision of
-two ever adds energy. Pockets are sensors: they push nothing and report who fell in.
+momentum of all balls together is the cue ball's, in size and direction, however they scatter; and no collision of two
+ever adds energy. Pockets are sensors: they push nothing and report each ball.
 
 Why it matters: Billiard games stand or fall with the break, and a solver that loses momentum there makes every table
 dull.
@@ -30,13 +30,13 @@ from scenes.lab.billiard_table import BALL, CLOTH, HEAD_SPOT, HOLES, MOUTH, best
 from scenes.lab.piles import kinetic_energy
 from scenes.lab.yard import HEAD, draw_head, plate
 
-TABLE = (4, 24)  # [canvas px] where the picture of the table goes
+TABLE = (4, 24)  # [canvas px] place of the table's picture
 FASTEST = 1300.0  # [px/s] of a cue ball hit with full power
-RESTS = 4.0  # [px/s] when none is faster, all stop
+RESTS = 4.0  # [px/s] when no ball is faster, all stop
 DRAG = 0.5  # [1/s]
 PIXELS_PER_METER = 4.0  # so that balls still bounce at 4 px/s: this table is 86 m of slow motion
 SWING = 70  # steps from no power to full while the mouse is held
-CALM = 30  # steps the bot waits
+CALM = 30  # steps that the bot waits
 SIDE = 396  # [canvas px] left of the score
 
 
@@ -56,23 +56,23 @@ class Billiards(Scene):
     legend_at = (SIDE, 150)
 
     def build(self):
-        """Table, cushions, pockets, balls."""
+        """Build table, cushions, pockets and balls."""
         atlas = load_atlas("lab")
         self.table, self.cast = atlas["table"], Cast(atlas)
         self.ball_names = {}  # body id -> number
         self.potted = []
         self.shots = self.scratches = self.calm = 0
         self.aim, self.power, self.held, self.last_pointer = 0.0, 0.9, -1, (0, 0)
-        self.budget = None  # what a break is measured by: momentum, steps, while no cushion was met
-        self.kept = 0.0  # worst error of momentum, as a share
-        self.off = 0.0  # the error now, where a break is measured
-        self.grown = self.grown_by_three = 0.0  # most that energy grew in a step, as a share; where three met
+        self.budget = None  # reference of a break: momentum and steps, until a cushion is hit
+        self.kept = 0.0  # greatest error of momentum, as a share
+        self.off = 0.0  # current error, if a break is measured
+        self.grown = self.grown_by_three = 0.0  # greatest gain of energy per step, as a share; in triples
         self.compared = 0
         self.energy = 0.0
         self.fill()
 
     def fill(self):
-        """A new world with the balls racked."""
+        """Make a new world with the balls racked."""
         self.worlds = []
         bounce = self.values["bounce"] / 100.0
         world = self.add_world(drag=self.values["drag"], pixels_per_meter=PIXELS_PER_METER)
@@ -95,7 +95,7 @@ class Billiards(Scene):
         return body
 
     def change_slider(self, name, value):
-        """Rack anew."""
+        """Rack the balls again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -107,11 +107,11 @@ class Billiards(Scene):
 
     @property
     def offer(self):
-        """When there is nothing left to pot."""
+        """True once all object balls are potted."""
         return "racks them again" if len(self.ball_names) == 1 else ""
 
     def update(self, inputs):
-        """Aim and shoot, one step, then the books."""
+        """Aim and shoot, make one step, then check momentum and energy."""
         if self.resting and not self.drag.holds:
             self.calm += 1
             self._aim(inputs)
@@ -155,7 +155,9 @@ class Billiards(Scene):
         self.play("hit", self.cue.position[0], 0.4 + 0.6 * self.power)
 
     def _keep_books(self, before):
-        """Momentum against the cue ball's until a cushion is met; energy against the step before, always."""
+        """Compare the momentum with the cue ball's until a cushion is hit, and the energy with that of the step
+        before.
+        """
         keep = 1.0 / (1.0 + self.values["drag"] * self.world.dt)
         self.energy = kinetic_energy(self.world)
         if self.drag.holds:
@@ -172,7 +174,7 @@ class Billiards(Scene):
         px, py, steps = self.budget
         steps += 1
         bodies, begun = self.world.bodies, self.world.events.begin
-        borne = self.world.contacts[self.world.contacts["normal_impulse"] > 0.0]  # by who lay on a cushion already
+        borne = self.world.contacts[self.world.contacts["normal_impulse"] > 0.0]  # also by a ball that lay at a cushion
         met = {each for rows in (begun, borne) for name in ("body_a", "body_b") for each in rows[name].tolist()}
         if met & self.cushions or len(self.world.events.sensor_begin):
             self.budget = None
@@ -185,7 +187,7 @@ class Billiards(Scene):
         self.budget = (px, py, steps)
 
     def _three_met(self):
-        """True if a body was in two contacts in this step: what then happens is the solver's choice, not a law."""
+        """Return whether a body was in two contacts in this step: the result is then the solver's choice, not a law."""
         contacts = self.world.contacts
         both = np.concatenate((contacts["body_a"], contacts["body_b"]))
         return len(np.unique(both)) < len(both)
@@ -195,7 +197,7 @@ class Billiards(Scene):
         for first, second in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
             ball = first if first in self.ball_names else second
             if ball not in self.ball_names:
-                continue  # it reached two pockets' sensors in one step
+                continue  # it reached the sensors of two pockets in one step
             if ball == self.cue.id:
                 self.scratches += 1
                 self.cue.velocity = (0.0, 0.0)
@@ -207,7 +209,7 @@ class Billiards(Scene):
             self.play("coin", None, 0.7)
 
     def _free_spot(self):
-        """The head spot, or the next place beside it that no ball holds."""
+        """Return the head spot, or the next free place beside it."""
         for shift in range(0, CLOTH.height // 2 - 8, 2):
             for y in (HEAD_SPOT[1] + shift, HEAD_SPOT[1] - shift):
                 if all(
@@ -218,7 +220,7 @@ class Billiards(Scene):
         return HEAD_SPOT
 
     def _others(self):
-        """Places of the balls but the cue ball, in the order in which they were added."""
+        """Return the places of all balls except the cue ball, in the order of their creation."""
         return [self.world.body(ball).position for ball in sorted(self.ball_names) if ball != self.cue.id]
 
     def _stop_the_slow(self):
@@ -227,7 +229,7 @@ class Billiards(Scene):
             bodies["vx"] = bodies["vy"] = 0.0
 
     def draw(self, canvas, alpha):
-        """Table, balls, cue, score."""
+        """Draw table, balls, cue, score."""
         canvas.surface.fill((30, 24, 46))
         draw_head(canvas, "BILLIARDS", "does a break keep the momentum it was given?")
         canvas.surface.blit(self.table, TABLE)
@@ -283,7 +285,7 @@ class Billiards(Scene):
         canvas.text(words, 196, 248, FOG, SMALL, align="center")
 
     def draw_on_frame(self, frame):
-        """The line of aim to the first ball in its way, and where that ball would go."""
+        """Draw the line of aim to the first ball, and that ball's path."""
         if not self.resting or self.drag.holds:
             return
         lens = frame.lens(self.camera)
@@ -299,7 +301,9 @@ class Billiards(Scene):
             pygame.draw.line(frame.surface, SKY, lens.points(*struck), lens.points(*far), max(1, frame.scale - 1))
 
     def check(self):
-        """Momentum to nine digits until the first cushion, energy never grows, the rack scatters, balls fall in."""
+        """Return the goals: momentum to nine digits until the first cushion, energy never grows, the rack scatters,
+        balls are potted.
+        """
         places = {identity: self.world.body(identity).position for identity in self.ball_names}
         moved = len(self.potted) + sum(
             hypot(x - self.racked[ball][0], y - self.racked[ball][1]) > BALL for ball, (x, y) in places.items()
@@ -325,14 +329,16 @@ class Billiards(Scene):
         ]
 
     def finding(self):
-        """How much of a break's momentum was lost before its first cushion, and what no collision of two has added."""
+        """Return the loss of a break's momentum before its first cushion, and the gain of energy in collisions of
+        two.
+        """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"
         told = f"in {count_text(self.compared, 'step')} before a cushion momentum was off by {self.kept:.1g} of itself"
         return f"{told}; a collision of two added {max(self.grown, 0.0):.1g} of the energy at most"
 
     def bot(self):
-        """Break, then shoot at the ball and pocket that line up best."""
+        """Return the bot: break, then shoot at the best aligned ball and pocket."""
         if self.calm == CALM and self.shots:
             return InputFrame(frozenset(), best_point(self.cue.position, self._others()))
         if self.calm == CALM + 1:
@@ -340,7 +346,7 @@ class Billiards(Scene):
         return InputFrame(frozenset(), self.last_pointer)
 
     def state(self):
-        """The score and the books; the world holds the balls."""
+        """Return the score and the measurements; the world holds the balls."""
         budget = self.budget or (0.0, 0.0, -1)
         return (
             self.frame,

@@ -1,10 +1,9 @@
 """Four broad phases on the same bodies: do they find the same pairs, and what does each pay for it?
 
-What to see: in which layout which strategy is cheap. Even bodies of one size suit the hash; slow movers
-along the ground suit the sweep; many still things and few movers suit the tree; brute force pays n squared.
+What to see: which strategy is cheap in which layout. Even bodies of one size suit the hash; slow movers along the
+ground suit the sweep; many still things and few movers suit the tree; brute force pays n squared.
 
-Why it matters: Without it n bodies are n (n - 1) / 2 pairs a step; no narrow phase is fast enough to make up for
-that.
+Why it matters: Without it n bodies are n (n - 1) / 2 pairs a step, too many for any narrow phase.
 
 To try: change the layout with left and right, wait for the exponents, and see which order of the four turns round.
 
@@ -42,9 +41,9 @@ CORNERS = ((4, 30), (166, 30), (4, 153), (166, 153))
 PLOTS = (("candidate pairs", 30), ("tests of boxes, nodes too [log]", 75))
 PLOT_X, PLOT_WIDTH, PLOT_HEIGHT = 330, 146, 42
 GROWTH = (330, 120, 146, 126)  # [canvas px] the plot of cost over number
-LARGEST = 5000 if JIT else 500  # bodies that are measured beside the game: plain, a step of brute force takes seconds
+LARGEST = 5000 if JIT else 500  # bodies measured beside the game; plain, a step of brute force takes seconds
 SIZES = tuple(round(LARGEST / 10 ** (k / 4)) for k in range(7, -1, -1))
-FITTED = 5  # of the largest sizes, a decade: below it what every step costs anyhow bends the line
+FITTED = 5  # of the largest sizes, a decade: below it the fixed cost of a step bends the line
 
 
 class Broadphases(Scene):
@@ -65,12 +64,12 @@ class Broadphases(Scene):
     actions = (("left right", "layout"), ("up down", "bodies"))
     overlays = ("structure", "pairs")
     switches_broadphase = False
-    keeps = {"narrowphase": "pairs of boxes are what is found and compared; whether discs in them touch, nobody asks"}
+    keeps = {"narrowphase": "pairs of boxes are what is found and compared; discs in them are not tested"}
     head = HEAD
     legend_at = (330, 248)
 
     def build(self):
-        """Pictures, curves and tallies; fill() makes the four worlds."""
+        """Make pictures, curves and counts; fill() makes the four worlds."""
         self.cameras = [Camera((*corner, VIEW_WIDTH, VIEW_HEIGHT), ZOOM) for corner in CORNERS]
         self.curves = [
             Curves(title, {"all four": PAPER} if i == 0 else BROADPHASE_COLORS) for i, (title, _) in enumerate(PLOTS)
@@ -82,17 +81,19 @@ class Broadphases(Scene):
 
     @property
     def layout(self):
-        """The name of the layout that is shown."""
+        """Name of the current layout."""
         return LAYOUTS[int(self.values["layout"])]
 
     def fill(self):
-        """Four new worlds with the same bodies, from a seed of their own per layout and number."""
+        """Make four new worlds with the same bodies, from a seed per layout and number."""
         self.worlds = []
         for strategy in STRATEGIES:
             populate(self.add_world(broadphase=strategy), self.layout, int(self.values["bodies"]), self.seed)
 
     def measured(self):
-        """A step of each broad phase in this layout, for every size and for the present number."""
+        """Return the runs to measure: a step of each broad phase in this layout, for every size and for the current
+        number.
+        """
         sizes = sorted({*SIZES, min(int(self.values["bodies"]), LARGEST)})
         names = [(self.layout, size, strategy) for size in sizes for strategy in STRATEGIES]
         return Lanes(names, self._lane)
@@ -103,7 +104,7 @@ class Broadphases(Scene):
         return Lane([made], strategy, stage="broad_phase")
 
     def growth(self, strategy):
-        """The measured points of a broad phase in this layout, and the power law through the largest of them."""
+        """Return the measured points of a broad phase in this layout, and the power law of the largest of them."""
         known = [(size, self.figures.get((self.layout, size, strategy))) for size in SIZES]
         points = [(size, figures.cost) for size, figures in known if figures is not None]
         done = all(figures is not None and figures.sure for _, figures in known)
@@ -111,14 +112,14 @@ class Broadphases(Scene):
         return Series(BROADPHASE_COLORS[strategy], points, law, FITTED)
 
     def change_slider(self, name, value):
-        """Another number or layout: fill the worlds anew."""
+        """Fill the worlds again after a change of number or layout."""
         super().change_slider(name, value)
         if name == "bodies":
-            self.tests = dict.fromkeys(STRATEGIES, 0)  # among few bodies none needs fewer than brute force
+            self.tests = dict.fromkeys(STRATEGIES, 0)  # among few bodies all need as many as brute force
         self.fill()
 
     def update(self, inputs):
-        """Keys turn the sliders; bodies bounce at the edges; all four step and are compared."""
+        """Let keys turn the sliders and bodies bounce at the edges; step all four worlds and compare them."""
         layout, bodies = self.values["layout"], self.values["bodies"]
         if inputs.pressed("left") or inputs.pressed("right"):
             way = 1 if inputs.pressed("right") else -1
@@ -137,17 +138,17 @@ class Broadphases(Scene):
             self.tests[strategy] += tests_of(world)
 
     def observe(self):
-        """Feed the curves."""
+        """Update the curves."""
         by_name = dict(zip(STRATEGIES, self.worlds, strict=True))
         self.curves[0].note({"all four": len(self.worlds[0].candidates)})
         self.curves[1].note({name: tests_of(w) for name, w in by_name.items()})
 
     def views(self):
-        """One picture per world."""
+        """Return one picture per world."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Heads, grounds and bodies as dots; curves and structures come at window resolution."""
+        """Draw heads, grounds and bodies as dots; curves and structures are drawn at window resolution."""
         canvas.surface.fill(NIGHT)
         canvas.text("BROAD PHASES", 4, 4, GOLD)
         canvas.text(f"{len(self.world.bodies):,} bodies", 474, 4, PAPER, align="right")
@@ -163,14 +164,14 @@ class Broadphases(Scene):
             draw_dots(canvas.surface, world, camera, color)
 
     def draw_on_frame(self, frame):
-        """The curves, and cost over number."""
+        """Draw the curves, and cost over number."""
         for curves, (_, y) in zip(self.curves, PLOTS, strict=True):
             curves.draw(frame, (PLOT_X, y, PLOT_WIDTH, PLOT_HEIGHT))
         series = {name: self.growth(name) for name in STRATEGIES}
         draw_growth(frame, GROWTH, "time of a step over bodies [log]", series, int(self.values["bodies"]))
 
     def finding(self):
-        """How fast the cost of each strategy grows in this layout."""
+        """Return the exponent of each strategy's cost in this layout."""
         laws = {name: self.growth(name).law for name in STRATEGIES}
         if None in laws.values():
             known = sum((self.layout, size, name) in self.figures for size in SIZES for name in STRATEGIES)
@@ -179,7 +180,7 @@ class Broadphases(Scene):
         return f"{self.layout}, {SIZES[-FITTED]:,} to {LARGEST:,} bodies: a step costs {grown}"
 
     def check(self):
-        """The same pairs from all, and fewer tests than brute force from the three others."""
+        """Return the goals: the same pairs from all, and fewer tests than brute force from the three others."""
         cheaper = all(self.tests[name] < self.tests["brute"] for name in STRATEGIES[1:])
         return [
             Goal(
@@ -199,12 +200,12 @@ class Broadphases(Scene):
         ]
 
     def bot(self):
-        """Another layout every two seconds."""
+        """Return the bot: another layout every two seconds."""
         turn = self.frame > 0 and self.frame % 120 == 0
         return InputFrame(frozenset(("right",)) if turn else frozenset())
 
     def state(self):
-        """What was chosen and what was found; the worlds hold the rest."""
+        """Return the settings and the results; the worlds hold the rest."""
         return (
             self.frame,
             self.values["bodies"],
@@ -216,7 +217,7 @@ class Broadphases(Scene):
 
 
 def bounce(world):
-    """Turn velocities around at the edges of the world, all at once."""
+    """Reverse the velocities at the edges of the world, all at once."""
     bodies = world.bodies
     for place, speed, low, high in (("x", "vx", 0.0, WIDTH), ("y", "vy", 0.0, HEIGHT)):
         position, velocity = bodies[place], bodies[speed]
@@ -225,13 +226,13 @@ def bounce(world):
 
 
 def tests_of(world):
-    """How often the last step's broad phase compared two boxes: of two shapes, or of a shape and a node of the tree."""
+    """Return the number of box tests in the last step's broad phase: of two shapes, or of a shape and a tree node."""
     counters = world.profile.counters
     return counters["pairs_tested"] + counters["nodes_visited"]
 
 
 def draw_dots(surface, world, camera, color):
-    """Every body as a canvas pixel, red while it is in a pair; the giant as a ring."""
+    """Draw every body as a canvas pixel, red while it is in a pair, and the giant as a ring."""
     bodies, view = world.bodies, camera.viewport
     x, y = camera.to_canvas(bodies["x"], bodies["y"])
     paired = np.unique(np.concatenate((world.contacts["body_a"], world.contacts["body_b"])))

@@ -1,4 +1,4 @@
-"""How the yard of lab/effects looks: what stands, what moves, and the outlines of what is elsewhere in another one."""
+"""The picture of the yard of lab/effects: static and moving things, and outlines of those elsewhere in another yard."""
 
 import numpy as np
 import pygame
@@ -20,7 +20,7 @@ DASH = 6  # [px] of the belt's marks
 
 
 class BusyPicture:
-    """draw() on the canvas, draw_ghost() at window resolution."""
+    """The picture: draw() on the canvas, draw_ghost() at window resolution."""
 
     def __init__(self):
         self.ground = Yard(int(FLOOR), dim=70)
@@ -28,7 +28,7 @@ class BusyPicture:
         self.planks = load_atlas("tiles")
 
     def draw(self, canvas, yard, alpha, way):
-        """A yard between its last two steps; way [px]: how far the belt has run."""
+        """Draw a yard interpolated between its last two steps; way [px]: motion of the belt."""
         surface = canvas.surface
         surface.blit(self.ground.picture, (0, 0))
         surface.fill(INK, (LEFT - 2, 0, 2, FLOOR))
@@ -67,7 +67,7 @@ class BusyPicture:
 
 
 def draw_ghost(frame, camera, yard, numbers, color):
-    """The outlines of things of a yard by number; of sprites their boxes."""
+    """Draw the outlines of a yard's things by number; boxes for sprites."""
     world, lens = yard.world, frame.lens(camera)
     shapes, ids = world.shapes, [yard.ids[number] for number in numbers]
     rows = np.flatnonzero(np.isin(shapes["body"], ids) & (shapes["role"] != PART))

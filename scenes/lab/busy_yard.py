@@ -1,4 +1,4 @@
-"""The yard of lab/effects: so many kinds of things at once that each effect has something to do in it."""
+"""The yard of lab/effects, with so many kinds of things that each effect acts on one."""
 
 from dataclasses import dataclass
 from math import sqrt
@@ -11,10 +11,10 @@ from physics import Capsule, Circle, Material, PixelMask, Polygon, TileGrid
 LEFT, RIGHT, FLOOR = 196.0, 480.0, 254.0  # [px] the inner sides of the walls, the floor
 DRAG, WIND = 0.35, (46.0, 0.0)  # [1/s], [px/s]
 TILE = 16
-PLANK = (304.0, 150.0)  # [px] upper left corner of four tiles that are open from below
+PLANK = (304.0, 150.0)  # [px] upper left corner of four one-way tiles
 BELT = ((212.0, 108.0), (276.0, 108.0), 5.0)  # centres of its rollers, their radius
-TARGET = (458.0, 72.0)  # [px] middle of the thin wall that is shot at
-ZONE = (290.0, 222.0, 34.0, 62.0)  # middle and size of the zone that tells who is in it
+TARGET = (458.0, 72.0)  # [px] middle of the thin wall that shots fly at
+ZONE = (290.0, 222.0, 34.0, 62.0)  # middle and size of the sensor zone
 ROCK = (398.0, 222.0, 64, 32)  # upper left corner and size [px]
 BITE, BITES, BITE_EVERY = 4.0, 18, 20  # radius of the drill [px], bites to a rock, steps between them
 CRUMB = 8  # pixels
@@ -25,7 +25,7 @@ CRATE = Polygon.box(14, 14)
 
 @dataclass(frozen=True)
 class Kind:
-    """What comes by the clock: every so many steps, for so many."""
+    """One kind of scheduled thing: its interval in steps, and its lifetime."""
 
     name: str
     shape: Circle | Polygon | Capsule | PixelMask
@@ -48,26 +48,27 @@ KINDS = (
     Kind("bullet", Circle(2), "steel", (206, 66), (2400, 0), 24, 1, 44, GRIP),
     Kind("feather", Circle(4), "violet", (206, 190), (0, -20), 50, 20, 300, GRIP, weight=0.02),
 )
-STACKS = ((214.0, 5), (234.0, 4), (254.0, 3))  # x of a stack, crates in it
+STACKS = ((214.0, 5), (234.0, 4), (254.0, 3))  # x of a stack, number of its crates
 STAR = (430.0, 206.0)
-ROOM = 34.0  # [px] over the rock, that the star needs
-PLACED = 1000000  # numbers from here on are of what is there from the start: the star first
+ROOM = 34.0  # [px] over the rock, for the star
+PLACED = 1000000  # first number of things that are there from the start; the star is the first
 
 
 class BusyYard:
-    """A world and what is done in it by the clock. `ids`: {number: body id} of what moves.
+    """A world with its schedule. `ids`: {number: body id} of moving things.
 
-    A number stands for the same thing in every world that went out from one, whatever else happened in it."""
+    A number denotes the same thing in every world copied from one, whatever happened in it.
+    """
 
     def __init__(self, world):
         self.world = world
-        self.ids, self.kinds, self.ends = {}, {}, {}  # by number: body id; Kind or name; step at which it goes
+        self.ids, self.kinds, self.ends = {}, {}, {}  # by number: body id; Kind or name; step of its removal
         self.rock = -1
         self.told = np.zeros(6, np.int64)  # begin, persist, end, hits, sensor begin, sensor end
         self.worked = 0  # bodies moved, pairs tested and rows solved, over all steps
 
     def furnish(self):
-        """What stands, and what lies there from the start."""
+        """Add the static things, and those that lie there from the start."""
         world, middle = self.world, (LEFT + RIGHT) / 2
         world.add_body(Polygon.box(800, 40), position=(middle, FLOOR + 20), kind="static", material=GRIP)
         for x in (LEFT - 10, RIGHT + 10):
@@ -91,7 +92,7 @@ class BusyYard:
         self.ids[number], self.kinds[number] = body.id, name
 
     def _renew_rock(self):
-        """A whole one again: what lies in its place goes, and the star comes back."""
+        """Replace the rock by a whole one: things in its place are removed, and the star is reset."""
         x, y, width, height = ROCK
         star, numbers = PLACED, {identity: number for number, identity in self.ids.items()}
         for body in self.world.query_aabb((x, y - ROOM), (x + width, y + height)):
@@ -111,14 +112,14 @@ class BusyYard:
         self.rock = self.world.add_body(mask, position=(x, y), kind="static", material=GRIP).id
 
     def beside(self, world):
-        """The same yard in another world, which has the same bodies."""
+        """Return the same yard in another world, which has the same bodies."""
         other = BusyYard(world)
         other.ids, other.kinds, other.ends = dict(self.ids), dict(self.kinds), dict(self.ends)
         other.rock = self.rock
         return other
 
     def step(self, clock):
-        """Do what is due at a step of the clock, make the step, and count."""
+        """Do what is scheduled for a step, make the step, and count."""
         world = self.world
         for number in [number for number, end in self.ends.items() if end == clock]:
             self._remove(number)
@@ -157,17 +158,17 @@ class BusyYard:
         self.worked += sum(counters[name] for name in ("bodies_integrated", "narrow_tests", "solver_rows"))
 
     def places(self, numbers):
-        """(n, 2) centres [px] of things by number."""
+        """Return (n, 2) centres [px] of things by number."""
         rows = self.world.bodies[self.world.rows([self.ids[number] for number in numbers])]
         return np.column_stack([rows["center_x"], rows["center_y"]])
 
 
 def apart(one, other):
-    """(numbers of what two yards both have, (n,) how far each thing is from itself in the other [px])."""
+    """Return (numbers of the common things of two yards, (n,) distances between their two places [px])."""
     numbers = sorted(one.ids.keys() & other.ids.keys())
     return numbers, np.hypot(*(one.places(numbers) - other.places(numbers)).T) if numbers else np.zeros(0)
 
 
 def rms(values):
-    """The root of the mean square; 0 of nothing."""
+    """Return the root of the mean square; 0 without values."""
     return sqrt(float((values * values).mean())) if len(values) else 0.0

@@ -35,15 +35,15 @@ STOREY = RISE + 2.0 * RADIUS + PLANK
 NEEDED = REACH / (2.0 * (RISE + RADIUS))
 LESS, MORE = 0.95 * NEEDED, 1.05 * NEEDED
 FLOOR = 238  # [canvas px]
-GIVES = 1.0  # [px] that a card moves before it is seen to
+GIVES = 1.0  # [px] motion of a card from which it is marked
 HOUSE_X = 140.0
 PAIRS = ((328.0, LESS, SKY), (436.0, MORE, GREEN))  # x, friction, colour of the cloth
 CLOTH = 62.0  # [px] wide
 WOOD, EDGE = (126, 78, 52), (190, 130, 88)
-RAIL = (280.0, 5.0, 20.0)  # [canvas px] x, width and height of what keeps a fallen house off the pairs
+RAIL = (280.0, 5.0, 20.0)  # [canvas px] x, width and height of the rail between a fallen house and the pairs
 COIN, COIN_SPEED, COIN_DENSITY = 5.0, 340.0, 10.0  # [px] radius, [px/s], times a card's
 JUDGED_AT = 600  # step: ten seconds
-SLIPPERY_AT, SLIPPERY = 604, 20  # the bot's step, and the friction it then chooses [1/100]
+SLIPPERY_AT, SLIPPERY = 604, 20  # the bot's step, and its choice of friction [1/100]
 
 
 class CardHouse(Scene):
@@ -63,14 +63,14 @@ class CardHouse(Scene):
     legend_at = (342, 88)
 
     def build(self):
-        """The table; fill() builds the house."""
+        """Build the table; fill() builds the house."""
         self.yard = Yard(FLOOR, 60, table=True)
-        self.held = None  # [px] how far its cards moved in the ten seconds that it stood, or None
-        self.slipped = False  # the house fell once at a friction that is too low
+        self.held = None  # [px] motion of its cards in the ten seconds, or None
+        self.slipped = False  # the house fell once with too little friction
         self.fill()
 
     def fill(self):
-        """A new world with everything as it was built."""
+        """Make a new world with everything as built."""
         self.worlds = []
         self.camera = Camera(((0, 16), (480, 254)), 1.0, y=16.0)
         self.add_world(substeps=int(self.values["substeps"]))
@@ -90,8 +90,8 @@ class CardHouse(Scene):
         self.start = {card.id: card.center for card in (*self.cards, *self.pairs[0], *self.pairs[1])}
         self.coins = []
         self.since = 0
-        self.stood = 0  # steps that the house stood
-        self.wandered = 0.0  # [px] of the card that moved furthest while it stood
+        self.stood = 0  # steps for which the house stood
+        self.wandered = 0.0  # [px] greatest motion of a card while it stood
 
     def _table(self, left, right, friction):
         self.world.add_body(
@@ -102,7 +102,7 @@ class CardHouse(Scene):
         )
 
     def _pair(self, x, floor, material):
-        """Two cards that lean on each other over x, their feet on `floor`."""
+        """Add two cards that lean on each other over x, with their feet on `floor`."""
         shape = Capsule((-LENGTH / 2, 0), (LENGTH / 2, 0), RADIUS)
         cards = []
         for side in (-1, 1):
@@ -126,12 +126,12 @@ class CardHouse(Scene):
         return cards
 
     def change_slider(self, name, value):
-        """Build anew."""
+        """Build everything again."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Keys, one step, and a look at what still stands."""
+        """Process keys, make one step, and check for falls."""
         for name, forth, back, notch in (("friction", "up", "down", 5), ("storeys", "right", "left", 1)):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -159,21 +159,21 @@ class CardHouse(Scene):
         self.play("coin")
 
     def moved(self, card):
-        """How far a card is from where it was laid [px]."""
+        """Return the distance of a card from its start [px]."""
         x, y = self.start[card.id]
         return hypot(card.center[0] - x, card.center[1] - y)
 
     def stands(self, cards):
-        """True while no card has sunk or slid by half its reach."""
+        """Return whether no card has sunk or slid by half its reach."""
         return all(self.moved(card) < REACH / 2 for card in cards)
 
     @property
     def offer(self):
-        """When the house has fallen."""
+        """True once the house has fallen."""
         return "" if self.stands(self.cards) else "builds it again"
 
     def draw(self, canvas, alpha):
-        """The table with its cloths, the cards, the words."""
+        """Draw the table with its cloths, the cards, the words."""
         self.yard.draw(canvas, "HOUSE OF CARDS", "how much friction does it need to stand?")
         for x, _, color in PAIRS:
             left = round(x - CLOTH / 2)
@@ -208,7 +208,7 @@ class CardHouse(Scene):
         canvas.text(word, x, FLOOR - 82, PAPER if still else ORANGE, SMALL, align="center")
 
     def draw_on_frame(self, frame):
-        """A ring at each card's middle that moved: where the house gives."""
+        """Draw a ring at the middle of each moved card, to show where the house gives way."""
         lens = frame.lens(self.camera)
         for card in self.cards:
             moved = self.moved(card)
@@ -216,7 +216,7 @@ class CardHouse(Scene):
                 pygame.draw.circle(frame.surface, GOLD, lens.points(*card.center), 2 * frame.scale, 1)
 
     def check(self):
-        """It stands for ten seconds, the pairs do what theory says, and at a low friction it falls."""
+        """Return the goals: it stands for ten seconds, the pairs follow theory, and at a low friction it falls."""
         slid, stood = (self.stands(cards) for cards in self.pairs)
         moved = self.wandered if self.held is None else self.held
         return [
@@ -232,7 +232,7 @@ class CardHouse(Scene):
         ]
 
     def finding(self):
-        """How long the house stands at its friction, and between which two a pair's need lies."""
+        """Return the time that the house stands at its friction, and the two frictions that bracket a pair's need."""
         if self.since < 60:
             return "not yet: the cards have to stand, or slide, for a second"
         house = f"{len(self.cards)} cards at a friction of {self.values['friction'] / 100:.2f}"
@@ -245,12 +245,12 @@ class CardHouse(Scene):
         return f"{told}; a pair slides at {LESS:.3f} and stands at {MORE:.3f}, as theory says: {NEEDED:.3f}"
 
     def bot(self):
-        """Watch for ten seconds, then make the cards slippery."""
+        """Return the bot: watch for ten seconds, then make the cards slippery."""
         changes = (("slider:friction", SLIPPERY),) if self.frame == SLIPPERY_AT else ()
         return InputFrame(changes=changes)
 
     def state(self):
-        """What was seen; the world holds the cards."""
+        """Return the measurements; the world holds the cards."""
         return (
             self.frame,
             self.since,

@@ -1,11 +1,10 @@
 """Ground of 480 x 240 pixels to blast and dig: what is undermined falls, rolls and comes to rest by its own pixels.
 
-What to see: only the tiles that a carve touches are made anew, so it costs the same in large ground as in small. What
-comes loose is a body at once, with its own pixels, mass and spin. Pixels are counted all the way: whatever is gone from
-the ground lies about as a piece, was taken by the tool, or was a crumb. With the overlay of masks on you see the tiles.
+What to see: a carve rebuilds only the tiles that it touches, so it costs the same in large ground as in small. A loose
+part is a body at once, with its own pixels, mass and spin. All pixels are counted: each one gone from the ground is in
+a piece, was taken by the tool, or was a crumb. The overlay of masks shows the tiles.
 
-Why it matters: Ground that can be dug is bought with pixels that are made anew; what a hole costs must not grow with
-the level.
+Why it matters: Diggable ground costs rebuilt pixels; the cost of a hole must not grow with the level.
 
 To try: cut a block off all around and watch it become a body as the last pixel goes.
 
@@ -32,12 +31,12 @@ from scenes.lab.tools import TOOLS, Tool
 from scenes.lab.yard import HEAD, draw_head, plate
 
 TOP, BOTTOM = 24, 264  # [px] of the ground
-CRUMB = 12  # pixels: what is smaller goes when it comes loose
-BLAST_REACH, BLAST_SPEED = 2.6, 190.0  # radii; [px/s] that a blast gives to what is nearest
+CRUMB = 12  # pixels: smaller pieces are removed when they come loose
+BLAST_REACH, BLAST_SPEED = 2.6, 190.0  # radii; [px/s] speed that a blast gives to the nearest bodies
 EARTH, IRON = Material(density=1.0, friction=0.7, rolling_resistance=0.02), Material(3.0, 0.5, 0.2, 0.03)
 DUST = ((226, 200, 160), (176, 140, 108), (120, 92, 80), (70, 56, 60))
 SPARKS = ((255, 255, 230), (255, 214, 90), (255, 148, 40), (140, 40, 52))
-# What lies about: the picture, x, y [px]. Those of iron are circles and are not carved.
+# Loose things: the picture, x, y [px]. Those of iron are circles and are not carved.
 MASKS = (
     *(("lab", "crate_16_1", x, y) for x, y in ((22, 140), (40, 140), (31, 123), (420, 126), (438, 126), (429, 109))),
     ("lab", "bracket_teal", 86, 138),
@@ -49,13 +48,13 @@ MASKS = (
     ("lab", "disc_large", 460, 114),
 )
 BALLS = (("ball_2", 5.0, 56, 148), ("ball_5", 5.0, 188, 152), ("ball_1", 5.0, 364, 124), ("steel_ball", 14.0, 390, 112))
-KNOCK = 70.0  # [px/s] a softer one is not heard
+KNOCK = 70.0  # [px/s] a softer one is silent
 PLATE = (4, 19, 122, 85)
-FEWEST = 6  # places of the ground where a carve is timed
+FEWEST = 6  # places of the ground at which a carve is timed
 
 
 class Carving(Scene):
-    """One world: the ground, what lies on it, and what becomes of both."""
+    """One world: the ground, things on it, and fragments of both."""
 
     name = "lab/carving"
     title = "Carving"
@@ -84,7 +83,7 @@ class Carving(Scene):
     hides_pointer = False
 
     def build(self):
-        """Ground, bedrock, walls beyond the picture's sides, and toys."""
+        """Build ground, bedrock, walls beyond the picture's sides, and toys."""
         self.sky, self.wall = load_backdrop("sky_dusk"), load_backdrop("lab_earth_wall")
         world = self.add_world()
         for shape, place in (
@@ -104,12 +103,12 @@ class Carving(Scene):
             self.prints.add(body, atlas[name])
         for name, radius, x, y in BALLS:
             self.cast.add(world.add_body(Circle(radius), position=(x, y), material=IRON), name)
-        self.whole = self.left = self.solid()  # pixels before anything was carved, and now
+        self.whole = self.left = self.solid()  # pixels before the first carve, and now
         self.removed = self.crumbs = self.carves = self.made = self.unequal = 0
-        self.fell = 0.0  # [px] that a piece has fallen since it came loose, the most of all
+        self.fell = 0.0  # [px] greatest fall of a piece since it came loose
         self.loose_at = {}  # body id -> height of its centre when it came loose [px]
         self.pointed = (240, 100)
-        self.anew = 0  # tiles of the ground that the last carve has made anew
+        self.anew = 0  # tiles of the ground rebuilt by the last carve
         self._take_tool()
 
     def _take_tool(self):
@@ -117,17 +116,17 @@ class Carving(Scene):
         self.draggable = self.tool.name == "hand"
 
     def change_slider(self, name, value):
-        """Another tool, or another size."""
+        """Change the tool or its size."""
         super().change_slider(name, value)
         self._take_tool()
 
     def solid(self):
-        """Pixels of all masks, counted one by one."""
+        """Return the pixels of all masks, counted one by one."""
         masks = (shape for each in self.prints.of for shape in self.world.body(each).shapes)
         return sum(int(np.count_nonzero(mask.solid)) for mask in masks if isinstance(mask, PixelMask))
 
     def update(self, inputs):
-        """Keys, the tool, one step."""
+        """Process keys and the tool, and make one step."""
         for name, back, forth in (("tool", "left", "right"), ("radius", "down", "up")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -144,7 +143,7 @@ class Carving(Scene):
         self._follow()
 
     def _carve(self, shape, pose):
-        """All masks in reach lose what the tool covers."""
+        """Carve the tool out of all masks in reach."""
         x, y = self.pointed
         tiles = self._tiles()
         reached = sorted(self.world.query_aabb(*self.tool.reach), key=lambda each: each.id)
@@ -158,7 +157,7 @@ class Carving(Scene):
             self.particles.burst(x, y, min(10 + taken // 12, 90), DUST, (10, 110), (0.3, 0.9), gravity=200.0)
 
     def _carve_one(self, body, shape, pose):
-        """Pixels taken from one body."""
+        """Carve pixels out of one body."""
         identity, place, (before,) = body.id, (*body.position, body.angle), body.shapes
         parent = (self.prints.of[identity], before, place)
         carved = body.carve(shape, pose, crumb=CRUMB)
@@ -174,7 +173,7 @@ class Carving(Scene):
         return carved.removed
 
     def measured(self):
-        """This tool in this size, at places all over the ground as it is now: sixty, or as many as have room."""
+        """Return the runs to measure: this tool in this size, at up to sixty places of the current ground."""
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
         masks = self.world.body(self.ground).shapes
@@ -190,7 +189,7 @@ class Carving(Scene):
         return self.tool.name, self.tool.radius
 
     def _tiles(self):
-        """{tile of the ground: ids of its parts}; those of a tile made anew are others."""
+        """Return {tile of the ground: ids of its parts}; a rebuilt tile has new ids."""
         shapes = self.world.shapes
         mine = shapes[(shapes["body"] == self.ground) & (shapes["role"] == PART)]
         found = {}
@@ -199,7 +198,7 @@ class Carving(Scene):
         return found
 
     def _blast(self, x, y):
-        """Whatever can move is thrown away from a blast, the nearer the faster."""
+        """Push dynamic bodies away from a blast, the nearer the faster."""
         reach = BLAST_REACH * self.tool.radius
         self.play("explosion", x, 0.5)
         self.camera.shake(0.18 + self.tool.radius / 120)
@@ -213,7 +212,7 @@ class Carving(Scene):
                     body.apply_impulse((gain * dx, gain * dy - 0.25 * gain * far))
 
     def _follow(self):
-        """How far what came loose has fallen; and what knocks is heard."""
+        """Track the fall of loose pieces; play the sounds of impacts."""
         for identity, height in self.loose_at.items():
             self.fell = max(self.fell, self.world.body(identity).center[1] - height)
         hits = self.world.events.hits
@@ -224,12 +223,12 @@ class Carving(Scene):
 
     @property
     def awake(self):
-        """Bodies that move."""
+        """Number of awake bodies."""
         bodies = self.world.bodies
         return int(np.count_nonzero(bodies["awake"] & (bodies["inverse_mass"] > 0.0)))
 
     def draw(self, canvas, alpha):
-        """The sky, the wall behind what is gone, everything that has pixels, and the figures."""
+        """Draw the sky, the wall behind carved pixels, all bodies with pixels, and the figures."""
         canvas.surface.blit(self.sky, (0, 0))
         camera = self.camera
         left, top = camera.view(alpha)
@@ -260,7 +259,7 @@ class Carving(Scene):
             canvas.text(value, x + 116, y + 17 + number * 8, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """The tool about the pointer."""
+        """Draw the tool about the pointer."""
         if self.tool.name == "hand":
             return
         lens = frame.lens(self.camera)
@@ -270,7 +269,7 @@ class Carving(Scene):
         pygame.draw.lines(frame.surface, GOLD, True, points, max(1, frame.scale - 1))
 
     def check(self):
-        """No pixel is lost, what was undermined fell, and all comes to rest."""
+        """Return the goals: no pixel is lost, undermined ground fell, and all comes to rest."""
         bodies = self.world.bodies
         finite = all(np.isfinite(bodies[name]).all() for name in ("x", "y", "angle", "vx", "vy"))
         inside = bool((bodies["y"][bodies["inverse_mass"] > 0.0] < BOTTOM).all())
@@ -288,7 +287,7 @@ class Carving(Scene):
         ]
 
     def finding(self):
-        """How little of the ground the last carve made anew, and whether a pixel was lost on the way."""
+        """Return the share of the ground that the last carve rebuilt, and whether a pixel was lost."""
         if not self.carves:
             return "not yet: something has to be carved"
         lost = self.whole - self.left - self.removed - self.crumbs
@@ -296,11 +295,13 @@ class Carving(Scene):
         return f"{tiles}; of {self.whole:,} pixels {self.removed + self.crumbs:,} were taken and {lost} lost"
 
     def bot(self):
-        """Cut down the bridge, the rock on its neck, the cliff; dig under the crates; stamp a sprite."""
+        """Return the bot: cut down the bridge, the rock on its neck, the cliff; dig under the crates; stamp a
+        sprite.
+        """
         return plan(self.frame)
 
     def state(self):
-        """The tallies; the world holds the pixels."""
+        """Return the counts; the world holds the pixels."""
         return (
             self.frame,
             *self.values.values(),

@@ -36,9 +36,9 @@ BELTS = {  # from, to: centres of the rollers in a view [px]
     "down": ((359.0, 66.0), (443.0, 81.0)),
 }
 LABEL_AT = {"level": (91, 94), "up": (211, 88), "top": (306, 77), "down": (394, 88)}
-STILL_X = (50.0, 72.0, 98.0, 123.0, 300.0)  # [px] where each kind falls in the still world
+STILL_X = (50.0, 72.0, 98.0, 123.0, 300.0)  # [px] place of each kind in the world without the effect
 GRIP = Material(friction=0.5)
-BRAKED = Material(friction=0.5, rolling_resistance=0.6)  # more than the slope's rise: a wheel rides, it does not roll
+BRAKED = Material(friction=0.5, rolling_resistance=0.6)  # more than the slope: it is carried, not rolling
 KINDS = {  # name: (shape, colours, material)
     "box": (Polygon.box(16, 16), "wood", GRIP),
     "hexagon": (Polygon(((10, 0), (6, 7), (-6, 7), (-10, 0), (-6, -7), (6, -7))), "violet", GRIP),
@@ -49,8 +49,8 @@ KINDS = {  # name: (shape, colours, material)
 DROP = (58.0, 63.0)  # [px] where crates appear
 APART = 84.0  # [px] between crates on the belt
 OUT_X = 462.0  # [px] where they leave
-WINDOW = (0.70, 0.86)  # of a belt's length: where a crate's speed is taken
-SETTLE = 60  # steps after a change of speed in which nothing is taken
+WINDOW = (0.70, 0.86)  # of a belt's length: where a crate's speed is measured
+SETTLE = 60  # steps after a change of speed without measurements
 ALLOWED = 0.02  # of the belt's speed
 VIEWS = ((4, 30, 472, 108), (4, 154, 472, 108))
 TITLES = ("conveyor declared", "not declared: the same belts, the same crates")
@@ -58,14 +58,14 @@ DUST = ((250, 230, 190), (190, 150, 120), (110, 90, 100))
 
 
 class Conveyor(Scene):
-    """Two worlds: with the effect and without."""
+    """Two worlds, with the effect and without."""
 
     name = "lab/conveyor"
     title = "Conveyor"
     about = "Belts carry crates of every shape up, along and down; without the effect the same crates lie still."
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True, conveyor=True)
     pieces = ("boxes", "circles", "capsules", "queries")
-    solver = "sequential_impulse"  # nothing is piled up here: four fifths of the time of the soft steps
+    solver = "sequential_impulse"  # there are no piles: four fifths of the time of the soft steps
     features = (
         "surface speed, in the friction of every contact",
         "rolling resistance brakes a wheel",
@@ -79,7 +79,7 @@ class Conveyor(Scene):
     legend_at = (8, 34)
 
     def build(self):
-        """The belts, twice; crates come with time."""
+        """Build the belts, twice; crates come with time."""
         self.add_world()
         self.add_world(effects=self.effects.with_(conveyor=False))
         self.cameras = [Camera(view) for view in VIEWS]
@@ -91,16 +91,16 @@ class Conveyor(Scene):
         self.kinds = [{} for _ in self.worlds]  # body id -> kind
         self.dropped = [0 for _ in self.worlds]
         self.belts = [{} for _ in self.worlds]
-        self.way = 0.0  # [px] the belts have run, only seen
+        self.way = 0.0  # [px] motion of the belts, for drawing only
         self.changed = -SETTLE
         self.taken = dict.fromkeys(BELTS, 0)
         self.worst = dict.fromkeys(BELTS, 0.0)
-        self.last = {}  # belt -> speed of the last crate there, since the belts run as they do
+        self.last = {}  # belt -> speed of the last crate there since the last change of speed
         self.seen = {kind: set() for kind in KINDS}  # belts on which it was measured
-        self.inside = {}  # (body id, belt) -> speed when last in the window
+        self.inside = {}  # (body id, belt) -> last speed in the window
         self.delivered = 0
         self.strayed = 0.0
-        self.fallen = {}  # body id of the still world -> where it came to rest
+        self.fallen = {}  # body id of the world without the effect -> its place of rest
         self._lay_belts()
 
     def _lay_belts(self):
@@ -112,7 +112,7 @@ class Conveyor(Scene):
                 belts[name] = world.add_body(Capsule(start, end, BELT_RADIUS), kind="static", material=material)
 
     def change_slider(self, name, value):
-        """The belts are laid anew at once; speeds count again when everything has settled."""
+        """Rebuild the belts at once; measurements start again after SETTLE."""
         before = self.values[name]
         super().change_slider(name, value)
         if self.values[name] != before:
@@ -122,7 +122,7 @@ class Conveyor(Scene):
             self._lay_belts()
 
     def update(self, inputs):
-        """Keys, crates, one step, then the speeds."""
+        """Process keys, add crates, make one step, then measure speeds."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("speed", self.values["speed"] + 10 * turn)
@@ -136,12 +136,12 @@ class Conveyor(Scene):
         self._collect()
 
     def _drop(self, index):
-        """The next crate, as soon as the place is free."""
+        """Add the next crate, once the place is free."""
         world = self.worlds[index]
         every = max(1, round(APART / self.values["speed"] * 60))
         if self.frame % every or (index == 1 and self.dropped[1] >= len(KINDS)):
             return
-        # In the still world each crate falls to a place of its own.
+        # Without the effect each crate falls to its own place.
         x = DROP[0] if index == 0 else STILL_X[self.dropped[1]]
         found = world.query_aabb((x - 12, DROP[1] - 14), (x + 12, DROP[1] + 14))
         if index == 0 and any(body.kind == "dynamic" for body in found):
@@ -155,7 +155,7 @@ class Conveyor(Scene):
         self.dropped[index] += 1
 
     def _measure(self):
-        """A crate's speed along a belt when it leaves the window near the belt's end."""
+        """Record a crate's speed along a belt when it leaves the window near the belt's end."""
         world, speed = self.world, float(self.values["speed"])
         if self.frame - self.changed < SETTLE:
             return
@@ -178,7 +178,7 @@ class Conveyor(Scene):
                     self.seen[kind].add(name)
 
     def _rest(self):
-        """In the world without the effect: how far a crate has moved since a second after its fall."""
+        """Record the motion of a crate without the effect since a second after its fall."""
         for identity in self.kinds[1]:
             x, y = self.worlds[1].body(identity).position
             age, start = self.fallen.get(identity, (0, None))
@@ -189,7 +189,7 @@ class Conveyor(Scene):
                 self.strayed = max(self.strayed, hypot(x - start[0], y - start[1]))
 
     def _collect(self):
-        """What comes off the last belt is gone."""
+        """Remove crates past the last belt."""
         for index, world in enumerate(self.worlds):
             for identity in list(self.kinds[index]):
                 body = world.body(identity)
@@ -214,11 +214,11 @@ class Conveyor(Scene):
                     self.play("coin", x, 0.25)
 
     def views(self):
-        """Both worlds."""
+        """Return both worlds."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """The two halls with belts and crates, and what was measured."""
+        """Draw the two halls with belts and crates, and the measurements."""
         canvas.surface.fill(NIGHT)
         canvas.text("CONVEYOR", 4, 4, GOLD)
         words = f"belts run at {self.values['speed']} px/s, {self.delivered} delivered"
@@ -257,7 +257,7 @@ class Conveyor(Scene):
             )
 
     def check(self):
-        """All shapes reach the speed of every belt; without the effect nothing moves."""
+        """Return the goals: all shapes reach the speed of every belt; without the effect nothing moves."""
         worst = max(self.worst.values())
         everywhere = all(len(belts) == len(BELTS) for belts in self.seen.values())
         return [
@@ -282,7 +282,7 @@ class Conveyor(Scene):
         ]
 
     def finding(self):
-        """How far the last crates on each belt were from its speed, and how far they crept without the effect."""
+        """Return the errors of speed of the last crates on each belt, and their creep without the effect."""
         if not self.last:
             return "not yet: a crate has to come to the end of a belt that runs as it does now"
         speed = float(self.values["speed"])
@@ -293,11 +293,11 @@ class Conveyor(Scene):
         return f"{told}; without the effect {count_text(lies, 'crate')} moved {self.strayed:.2f} px" if lies else told
 
     def bot(self):
-        """Watch, then make it faster."""
+        """Return the bot: watch, then raise the speed."""
         return InputFrame(frozenset(("right",))) if self.frame in (420, 424) else frozenset()
 
     def state(self):
-        """What was measured."""
+        """Return the measurements."""
         return (
             self.frame,
             self.values["speed"],
@@ -310,14 +310,14 @@ class Conveyor(Scene):
 
 
 def direction(start, end):
-    """The unit vector along a belt."""
+    """Return the unit vector along a belt."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     length = hypot(dx, dy)
     return dx / length, dy / length
 
 
 def on_belt(point, start, end):
-    """(share of the belt's length, distance aside [px], negative above it, length) of a point."""
+    """Return (share of the belt's length, distance aside [px], negative above it, length) of a point."""
     tx, ty = direction(start, end)
     length = hypot(end[0] - start[0], end[1] - start[1])
     dx, dy = point[0] - start[0], point[1] - start[1]
@@ -325,7 +325,7 @@ def on_belt(point, start, end):
 
 
 def draw_belt(surface, view, start, end, way, running):
-    """A belt round two rollers, with ribs that show it run."""
+    """Draw a belt around two rollers, with ribs that show its motion."""
     (ax, ay), (bx, by) = ((p[0] + view.x, p[1] + view.y) for p in (start, end))
     tx, ty = direction(start, end)
     length = hypot(bx - ax, by - ay)

@@ -1,11 +1,11 @@
 """Five steel balls in a row, struck by one or two: do only as many leave at the other end?
 
-What to see: with a hair of air between the balls each collision is one of two, and both momentum and energy leave
-only one way out: the last ball goes with the whole speed. The same row in three channels, one per solver. Close the
-gap, or send two into the wall so closely that three meet in one step: then momentum and energy alone no longer say
-what must happen, and the solvers differ.
+What to see: with a hair of air between the balls each collision is one of two, and momentum and energy allow one
+result: the last ball leaves with the whole speed. The same row in three channels, one per solver. Close the gap, or
+send two into the wall so closely that three meet in one step: then momentum and energy do not fix the result, and the
+solvers differ.
 
-Why it matters: A chain of hits in one step shows whether a solver passes on what it is given, or mixes it.
+Why it matters: A chain of hits in one step shows whether a solver passes impulses on, or mixes them.
 
 To try: set the gap to 0, then take two strikers, and see which row loses its order first.
 
@@ -32,13 +32,13 @@ COLORS = {"projection": ORANGE, "sequential_impulse": SKY, "soft_step": GREEN}
 ZOOM, RADIUS = 0.5, 28.0  # [px] drawn 28 px large
 LANES = (16, 100, 184)  # [canvas px] top of each view
 LANE_HEIGHT = 84
-ROW = 5  # balls that rest
+ROW = 5  # balls at rest
 MIDDLE, LINE = 500.0, 72.0  # [px] middle of the row, height of the channel's axis
 LEFT, RIGHT = 14.0, 946.0  # [px] faces of the end walls
 FIRST = 60.0  # [px] of the first striker
 SPEED = 300.0  # [px/s] 5 px a step, less than the gap: one collision at a time
-PERIOD = round(60 * 2 * (RIGHT - LEFT) / SPEED)  # steps that a ball alone would take to and fro
-SEEN = 1e-6  # of the strikers' speed: more is told as wrong
+PERIOD = round(60 * 2 * (RIGHT - LEFT) / SPEED)  # steps of a single ball to and fro
+SEEN = 1e-6  # of the strikers' speed: a greater error is shown as wrong
 SCATTERED = 0.01  # of that speed: the row has lost its order
 CLEAN = 1e-9  # of the striker's speed, momentum or energy
 SWITCH_AT = 300  # the bot's step for two strikers
@@ -62,15 +62,15 @@ class Cradle(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """The channels; fill() lays the balls in."""
+        """Build the channels; fill() adds the balls."""
         self.yard = Yard((), 90)
         self.cameras = [Camera((0, top, 480, LANE_HEIGHT), ZOOM) for top in LANES]
-        self.results = {}  # (solver, strikers, gap) -> the worst of the first pass, up to the wall
-        self.drift = {}  # the same -> the most that the energy was off, as a share
+        self.results = {}  # (solver, strikers, gap) -> greatest error of the first pass, up to the wall
+        self.drift = {}  # the same -> greatest error of the energy, as a share
         self.fill()
 
     def fill(self):
-        """Three new worlds with the same balls."""
+        """Make three new worlds with the same balls."""
         self.worlds, self.casts, self.balls = [], [], []
         strikers, pitch = int(self.values["strikers"]), 2 * RADIUS + self.values["gap"]
         ball = Material(density=1.0, friction=0.0, restitution=1.0)
@@ -90,18 +90,18 @@ class Cradle(Scene):
             self.casts.append(cast)
             self.balls.append(row)
         self.laid = [[body.position[0] for body in row[strikers:]] for row in self.balls]
-        self.first_pass = [True] * len(SOLVERS)  # no ball has come to the wall on the right yet
+        self.first_pass = [True] * len(SOLVERS)  # no ball has reached the right wall
         self.energy = [kinetic_energy(world) for world in self.worlds]
         self.momentum = [float((world.bodies["mass"] * world.bodies["vx"]).sum()) for world in self.worlds]
-        self.touched = False  # someone drags: the books are closed
+        self.touched = False  # a ball is dragged: measurements end
 
     def change_slider(self, name, value):
-        """Lay in anew."""
+        """Add the balls again."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Keys, three steps, the books."""
+        """Process keys, make three steps, and measure."""
         for name, forth, back in (("strikers", "up", "down"), ("gap", "right", "left")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -134,7 +134,9 @@ class Cradle(Scene):
         self.results[key] = tuple(max(pair) for pair in zip(found, self.results.get(key, found), strict=True))
 
     def measured(self):
-        """A step of each channel, over one way of a ball to its wall and back: every chain of collisions counts."""
+        """Return the runs to measure: a step of each channel, over one trip of a ball to its wall and back, with every
+        chain of collisions.
+        """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
         return Lanes(
             [(*self.chosen, name) for name in SOLVERS],
@@ -142,16 +144,17 @@ class Cradle(Scene):
         )
 
     def struck(self, index):
-        """True once a ball of the row has moved, or moves."""
+        """Return whether a ball of the row has moved, or moves."""
         row = self.balls[index][-ROW:]
         return any(
             body.velocity[0] != 0.0 or body.position[0] != x for body, x in zip(row, self.laid[index], strict=True)
         )
 
     def others(self, index):
-        """How far a channel is now from as many balls at the strikers' speed as there are strikers, the rest at rest.
+        """Return the error of a channel against the ideal: as many balls at the strikers' speed as strikers, the rest
+        at rest.
 
-        The most that a ball's speed is off, as a share of the strikers'; 1 where too many or too few are fast.
+        It is the greatest error of a ball's speed, as a share of the strikers'; 1 if the number of fast balls is wrong.
         """
         speeds = [abs(body.velocity[0]) / SPEED for body in self.balls[index]]
         fast = sum(speed > 0.5 for speed in speeds)
@@ -161,15 +164,15 @@ class Cradle(Scene):
 
     @property
     def offer(self):
-        """When balls move that should not: this row will not be as it was by itself."""
+        """True if balls move that should not: the row does not recover by itself."""
         return "lays them in anew" if any(self.others(index) > SCATTERED for index in range(len(SOLVERS))) else ""
 
     def views(self):
-        """One picture per channel."""
+        """Return one picture per channel."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """The channels, the balls, and the books under each."""
+        """Draw the channels, the balls, and the measurements under each."""
         self.yard.draw(canvas, "CRADLE", "do as many leave as came, with the same speed?")
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             self._draw_channel(canvas, camera.viewport)
@@ -204,7 +207,7 @@ class Cradle(Scene):
         canvas.text(words, 470, y, color, SMALL, align="right")
 
     def verdict(self, index):
-        """(words, colour) about a channel as it is now."""
+        """Return (words, colour) of a channel's current state."""
         if self.touched:
             return "dragged: nothing is promised", FOG
         if not self.struck(index):
@@ -218,7 +221,7 @@ class Cradle(Scene):
         return f"others move too, by {100 * others:.1f} %", RED
 
     def draw_on_frame(self, frame):
-        """An arrow over every ball that moves, as long as it is fast."""
+        """Draw an arrow over every moving ball, in proportion to its speed."""
         for index, camera in enumerate(self.cameras):
             lens = frame.lens(camera)
             for body in self.balls[index]:
@@ -236,7 +239,7 @@ class Cradle(Scene):
                     )
 
     def check(self):
-        """One in, one out; two in, two out; nothing lost."""
+        """Return the goals: one in, one out; two in, two out; nothing lost."""
         goals = []
         for name in SOLVERS:
             for strikers, due in ((1, 200), (2, SWITCH_AT + 200)):
@@ -262,7 +265,7 @@ class Cradle(Scene):
         return goals
 
     def finding(self):
-        """How far each row was off before its first ball came to the wall, and what a step of it takes."""
+        """Return the error of each row before its first ball reached the wall, and the time of a step."""
         strikers, told = int(self.values["strikers"]), []
         for name in SOLVERS:
             found = self.results.get((name, strikers, int(self.values["gap"])))
@@ -272,11 +275,11 @@ class Cradle(Scene):
         return f"{strikers} in, {strikers} out; speeds are off by {', '.join(told)}"
 
     def bot(self):
-        """One striker, then two."""
+        """Return the bot: one striker, then two."""
         return InputFrame(frozenset(("up",)) if self.frame == SWITCH_AT else frozenset())
 
     def state(self):
-        """The books; the worlds hold the balls."""
+        """Return the measurements; the worlds hold the balls."""
         found = [value for key in sorted(self.results) for value in (*key, *self.results[key])]
         drift = [value for key in sorted(self.drift) for value in (*key, self.drift[key])]
         return (self.frame, *self.values.values(), self.touched, *found, *drift)

@@ -1,4 +1,4 @@
-"""Live curves at window resolution: one line per series, on a logarithmic scale, with the present values beside it."""
+"""Live curves at window resolution: one line per series, on a logarithmic scale, with the current values beside it."""
 
 from collections import deque
 from math import log10
@@ -9,11 +9,13 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, INK, SLATE
 from game.drawing.typical import Typical
 
-HISTORY = 150  # steps kept unless told: 2.5 seconds
+HISTORY = 150  # default number of steps: 2.5 seconds
 
 
 class Curves:
-    """note(values) once per step; draw() into a canvas rect. `names`: series -> colour; kept: steps."""
+    """Curves. Call note(values) once per step; draw() paints into a canvas rect. `names`: series -> colour; kept:
+    steps.
+    """
 
     def __init__(self, title, names, kept=HISTORY):
         self.title, self.names, self.kept = title, names, kept
@@ -27,11 +29,11 @@ class Curves:
             self.figures[name].note(value)
 
     def typical(self, name):
-        """The median of a series' last second, for figures beside the curve."""
+        """Return the median of a series' last second, for the figures beside the curve."""
         return self.figures[name].value
 
     def draw(self, frame, canvas_rect):
-        """Draw ground, grid and curves; the title and the decades are written where there is room."""
+        """Draw ground, grid and curves; title and decades are written if there is room."""
         rect = frame.from_canvas(canvas_rect)
         scale = frame.plot_scale
         surface = frame.surface
@@ -63,6 +65,6 @@ class Curves:
 
 
 def _power(decade):
-    """10, 100, 1k, 10k, 100k, 1M ..."""
+    """Return a power of ten as text: 10, 100, 1k, 10k, 100k, 1M ..."""
     digits = 10 ** (decade % 3)
     return f"{digits}{('', 'k', 'M', 'G')[decade // 3]}"

@@ -1,4 +1,4 @@
-"""What the bot of lab/carving does: which tool, and where the pointer goes, pressed, from step to step."""
+"""The plan of lab/carving's bot: tool, pointer and button from step to step."""
 
 from typing import NamedTuple
 
@@ -6,7 +6,7 @@ from game.input.inputs import InputFrame
 
 
 class Move(NamedTuple):
-    """From `start` to `end` [canvas px] with the pointer down, over so many steps."""
+    """A stroke from `start` to `end` [canvas px] with the pointer down, over so many steps."""
 
     frame: int
     steps: int
@@ -27,7 +27,7 @@ NAMES = ("blast", "dig", "box", "sprite", "hand")
 
 
 def plan(frame):
-    """The input of one step."""
+    """Return the input of one step."""
     changes = ()
     if frame in SETTINGS:
         name, radius = SETTINGS[frame]

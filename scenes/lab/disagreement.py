@@ -1,12 +1,11 @@
 """The shooter's own traffic, judged by nine tiers: how often does each say hit where no pixel is shared, or miss a hit?
 
-What to see: the game goes on as the pixels say. Ten times a second the same moment is shown to every tier, and whoever
-says otherwise than the exact pixels is counted. Choose a tier with the wheel: the pairs that it told wrongly in the
-last moment are lit. The curves settle as hits add up; the bars are as wide as 95 % of such counts would scatter. You
-cannot die here: fly into the traffic and count what your box would have cost.
+What to see: the game follows the exact pixels. Ten times a second the same moment is tested with every tier, and its
+wrong answers are counted. Choose a tier with the wheel: its wrong pairs in the last moment are lit. The curves settle
+as hits add up; the bars are 95 % intervals of the rates. You cannot die here: fly into the traffic and count what your
+box would have cost.
 
-Why it matters: A player forgives a hit that was none less than any other fault; a rate says how often a tier makes
-it.
+Why it matters: Players forgive a false hit less than any other fault; a rate says how often a tier reports one.
 
 To try: choose the box with the wheel, and fly so close past a plane that it is lit.
 
@@ -30,20 +29,20 @@ from scenes.shooter.director import Director
 from scenes.shooter.scene import Shooter
 
 HEADING = pygame.Rect(0, 0, 480, HEAD)
-SIDE = pygame.Rect(328, HEAD, 152, 270 - HEAD)  # where the figures stand
+SIDE = pygame.Rect(328, HEAD, 152, 270 - HEAD)  # place of the figures
 ROW, TOP = 16, 36
-OPENS = 34.5  # [s] of the stage: a gunship, and what comes with it
-MARGIN = 14  # [px] that the plane keeps from them
+OPENS = 34.5  # [s] of the stage: a gunship, and its companions
+MARGIN = 14  # [px] between the plane and the figures
 BARS, FULL = 384, 48  # left end and width [px] of a bar of 100 %
 CURVES = pygame.Rect(SIDE.x + 24, 184, SIDE.width - 30, 68)
 MOST_POINTS = 200  # of a curve; then every second one is dropped
-FIRST = "aabb"  # lit from the start
-LIARS = ("circle", "aabb", "obb")  # must be caught by the bot's flight
-HOLDING = ("circle", "obb", "capsule", "hull")  # of a sprite hold all of its pixels, however it is turned
+FIRST = "aabb"  # marked from the start
+LIARS = ("circle", "aabb", "obb")  # tiers that the bot's flight must catch
+HOLDING = ("circle", "obb", "capsule", "hull")  # tiers that contain all pixels of a sprite, at any angle
 
 
 class Disagreement(Shooter):
-    """The shooter, with a jury beside it."""
+    """The shooter, with the reference tier and eight others beside it."""
 
     name = "lab/disagreement"
     title = "Disagreement"
@@ -65,7 +64,7 @@ class Disagreement(Shooter):
     hides_pointer = False
 
     def build(self):
-        """The sky of the shooter, where nobody dies; nobody has said anything yet."""
+        """Build the shooter's sky without losses, and empty counts."""
         self.assist = {"invincible": True, "hit_stop": False}
         super().build()
         self.plane.right = SIDE.x - MARGIN
@@ -73,16 +72,16 @@ class Disagreement(Shooter):
         self.director.mode = "run"
         rehearse(self.effects)
         self.jury = Jury(FIRST)
-        self.curves: list[tuple[float, ...]] = []  # shares of wrong hits by tier, over ever more moments
+        self.curves: list[tuple[float, ...]] = []  # shares of wrong hits by tier, over a growing number of moments
         self.apart = 1  # moments between two of them
 
     @property
     def hurts(self):
-        """The hull, as in every game that has no small core."""
+        """The hull, as in games without a small core."""
         return "hull"
 
     def update(self, inputs):
-        """The game, and then one more tier is asked."""
+        """Step the game, then evaluate one more tier."""
         super().update(inputs)
         jury = self.jury
         if inputs.wheel:
@@ -95,10 +94,10 @@ class Disagreement(Shooter):
             self.curves, self.apart = self.curves[1::2], 2 * self.apart
 
     def draw(self, canvas, alpha):
-        """The game, and the figures beside it."""
+        """Draw the game, and the figures beside it."""
         super().draw(canvas, alpha)
         for rect, color in ((HEADING, INK), (SIDE, NIGHT)):
-            canvas.boxes[:] = [each for each in canvas.boxes if not rect.colliderect(each[0])]  # covered now
+            canvas.boxes[:] = [each for each in canvas.boxes if not rect.colliderect(each[0])]  # now hidden
             canvas.surface.fill(color, rect)
             canvas.fix(rect)
         canvas.surface.fill(SLATE, (SIDE.x, SIDE.y, 1, SIDE.height))
@@ -112,7 +111,7 @@ class Disagreement(Shooter):
         canvas.text(f"{self.jury.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
-        """A tier's share of wrong hits, as a bar with its interval, and of missed ones."""
+        """Draw a tier's share of wrong hits, as a bar with its interval, and of missed ones."""
         wrong, missed, color = self.jury.wrong[tier], self.jury.missed[tier], COLORS[tier]
         if tier == self.jury.lit:
             canvas.surface.fill(DUSK, (SIDE.x + 2, y - 3, SIDE.width - 3, ROW - 1))
@@ -128,7 +127,7 @@ class Disagreement(Shooter):
         canvas.text(f"{100 * missed.share:.0f} %", SIDE.right - 4, y, PAPER, SMALL, align="right")
 
     def _draw_curves(self, canvas):
-        """How the shares of wrong hits settled."""
+        """Draw the shares of wrong hits over time."""
         area = CURVES
         canvas.surface.fill(INK, area)
         top = max([0.1, *(share for shares in self.curves[len(self.curves) // 8 :] for share in shares)])
@@ -148,7 +147,7 @@ class Disagreement(Shooter):
             pygame.draw.lines(canvas.surface, COLORS[tier], False, points)
 
     def draw_on_frame(self, frame):
-        """What the chosen tier told wrongly in the last moment, and what it missed."""
+        """Draw the wrong hits and the misses of the chosen tier in the last moment."""
         lens = frame.lens(self.camera)
         clip = frame.from_canvas(pygame.Rect(0, 0, SIDE.x, SIDE.height))
         frame.surface.set_clip(clip)
@@ -161,7 +160,7 @@ class Disagreement(Shooter):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Simple shapes were caught telling hits that are none; what is made of the outline hardly ever does."""
+        """Return the goals: simple shapes report wrong hits; tiers made of the outline hardly ever do."""
         wrong, missed = self.jury.wrong, self.jury.missed
         caught = [tier for tier in LIARS if wrong[tier].count]
         all_caught = len(caught) == len(LIARS)
@@ -173,7 +172,7 @@ class Disagreement(Shooter):
         ]
 
     def finding(self):
-        """How many of the chosen tier's hits in this traffic are none, and between which rates that lies."""
+        """Return the share of the chosen tier's hits that are wrong in this traffic, with its interval."""
         lit = self.jury.lit
         wrong, missed = self.jury.wrong[lit], self.jury.missed[lit]
         if not wrong.total:
@@ -183,16 +182,18 @@ class Disagreement(Shooter):
         return f"{told} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
 
     def bot(self):
-        """The shooter's own pilot."""
+        """Return the shooter's own pilot."""
         return super().bot()
 
     def state(self):
-        """The game's, and what the jury has said."""
+        """Return the state of the game, and the counts of the tiers."""
         return (*super().state(), *self.jury.state(), self.jury.lit)
 
 
 def rehearse(effects):
-    """Ask every tier once, of two planes and a disc in each other: what that compiles is compiled before the game."""
+    """Evaluate every tier once, for two planes and an overlapping disc, so that its kernels are compiled before the
+    game.
+    """
     world, jury = World(effects, BROADPHASES["sweep"]()), Jury(FIRST)
     masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]
     for x, mask in zip((0.0, 9.0), masks, strict=True):
@@ -204,6 +205,6 @@ def rehearse(effects):
 
 
 def from_then_on(stage, start):
-    """A stage without its waves before a time [s]."""
+    """Return a stage without its waves before a time [s]."""
     kept = [each for each in stage.events if each.at >= start or each.event in ("backdrop", "pace")]
     return replace(stage, events=tuple(replace(each, at=max(0.0, each.at - start)) for each in kept))

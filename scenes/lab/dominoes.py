@@ -26,7 +26,7 @@ from physics import Effects, Material, Polygon
 from scenes.lab.piles import SOLVERS
 from scenes.lab.yard import HEAD, Yard, plate
 
-KEEPING = SOLVERS[1:]  # those that can hold a row of dominoes up
+KEEPING = SOLVERS[1:]  # those that can hold a row of dominoes
 SCALES = (1.0, 4.0)  # of the two rows
 HEIGHT, THICK = 32.0, 6.0  # [px] of a domino of the first row
 DRAWN = 48.0  # [canvas px] of every domino
@@ -38,9 +38,9 @@ ROOM = 424.0  # [canvas px] for the row
 PUSH = 1.0  # [sqrt(g h)] speed given to the first one's top
 PUSHED_AT = 30  # the bot's step
 FELL = radians(60.0)
-PASSES = radians(12.0)  # the wave has reached a domino that leans this far
-SMOOTH, FLOOR = 0.05, 12.8  # friction of polished bone; of the table, so that feet grip it: sqrt(a * b) = 0.8
-STEADY = 4  # the first dominoes and the last two are not timed: the wave has to find its speed
+PASSES = radians(12.0)  # lean of a domino that the wave has reached
+SMOOTH, FLOOR = 0.05, 12.8  # friction of polished bone; of the table, which holds the feet: sqrt(a * b) = 0.8
+STEADY = 4  # the first dominoes and the last two are not timed: the wave must reach a steady speed
 
 
 class Dominoes(Scene):
@@ -64,14 +64,14 @@ class Dominoes(Scene):
     legend_at = (190, 20)
 
     def build(self):
-        """Two tables; fill() sets the rows up."""
+        """Build two tables; fill() adds the rows."""
         self.yard = Yard(FLOORS, 50, table=True)
         if self.solver in KEEPING:  # named on the command line, or chosen before a restart
             self.values["solver"] = KEEPING.index(self.solver)
         self.fill()
 
     def fill(self):
-        """Two new worlds with a row each."""
+        """Make two new worlds with a row each."""
         self.solver = KEEPING[int(self.values["solver"])]
         self.worlds, self.casts, self.rows, self.cameras = [], [], [], []
         spacing = HEIGHT * self.values["spacing"] / 100.0
@@ -101,15 +101,15 @@ class Dominoes(Scene):
         self.since = 0
         self.pushed = None  # step of the push
         self.leaned = [[0.0] * count for _ in SCALES]  # angles a step ago [rad]
-        self.passed = [[None] * count for _ in SCALES]  # [steps] when the wave came by, between steps
+        self.passed = [[None] * count for _ in SCALES]  # [steps] time of the wave, between steps
 
     def change_slider(self, name, value):
-        """Set up anew."""
+        """Build the rows again."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Keys, two steps, and the clock at every domino."""
+        """Process keys, make two steps, and record the wave's time at every domino."""
         for name, forth, back, notch in (("spacing", "right", "left", 5), ("substeps", "up", "down", 1)):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -122,7 +122,7 @@ class Dominoes(Scene):
             self._time(index)
 
     def _push(self):
-        """The same push for both, by Froude's rule; a second one sets the rows up first."""
+        """Push both rows, scaled by Froude's rule; a second push rebuilds the rows first."""
         if self.pushed is not None:
             self.fill()
         self.pushed = self.since
@@ -131,7 +131,7 @@ class Dominoes(Scene):
             first = row[0]
             x, y = first.position
             speed = PUSH * sqrt(world.gravity[1] * HEIGHT * scale)
-            # At the top, (h/2)^2 / inertia shares the impulse between moving and turning.
+            # At the top, (h/2)^2 / inertia divides the impulse between translation and rotation.
             gives = 1.0 / first.mass + (HEIGHT * scale / 2) ** 2 / first.inertia
             first.apply_impulse((speed / gives, 0.0), (x, y - HEIGHT * scale / 2))
 
@@ -146,7 +146,7 @@ class Dominoes(Scene):
             leaned[number] = now
 
     def speed(self, index):
-        """The wave's speed over the ground between the timed dominoes [px/s], or None before it is there."""
+        """Return the wave's speed over the ground between the timed dominoes [px/s], or None before it has passed."""
         passed = self.passed[index]
         last = len(passed) - 3
         if passed[last] is None or passed[STEADY] is None:
@@ -155,22 +155,22 @@ class Dominoes(Scene):
         return (last - STEADY) * spacing / ((passed[last] - passed[STEADY]) * self.worlds[index].dt)
 
     def ratio(self):
-        """How many times as fast the wave of the large ones is, or None."""
+        """Return the ratio of the speeds of both waves, or None."""
         small, large = self.speed(0), self.speed(1)
         return None if small is None or large is None else large / small
 
     @property
     def offer(self):
-        """When both waves have run through."""
+        """True once both waves have passed."""
         through = all(at is not None for row in self.passed for at in row)
         return "sets them up again" if through else ""
 
     def views(self):
-        """One picture per row."""
+        """Return one picture per row."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Two tables with their rows; over each its size and its speed."""
+        """Draw two tables with their rows, and size and speed over each."""
         self.yard.draw(canvas, "DOMINOES", "four times as large: does the wave run twice as fast?")
         for index, (camera, cast) in enumerate(zip(self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
@@ -200,7 +200,7 @@ class Dominoes(Scene):
         canvas.text(f"{fallen} of {len(self.rows[index])} down", 178, top + 20, FOG, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """A mark under the head of each wave."""
+        """Draw a mark under the head of each wave."""
         for index, camera in enumerate(self.cameras):
             there = [body for body, at in zip(self.rows[index], self.passed[index], strict=True) if at is not None]
             if there and len(there) < len(self.rows[index]):
@@ -212,7 +212,7 @@ class Dominoes(Scene):
                 pygame.draw.line(frame.surface, faded(COLORS[index], 0.3), (x, y), (x, y - 52 * s))
 
     def check(self):
-        """All fall, none falls by itself, and the speeds are as two to one."""
+        """Return the goals: all fall, none falls by itself, and the speeds have the ratio two to one."""
         ratio = self.ratio()
         angles = [[body.angle for body in row] for row in self.rows]
         least = min(min(row) for row in angles)
@@ -233,7 +233,7 @@ class Dominoes(Scene):
         ]
 
     def finding(self):
-        """How many times as fast the wave of the large ones is, beside what Froude's rule says."""
+        """Return the ratio of the speeds, beside that of Froude's rule."""
         small, large = self.speed(0), self.speed(1)
         if small is None or large is None:
             return "not yet: both waves have to run through their rows"
@@ -244,9 +244,9 @@ class Dominoes(Scene):
         return f"{told}, not {small / meter:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
 
     def bot(self):
-        """One push."""
+        """Return the bot: one push."""
         return InputFrame(frozenset(("fire",)) if self.frame == PUSHED_AT else frozenset())
 
     def state(self):
-        """The clocks; the worlds hold the dominoes."""
+        """Return the times; the worlds hold the dominoes."""
         return (self.frame, self.since, self.pushed, *self.values.values(), *(at for row in self.passed for at in row))

@@ -1,11 +1,11 @@
 """Sixteen effects in one busy yard, each to be switched off while it runs: what would be missed, and what does it cost?
 
-What to see: choose an effect. From then on the yard goes on twice, gold with it and blue without, and what is elsewhere
-in the other is outlined in both. Switch it off: the solid picture is now the blue one, and the stage that only this
-effect called for vanishes from the time graph. After two seconds it is told how far apart both are, and what the effect
-takes of a step. Some move nothing: sensors and persist only tell, and sleep only saves.
+What to see: choose an effect. From then on the yard runs twice, gold with it and blue without, and things that differ
+in place are outlined in both. Switch it off: the solid picture is now the blue one, and the stage that only this effect
+needs leaves the time graph. After two seconds the distance of both is shown, and the effect's time per step. Some move
+nothing: sensors and persist only report, and sleep only saves.
 
-Why it matters: What a scene does not call for it need not pay for; what it does call for is missed at once.
+Why it matters: A scene does not pay for effects that it does not declare, and misses needed ones at once.
 
 To try: switch off friction and watch the belt, then carve with it off; put all back on and compare what they take.
 
@@ -34,29 +34,29 @@ from scenes.lab.yard import HEAD, draw_head, plate
 
 NAMES = tuple(field.name for field in fields(Effects))
 ALL = Effects.named(NAMES)
-SIDE = 190  # [px] wide: the list, and under it the time graph
+SIDE = 190  # [px] width of the list and the time graph under it
 TOP, ROW = 29, 10  # [px] of the first line of the list; of a line
-WINDOW = 120  # steps after which both are compared
-AGAIN = 180  # steps after which both begin anew, as long as the effect is on
-BOT_OFF, BOT_NEXT = 124, 150  # steps of its turn at which the bot switches an effect off, and goes on
+WINDOW = 120  # steps after which both yards are compared
+AGAIN = 180  # steps after which both start again, while the effect is on
+BOT_OFF, BOT_NEXT = 124, 150  # steps of its turn at which the bot switches an effect off, and continues
 BOX = (4, 6)  # [px] left side and size of a box to tick
 
 
 class Outcome(NamedTuple):
-    """What two seconds without an effect change."""
+    """Differences after two seconds without an effect."""
 
-    apart: float  # [px] root mean square over all that moves
-    events: int  # more that were told with it, of all kinds
-    kinds: int  # of events, whose number differs
-    work: int  # bodies moved, pairs tested and rows solved more with it; below 0: fewer
+    apart: float  # [px] root mean square distance over all moving things
+    events: int  # number of further events with it, of all kinds
+    kinds: int  # kinds of events whose numbers differ
+    work: int  # further bodies moved, pairs tested and rows solved with it; below 0: fewer
 
     def shows(self, name):
-        """Whether the effect would be missed. Sleep moves nothing and tells less: it has to save work."""
+        """Return whether the effect matters. Sleeping moves nothing and reports less, so it has to save work."""
         return self.work < 0 if name == "sleeping" else self.apart > VISIBLE or self.kinds > 0
 
 
 class EffectsLab(Scene):
-    """`worlds` holds the world that is shown: with the marked effect, or without it."""
+    """The yard. `worlds` holds the visible world: with the marked effect, or without it."""
 
     name = "lab/effects"
     keeps = {"substeps": "by load, as a World has them by itself: what each effect costs is told of such a world"}
@@ -82,13 +82,13 @@ class EffectsLab(Scene):
     legend_at = (198, 60)
 
     def build(self):
-        """The yard with all effects; its ghost begins with the first step."""
+        """Build the yard with all effects; its ghost begins with the first step."""
         self.picture = BusyPicture()
         self.real = BusyYard(self._new_world())
         self.real.furnish()
         self.clock = 0  # steps
-        self.found = {}  # name: Outcome, of the last time it was compared
-        self.looked = []  # names of the effects whose ghost was begun, whose costs are asked for
+        self.found = {}  # name: last Outcome
+        self.looked = []  # effects whose ghost was started, and whose costs are measured
         self._part()
 
     def _new_world(self):
@@ -96,16 +96,16 @@ class EffectsLab(Scene):
 
     @property
     def marked(self):
-        """Name of the effect that the ghost is without."""
+        """Name of the effect that the ghost lacks."""
         return NAMES[int(self.values["effect"])]
 
     @property
     def is_on(self):
-        """Whether the yard with it is shown."""
+        """True if the yard with it is visible."""
         return bool(self.values["it is"])
 
     def _part(self):
-        """From here on there are two: with the marked effect and without."""
+        """Copy the world: from here on one has the marked effect, the other has not."""
         world = self._new_world()
         world.restore(self.real.world.snapshot())
         self.real.world.set_effects(world.effects)  # all wake in both
@@ -121,11 +121,11 @@ class EffectsLab(Scene):
         self.worlds = [(self.real if self.is_on else self.other).world]
 
     def solver_choices(self):
-        """None: without stacking a world has another one."""
+        """Return none: without stacking a world has another solver."""
         return ()
 
     def change(self, name, value):
-        """What is changed is changed in both worlds."""
+        """Apply a change to both worlds."""
         self.worlds = [self.real.world, self.other.world]
         try:
             super().change(name, value)
@@ -133,14 +133,14 @@ class EffectsLab(Scene):
             self._show()
 
     def change_slider(self, name, value):
-        """Another effect is on at first."""
+        """Select another effect, at first on."""
         super().change_slider(name, value)
         if name == "effect":
             self.values["it is"] = 1
             self._part()
 
     def update(self, inputs):
-        """Keys and the pointer, a step of both yards, and once what became of them."""
+        """Process keys and the pointer, step both yards, and compare them once."""
         way = inputs.pressed("down") - inputs.pressed("up") - inputs.wheel
         row = (inputs.pointer[1] - TOP) // ROW
         points = inputs.pointer_pressed and inputs.pointer[0] < SIDE and 0 <= row < len(NAMES)
@@ -169,7 +169,9 @@ class EffectsLab(Scene):
         )
 
     def measured(self):
-        """A step of the yard as it is when an effect is first looked at, all awake, with the effect and without it."""
+        """Return the runs to measure: a step of the yard at the first look at an effect, all awake, with the effect and
+        without it.
+        """
         return Lanes([self._lane(name, on) for name in self.looked for on in (True, False)], self._make)
 
     def _lane(self, name, on):
@@ -182,17 +184,17 @@ class EffectsLab(Scene):
         return Lane([made], self.broadphase, WINDOW)
 
     def stages(self):
-        """(names of the stages that only the marked effect calls for, of those that take their place without it)."""
+        """Return (stages that only the marked effect needs, those that replace them without it)."""
         real, other = self.real.world.stages, self.other.world.stages
         return [name for name in real if name not in other], [name for name in other if name not in real]
 
     def price(self, name):
-        """[us] a step that an effect takes; below 0: it saves them. None before it was looked at, and measured."""
+        """Return the time per step of an effect [us]; below 0: a saving. None before it was measured."""
         real, other = (cost_of(self, self._lane(name, on)) for on in (True, False))
         return None if real is None or other is None else 1e6 * (real - other)
 
     def finding(self):
-        """What the last two seconds with each effect and without it have shown, once all were looked at."""
+        """Return the results of the last two seconds with and without each effect, once all were compared."""
         if len(self.found) < len(self.effects.names()):
             return f"not yet: {len(self.found)} of {len(self.effects.names())} effects were looked at"
         far = max(self.found, key=lambda name: self.found[name].apart)
@@ -205,7 +207,7 @@ class EffectsLab(Scene):
         return words + (f"; {plain_name(saver)} saves {-prices[saver]:,.0f}" if prices[saver] < 0.0 else "")
 
     def draw(self, canvas, alpha):
-        """The yard that is shown, and the list."""
+        """Draw the visible yard, and the list."""
         shown = self.real if self.is_on else self.other
         runs = shown.world.effects.conveyor
         self.picture.draw(canvas, shown, alpha, self.clock if runs else 0.0)
@@ -235,7 +237,7 @@ class EffectsLab(Scene):
             canvas.text(UNKNOWN if price is None else f"{price:+,.0f}", SIDE - 6, y, PAPER, SMALL, align="right")
 
     def _draw_words(self, canvas):
-        """On a plate over the sky: the stage of the marked effect, and the finding."""
+        """Draw the stage of the marked effect and the finding on a plate over the sky."""
         ours, theirs = self.stages()
         if ours:
             words = f"{plain_name(self.marked)} calls for {', '.join(map(plain_name, ours))}"
@@ -251,7 +253,7 @@ class EffectsLab(Scene):
             canvas.text(line, rect.x + 4, rect.y + 3 + 7 * number, color, SMALL)
 
     def draw_on_frame(self, frame):
-        """What is elsewhere in the other yard, in both."""
+        """Draw the outlines of things that differ in place, in both yards."""
         numbers, gaps = apart(self.real, self.other)
         far = [number for number, gap in zip(numbers, gaps.tolist(), strict=True) if gap > VISIBLE]
         frame.surface.set_clip(frame.from_canvas((SIDE + 1, HEAD, 480 - SIDE, 254)))
@@ -260,7 +262,7 @@ class EffectsLab(Scene):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Each effect would be missed."""
+        """Return the goals: each effect matters."""
         goals = []
         for turn, name in enumerate(self.effects.names(), 1):
             outcome = self.found.get(name)
@@ -270,14 +272,14 @@ class EffectsLab(Scene):
         return goals
 
     def bot(self):
-        """One effect after the other: two seconds beside its ghost, then off for a moment."""
+        """Return the bot: one effect after the other, two seconds beside its ghost, then off for a moment."""
         turn, step = divmod(self.frame, BOT_NEXT)
         if step == 0:
             return InputFrame(changes=(("slider:effect", turn % len(NAMES)),))
         return frozenset({"fire"} if step == BOT_OFF else ())
 
     def state(self):
-        """Both clocks, the other world, and what was found."""
+        """Return both clocks, the other world, and the results."""
         hidden = (self.other if self.is_on else self.real).world
         found = (value for name in NAMES if name in self.found for value in self.found[name])
         told = (*self.real.told.tolist(), *self.other.told.tolist())
@@ -285,7 +287,7 @@ class EffectsLab(Scene):
 
 
 def short(outcome, name):
-    """An outcome in a few words."""
+    """Return an outcome in a few words."""
     if name == "sleeping":
         return f"{-outcome.work:,} tasks saved"
     if outcome.apart > VISIBLE:

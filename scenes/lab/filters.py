@@ -25,7 +25,7 @@ from physics import Circle, Effects, Filter
 from scenes.lab.yard import HEAD
 
 KINDS = ("player", "enemy", "shot", "enemy shot", "wall", "pick-up")
-MEETS = {  # whom each kind says yes to, at the start
+MEETS = {  # kinds that each kind says yes to, at the start
     "player": ("enemy", "enemy shot", "wall", "pick-up"),
     "enemy": ("player", "shot", "wall"),
     "shot": ("enemy", "wall"),
@@ -36,7 +36,7 @@ MEETS = {  # whom each kind says yes to, at the start
 LEFT, TOP, CELL_WIDTH, CELL_HEIGHT = 72, 42, 40, 36
 RADIUS = 6.0
 APART, SWING = 15.0, 7.0  # [px] between the discs' centres: 8 to 22, touching at 12
-SLOP = 0.2  # [px] a pair that touched may go on touching up to the physics' slop of 0.16 px
+SLOP = 0.2  # [px] a pair may keep its contact up to the physics' slop of 0.16 px
 SIDE_X = 322
 CELLS = [(row, column) for row in range(len(KINDS)) for column in range(len(KINDS))]
 BOT_CLICKS = {90: (0, 1), 130: (5, 4), 170: (0, 1)}  # frame: cell
@@ -60,7 +60,7 @@ class Filters(Scene):
     hides_pointer = False
 
     def build(self):
-        """The masks, then two discs per cell."""
+        """Set the masks, then add two discs per cell."""
         self.masks = [sum(1 << KINDS.index(other) for other in MEETS[kind]) for kind in KINDS]
         self.marked = (0, 1)
         self.clock = 0.0
@@ -70,7 +70,7 @@ class Filters(Scene):
         self.fill()
 
     def fill(self):
-        """All discs anew, with the present masks."""
+        """Add all discs again, with the current masks."""
         self.world.clear()
         self.cell_of = {}
         for row, column in CELLS:
@@ -80,7 +80,7 @@ class Filters(Scene):
         self.place()
 
     def place(self):
-        """Put every disc where it is at this moment."""
+        """Set every disc to its place at this moment."""
         bodies = self.world.bodies
         for number, (row, column) in enumerate(CELLS):
             x, y = cell_center(row, column)
@@ -89,7 +89,7 @@ class Filters(Scene):
             bodies["y"][2 * number : 2 * number + 2] = y
 
     def update(self, inputs):
-        """Clicks and keys switch a cell; discs swing; contacts are compared with the table."""
+        """Let clicks and keys switch a cell; swing the discs; compare contacts with the table."""
         cell = cell_at(*inputs.pointer)
         if inputs.pointer_pressed and cell is not None:
             self.marked = cell
@@ -109,18 +109,18 @@ class Filters(Scene):
             self.switch(self.marked)
 
     def switch(self, cell):
-        """Give or take the row's yes to the column."""
+        """Switch the row's yes to the column."""
         row, column = cell
         self.masks[row] ^= 1 << column
         self.clicks += 1
         self.fill()
 
     def says_yes(self, row, column):
-        """True if the row's mask holds the column."""
+        """Return whether the row's mask contains the column."""
         return bool(self.masks[row] >> column & 1)
 
     def _judge(self):
-        """Every pair of discs that overlap and whose kinds agree must touch, and no other."""
+        """Check that every pair of overlapping discs whose kinds agree is in contact, and no other."""
         self.touching[:] = False
         for a, b in zip(self.world.contacts["body_a"].tolist(), self.world.contacts["body_b"].tolist(), strict=True):
             self.wrong += self.cell_of[a] != self.cell_of[b]
@@ -137,7 +137,7 @@ class Filters(Scene):
         self.filtered += self.world.profile.counters["filtered"]
 
     def draw(self, canvas, alpha):
-        """The grid with its heads, and the words beside it."""
+        """Draw the grid with its heads, and the words beside it."""
         canvas.surface.fill(NIGHT)
         canvas.text("FILTERS", 4, 4, GOLD)
         canvas.text("row says yes to column?", LEFT + 240, 6, FOG, SMALL, align="right")
@@ -200,7 +200,7 @@ class Filters(Scene):
             canvas.text(f"{value}", SIDE_X + 80, y, PAPER, SMALL, align="right")
 
     def check(self):
-        """Nobody touches whom it may not, and a click changes who may."""
+        """Return the goals: contacts are those allowed, and a click changes them."""
         return [
             Goal(
                 "contacts are those both sides allow",
@@ -214,7 +214,9 @@ class Filters(Scene):
         ]
 
     def finding(self):
-        """How many pairs of boxes the filter dropped in the last step, and whether contacts are those it allows."""
+        """Return the number of box pairs that the filter dropped in the last step, and whether contacts are those
+        allowed.
+        """
         if not self.steps:
             return "not yet: the discs have to swing"
         counters = self.world.profile.counters
@@ -223,7 +225,7 @@ class Filters(Scene):
         return f"{told} dropped unwritten; {agreed} of {len(CELLS)} cells may touch, {self.wrong} ever did otherwise"
 
     def bot(self):
-        """Three clicks: one yes taken, one given, the first given back."""
+        """Return the bot: three clicks, one yes taken, one given, the first given back."""
         cell = BOT_CLICKS.get(self.frame)
         if cell is None:
             return frozenset()
@@ -231,26 +233,26 @@ class Filters(Scene):
         return InputFrame(frozenset(), (round(x), round(y)), True)
 
     def state(self):
-        """Masks and tallies."""
+        """Return masks and counts."""
         return (self.frame, *self.masks, *self.marked, self.clock, self.wrong, self.met, self.filtered, self.clicks)
 
 
 def cell_rect(row, column):
-    """The canvas rect of a cell."""
+    """Return the canvas rect of a cell."""
     return pygame.Rect(LEFT + column * CELL_WIDTH, TOP + row * CELL_HEIGHT, CELL_WIDTH - 2, CELL_HEIGHT - 2)
 
 
 def cell_center(row, column):
-    """The middle of a cell, a little above its marks [px]."""
+    """Return the middle of a cell, slightly above its marks [px]."""
     return LEFT + (column + 0.5) * CELL_WIDTH - 1.0, TOP + (row + 0.5) * CELL_HEIGHT - 3.0
 
 
 def cell_at(x, y):
-    """(row, column) under a canvas point, or None."""
+    """Return (row, column) under a canvas point, or None."""
     column, row = (x - LEFT) // CELL_WIDTH, (y - TOP) // CELL_HEIGHT
     return (row, column) if 0 <= row < len(KINDS) and 0 <= column < len(KINDS) else None
 
 
 def bits(word):
-    """The six bits of a word, lowest first, as the grid's columns run."""
+    """Return the six bits of a word, lowest first, in the order of the grid's columns."""
     return "".join("1" if word >> index & 1 else "0" for index in range(len(KINDS)))

@@ -1,10 +1,10 @@
 """A floor of boxes, a floor of tiles, a chain: all equally flat. On which of them are the seams felt?
 
 What to see: a box, a disc and a capsule slide over 260 lengths of each floor, without friction. Separate boxes know
-nothing of each other, so what is round and sunk in by a hair is turned aside by the next box's corner. Tiles are merged
-and the links of a chain know their neighbours: there the speed stays the same to the last bits.
+nothing of each other, so a round shape that has sunk in slightly is deflected by the next box's corner. Tiles are
+merged and the links of a chain know their neighbours: there the speed stays the same to the last bits.
 
-Why it matters: Floors are built of many pieces, and a hero who trips over a seam that nobody sees is a bug report.
+Why it matters: Floors are built of many pieces, and a hero who trips over an invisible seam is a bug report.
 
 To try: turn up the speed: the disc leaves the separate boxes earlier, and the other floors not at all.
 
@@ -38,21 +38,21 @@ KINDS = {
     "disc": (Circle(7.0), "gold", 7.0),
     "capsule": (Capsule((-7, 0), (7, 0), 5.0), "teal", 5.0),
 }  # shape, colours, height of the middle
-START_X = {"box": 210.0, "disc": 130.0, "capsule": 50.0}  # [px]: side by side they would hide each other
+START_X = {"box": 210.0, "disc": 130.0, "capsule": 50.0}  # [px] apart, so that they do not hide each other
 GROUND = Filter(membership=1)
 VIEWS = tuple((4, 32 + 80 * lane, 308, 70) for lane in range(len(FLOORS)))
-LOST = 40.0  # [px] a slider this far from its place is set back to it
-WANTED = 200  # tiles to slide over before the floors are judged
-KEEPS = 1e-9  # of the speed: what merged floors may cost
-FELT = 1e-3  # of the speed: a seam that can be felt
+LOST = 40.0  # [px] a slider this far from its place is put back
+WANTED = 200  # tiles before the floors are judged
+KEEPS = 1e-9  # of the speed: greatest loss on merged floors
+FELT = 1e-3  # of the speed: a noticeable seam
 HISTORY = 200  # steps in the curves
-LEAST = 1e-16  # errors below are drawn at the bottom
+LEAST = 1e-16  # smaller errors are drawn at the bottom
 PLOTS = (("speed error [log]", (318, 24, 158, 104)), ("height off the floor [px]", (318, 134, 158, 80)))
 HEIGHT_TOP = 4.0  # [px] top of the lower curve
 
 
 class GhostBumps(Scene):
-    """One world per floor, three sliders in each."""
+    """One world per floor, with three sliders in each."""
 
     name = "lab/ghost_bumps"
     title = "Ghost bumps"
@@ -69,7 +69,7 @@ class GhostBumps(Scene):
     legend_at = (6, 34)
 
     def build(self):
-        """Three floors with three sliders each."""
+        """Build three floors with three sliders each."""
         for floor in FLOORS:
             lay_floor(self.add_world(), floor)
         self.cameras = [Camera(view) for view in VIEWS]
@@ -78,7 +78,7 @@ class GhostBumps(Scene):
         self.tiles = load_atlas("tiles")
         pictures = {kind: piece(shape, ramp) for kind, (shape, ramp, _) in KINDS.items()}
         self.casts = [Cast(pictures) for _ in FLOORS]
-        self.curves = {floor: deque(maxlen=HISTORY) for floor in FLOORS}  # (speed error, height), only seen
+        self.curves = {floor: deque(maxlen=HISTORY) for floor in FLOORS}  # (speed error, height), for drawing only
         self.sliding = [{} for _ in FLOORS]
         for index, world in enumerate(self.worlds):
             for number, (kind, (shape, _, _)) in enumerate(KINDS.items()):
@@ -88,7 +88,7 @@ class GhostBumps(Scene):
         self.launch()
 
     def launch(self):
-        """All sliders at their starts, and the tallies at nothing."""
+        """Put all sliders at their starts, and clear the counts."""
         keys = [(floor, kind) for floor in FLOORS for kind in KINDS]
         self.slowed = dict.fromkeys(keys, 0.0)  # largest speed error, as a share
         self.raised = dict.fromkeys(keys, 0.0)  # largest height off the floor [px]
@@ -96,7 +96,7 @@ class GhostBumps(Scene):
         self.set_back = dict.fromkeys(keys, 0)
         self.free = dict.fromkeys(keys, False)  # dragged: no longer judged in this run
         self.run = 0
-        self.nominal = 0.0  # [px] that a slider should have come
+        self.nominal = 0.0  # [px] distance that a slider should have moved
         for index in range(len(FLOORS)):
             for kind in KINDS:
                 self._put(index, kind)
@@ -109,14 +109,14 @@ class GhostBumps(Scene):
         body.angular_velocity = 0.0
 
     def change_slider(self, name, value):
-        """Another speed: from the start again."""
+        """Start again after a change of speed."""
         before = self.values[name]
         super().change_slider(name, value)
         if self.values[name] != before:
             self.launch()
 
     def update(self, inputs):
-        """Keys, one step of each world, then speeds and heights; at the end of the floors from the start."""
+        """Process keys, step each world, measure speeds and heights; start again at the end of the floors."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("speed", self.values["speed"] + 20 * turn)
@@ -158,7 +158,9 @@ class GhostBumps(Scene):
         self.curves[floor].append((error_now, height_now))
 
     def measured(self):
-        """A step of each floor, from where at least another second of it lies ahead."""
+        """Return the runs to measure: a step of each floor, from a state with at least another second of floor
+        ahead.
+        """
         ahead = (LENGTH - 4) * TILE - START_X["box"] - self.nominal
         if self.run == 0 or ahead < self.values["speed"]:
             return None
@@ -176,11 +178,11 @@ class GhostBumps(Scene):
                 camera.place(x, 0.0)
 
     def views(self):
-        """One picture per floor."""
+        """Return one picture per floor."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """The floors in three strips, what each slider lost beside them."""
+        """Draw the floors in three strips, and the loss of each slider beside them."""
         canvas.surface.fill(NIGHT)
         canvas.text("GHOST BUMPS", 4, 4, GOLD)
         canvas.text(f"{self.run} tiles at {self.values['speed']} px/s, no friction", 474, 6, FOG, SMALL, align="right")
@@ -230,7 +232,7 @@ class GhostBumps(Scene):
         surface.set_clip(None)
 
     def draw_on_frame(self, frame):
-        """The two curves at window resolution."""
+        """Draw the two curves at window resolution."""
         for number, (title, canvas_rect) in enumerate(PLOTS):
             rect = frame.from_canvas(canvas_rect)
             scale = frame.plot_scale
@@ -258,7 +260,7 @@ class GhostBumps(Scene):
             frame.fix(rect)
 
     def check(self):
-        """Seams are felt where nobody merges them, and nowhere else."""
+        """Return the goals: seams of separate boxes are felt, and no others."""
         felt = max(self.slowed["boxes", kind] for kind in KINDS)
         goals = [
             Goal(
@@ -288,7 +290,7 @@ class GhostBumps(Scene):
         return goals
 
     def finding(self):
-        """The most of its speed that a slider lost on each floor, and what a step of it takes."""
+        """Return the greatest loss of speed on each floor, and the time of a step."""
         if self.run == 0:
             return "not yet: the sliders have to come over some tiles"
         told = (
@@ -299,11 +301,11 @@ class GhostBumps(Scene):
         return f"of the speed was lost after {self.run} tiles: {', '.join(told)}"
 
     def bot(self):
-        """Watch."""
+        """Return the bot: watch."""
         return frozenset()
 
     def state(self):
-        """The tallies; the worlds hold the sliders."""
+        """Return the counts; the worlds hold the sliders."""
         tallies = (self.slowed, self.raised, self.aloft, self.set_back)
         return (
             self.frame,
@@ -315,7 +317,7 @@ class GhostBumps(Scene):
 
 
 def lay_floor(world, floor):
-    """The floor of a world, its surface at FLOOR_Y."""
+    """Add the floor of a world, with its surface at FLOOR_Y."""
     if floor == "boxes":
         middles = [((column + 0.5) * TILE, FLOOR_Y + TILE / 2) for column in range(LENGTH)]
         world.add_bodies(Polygon.box(TILE, TILE), middles, kind="static", filter=GROUND)
@@ -327,14 +329,14 @@ def lay_floor(world, floor):
 
 
 def share(number, value):
-    """Where a value stands in a curve, 0 at the bottom to 1 at the top."""
+    """Return the place of a value in a curve, 0 at the bottom to 1 at the top."""
     if number == 1:
         return min(max(value / HEIGHT_TOP, 0.0), 1.0)
     return (log10(min(max(value, LEAST), 1.0)) - log10(LEAST)) / -log10(LEAST)
 
 
 def amount(error):
-    """A share as short text: 0, 1e-12, 3 %."""
+    """Return a share as short text: 0, 1e-12, 3 %."""
     if error <= 0.0:
         return "0"
     return f"{error:.0%}" if error >= 0.01 else f"{error:.0e}".replace("e-0", "e-")

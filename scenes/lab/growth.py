@@ -1,4 +1,6 @@
-"""How cost grows with number: measured points on logarithmic scales at window resolution, an exponent at each line."""
+"""Growth of cost with number: measured points on logarithmic scales at window resolution, with an exponent at each
+line.
+"""
 
 from collections.abc import Mapping, Sequence
 from math import ceil, floor, log10
@@ -14,12 +16,12 @@ from game.measure.timing import Cost
 
 GRID = (52, 46, 76)
 LABEL = 54  # [text px] for the exponents at the right
-LINE = 8  # [text px] from one exponent to the next, at least
+LINE = 8  # [text px] least distance of two exponents
 UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"))
 
 
 class Series(NamedTuple):
-    """points: (number, cost), smallest number first; law: through the last `fitted`, None: not known yet."""
+    """A curve. points: (number, cost), smallest number first; law: through the last `fitted`, None: unknown."""
 
     color: Color
     points: Sequence[tuple[int, Cost]]
@@ -28,7 +30,7 @@ class Series(NamedTuple):
 
 
 def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str, Series], here: int) -> None:
-    """Draw into a canvas rect. here: the number that runs, marked below."""
+    """Draw into a canvas rect. here: the current number, marked below."""
     rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
     surface.fill(INK, rect)
     pygame.draw.rect(surface, SLATE, rect, 1)
@@ -48,7 +50,7 @@ def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str,
 
 
 class _Plan:
-    """Where numbers and seconds stand in a plot, both by their logarithms."""
+    """Transform of numbers and seconds into a plot, both by their logarithms."""
 
     def __init__(self, plot, points):
         self.plot = plot
@@ -91,7 +93,7 @@ def _draw_series(surface, plan, series, frame):
 
 
 def _write_laws(frame, plan, series, rect, scale):
-    """The exponents beside the ends of their lines, from the top down, none over another; then the lines' decades."""
+    """Write the exponents beside the ends of their lines without overlaps, then the decades of the lines."""
     ends = sorted((plan.y(each.points[-1][1].least), name) for name, each in series.items() if each.points)
     step, top = LINE * scale, plan.plot.top
     last = rect.bottom - 10 * scale - step * len(ends)
@@ -108,6 +110,6 @@ def _write_laws(frame, plan, series, rect, scale):
 
 
 def in_units(seconds: float) -> str:
-    """A round number of seconds as short text: 10 us, 1 ms."""
+    """Return a round number of seconds as short text: 10 us, 1 ms."""
     size, unit = next(((size, unit) for size, unit in UNITS if seconds >= 0.999 * size), UNITS[-1])
     return f"{seconds / size:.0f} {unit}"

@@ -1,4 +1,4 @@
-"""Two things that a person drags, turns and moves about, whatever they are."""
+"""Two things that a person drags, rotates and moves, of any kind."""
 
 from math import pi
 
@@ -8,7 +8,9 @@ MOVE_SPEED = 70.0  # [px/s] with the keys
 
 
 class Hands:
-    """`poses`: [x, y, angle] of both; `chosen` is the one that wheel and keys move; it stays within `room`, a Rect."""
+    """The two things. `poses`: [x, y, angle] of both; `chosen`: the one that wheel and keys move; it stays within
+    `room`, a Rect.
+    """
 
     def __init__(self, poses, chosen, room):
         self.poses = [list(pose) for pose in poses]
@@ -16,12 +18,12 @@ class Hands:
         self.dragged, self.grip = None, (0.0, 0.0)
 
     def take(self, which, x, y):
-        """Take hold of one of them at (x, y)."""
+        """Grab one of them at (x, y)."""
         self.chosen = self.dragged = which
         self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
 
     def move(self, inputs):
-        """One step of what pointer, wheel and keys do to the chosen one."""
+        """Make one step: move the chosen one by pointer, wheel and keys."""
         if not inputs.pointer_down:
             self.dragged = None
         pose = self.poses[self.chosen]

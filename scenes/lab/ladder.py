@@ -1,7 +1,7 @@
 """The accuracy ladder: one sprite at every tier, from a circle to its exact pixels. What does each rung buy?
 
-What to see: red is what a shape covers and the sprite does not, blue what it leaves out. Go down the ladder: each rung
-lies closer to the pixels and takes more bytes and more time to make; what a test takes goes up and then, at the pixels,
+What to see: red is what a shape covers beside the sprite, blue what it leaves out. Go down the ladder: each rung lies
+closer to the pixels and takes more bytes and more time to build; the time of a test goes up and then, at the pixels,
 down again.
 
 Why it matters: The shape that stands for a sprite decides what is unfair in a game, and what a frame costs.
@@ -45,25 +45,25 @@ SPRITES = (
     ("crate", "lab", "crate_24_0"),
 )
 NAMES = {"aabb": "box", "obb": "turned box", "pixels": "pixels, as drawn", "mask": "pixels, exactly"}
-TOLD = ("aabb", "hull", "outline")  # in the finding
-HOLDING = ("circle", "aabb", "obb", "capsule", "hull")  # hold all pixels of a sprite
+TOLD = ("aabb", "hull", "outline")  # tiers in the finding
+HOLDING = ("circle", "aabb", "obb", "capsule", "hull")  # tiers that contain all pixels of a sprite
 COLUMNS = 3
 CELL = (160, 84)
 ROOM = 12  # letters of a figure beside a name of nine
-VIEW = 70  # [px] of a cell that the sprite has, each way
-MOST = 256  # [px] of a picture of one's own, each way
+VIEW = 70  # [px] width and height of a sprite's cell
+MOST = 256  # [px] greatest width and height of the player's picture
 BOT_LOOKS = 20  # steps at each sprite
-LIT = {"px too many": RED, "px left out": BLUE}  # what is lit so
+LIT = {"px too many": RED, "px left out": BLUE}  # colours of the marked pixels
 MIX = 0.6  # of red and blue over the picture
 
 
 class Ladder(Scene):
-    """One world per tier with the sprite in it; a cell of the picture each."""
+    """One world per tier with the sprite in it, and a cell of the picture each."""
 
     name = "lab/ladder"
     title = "Ladder"
     about = "One sprite at nine tiers, from circle to exact pixels: what each covers wrongly, weighs and costs."
-    effects = Effects(narrowphase=False)  # a sprite alone in its world meets nobody
+    effects = Effects(narrowphase=False)  # a sprite alone in its world has no contacts
     pieces = ("masks", "boxes", "circles", "contacts")
     features = (
         "eleven sprites, or a PNG of one's own",
@@ -77,11 +77,11 @@ class Ladder(Scene):
     level_suffix = ".png"
 
     def build(self):
-        """The first sprite: one's own picture, where there is one."""
+        """Show the first sprite: the player's picture, if there is one."""
         self.choices = [self.level_file.name] if self.level_file is not None else []
         self.choices += [name for name, _, _ in SPRITES]
         self.seen: dict[str, dict[str, tuple[int, int]]] = {}  # {sprite: {tier: pixels too many, left out}}
-        for tier in TIERS:  # a large sprite is cut into tiles: what is compiled for that is compiled before the start
+        for tier in TIERS:  # a large sprite is cut into tiles, whose kernels are compiled before the start
             fit(load_atlas("planes").mask("boss_a_0"), tier)
         self._show(0)
 
@@ -112,7 +112,7 @@ class Ladder(Scene):
 
     @property
     def sprite_name(self):
-        """What the sprite is called."""
+        """Name of the sprite."""
         return self.choices[self.choice]
 
     def _sprite(self):
@@ -123,7 +123,7 @@ class Ladder(Scene):
         return load_atlas(atlas)[name], load_atlas(atlas).mask(name)
 
     def _lit(self, tier):
-        """The sprite with what a tier covers wrongly in red and what it leaves out in blue, pixel by pixel."""
+        """Return the sprite with the surplus of a tier in red and its gaps in blue, pixel by pixel."""
         size, (ox, oy) = 2 * self.reach, self.mask.origin
         left, top = np.floor(self.middle[0] - self.reach), np.floor(self.middle[1] - self.reach)
         column, row = np.meshgrid(np.arange(size), np.arange(size))
@@ -143,11 +143,11 @@ class Ladder(Scene):
         return picture, (left + shift_x, top + shift_y)
 
     def measured(self):
-        """The sprite against itself."""
+        """Return the poses to measure: the sprite against itself."""
         return Sprites(self.mask, self.mask)
 
     def update(self, inputs):
-        """Left, right and the wheel take another sprite."""
+        """Change the sprite by left, right and the wheel."""
         way = inputs.pressed("right") - inputs.pressed("left") + inputs.wheel
         if way:
             self._show((self.choice + way) % len(self.choices))
@@ -155,11 +155,11 @@ class Ladder(Scene):
             world.step()
 
     def views(self):
-        """A cell per tier."""
+        """Return a cell per tier."""
         return [(world, camera) for world, camera, _ in self.cells.values()]
 
     def draw(self, canvas, alpha):
-        """The names and figures of all cells; the pictures are drawn at the window's resolution."""
+        """Draw the names and figures of all cells; the pictures are drawn at window resolution."""
         canvas.text("LADDER", 4, 4, GOLD)
         text = f"{self.sprite_name}, {self.mask.area} pixels: red is covered and empty, blue is solid and left out"
         canvas.text(text, 476, 6, FOG, SMALL, align="right")
@@ -193,7 +193,7 @@ class Ladder(Scene):
             canvas.text(value, x + 78, top, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """The sprite in every cell, pixel by pixel, and the shapes round it as thin lines."""
+        """Draw the sprite in every cell, pixel by pixel, and the shapes around it as thin lines."""
         for tier, (world, camera, view) in self.cells.items():
             rect, lens = frame.from_canvas(view), frame.lens(camera)
             frame.surface.set_clip(rect)
@@ -208,7 +208,7 @@ class Ladder(Scene):
             pygame.draw.rect(frame.surface, SLATE, rect, 1)
 
     def check(self):
-        """What holds a sprite leaves nothing out; what is made of its pixels is exact."""
+        """Return the goals: containing tiers leave no pixel out; tiers made of the pixels are exact."""
         held = [tier for counts in self.seen.values() for tier in HOLDING if counts[tier][1]]
         exact = [tier for counts in self.seen.values() for tier in ("pixels", "mask") if any(counts[tier])]
         closer = all(
@@ -227,7 +227,7 @@ class Ladder(Scene):
         ]
 
     def finding(self):
-        """What share of three shapes is empty around this sprite, and what a hit is told in."""
+        """Return the empty share of three shapes around this sprite, and the time of a hit."""
         empty = [100 * self.counts[tier][0] / (self.mask.area + self._balance(tier)) for tier in TOLD]
         names = [NAMES.get(tier, tier) for tier in TOLD]
         shares = ", ".join(f"{share:.0f} % of its {name}" for name, share in zip(names, empty, strict=True))
@@ -238,29 +238,31 @@ class Ladder(Scene):
         return f"{told}; a hit takes {times} ns"
 
     def _balance(self, tier):
-        """Pixels that a tier covers more than the sprite has."""
+        """Return the surplus of pixels that a tier covers."""
         over, missed = self.counts[tier]
         return over - missed
 
     def bot(self):
-        """One sprite after the other."""
+        """Return the bot: one sprite after the other."""
         return InputFrame(frozenset({"right"}) if self.frame % BOT_LOOKS == BOT_LOOKS - 1 else frozenset())
 
     def state(self):
-        """Which sprite, and what was counted."""
+        """Return the sprite and its counts."""
         return (self.frame, self.choice, *(count for pair in self.counts.values() for count in pair))
 
 
 def _times(hit, miss):
-    """Both in one unit; what would run into its name is told in us."""
+    """Return both in one unit; in us if the text would overlap its name."""
     told = f"{1e9 * hit:,.0f}, {1e9 * miss:,.0f} ns"
     return told if len(told) <= ROOM else f"{1e6 * hit:.3g}, {1e6 * miss:.2f} us"
 
 
 @cache
 def own_picture(path):
-    """(image, mask) of a PNG. Raises FileError for what is none, is too large, or has no solid pixel."""
-    png_size(path, MOST)  # asked before it is decoded
+    """Return (image, mask) of a PNG. Raises FileError for another file, a too large one, or one without solid
+    pixels.
+    """
+    png_size(path, MOST)  # checked before it is decoded
     try:
         image = pygame.image.load(path)
     except (pygame.error, OSError) as error:

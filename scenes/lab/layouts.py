@@ -1,4 +1,4 @@
-"""The bodies of lab/broadphases: four ways in which they lie and move, the same for the same seed."""
+"""The bodies of lab/broadphases: four layouts and motions, the same for the same seed."""
 
 from random import Random
 
@@ -14,7 +14,7 @@ MOVING_SHARE = 0.05  # of the bodies in the "still" layout
 
 
 def populate(world, layout, count, seed):
-    """Put so many bodies into a world, the same for the same layout, number and seed."""
+    """Add so many bodies to a world, the same for the same layout, number and seed."""
     random = Random(f"{seed} {layout} {count}")
     positions = np.array([_place(random, layout) for _ in range(count)])
     speed = SLOW if layout == "ground" else FAST
@@ -37,7 +37,7 @@ def _place(random, layout):
 
 
 def snapshot_of(effects, seed, layout, count):
-    """The bodies of a layout, before their first step, in a world of these effects (their names)."""
+    """Return the bodies of a layout, before their first step, in a world of these effects (their names)."""
     world = World(Effects.named(effects))
     populate(world, layout, count, seed)
     return world.snapshot()

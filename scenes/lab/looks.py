@@ -1,7 +1,6 @@
-"""How a world's bodies look: pieces in the game's style where they are large enough, plain shapes where they are tiny.
+"""Drawing of a world's bodies: pieces in the game's style if they are large enough, plain shapes if they are tiny.
 
-Pieces are drawn on the canvas; what would be smaller than a few canvas pixels there, and pixels of masks, are drawn at
-window resolution.
+Pieces are drawn on the canvas; shapes of a few canvas pixels, and pixels of masks, are drawn at window resolution.
 """
 
 from functools import lru_cache
@@ -12,36 +11,37 @@ import pygame
 
 from game.drawing.colors import INK, PAPER, SKY, faded
 from game.drawing.rotated import poses_between
-from physics import Capsule, Chain, Circle, PixelMask
+from physics import PixelMask
+from physics.shapes.values import Convex
 from scenes.lab.pieces import RAMPS, hull, placed, scaled, turning
 
-LEAST, MOST = 8.0, 120.0  # [canvas px] outside of which a shape is drawn plain
+LEAST, MOST = 8.0, 120.0  # [canvas px] range of pieces; others are drawn plain
 ORDER = ("wood", "gold", "teal", "coral", "violet")
 ASLEEP = "steel"
-STREAK = 12.0  # [canvas px] further than this in a step, and the way is drawn
+STREAK = 12.0  # [canvas px] motion per step from which the path is drawn
 GROUND, RIM = (66, 60, 92), (150, 146, 182)
 NEAR = 100  # [canvas px] around the view
 
 
 class Looks:
-    """The bodies of one world, seen through one camera."""
+    """The bodies of one world, drawn through one camera."""
 
     def __init__(self, world, camera):
         self.world, self.camera = world, camera
-        self.known = {}  # body id -> (shapes, ramp or None of what stands still, whether it is a sensor)
+        self.known = {}  # body id -> (shapes, ramp or None if static, whether it is a sensor)
 
     def _of(self, identity):
         if identity not in self.known:
             body = self.world.body(identity)
             still = body.kind == "static"
             ramp = None if still or body.sensor else "steel" if body.material.density > 1.0 else ORDER[identity % 2]
-            if any(isinstance(shape, Circle) for shape in body.shapes) and ramp not in (None, "steel"):
+            if any(is_round(shape) for shape in body.shapes) and ramp not in (None, "steel"):
                 ramp = ORDER[2 + identity % 3]
             self.known[identity] = (body.shapes, ramp, body.sensor)
         return self.known[identity]
 
     def draw(self, canvas, alpha):
-        """Grounds and pieces, between the last two steps, clipped to the view."""
+        """Draw grounds and pieces, interpolated between the last two steps, clipped to the view."""
         bodies, zoom = self.world.bodies, self.camera.zoom
         x, y, angle = poses_between(bodies, alpha)
         x, y = self.camera.to_canvas(x, y, alpha)
@@ -59,7 +59,7 @@ class Looks:
         canvas.surface.set_clip(None)
 
     def draw_on_frame(self, frame):
-        """What is tiny, and pixels, at the poses of the last step; the ways of what is fast."""
+        """Draw tiny shapes and pixels at the poses of the last step, and the paths of fast bodies."""
         bodies, lens = self.world.bodies, frame.lens(self.camera)
         surface = frame.surface
         surface.set_clip(lens.clip)
@@ -88,27 +88,32 @@ class Looks:
 
 @lru_cache(maxsize=256)
 def is_piece(shape, zoom):
-    """Whether a shape is large enough, and not too large, for a picture of its own."""
-    if isinstance(shape, (PixelMask, Chain)):
+    """Return whether the size of a shape suits a picture of its own."""
+    if not isinstance(shape, Convex):
         return False
     points, radius = hull(shape)
     sizes = (np.ptp(points, axis=0) + 2.0 * radius) * zoom
     return bool(sizes.min() >= LEAST and sizes.max() <= MOST)
 
 
+def is_round(shape):
+    """Return whether a shape is a disc."""
+    return isinstance(shape, Convex) and len(shape.points) == 1
+
+
 def draw_ground(surface, shape, zoom, pose, sensor):
-    """What stands still, on the canvas; a sensor is a bare colour."""
+    """Draw a static shape on the canvas; a sensor in one colour."""
     if isinstance(shape, PixelMask):
         return
     points = placed(shape, zoom, pose)
-    if isinstance(shape, Circle):
-        pygame.draw.circle(surface, RIM, points[0], max(2.0, shape.radius * zoom))
-    elif isinstance(shape, Chain):
+    if not isinstance(shape, Convex):  # a chain
         pygame.draw.lines(surface, INK, False, [(x, y + 2) for x, y in points], 3)
         pygame.draw.lines(surface, RIM, False, points, 2)
         for x, y in points:
             surface.set_at((round(x), round(y)), PAPER)
-    elif isinstance(shape, Capsule):
+    elif len(points) == 1:
+        pygame.draw.circle(surface, RIM, points[0], max(2.0, shape.radius * zoom))
+    elif len(points) == 2:
         draw_plain(surface, shape, zoom, pose, (RIM, RIM))
     else:
         pygame.draw.polygon(surface, faded(SKY, 0.3) if sensor else GROUND, points)
@@ -116,13 +121,13 @@ def draw_ground(surface, shape, zoom, pose, sensor):
 
 
 def draw_plain(surface, shape, zoom, pose, ramp):
-    """A tiny, or a huge, convex shape in two colours."""
+    """Draw a tiny, or a huge, convex shape in two colours."""
     rim, inside, *_ = ramp
     points = placed(shape, zoom, pose)
-    if isinstance(shape, Circle):
+    if len(points) == 1:
         pygame.draw.circle(surface, inside, points[0], max(1.5, shape.radius * zoom))
         pygame.draw.circle(surface, rim, points[0], max(1.5, shape.radius * zoom), 1)
-    elif isinstance(shape, Capsule):
+    elif len(points) == 2:
         radius = max(1.0, shape.radius * zoom)
         (ax, ay), (bx, by) = points
         nx, ny = by - ay, ax - bx
@@ -138,7 +143,7 @@ def draw_plain(surface, shape, zoom, pose, ramp):
 
 
 def draw_mask(surface, mask, zoom, place, ramp):
-    """The pixels of a mask that does not turn; what stands still is darker."""
+    """Draw the pixels of a mask that does not rotate; static ones are darker."""
     picture = mask_picture(mask, RIM if ramp is None else RAMPS[ramp][1])
     width, height = picture.get_size()
     size = (max(1, round(width * zoom)), max(1, round(height * zoom)))
@@ -148,7 +153,7 @@ def draw_mask(surface, mask, zoom, place, ramp):
 
 @lru_cache(maxsize=32)
 def mask_picture(mask, color):
-    """The solid pixels in one colour, see-through so that an overlap shows."""
+    """Return the solid pixels in one colour, half transparent so that an overlap shows."""
     solid = mask.solid
     picture = pygame.Surface((solid.shape[1], solid.shape[0]), pygame.SRCALPHA, 32)
     picture.fill((*color, 0))

@@ -45,20 +45,20 @@ SPRITES = {
     "heroes": ("hero", "idle_0"),
 }
 CHOICES = ("mixed", *SPRITES)
-WIDTH, VIEW_TOP, FLOOR = 96, 16, 190  # [px] of a column; [canvas px] the top of a view and of the floor in it
+WIDTH, VIEW_TOP, FLOOR = 96, 16, 190  # [px] of a column; [canvas px] top of a view and of its floor
 TOWER, BESIDE, NOTCH = 28.0, 70.0, 33.0  # [px] middles of piles in a column, and of the bracket's notch
-HIGH = 6.0  # [px] above a tower from where somebody drops into the notch
+HIGH = 6.0  # [px] above a tower: start of the sprite that drops into the notch
 NUDGE = 30.0  # [px/s]
 WARM = 30  # steps after which sinking and swaying count
 WINDOW = 60  # steps over which the sway is measured
-EVERY = 4  # steps: one sprite's fit is measured
-FITS_BY = 180  # steps in which all of them are
+EVERY = 4  # steps between two measurements of a sprite's fit
+FITS_BY = 180  # steps after which all are measured
 SLEPT_BY = 480
-FALLEN = 8.0  # [px] that a pile's top has sunk when it has fallen
+FALLEN = 8.0  # [px] sag of a pile's top that counts as a fall
 
 
 class MaskStack(Scene):
-    """One world per way to be pushed, with the same sprites on the same floor of pixels."""
+    """One world per collision shape, with the same sprites on the same floor of pixels."""
 
     name = "lab/mask_stack"
     title = "Mask stack"
@@ -80,7 +80,7 @@ class MaskStack(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """The yard, then five worlds."""
+        """Build the yard, then five worlds."""
         self.fits = {}  # (sprite, way) -> (corners, pixels of air held, pixels missed)
         self.yard = Yard(270)
         self.cameras = [
@@ -89,16 +89,16 @@ class MaskStack(Scene):
         self.fill()
 
     def fill(self):
-        """Five new worlds with the same sprites."""
+        """Make five new worlds with the same sprites."""
         self.worlds, self.casts, self.tops = [], [], []
-        self.laid = {way: [] for way in WAYS}  # (sprite, its mask, the shapes that push it)
+        self.laid = {way: [] for way in WAYS}  # (sprite, its mask, its collision shapes)
         self.since = 0
         self.nudged = 0
-        self.starts = dict.fromkeys(WAYS, 0.0)  # height of the top when it was laid down [px]
+        self.starts = dict.fromkeys(WAYS, 0.0)  # first height of the top [px]
         self.sinks, self.sways = dict.fromkeys(WAYS, 0.0), dict.fromkeys(WAYS, 0.0)
         self.track = {way: [] for way in WAYS}
         self.asleep = dict.fromkeys(WAYS, False)
-        self.changed = dict.fromkeys(WAYS, 0)  # the step since which it is so
+        self.changed = dict.fromkeys(WAYS, 0)  # step of the last change
         for way in WAYS:
             self._lay(way)
 
@@ -107,7 +107,7 @@ class MaskStack(Scene):
         pictures = {"tray": lab["tray"]}
         world, cast = self.add_world(), Cast(pictures)
         floor = world.add_body(PixelMask.from_surface(lab["tray"]), position=(WIDTH / 2, FLOOR + 2.0), kind="static")
-        for x in (-20.0, WIDTH + 18.0):  # nothing leaves its column
+        for x in (-20.0, WIDTH + 18.0):  # keeps all sprites in their column
             world.add_body(Polygon.box(40, 2000), position=(x, 0.0), kind="static")
         cast.add(floor, "tray")
         top = None
@@ -124,7 +124,7 @@ class MaskStack(Scene):
         self.tops.append(top)
 
     def _places(self):
-        """(kind, x, y) of each sprite: its box touches that of the one below."""
+        """Return (kind, x, y) of each sprite: its box touches that of the one below."""
         kinds = list(self._kinds())
         heights, found = {}, []
         for kind, x in kinds:
@@ -136,7 +136,7 @@ class MaskStack(Scene):
         return found
 
     def _kinds(self):
-        """(kind, middle of its pile) from below."""
+        """Return (kind, middle of its pile) from below."""
         high, choice = int(self.values["high"]), CHOICES[int(self.values["sprites"])]
         if choice != "mixed":
             return ((choice, TOWER),) * high
@@ -144,12 +144,12 @@ class MaskStack(Scene):
         return (*tower, ("discs", BESIDE), ("stars", BESIDE))
 
     def change_slider(self, name, value):
-        """Other piles are laid at once."""
+        """Build other piles at once."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Keys, five steps, and what they did."""
+        """Process keys, make five steps, and measure."""
         for name, forth, back in (("sprites", "right", "left"), ("high", "up", "down")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -168,7 +168,9 @@ class MaskStack(Scene):
             self._measure(way, world, top)
 
     def _measure_one_fit(self):
-        """How well one sprite's shapes fit it: all take seconds without the compiler, and the first picture waits."""
+        """Measure the fit of one sprite's shapes. All take seconds without the compiler, and would delay the first
+        picture.
+        """
         for way in WAYS:
             for name, mask, shapes in self.laid[way]:
                 if (name, way) not in self.fits:
@@ -177,7 +179,7 @@ class MaskStack(Scene):
                     return
 
     def share(self, way):
-        """(corners, pixels of air held, pixels missed) of a pile; nan until all in it are measured."""
+        """Return (corners, pixels of air held, pixels missed) of a pile; nan until all in it are measured."""
         fits = [self.fits.get((name, way), (nan, nan, nan)) for name, _, _ in self.laid[way]]
         return tuple(float(sum(column)) for column in zip(*fits, strict=True))
 
@@ -192,7 +194,7 @@ class MaskStack(Scene):
             self.asleep[way], self.changed[way] = asleep, self.since
 
     def measured(self):
-        """A step of each pile, kept awake, from when it has been laid."""
+        """Return the runs to measure: a step of each pile, kept awake, from its start."""
         if self.since < WARM:
             return None
         worlds = dict(zip(WAYS, self.worlds, strict=True))
@@ -205,20 +207,20 @@ class MaskStack(Scene):
         return *self.chosen, way
 
     def stands_now(self, way):
-        """True while the top of the pile is about where it was laid."""
+        """Return whether the top of the pile is near its start."""
         return self.sinks[way] < FALLEN
 
     @property
     def offer(self):
-        """When no pile is left to be nudged."""
+        """True once no pile is left to nudge."""
         return "" if any(self.stands_now(way) for way in WAYS) else "piles them up again"
 
     def views(self):
-        """One picture per way."""
+        """Return one picture per collision shape."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """The piles, and under each its figures."""
+        """Draw the piles, and under each its figures."""
         self.yard.draw(canvas, "MASK STACK", "who hovers, who fits, and what does fitting cost?")
         for number, (way, cast) in enumerate(zip(WAYS, self.casts, strict=True)):
             cast.draw(canvas, self.cameras[number], self.worlds[number], alpha)
@@ -252,7 +254,7 @@ class MaskStack(Scene):
             canvas.text(value, box.right - 3, box.y + 16 + row * 8, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Thin lines: what is felt of each sprite."""
+        """Draw the collision shapes of each sprite as thin lines."""
         width = max(1, frame.scale - 2)
         for way, world, camera in zip(WAYS, self.worlds, self.cameras, strict=True):
             lens = frame.lens(camera)
@@ -266,7 +268,7 @@ class MaskStack(Scene):
             frame.surface.set_clip(None)
 
     def check(self):
-        """Outlines stand and sleep; boxes and hulls hold air that no outline holds."""
+        """Return the goals: outlines stand and sleep; boxes and hulls hold air that no outline holds."""
         corners, air, _ = (dict(zip(WAYS, column, strict=True)) for column in zip(*map(self.share, WAYS), strict=True))
         finite = all(np.isfinite(world.bodies[name]).all() for world in self.worlds for name in ("x", "y", "angle"))
         return [
@@ -288,7 +290,7 @@ class MaskStack(Scene):
         ]
 
     def finding(self):
-        """How much air three ways hold, by how many corners they are pushed, and how far their towers have sunk."""
+        """Return the air that three shapes hold, their corners, and the sag of their towers."""
         if self.since <= WARM:
             return "not yet: the piles have to settle for half a second"
         if any(isnan(corners) for corners, _, _ in map(self.share, WAYS)):
@@ -301,11 +303,11 @@ class MaskStack(Scene):
         return "; ".join(told)
 
     def bot(self):
-        """Watch them come to rest, nudge once, watch again."""
+        """Return the bot: watch them come to rest, nudge once, watch again."""
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """The measurements; the worlds hold the rest."""
+        """Return the measurements; the worlds hold the rest."""
         measured = (self.sinks, self.sways, self.asleep, self.changed)
         return (
             self.frame,
@@ -317,12 +319,12 @@ class MaskStack(Scene):
 
 
 def whole(value):
-    """A number without its fraction as text; UNKNOWN for nan."""
+    """Return a number without its fraction as text; UNKNOWN for nan."""
     return UNKNOWN if isnan(value) else f"{value:,.0f}"
 
 
 def shapes_of(image, way):
-    """(the mask of a sprite, the convex shapes by which it is pushed)."""
+    """Return (the mask of a sprite, its convex collision shapes)."""
     mask = PixelMask.from_surface(image, smooth=0.0 if way == "exact" else SMOOTH)
     if way == "box":
         left, top, right, bottom = bounds_of(mask)
@@ -331,5 +333,5 @@ def shapes_of(image, way):
 
 
 def bounds_of(mask):
-    """(left, top, right, bottom) [px] of a sprite's pixels about its middle."""
+    """Return (left, top, right, bottom) [px] of a sprite's pixels about its middle."""
     return mask.bounds or (0.0, 0.0, 0.0, 0.0)

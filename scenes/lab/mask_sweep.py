@@ -1,12 +1,12 @@
 """Bullets and spinning swords fly at walls of one pixel, swept and not: which of them come through?
 
-What to see: a step moves a shot by sixty pixels, a wall is one. Tested only where they stand, most shots are on one
-side now and on the other then. Swept to the time of impact, none passes: each stops where its own outline first meets
-the wall's, turning included. The white mark is that place, the number the share of the step at which it was reached.
+What to see: a step moves a shot by sixty pixels, a wall is one. Tested at their poses only, most shots pass it between
+two steps. Swept to the time of impact, none passes: each stops where its own outline first meets the wall's, turning
+included. The white mark is that place, the number the share of the step at which it was reached.
 
 Why it matters: A bullet that flies through a wall is the oldest bug of collision, and pixels are the thinnest walls.
 
-To try: follow one white mark: that far of its step the shot had come when their outlines met.
+To try: follow one white mark: it shows how far of its step the shot had come at the impact.
 
 Source: Mirtich, Impulse-based Dynamic Simulation, 1996 (conservative advancement).
 """
@@ -37,12 +37,12 @@ PICTURES = {"bullets": "shot", "swords": "sword"}
 LANE_TOP, LANE_HEIGHT, LANE_WIDTH = 30, 76, 238  # [canvas px]
 WALL_X, GUN_X = 150.0, 16.0  # [px] in a lane
 MIDDLE = 38.0  # [px] of a lane's height
-ASIDE = 9.0  # [px] off the middle: whatever flies there meets the wall
+ASIDE = 9.0  # [px] off the middle: every shot within it meets the wall
 SPIN = (20.0, 50.0)  # [rad/s]
 EVERY = 9  # steps between two shots of a lane
 PASSES = 8  # of the solver
 END_X = 226.0  # [px]
-GLOW_STEPS = 30  # steps that a mark of an impact stays
+GLOW_STEPS = 30  # steps for which a mark of an impact stays
 TRAIL_STEPS, LABEL_STEPS = 12, 14
 COUNTS = 40  # [canvas px] on the right of a lane, for its figures
 SPARKS = ((255, 255, 230), (255, 214, 90), (255, 148, 40), (140, 40, 52))
@@ -50,7 +50,7 @@ WORDS = "white: the sprite's outline where it met the wall; gold: at which share
 
 
 class MaskSweep(Scene):
-    """Two worlds with three lanes each: a straight wall, an aslant one, a ring."""
+    """Two worlds with three lanes each: a straight wall, a slanted one, a ring."""
 
     name = "lab/mask_sweep"
     title = "Mask sweep"
@@ -64,13 +64,13 @@ class MaskSweep(Scene):
     )
     sliders = (Slider("speed", 300, 9000, 3600, "px/s", step=100), Slider("shots", 0, len(SHOTS) - 1, 0, choices=SHOTS))
     actions = (("left right", "speed"), ("Space", "bullets, swords"))
-    broadphase = "brute"  # a dozen shots and three walls a world: no order pays for itself
-    solver = "sequential_impulse"  # whoever meets a wall is gone in the next step: nothing is pushed for long
+    broadphase = "brute"  # a dozen shots and three walls per world: no structure pays off
+    solver = "sequential_impulse"  # a shot that meets a wall is removed in the next step: there is no lasting load
     head = HEAD
     legend_at = (4, 218)
 
     def build(self):
-        """Two worlds, three walls in each."""
+        """Build two worlds, with three walls in each."""
         self.sky, atlas = load_backdrop("sky_dusk"), load_atlas("lab")
         self.masks = {kind: PixelMask.from_surface(atlas[name]) for kind, name in PICTURES.items()}
         self.pictures = {kind: RotatedPicture(atlas[name]) for kind, name in PICTURES.items()}
@@ -78,8 +78,8 @@ class MaskSweep(Scene):
         self.walls = {shape: wall_of(shape) for shape in SHAPES}
         self.wall_pictures = {shape: picture_of(wall) for shape, wall in self.walls.items()}
         self.cameras, self.shots, self.spent = [], [], []
-        self.edges = {}  # of each kind of shot, where its origin is
-        self.trails, self.marks = [], []  # only seen: [way, kind, pose, age], and what _mark keeps
+        self.edges = {}  # of each kind of shot, about its origin
+        self.trails, self.marks = [], []  # for drawing only: [way, kind, pose, age], and the records of _mark
         keys = [(way, shape) for way in WAYS for shape in SHAPES]
         self.fired, self.hit, self.passed = (dict.fromkeys(keys, 0) for _ in range(3))
         for column in range(len(WAYS)):
@@ -90,13 +90,13 @@ class MaskSweep(Scene):
                 world.add_body(self.walls[shape], position=(WALL_X, middle(lane)), kind="static")
 
     def update(self, inputs):
-        """Keys, guns, two steps, the counts."""
+        """Process keys, fire, make two steps, and count."""
         way = inputs.pressed("right") - inputs.pressed("left")
         if way:
             self.change_slider("speed", self.values["speed"] + 300 * way)
         if inputs.pressed("fire"):
             self.change_slider("shots", (int(self.values["shots"]) + 1) % len(SHOTS))
-        for _, _, body in self.spent:  # seen for one more step
+        for _, _, body in self.spent:  # visible for one more step
             body.remove()
         self.spent = []
         for lane in range(len(SHAPES)):
@@ -113,7 +113,7 @@ class MaskSweep(Scene):
             self._count(column)
 
     def _fire(self, lane):
-        """The same shot in both worlds, from anywhere within a step's way, so that steps fall anywhere."""
+        """Fire the same shot in both worlds, from anywhere within the path of a step, to vary the times of impact."""
         speed = float(self.values["speed"])
         chosen = SHOTS[int(self.values["shots"])]
         kind = self.random.choice(SHOTS[1:]) if chosen == "both" else chosen
@@ -134,7 +134,7 @@ class MaskSweep(Scene):
             self.fired[way, SHAPES[lane]] += 1
 
     def _count(self, column):
-        """Who met a wall in this step, and who is beyond it without."""
+        """Count the shots that met a wall in this step, and those beyond it without a contact."""
         world, way = self.worlds[column], WAYS[column]
         begun = world.events.begin
         met = set(begun["body_a"].tolist()) | set(begun["body_b"].tolist())
@@ -160,7 +160,7 @@ class MaskSweep(Scene):
         self.shots = left
 
     def _mark(self, column, kind, body, ghost):
-        """Where a shot met a wall; `ghost`: where it would have been, as debug.impact_ghosts tells, or None."""
+        """Record where a shot met a wall; `ghost`: its pose without the wall, see debug.impact_ghosts, or None."""
         world = self.worlds[column]
         rows = np.flatnonzero(world.shapes["body"] == body.id)
         x, y = body.position
@@ -177,11 +177,11 @@ class MaskSweep(Scene):
         )
 
     def views(self):
-        """Both worlds."""
+        """Return both worlds."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Six lanes with what flies in them, and the counts."""
+        """Draw six lanes with their shots, and the counts."""
         canvas.surface.fill(NIGHT)
         step = float(self.values["speed"]) / 60.0
         draw_head(canvas, "MASK SWEEP", f"{step:.0f} px a step at walls of one pixel: who comes through?")
@@ -234,7 +234,7 @@ class MaskSweep(Scene):
             canvas.text(shape, view.x + 4, y, FOG, SMALL)
 
     def draw_on_frame(self, frame):
-        """Each impact: white where it was, dim where the shot was going; the share of the step beside it."""
+        """Draw each impact: white at the impact, dim at the shot's goal, with the share of the step beside it."""
         for column, kind, pose, aim, fraction, age in self.marks:
             x, y, _ = pose
             lens = frame.lens(self.cameras[column])
@@ -253,7 +253,7 @@ class MaskSweep(Scene):
                 frame.text_if_free(f"{fraction:.2f}", *at, GOLD, SMALL, frame.plot_scale, "right", True)
 
     def check(self):
-        """None passes where it is swept; without many do."""
+        """Return the goals: none passes if swept; many do otherwise."""
         passed, fired, hit = self.passed, self.fired, self.hit
         flying = {way: sum(WAYS[of] == way for of, *_ in self.shots) for way in WAYS}
         told = all(
@@ -281,7 +281,7 @@ class MaskSweep(Scene):
         ]
 
     def finding(self):
-        """How many shots came through the walls, swept and not, and below which rate that is."""
+        """Return the number of shots through the walls, swept and not, with the upper limit of the rate."""
         passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
         if not all(met.values()):
             return "not yet: shots have to come to the walls"
@@ -291,26 +291,26 @@ class MaskSweep(Scene):
         return f"{told}; swept, {rates['toi'].count} of {rates['toi'].total} (95 %: at most {most:.1f} %)"
 
     def _ended(self):
-        """(shots that passed, all that did or hit)."""
+        """Return (shots that passed, all that did or hit)."""
         return self.passed, {key: count + self.passed[key] for key, count in self.hit.items()}
 
     def bot(self):
-        """Watch; later only swords, faster."""
+        """Return the bot: watch; later only swords, faster."""
         return frozenset(("right",)) if self.frame in (200, 210, 220) else frozenset()
 
     def state(self):
-        """The counts; the worlds hold the shots."""
+        """Return the counts; the worlds hold the shots."""
         counts = (self.fired, self.hit, self.passed)
         return (self.frame, *self.values.values(), len(self.shots), *(v for count in counts for v in count.values()))
 
 
 def middle(lane):
-    """The height of a lane's middle [px] in its world."""
+    """Return the height of a lane's middle [px] in its world."""
     return lane * LANE_HEIGHT + MIDDLE - 1.0
 
 
 def picture_of(wall):
-    """A wall as it is: its pixels."""
+    """Return a wall as its pixels."""
     solid = wall.solid
     image = pygame.Surface(solid.shape[::-1], pygame.SRCALPHA, 32)
     for y, x in np.argwhere(solid).tolist():
@@ -319,5 +319,5 @@ def picture_of(wall):
 
 
 def placed(lines, pose, other):
-    """Lines (n, 4) that belong to one pose, as they lie in another."""
+    """Return lines (n, 4) of one pose, moved to another."""
     return moved(("lines", lines.reshape(-1, 2)), pose, other)[1].reshape(-1, 4)

@@ -1,11 +1,11 @@
 """Two planes, nine verdicts, from circle to exact pixels. Which of them lie, how often, and what does the truth cost?
 
-What to see: it opens where the box lies. Drag one plane along the other: the cheap shapes say HIT while there is sky
-between the planes; the pixels say HIT when a pixel is shared. Beside each verdict stands how many of its hits are none
-and how many true hits it misses, over thousands of poses, and what one test takes, of a hit and of a miss.
+What to see: it opens where the box is wrong. Drag one plane along the other: the cheap shapes say HIT while there is
+sky between the planes; the pixels say HIT when a pixel is shared. Beside each verdict are its rates of false hits and
+of missed hits, over thousands of poses, and the time of one test, of a hit and of a miss.
 
-Why it matters: Simple shapes are asked first because they are said to be cheap; here is what that saves, and what it
-gets wrong.
+Why it matters: Simple shapes are tested first because they are said to be cheap; here is what that saves, and its
+errors.
 
 To try: turn one plane with the wheel, and look for a pose in which only the exact pixels say no.
 
@@ -31,8 +31,8 @@ from scenes.lab.yard import HEAD
 
 SPRITES = ("large_plane_a", "large_plane_b")
 ARENA = pygame.Rect(0, 16, 316, 254)
-START = ((124.0, 166.0, 0.0), (190.0, 120.0, 0.6))  # five simple shapes say hit, and no pixel is shared
-MARGIN = 20  # [px] that a plane's middle keeps from the arena's edge
+START = ((124.0, 166.0, 0.0), (190.0, 120.0, 0.6))  # five simple shapes report a hit without a common pixel
+MARGIN = 20  # [px] between a plane's middle and the arena's edge
 COLORS = {
     "circle": ORANGE,
     "aabb": GREEN,
@@ -46,7 +46,7 @@ COLORS = {
 }
 NAMES = {"aabb": "box", "obb": "turned box", "mask": "exact"}
 DRAWN = ("circle", "aabb", "obb", "capsule", "hull")
-LIARS = ("circle", "aabb", "obb")  # caught by the bot
+LIARS = ("circle", "aabb", "obb")  # tiers that the bot catches
 TABLE_X, TABLE_Y, ROW_HEIGHT = 324, 42, 22
 HEADS = ("wrong", "missed", "hit", "miss")
 COLUMNS = (376, 408, 442, 474)  # right ends of the figures
@@ -56,12 +56,12 @@ BOT_LEG = 50  # steps per leg of the bot's path
 
 
 class Masks(Scene):
-    """One world per tier with the two planes in it; what a test costs is measured beside the game."""
+    """One world per tier with the two planes in it; costs are measured beside the game."""
 
     name = "lab/masks"
     title = "Masks"
     about = "Drag and turn two planes: nine tiers, from circle to exact pixels, give their verdicts side by side."
-    effects = Effects()  # who meets whom; nobody is pushed, and how deep they are is asked of collide()
+    effects = Effects()  # there is no response; depths are those of collide()
     pieces = ("masks", "boxes", "circles", "contacts")
     features = (
         "pixel masks by bitwise AND, as drawn, and exactly, at any angle",
@@ -81,7 +81,7 @@ class Masks(Scene):
     hides_pointer = False
 
     def build(self):
-        """A world per tier."""
+        """Build a world per tier."""
         atlas = load_atlas("planes")
         self.masks = [atlas.mask(name) for name in SPRITES]
         self.planes = [RotatedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
@@ -89,11 +89,11 @@ class Masks(Scene):
         self.hands = Hands(START, 0, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
         self.shown: dict[str, World] = {tier: self._world(tier) for tier in TIERS}
         self.verdicts: dict[str, bool] = dict.fromkeys(TIERS, False)
-        self.lies: dict[str, int] = dict.fromkeys(TIERS, 0)  # steps in which a tier said hit and the pixels did not
+        self.lies: dict[str, int] = dict.fromkeys(TIERS, 0)  # steps with a hit of the tier but not of the pixels
         self.wrong = self.steps = self.apart = self.hits = 0
 
     def measured(self):
-        """The two planes."""
+        """Return the poses to measure: those of the two planes."""
         return Sprites(self.masks[0], self.masks[1])
 
     def _world(self, tier):
@@ -103,7 +103,7 @@ class Masks(Scene):
         return world
 
     def update(self, inputs):
-        """Move the planes, put them into every world, and ask all tiers."""
+        """Move the planes, put them into every world, and test all tiers."""
         if inputs.pointer_pressed and ARENA.collidepoint(inputs.pointer):
             self._press(*inputs.pointer)
         self.hands.move(inputs)
@@ -132,11 +132,11 @@ class Masks(Scene):
         self.apart += not any(self.verdicts.values())
 
     def views(self):
-        """The overlays show the world of the pixels."""
+        """Return the view of the overlays: the world of the pixels."""
         return [(self.shown["pixels"], self.camera)]
 
     def draw(self, canvas, alpha):
-        """The sky, the planes, and the table of verdicts."""
+        """Draw the sky, the planes, and the table of verdicts."""
         canvas.surface.blit(self.sky, (0, 0))
         for plane, (x, y, angle) in zip(self.planes, self.hands.poses, strict=True):
             plane.draw(canvas, self.camera, x, y, angle)
@@ -178,7 +178,7 @@ class Masks(Scene):
             canvas.text(text, right, y + 9, PAPER, SMALL, align="right")
 
     def _notes(self):
-        """How deep the planes are in each other, and on what the figures were measured."""
+        """Return the planes' depth of overlap, and the origin of the figures."""
         poses = [tuple(pose) for pose in self.hands.poses]
         found = collide(self.masks[0], poses[0], self.masks[1], poses[1])
         depth = max(0.0, -min(found.separations.tolist(), default=0.0))
@@ -190,7 +190,7 @@ class Masks(Scene):
         return shared, f"{hits:,} hits, {POSES - hits:,} misses, {figures.hit.runs} runs"
 
     def draw_on_frame(self, frame):
-        """The simple shapes as thin lines: bright where they say hit."""
+        """Draw the simple shapes as thin lines, bright if they report a hit."""
         lens = frame.lens(self.camera)
         frame.surface.set_clip(frame.from_canvas(ARENA))
         width = max(1, frame.scale - 1)
@@ -201,7 +201,7 @@ class Masks(Scene):
         frame.surface.set_clip(None)
 
     def check(self):
-        """The pixels are right in every step, and each cheap shape was caught lying."""
+        """Return the goals: the pixels are right in every step, and each cheap shape was wrong once."""
         return [
             Goal(
                 "the pixel verdict equals a slow count",
@@ -223,7 +223,7 @@ class Masks(Scene):
         ]
 
     def finding(self):
-        """How often the box is wrong, and what its test takes beside that of the exact pixels."""
+        """Return the error rate of the box, and the ratio of its time to that of the exact pixels."""
         box, exact = self.figures.get("aabb"), self.figures.get("mask")
         if box is None or exact is None:
             return f"not yet: {POSES:,} poses of the two planes have to be tested beside the game"
@@ -231,7 +231,7 @@ class Masks(Scene):
         return f"{wrong:.1f} % of the box's hits are none; it takes {times[0]:,.0f} ns a hit, the exact {times[1]:,.0f}"
 
     def bot(self):
-        """Drag the first plane around and over the second, turning it now and then."""
+        """Return the bot: drag the first plane around and over the second, with turns."""
         leg, step = divmod(self.frame, BOT_LEG)
         (ax, ay), (bx, by) = BOT_PATH[leg % len(BOT_PATH)], BOT_PATH[(leg + 1) % len(BOT_PATH)]
         share = step / BOT_LEG
@@ -239,13 +239,15 @@ class Masks(Scene):
         return InputFrame(frozenset(), pointer, self.frame > 0, 1 if self.frame % 10 == 0 else 0)
 
     def state(self):
-        """The poses and the tallies."""
+        """Return the poses and the counts."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (self.frame, *poses, self.hands.chosen, self.wrong, self.hits, self.apart, *self.lies.values())
 
 
 def share_a_pixel(masks, poses):
-    """The slow truth: lay both turned pictures on one pixel grid and look for a pixel that is solid in both."""
+    """Return the slow reference: draw both rotated pictures on one pixel grid and search for a pixel that is solid in
+    both.
+    """
     boxes = []
     for mask, (x, y, angle) in zip(masks, poses, strict=True):
         turned = mask.turned(angle)

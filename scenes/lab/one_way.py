@@ -4,8 +4,7 @@ What to see: springs throw crates, balls and nuts up through the planks, and the
 through the same planks and stands on them. The lift carries a crate, which the solver moves, and a walker, which walks
 in whole pixels: neither slips.
 
-Why it matters: Planks to jump up through are half of a platformer; two who disagree about them walk through each
-other's floor.
+Why it matters: Planks to jump up through are half of a platformer; bodies and hero must agree about them.
 
 To try: press down and jump on a plank, and be under the spring when a crate comes.
 
@@ -36,23 +35,23 @@ PLANKS = {  # name: (row, first column, last column)
     "tower": (11, 11, 18),
     "roof": (7, 12, 17),
 }
-SPRINGS = (192.0, 240.0, 288.0)  # [px] where bodies are thrown from
+SPRINGS = (192.0, 240.0, 288.0)  # [px] where bodies are thrown up
 KINDS = {
     "crate": (Polygon.box(16, 16), None),
     "ball": (Circle(7.0), "gold"),
     "nut": (Polygon(tuple((8.5 * cos(k * pi / 3), 8.5 * sin(k * pi / 3)) for k in range(6))), "violet"),
 }
-BRAKED = Material(rolling_resistance=0.1)  # balls come to rest on a plank
+BRAKED = Material(rolling_resistance=0.1)  # lets balls come to rest on a plank
 THROWS = (238.0, 306.0)  # [px/s] up to the first plank, and up to the roof
 MOST = 9  # bodies at once; the oldest leaves
-REST_SPEED, REST_STEPS = 8.0, 20  # slower than this for so long counts as landed
+REST_SPEED, REST_STEPS = 8.0, 20  # slower than this for so many steps counts as landed
 HERO_BOX = (10, 20)  # [px]
 WALKER_BOX = (16, 13)
 RUN, JUMP, HERO_GRAVITY, FALL = 110.0, 380.0, 900.0, 360.0  # [px/s], [px/s2]
 LIFT_AT, LIFT_SIZE = (396.0, 178.0), (56, 16)
-LIFT_WAY = (34.0, 34.0)  # [px] swing along x and y
+LIFT_WAY = (34.0, 34.0)  # [px] amplitude along x and y
 RIDERS = (-15.0, 15.0)  # [px] crate and walker from the lift's middle
-SETTLED = 60  # steps until riders count as riding
+SETTLED = 60  # steps until riders are measured
 DUST = ((240, 226, 210), (180, 160, 150), (110, 96, 110))
 BOT = (
     (20, 44, "jump"),
@@ -87,7 +86,7 @@ class OneWay(Scene):
     legend_at = (8, 28)
 
     def build(self):
-        """Level, lift, riders and the hero; bodies are thrown with time."""
+        """Build level, lift, riders and the hero; bodies are thrown with time."""
         self.add_world()
         self.backdrop = Backdrop()
         self.tiles, self.things, self.heroes = load_atlas("tiles"), load_atlas("things"), load_atlas("hero")
@@ -111,21 +110,21 @@ class OneWay(Scene):
         self.throws = 0
         self.passed = {"body": 0, "hero": 0}
         self.landed = {"body": 0, "hero": 0}
-        self.hero_through = None  # the plank he came through and did not land on yet
-        self.offsets = None  # where the riders stood when they had settled
-        self.slip = {"crate": 0.0, "walker": 0.0}  # [px] the most, while nobody dragged a rider
+        self.hero_through = None  # the plank that he came through without landing on it yet
+        self.offsets = None  # places of the riders after settling
+        self.slip = {"crate": 0.0, "walker": 0.0}  # [px] greatest value, while no rider is dragged
         self.aside = {"crate": 0.0, "walker": 0.0}  # [px] now
-        self.carried = 0.0  # [px] way of the lift since then
+        self.carried = 0.0  # [px] path of the lift since then
         self.disturbed = False  # a rider was dragged
 
     def change_slider(self, name, value):
-        """Another swing of the lift: its riders settle again."""
+        """Change the lift's swing; its riders settle again."""
         super().change_slider(name, value)
         if name == "lift":
             self.offsets = None
 
     def update(self, inputs):
-        """Lift, hero, throws, one step, then who passed and who landed."""
+        """Move lift and hero, throw bodies, make one step, and count passes and landings."""
         if self.frame % max(1, int(self.values["throw every"])) == 10:
             self._throw()
         self._aim_lift()
@@ -144,7 +143,7 @@ class OneWay(Scene):
         self.throws += 1
         found = self.world.query_aabb((x - 12.0, FLOOR * TILE - 28.0), (x + 12.0, FLOOR * TILE - 2.0))
         if any(body.kind == "dynamic" for body in found):
-            return  # something lies on the spring
+            return  # the spring is occupied
         body = self.world.add_body(
             KINDS[kind][0],
             position=(x, FLOOR * TILE - 14.0),
@@ -166,7 +165,7 @@ class OneWay(Scene):
         del self.thrown[identity]
 
     def _aim_lift(self):
-        """The velocity that brings the lift to its next place in one step."""
+        """Set the velocity that moves the lift to its next place in one step."""
         x, y = self.lift.position
         self.clock += float(self.values["lift"])
         next_x, next_y = lift_at(self.clock)
@@ -250,7 +249,7 @@ class OneWay(Scene):
             self.slip = {name: max(self.slip[name], self.aside[name]) for name in self.slip}
 
     def draw(self, canvas, alpha):
-        """Dusk, the level, what moves in it, and the tallies."""
+        """Draw dusk, the level, moving things, and the counts."""
         self.backdrop.draw(canvas, 40.0, dim=14)
         surface = canvas.surface
         for column in range(COLUMNS):
@@ -313,7 +312,7 @@ class OneWay(Scene):
             x = canvas.text(text, x, 6, color, SMALL, align="right").left - 12
 
     def check(self):
-        """Both kinds come through from below, both land, and the lift loses neither."""
+        """Return the goals: both kinds come through from below, both land, and the lift loses neither."""
         return [
             Goal("bodies come through from below", 600, self.passed["body"] >= 6, f"{self.passed['body']} times"),
             Goal("bodies land on planks", 600, self.landed["body"] >= 3, f"{self.landed['body']} times"),
@@ -328,7 +327,7 @@ class OneWay(Scene):
         ]
 
     def finding(self):
-        """How often both kinds came through a plank and stood on one, and how far the lift's riders slid."""
+        """Return the numbers of passes and landings of both kinds, and the slip of the lift's riders."""
         if not all((*self.passed.values(), *self.landed.values())):
             return "not yet: a body and the hero have to come up through a plank, and to land on one"
         body, hero = (f"{self.passed[who]} times up, {self.landed[who]} landings" for who in ("body", "hero"))
@@ -337,13 +336,13 @@ class OneWay(Scene):
         return f"{told}; in {self.carried:,.0f} px of lift its riders slid {slid:.2f} px" if self.carried else told
 
     def bot(self):
-        """Up the left planks, down through two, and up again."""
+        """Return the bot: up the left planks, down through two, and up again."""
         frame = self.frame % 400
         held = {action for start, end, actions in BOT if start <= frame < end for action in actions.split()}
         return InputFrame(frozenset(held))
 
     def state(self):
-        """The hero and the tallies; the world holds the rest."""
+        """Return the hero and the counts; the world holds the rest."""
         return (
             self.frame,
             *self.values.values(),
@@ -360,7 +359,7 @@ class OneWay(Scene):
 
 
 def level():
-    """The floor, the walls beside it and the planks."""
+    """Return the floor, the walls beside it and the planks."""
     solid = [[row >= FLOOR for _ in range(COLUMNS)] for row in range(ROWS)]
     one_way = [[False] * COLUMNS for _ in range(ROWS)]
     for row, first, last in PLANKS.values():
@@ -369,6 +368,6 @@ def level():
 
 
 def lift_at(clock):
-    """Where the lift's middle is after so many steps of its clock [px]."""
+    """Return the lift's middle after so many steps of its clock [px]."""
     turn = 2.0 * pi * clock / 240.0
     return LIFT_AT[0] + LIFT_WAY[0] * cos(turn), LIFT_AT[1] + LIFT_WAY[1] * sin(2.0 * turn + 0.5 * pi) * 0.5

@@ -1,20 +1,21 @@
-"""Pictures of convex shapes in the game's style, made from the shape itself: what is drawn is what collides.
+"""Pictures of convex shapes in the game's style, made from the shape itself, so that the drawn shape collides.
 
-Dark outline, light rim, dithered inside: the same seen from every side, so that the light does not turn with the body.
+They have a dark outline, a light rim and a dithered inside, the same from every side, so that the light does not rotate
+with the body.
 """
 
 from functools import lru_cache
 from math import ceil, cos, sin
+from typing import NamedTuple
 
 import numpy as np
 import pygame
 
 from game.drawing.colors import INK
 from game.drawing.rotated import RotatedPicture
-from physics import Capsule, Chain, Circle, Polygon
 
 OUTLINE, RIM = 1.0, 2.6  # [px] inwards from the edge
-# rim, inside, inside where dithered, mark
+# rim, inside, dithered inside, mark
 RAMPS = {
     "wood": ((246, 196, 120), (196, 128, 74), (168, 102, 66), (122, 70, 54)),
     "steel": ((222, 232, 240), (142, 160, 184), (118, 134, 164), (80, 92, 124)),
@@ -27,12 +28,14 @@ RAMPS = {
 
 @lru_cache(maxsize=128)
 def turning(shape, ramp):
-    """The picture of a shape, ready to be drawn at any angle with the shape's origin at a point."""
+    """Return the picture of a shape, to be drawn at any angle with the shape's origin at a point."""
     return RotatedPicture(piece(shape, ramp))
 
 
 def piece(shape, ramp, marked=True):
-    """A surface with the shape's origin in its middle. ramp: a name of RAMPS; marked: a spot that shows it turn."""
+    """Return a surface with the shape's origin in its middle. ramp: a name of RAMPS; marked: with a spot that shows
+    rotation.
+    """
     points, radius = hull(shape)
     reach = ceil(float(np.hypot(points[:, 0], points[:, 1]).max()) + radius) + 1
     side = np.arange(2 * reach) + 0.5 - reach
@@ -57,41 +60,33 @@ def piece(shape, ramp, marked=True):
     return image
 
 
+class Scaled(NamedTuple):
+    """A convex shape for drawing: corners clockwise on the screen, and a rounding radius [px]."""
+
+    points: tuple
+    radius: float
+
+
 def hull(shape):
-    """A convex shape as corners (k, 2) clockwise on the screen and a rounding radius."""
-    if isinstance(shape, Circle):
-        return np.array([shape.center]), shape.radius
-    if isinstance(shape, Capsule):
-        return np.array([shape.a, shape.b]), shape.radius
-    return np.array(shape.points, float), float(getattr(shape, "radius", 0.0))
+    """Return a convex shape as corners (k, 2) clockwise on the screen and a rounding radius."""
+    return np.array(shape.points, float), float(shape.radius)
 
 
 @lru_cache(maxsize=256)
 def scaled(shape, zoom):
-    """A convex shape so many times as large."""
-    if isinstance(shape, Circle):
-        return Circle(shape.radius * zoom, (shape.center[0] * zoom, shape.center[1] * zoom))
-    if isinstance(shape, Capsule):
-        a, b = ((x * zoom, y * zoom) for x, y in (shape.a, shape.b))
-        return Capsule(a, b, shape.radius * zoom)
-    return Polygon([(x * zoom, y * zoom) for x, y in shape.points], shape.radius * zoom)
-
-
-@lru_cache(maxsize=256)
-def corners(shape):
-    """The corners of a convex shape, or of a chain, in body space."""
-    return tuple(map(tuple, shape.points if isinstance(shape, Chain) else hull(shape)[0].tolist()))
+    """Return a convex shape, scaled."""
+    return Scaled(tuple((x * zoom, y * zoom) for x, y in shape.points), shape.radius * zoom)
 
 
 def placed(shape, zoom, pose):
-    """The corners of a convex shape, or of a chain, so many times as large at a pose of a surface."""
+    """Return the corners of a convex shape, or of a chain, scaled and at a pose of a surface."""
     x, y, angle = pose
     c, s = cos(angle) * zoom, sin(angle) * zoom
-    return [(x + c * px - s * py, y + s * px + c * py) for px, py in corners(shape)]
+    return [(x + c * px - s * py, y + s * px + c * py) for px, py in shape.points]
 
 
 def signed_distance(points, radius, x, y):
-    """Distance [px] from (x, y) to the edge of a rounded hull, negative inside; NumPy arrays or numbers."""
+    """Return the distance [px] from (x, y) to the edge of a rounded hull, negative inside; NumPy arrays or numbers."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     nearest = np.full(x.shape, np.inf)
     inside = np.full(x.shape, len(points) > 2)

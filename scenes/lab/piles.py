@@ -1,4 +1,4 @@
-"""What a pile of bodies does, in numbers: how deep it overlaps, how fast it moves, what energy it holds."""
+"""Measurements of a pile of bodies: overlap, speed, energy."""
 
 import numpy as np
 
@@ -8,14 +8,14 @@ SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
 def with_effects(world, effects):
-    """The snapshot of a world as it is, to be stepped on with these effects; all are awake."""
+    """Return the snapshot of a world in its current state, with these effects; all bodies are awake."""
     other = _like(world)
     other.set_effects(effects)
     return other.snapshot()
 
 
 def with_substeps(world, substeps):
-    """The snapshot of a world as it is, to be stepped on with another number of substeps; None: with its own."""
+    """Return the snapshot of a world in its current state, with another number of substeps; None: its own."""
     other = _like(world)
     if substeps is not None:
         other.substeps = substeps
@@ -29,13 +29,13 @@ def _like(world):
 
 
 def deepest(world):
-    """The deepest overlap of the world's contacts [px]."""
+    """Return the deepest overlap of the world's contacts [px]."""
     contacts = world.contacts
     return max(0.0, -float(contacts["separation"].min())) if len(contacts) else 0.0
 
 
 def kinetic_energy(world, without=()):
-    """Of all moving bodies but those with the ids in `without`, turning included [mass px2/s2]."""
+    """Return the kinetic energy of all moving bodies except the ids in `without`, with rotation [mass px2/s2]."""
     bodies = _but(world.bodies, without)
     inertia = bodies["inertia"] if world.effects.rotation else 0.0
     return 0.5 * float(
@@ -44,7 +44,7 @@ def kinetic_energy(world, without=()):
 
 
 def height_energy(world, without=()):
-    """Of all dynamic bodies but those in `without` in the world's gravity, against y = 0 [mass px2/s2]."""
+    """Return the potential energy of all dynamic bodies except the ids in `without`, against y = 0 [mass px2/s2]."""
     bodies = _but(world.bodies, without)
     bodies = bodies[bodies["inverse_mass"] > 0.0]
     return -float(np.sum(bodies["mass"] * bodies["center_y"])) * world.gravity[1]
@@ -55,11 +55,11 @@ def _but(bodies, without):
 
 
 def fastest(world):
-    """The highest speed of a dynamic body [px/s]."""
+    """Return the highest speed of a dynamic body [px/s]."""
     bodies = world.bodies[world.bodies["inverse_mass"] > 0.0]
     return float(np.sqrt(np.max(bodies["vx"] ** 2 + bodies["vy"] ** 2))) if len(bodies) else 0.0
 
 
 def step_seconds(world):
-    """What the last step took, all stages [s]. Never part of a scene's state."""
+    """Return the time of the last step, all stages [s]. It is never part of a scene's state."""
     return sum(world.profile.stages.values())

@@ -1,6 +1,6 @@
-"""Pictures of masks that are carved: each is drawn from its own pixels and from no others, cut out of one print.
+"""Pictures of carved masks: each is drawn from its own pixels, cut out of one print.
 
-A print is the picture that a mask had when it was whole. A piece that comes loose goes on showing its part of it.
+A print is the picture of a mask when it was whole. A fragment keeps its part of it.
 """
 
 from functools import lru_cache
@@ -13,13 +13,13 @@ import pygame
 from game.drawing.canvas import whole
 from game.drawing.rotated import poses_between
 
-ANGLES = 128  # pictures of a full turn
+ANGLES = 128  # pictures per full turn
 KEPT = 300  # pictures of pieces, each at all its angles
-EDGE = (24, 18, 30)  # the new edge of what was cut
+EDGE = (24, 18, 30)  # colour of a new edge
 
 
 class Print(NamedTuple):
-    """`image`: of the whole; `left`, `top`: the place in it [px] where the mask's raster begins."""
+    """A print. `image`: of the whole; `left`, `top`: the place in it [px] of the mask's raster."""
 
     image: pygame.Surface
     left: int
@@ -27,19 +27,19 @@ class Print(NamedTuple):
 
 
 class Prints:
-    """`of`: body id -> Print. What is drawn of it is kept as long as the body's mask is the same."""
+    """The prints. `of`: body id -> Print. Its pictures are cached while the body's mask stays the same."""
 
     def __init__(self):
         self.of = {}
         self.kept = {}  # body id -> (mask, Piece)
 
     def add(self, body, image):
-        """A body whose mask is all of a picture. Returns the body."""
+        """Add a body whose mask covers a whole picture. Return the body."""
         self.of[body.id] = Print(image, 0, 0)
         return body
 
     def add_piece(self, piece, parent):
-        """A body that has come loose of another, and has not moved since. parent: (Print, mask, pose) it had."""
+        """Add a fragment of another body before it has moved. parent: its (Print, mask, pose)."""
         (image, left, top), mask, (x, y, angle) = parent
         (own,) = piece.shapes
         dx, dy = piece.position[0] - x, piece.position[1] - y
@@ -49,12 +49,12 @@ class Prints:
         self.of[piece.id] = Print(image, left + shift[0], top + shift[1])
 
     def forget(self, identity):
-        """A body that is gone."""
+        """Remove a body."""
         self.of.pop(identity, None)
         self.kept.pop(identity, None)
 
     def draw(self, canvas, camera, world, alpha):
-        """All bodies that have a print, between the last two steps."""
+        """Draw all bodies with a print, interpolated between the last two steps."""
         bodies = world.bodies
         rows = world.rows(np.array(sorted(self.of), np.int64))
         x, y, angle = (each[rows] for each in poses_between(bodies, alpha))
@@ -71,7 +71,7 @@ class Prints:
                 self.kept.clear()
             kept = self.kept[body.id] = (mask, Piece(cut_out(self.of[body.id], mask.solid)))
         image = kept[1].at(angle)
-        # The picture's middle, seen from the body's origin.
+        # The picture's centre relative to the body's origin.
         u, v = mask.size[0] / 2 - mask.origin[0], mask.size[1] / 2 - mask.origin[1]
         c, s = cos(angle), sin(angle)
         width, height = image.get_size()
@@ -86,11 +86,11 @@ class Piece:
         self.turned = lru_cache(maxsize=ANGLES)(self._turned)
 
     def __deepcopy__(self, memo):
-        """A copy of a scene draws with the same pictures."""
+        """Return itself: a copy of a scene draws with the same pictures."""
         return self
 
     def at(self, angle):
-        """The picture turned clockwise by the nearest angle kept [rad]."""
+        """Return the picture rotated clockwise by the nearest cached angle [rad]."""
         return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
 
     def _turned(self, number):
@@ -98,7 +98,7 @@ class Piece:
 
 
 def cut_out(part, solid):
-    """The solid pixels of a print, dark along the edges where something is gone."""
+    """Return the solid pixels of a print, dark along the new edges."""
     height, width = solid.shape
     out = pygame.Surface((width, height), pygame.SRCALPHA, 32)
     out.blit(part.image, (0, 0), (part.left, part.top, width, height))

@@ -1,9 +1,9 @@
 """A pyramid of crates: does it stand still, and what does standing cost per step?
 
-What to see: rows grow the number of crates by the square and the weight on the lowest ones with it. Turn down the
-substeps or take another solver and the overlap grows and the top starts to wander.
+What to see: the number of crates grows with the square of the rows, and the weight on the lowest ones with it. With
+fewer substeps or another solver the overlap grows and the top starts to wander.
 
-Why it matters: How well a pile stands is bought with solver time; the plot shows what each setting gives for it.
+Why it matters: A still pile costs solver time; the plot shows what each setting gives for it.
 
 To try: turn down the substeps, take another solver, and find both in the plot. Then drop the ball.
 
@@ -30,16 +30,16 @@ from scenes.lab.scatter import Dot, draw_scatter
 from scenes.lab.yard import HEAD, Yard, plate
 
 SIZE = 32.0  # [px] a crate of one metre
-LOOKS = ((9, 24), (14, 16), (20, 11))  # up to so many rows, crates are drawn that large [canvas px]
+LOOKS = ((9, 24), (14, 16), (20, 11))  # up to so many rows, size of the drawn crates [canvas px]
 FLOOR = 248  # [canvas px]
-SUBSTEPS = (1, 2, 3, 4, 6, 8)  # that are measured; others, when they were tried
+SUBSTEPS = (1, 2, 3, 4, 6, 8)  # measured ones; others once they were tried
 MIDDLE = 300  # [canvas px] the pyramid's axis
 GAP = 0.02  # of a crate, between neighbours in a row
 BALL = 20  # [canvas px] radius of the ball's picture
 BALL_FROM = (160, 26)  # [canvas px] in the view
-BALL_DENSITY, BALL_SPEED = 6.0, 9.0  # times a crate's; [crates/s] at which it is thrown
+BALL_DENSITY, BALL_SPEED = 6.0, 9.0  # times a crate's; [crates/s] of the throw
 DROP_AT = 330  # the bot's step
-JUDGED_AT = 300  # step at which the pyramid has to have stood still
+JUDGED_AT = 300  # step at which the pyramid is judged
 ENERGY_SLACK = 0.001  # of the height energy
 OVERLAP = "overlap, 1/1000 crate [log]"
 OVERLAP_AT, SCATTER_AT = (4, 176, 130, 32), (4, 106, 130, 68)  # [canvas px]
@@ -68,17 +68,17 @@ class Pyramid(Scene):
     legend_at = (4, 212)
 
     def build(self):
-        """The yard and the curves; fill() raises the pyramid."""
+        """Build the yard and the curves; fill() builds the pyramid."""
         self.yard = Yard(FLOOR)
         self.overlap = Curves(OVERLAP, {OVERLAP: GOLD})
-        self.tried = set()  # names of the lanes that have run here, only seen
+        self.tried = set()  # names of the runs made here, for drawing only
         if self.solver in SOLVERS:  # named on the command line, or chosen before a restart
             self.values["solver"] = SOLVERS.index(self.solver)
         self.balls = 0
         self.fill()
 
     def fill(self):
-        """A new world with the pyramid in it."""
+        """Make a new world with the pyramid in it."""
         rows = int(self.values["rows"])
         self.drawn = next(size for most, size in LOOKS if rows <= most)
         zoom = self.drawn / SIZE
@@ -93,13 +93,13 @@ class Pyramid(Scene):
         self.since = 0
         self.thrown = None
         self.quiet = 0.0  # fastest crate in the second before it is judged [px/s]
-        self.still = None  # where the top stood when it was judged, or None
+        self.still = None  # place of the top when it was judged, or None
         self.deepest = 0.0  # overlap in that second [px]
         self.energy = self.start_energy = height_energy(world)
         self.most_energy = self.energy
 
     def change_slider(self, name, value):
-        """Another solver goes on with the same crates; another number builds anew."""
+        """Continue with the same crates under another solver; build again for another number."""
         super().change_slider(name, value)
         if name == "solver":
             self.solver = self.world.solver = SOLVERS[int(self.values["solver"])]
@@ -107,7 +107,7 @@ class Pyramid(Scene):
             self.fill()
 
     def update(self, inputs):
-        """Keys, one step, the measurements."""
+        """Process keys, make one step, and measure."""
         for name, forth, back in (("rows", "right", "left"), ("substeps", "up", "down")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -129,14 +129,16 @@ class Pyramid(Scene):
 
     @property
     def lane(self):
-        """What runs now, as a lane is called: rows, solver, substeps (None where they mean nothing), broad phase."""
+        """Name of the current run: rows, solver, substeps (None if it has none), broad phase."""
         return self._lane(self.world.solver, self.world.substeps)
 
     def _lane(self, solver, substeps):
         return int(self.values["rows"]), solver, substeps if solver in SUBSTEPPED else None, self.broadphase
 
     def measured(self):
-        """This pyramid under every solver and number of substeps, from how it is laid: a step, and how it stands."""
+        """Return the runs to measure: this pyramid under every solver and number of substeps, from its start: time of a
+        step, and errors.
+        """
         names = [self._lane(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
         return Lanes(list(dict.fromkeys([self.lane, *names, *sorted(self._tried_here(), key=str)])), self._make)
 
@@ -151,7 +153,7 @@ class Pyramid(Scene):
         return Lane([world.snapshot()], self.broadphase, judged=(JUDGED_AT - 60, JUDGED_AT))
 
     def dots(self):
-        """{lane: Dot} of this pyramid, as far as they are measured: microseconds and thousandths of a crate."""
+        """Return {run: Dot} of this pyramid, as far as measured: microseconds and thousandths of a crate."""
         found = {}
         for name, figures in self.figures.items():
             rows, solver, substeps, broadphase = name
@@ -162,7 +164,7 @@ class Pyramid(Scene):
         return found
 
     def finding(self):
-        """What the present setting costs and how it stands, and which of those that stand as well costs least."""
+        """Return cost and error of the current setting, and the cheapest setting of the same accuracy."""
         dots = self.dots()
         if self.lane not in dots:
             return "not yet: this pyramid has to be stepped beside the game"
@@ -176,22 +178,22 @@ class Pyramid(Scene):
         return f"{told}; {plain_name(best[1])}{substeps}: no more for {dots[best].cost:,.0f} us"
 
     def _energy(self):
-        """Of the crates, whoever throws or drags them [mass px2/s2]."""
+        """Return the energy of the crates [mass px2/s2]."""
         ball = () if self.thrown is None else (self.thrown.id,)
         return kinetic_energy(self.world, ball) + height_energy(self.world, ball)
 
     @property
     def offer(self):
-        """When the top is down."""
+        """True once the top is down."""
         down = self.top.position[1] - self._built_at()[1] > SIZE
         return "piles them up again" if down else ""
 
     def _built_at(self):
-        """Where the top crate was laid [px]."""
+        """Return the start of the top crate [px]."""
         return 0.0, -(int(self.values["rows"]) - 0.5) * SIZE
 
     def _drop(self):
-        """A new ball from the upper left; the one before is taken away."""
+        """Throw a new ball from the upper left; the last one is removed."""
         if self.thrown is not None:
             self.world.remove_body(self.thrown)
         radius = BALL / self.camera.zoom
@@ -213,11 +215,11 @@ class Pyramid(Scene):
                 self.camera.shake(0.25)
 
     def observe(self):
-        """Feed the curve."""
+        """Update the curve."""
         self.overlap.note({OVERLAP: 1000.0 * deepest(self.world) / SIZE})
 
     def draw(self, canvas, alpha):
-        """The pile before the dusk, the numbers on a plate."""
+        """Draw the pile over the dusk, and the numbers on a plate."""
         self.yard.draw(canvas, "PYRAMID", "does it stand still, and what does standing cost?")
         self.cast.draw(canvas, self.camera, self.world, alpha)
         plate(canvas, (4, 22, 130, 80))
@@ -238,7 +240,7 @@ class Pyramid(Scene):
             canvas.text(value, 128, 38 + number * 9, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """The curve of the overlap, and error against time of all that was measured."""
+        """Draw the curve of the overlap, and error against time of all measured settings."""
         self.overlap.draw(frame, OVERLAP_AT)
         draw_scatter(frame, SCATTER_AT, "overlap over a step's time [log]", self.dots(), self.lane)
         if self.thrown is None:
@@ -250,7 +252,7 @@ class Pyramid(Scene):
             pygame.draw.polygon(frame.surface, color, [(x, y), (x - wide, y - high), (x + wide, y - high)])
 
     def check(self):
-        """It stood where it was built, without creeping, sinking or gaining energy; the ball then knocks it down."""
+        """Return the goals: it stood without creep, sag or gain of energy; the ball then knocks it down."""
         rows = int(self.values["rows"])
         sunk = abs(self.still[1] + (rows - 0.5) * SIZE) / SIZE if self.still else 1.0
         aside = abs(self.still[0]) / SIZE if self.still else 1.0
@@ -285,11 +287,11 @@ class Pyramid(Scene):
         ]
 
     def bot(self):
-        """Watch it stand, then drop the ball."""
+        """Return the bot: watch it stand, then drop the ball."""
         return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset())
 
     def state(self):
-        """The measurements; the world holds the rest."""
+        """Return the measurements; the world holds the rest."""
         x, y = self.still or (0.0, 0.0)
         return (
             self.frame,
@@ -306,7 +308,7 @@ class Pyramid(Scene):
 
 
 def pile_up(world, rows):
-    """Put the ground and a pyramid of so many rows into a world. Returns [(crate, row + column)]."""
+    """Add the ground and a pyramid of so many rows to a world. Return [(crate, row + column)]."""
     world.add_body(Polygon.box(200 * SIZE, 2 * SIZE), position=(0.0, SIZE), kind="static")
     shape, width, crates = Polygon.box(SIZE, SIZE), SIZE * (1.0 + GAP), []
     for row in range(rows):

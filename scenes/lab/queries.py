@@ -1,12 +1,11 @@
 """Rays, casts, overlaps, areas, the closest point among hundreds of shapes: what do four broad phases look at for it?
 
-What to see: the same question is asked of four worlds in every step, one per strategy. All give the same answer: hits
-with their normals and fractions. What they look at to find it is drawn: boxes of the tree that were entered, and those
-where it turned back; cells of the hash; the stretch of the sweep; every box there is. A long slanted ray asks for
-several boxes along its way, the closest point for larger and larger ones around it.
+What to see: the same query runs in four worlds in every step, one per strategy. All give the same answer: hits with
+their normals and fractions. What each one visits is drawn: boxes of the tree that were entered or rejected; cells of
+the hash; the stretch of the sweep; every box there is. A long slanted ray queries several boxes along its path, the
+closest point larger and larger ones around it.
 
-Why it matters: Sight, aim and steering ask the world without touching it, many times a step: they must look at
-little.
+Why it matters: Sight, aim and steering query the world many times a step, so each query must visit little.
 
 To try: make the ray long and slanted, and count what the hash and the tree look at.
 
@@ -60,15 +59,15 @@ SHAPES = (
     Polygon([(-8.0, -6.0), (9.0, -2.0), (-1.0, 9.0)], 2.0),
 )
 RING = PixelMask.from_array((DISC < 8.0) & (DISC > 4.0))
-RING_EVERY = 13  # shapes, of which one is a ring of pixels
-ORIGIN, CLEAR = (0.06 * WIDTH, 0.3 * HEIGHT), 60.0  # [px] where rays begin, and around it nobody at first
+RING_EVERY = 13  # shapes per ring of pixels
+ORIGIN, CLEAR = (0.06 * WIDTH, 0.3 * HEIGHT), 60.0  # [px] start of rays, and the space around it that is empty at first
 SHOWN = 24  # hits that are drawn with normal and fraction
-EACH = 84  # steps that the bot asks one question
-PLACES = 200  # that a question is asked about in a run that is timed: five runs make a thousand
+EACH = 84  # steps per query of the bot
+PLACES = 200  # places per timed run: five runs make a thousand
 
 
 class Queries(Scene):
-    """Four worlds with the same bodies, and one question."""
+    """Four worlds with the same bodies, and one query."""
 
     name = "lab/queries"
     title = "Queries"
@@ -100,18 +99,18 @@ class Queries(Scene):
     legend_at = (8, 22)
 
     def build(self):
-        """The sky, the curves, the tallies; fill() makes the four worlds."""
+        """Build the sky, the curves, the counts; fill() makes the four worlds."""
         self.sky = load_backdrop("sky_dusk")
         self.camera = Camera(VIEW, ZOOM)
         self.curves = Curves("boxes and nodes [log]", {name: BROADPHASE_COLORS[name] for name in STRATEGIES})
-        self.shown = 0  # of STRATEGIES
+        self.shown = 0  # index in STRATEGIES
         self.origin, self.target = ORIGIN, (0.7 * WIDTH, 0.6 * HEIGHT)
         self.asked = self.disagreements = self.found = 0
-        self.kinds = set()  # queries that found something
+        self.kinds = set()  # queries with a result
         self.fill()
 
     def fill(self):
-        """Four new worlds with the same bodies."""
+        """Make four new worlds with the same bodies."""
         count = int(self.values["bodies"])
         random = Random(f"{self.seed} {count}")
         rows = [
@@ -125,12 +124,12 @@ class Queries(Scene):
             for number in range(count)
         ]
         self.worlds = []
-        # Boxes and nodes so far, among as many: among few shapes the hash looks at more than brute force.
+        # Boxes and nodes so far, with at least so many shapes: with few the hash visits more than brute force.
         self.looked = dict.fromkeys(STRATEGIES, 0)
         for strategy in STRATEGIES:
             world = self.add_world(broadphase=strategy)
             for place, angle, velocity, shape, still in rows:
-                angle = 0.0 if isinstance(shape, PixelMask) else angle
+                angle = 0.0 if shape is RING else angle
                 if still:
                     world.add_body(shape, position=place, angle=angle, kind="static")
                 else:
@@ -141,7 +140,7 @@ class Queries(Scene):
         self._forget()
 
     def _forget(self):
-        self.usual = {name: Typical() for name in STRATEGIES}  # boxes and nodes that this question is answered from
+        self.usual = {name: Typical() for name in STRATEGIES}  # boxes and nodes visited for this query
 
     def _place(self, random):
         while True:
@@ -151,18 +150,18 @@ class Queries(Scene):
 
     @property
     def query(self):
-        """What is asked: one of QUERIES."""
+        """Name of the query, one of QUERIES."""
         return QUERIES[int(self.values["query"])]
 
     def change_slider(self, name, value):
-        """Another question looks at something else; another number of bodies: fill the worlds anew."""
+        """Change the query, or fill the worlds again with another number of bodies."""
         super().change_slider(name, value)
         self._forget()
         if name == "bodies":
             self.fill()
 
     def update(self, inputs):
-        """Keys and the pointer; a step of each world, then the question to each."""
+        """Process keys and the pointer; step each world, then run the query in each."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("query", (self.values["query"] + turn) % len(QUERIES))
@@ -191,12 +190,12 @@ class Queries(Scene):
             self.kinds.add(self.query)
 
     def observe(self):
-        """Feed the curves."""
+        """Update the curves."""
         self.curves.note({name: sum(looked) for name, looked in self.work.items()})
 
     def measured(self):
-        """This kind of question, asked about two hundred places of the picture, by each strategy."""
-        made = []  # one snapshot for those that are not known
+        """Return the runs to measure: this kind of query at two hundred places of the picture, by each strategy."""
+        made = []  # one snapshot for all unknown ones
 
         def make(name):
             if not made:
@@ -211,11 +210,11 @@ class Queries(Scene):
         return self.query, float(self.values["size"]), int(self.values["bodies"]), strategy
 
     def views(self):
-        """The picture of the world whose structure is looked at."""
+        """Return the picture of the world whose structure is shown."""
         return [(self.worlds[self.shown], self.camera)]
 
     def draw(self, canvas, alpha):
-        """The shapes, and on the right who looked at how much."""
+        """Draw the shapes, and on the right the counts of each strategy."""
         canvas.surface.fill(NIGHT)
         draw_head(canvas, "QUERIES", ABOUT[self.query])
         view = self.camera.viewport
@@ -238,15 +237,15 @@ class Queries(Scene):
                 canvas.text(f"{value:,}", 473, y + 12 + 10 * row, PAPER, SMALL, align="right")
 
     def _said(self):
-        """The answer in a word."""
+        """Return the answer in a word."""
         if self.query == "closest":
-            return f"{self.answer[0][5]:.1f} px away" if self.answer else "nobody"
+            return f"{self.answer[0][5]:.1f} px away" if self.answer else "none"
         if self.query in ("ray", "cast"):
             return f"at {self.answer[0][5]:.3f}" if self.answer else "nothing"
         return f"{len(self.answer)} found"
 
     def draw_on_frame(self, frame):
-        """What is tiny; what was visited; the question; the hits with normal and fraction; the curve."""
+        """Draw tiny shapes, visited boxes, the query, the hits with normal and fraction, and the curve."""
         world, lens = self.worlds[self.shown], frame.lens(self.camera)
         self.looks[self.shown].draw_on_frame(frame)
         frame.surface.set_clip(lens.clip)
@@ -258,7 +257,7 @@ class Queries(Scene):
         self.curves.draw(frame, PLOT)
 
     def _draw_visited(self, frame, lens, world):
-        """Boxes that the query came into in the strategy's colour, those that it turned away from darker."""
+        """Draw the boxes that the query entered in the strategy's colour, rejected ones darker."""
         found, color = debug.visited(world), BROADPHASE_COLORS[STRATEGIES[self.shown]]
         left, top = lens.points(found.rects[:, 0], found.rects[:, 1])
         right, bottom = lens.points(found.rects[:, 2], found.rects[:, 3])
@@ -273,7 +272,7 @@ class Queries(Scene):
             pygame.draw.rect(frame.surface, faded(PAPER, 0.3), rect, 1)
 
     def _draw_found(self, frame, lens, world):
-        """The shapes of the answer, outlined."""
+        """Draw the outlines of the found shapes."""
         ids = {each[0] for each in self.answer}
         rows = [row for row, body in enumerate(world.shapes["body"].tolist()) if body in ids]
         for outline in debug.outlines(world, rows) if rows else ():
@@ -281,7 +280,7 @@ class Queries(Scene):
                 draw_outline(frame.surface, lens, outline, WHITE, max(1, frame.scale - 1), frame.scale)
 
     def _draw_question(self, frame, lens):
-        """The ray, the cast, the box, the point."""
+        """Draw the ray, the cast, the box or the point."""
         surface, size, thick = frame.surface, float(self.values["size"]), max(1, frame.scale - 1)
         start, end = lens.points(*self.origin), lens.points(*self.target)
         if self.query in ("ray", "all", "cast"):
@@ -306,7 +305,7 @@ class Queries(Scene):
                 pygame.draw.line(surface, YELLOW, end, lens.points(*self.answer[0][1:3]), thick)
 
     def _cast_end(self):
-        """Where what is cast stops."""
+        """Return the end of the cast."""
         share = self.answer[0][5] if self.answer else 1.0
         (x, y), (to_x, to_y) = self.origin, self.target
         return x + share * (to_x - x), y + share * (to_y - y)
@@ -315,7 +314,7 @@ class Queries(Scene):
         return angle_of(self.origin, self.target)
 
     def _draw_hits(self, frame, lens):
-        """Points, normals and fractions of the first hits, as far as there is room for them."""
+        """Draw points, normals and fractions of the first hits, as far as there is room."""
         if self.query in ("overlap", "area", "point"):
             return
         for _, x, y, nx, ny, fraction in self.answer[:SHOWN]:
@@ -328,7 +327,7 @@ class Queries(Scene):
             frame.text_if_free(text, px + 4 * scale, py + 3 * scale, WHITE, SMALL, scale, "left", True)
 
     def check(self):
-        """The same answers from all, to every question; and three look at less than brute force."""
+        """Return the goals: the same answers from all, to every query; and three visit less than brute force."""
         cheaper = all(self.looked[name] < self.looked["brute"] for name in STRATEGIES[:-1])
         return [
             Goal(
@@ -348,7 +347,7 @@ class Queries(Scene):
         ]
 
     def finding(self):
-        """What each strategy looks at for this question, and how often their answers differed."""
+        """Return the counts of each strategy for this query, and the number of different answers."""
         if not self.usual["tree"].last:
             return "not yet: something has to be asked"
         looks = ", ".join(f"the {name} at {self.usual[name].value:,.0f}" for name in STRATEGIES[:-1])
@@ -357,7 +356,7 @@ class Queries(Scene):
         return f"{told}; {self.disagreements} of {self.asked:,} answers differed"
 
     def bot(self):
-        """Point along a slow curve; the next question now and then, the next strategy more often."""
+        """Return the bot: point along a slow curve; change the query now and then, the strategy more often."""
         at = self.frame / 40.0
         pointer = (
             round(VIEW[0] + VIEW[2] * (0.55 + 0.38 * sin(at))),
@@ -371,7 +370,7 @@ class Queries(Scene):
         return InputFrame(frozenset(taps), pointer)
 
     def state(self):
-        """The question and its answer, which no broad phase may change; the worlds hold the rest."""
+        """Return the query and its answer, which no broad phase may change; the worlds hold the rest."""
         return (
             self.frame,
             *self.values.values(),
@@ -389,7 +388,7 @@ PARTS = {"tree": "nodes visited", "hash": "cells visited", "sweep": "halvings", 
 
 
 def bounce(world):
-    """Turn velocities around at the edges of the world, all at once."""
+    """Reverse the velocities at the edges of the world, all at once."""
     bodies = world.bodies
     for place, speed, high in (("x", "vx", WIDTH), ("y", "vy", HEIGHT)):
         outwards = ((bodies[place] < 0.0) & (bodies[speed] < 0.0)) | ((bodies[place] > high) & (bodies[speed] > 0.0))

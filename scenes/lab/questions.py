@@ -1,17 +1,17 @@
-"""The questions of lab/queries, asked of a world, and its answers as rows that can be compared."""
+"""The queries of lab/queries, and their answers as rows that can be compared."""
 
 from itertools import count
 from math import atan2, hypot
 
 from physics import Circle, Polygon
 
-# Multiples of both, whole parts left out, fill a square evenly (Roberts, The Unreasonable Effectiveness of Quasirandom
-# Sequences, 2018): powers of 1/1.3247, the root of x^3 = x + 1.
+# Multiples of both, modulo 1, fill a square evenly (Roberts, The Unreasonable Effectiveness of Quasirandom Sequences,
+# 2018): powers of 1/1.3247, the root of x^3 = x + 1.
 ALONG, ACROSS = 0.7548776662466927, 0.5698402909980532
 
 
 def ask(world, query, origin, target, size):
-    """What a world answers."""
+    """Return a world's answer to a query."""
     way = target[0] - origin[0], target[1] - origin[1]
     if query == "ray":
         return [world.ray_cast(origin, way)]
@@ -29,7 +29,7 @@ def ask(world, query, origin, target, size):
 
 
 def asking(world, query, origin, area, size):
-    """What asks a world such a question at each call, about places all over an area (width, height) [px]."""
+    """Return a function that runs a query at each call, at places all over an area (width, height) [px]."""
     numbers = count()
 
     def ask_the_next():
@@ -40,7 +40,7 @@ def asking(world, query, origin, area, size):
 
 
 def told(found):
-    """An answer as rows (body id, x, y, normal x, normal y, fraction or distance), 0 for what there is not."""
+    """Return an answer as rows (body id, x, y, normal x, normal y, fraction or distance), 0 for missing values."""
     rows = []
     for each in found:
         if each is None:
@@ -56,6 +56,6 @@ def told(found):
 
 
 def angle_of(origin, target):
-    """The angle of the box that overlaps are asked with: along the line from the origin [rad]."""
+    """Return the angle of the box of overlap queries: along the line from the origin [rad]."""
     dx, dy = target[0] - origin[0], target[1] - origin[1]
     return atan2(dy, dx) if hypot(dx, dy) > 0.0 else 0.0

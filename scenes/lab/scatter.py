@@ -1,4 +1,4 @@
-"""Error against time: a dot for every setting, both on logarithmic scales, at window resolution."""
+"""Error against time: a dot for every setting, on logarithmic scales, at window resolution."""
 
 from collections.abc import Mapping
 from math import ceil, floor, log10
@@ -11,11 +11,11 @@ from game.drawing.colors import FOG, INK, PAPER, SLATE, Color
 from game.drawing.presenter import Box, Frame
 
 GRID = (52, 46, 76)
-LEAST_SPAN = 0.3  # [decades] that a scale has at least
+LEAST_SPAN = 0.3  # [decades] least span of a scale
 
 
 class Dot(NamedTuple):
-    """A setting. name: short, written at the dot where there is room; tried: it has run in the scene itself."""
+    """A setting. name: short, written at the dot if there is room; tried: it has run in the scene itself."""
 
     cost: float
     error: float  # 0 lies on the bottom line
@@ -25,7 +25,7 @@ class Dot(NamedTuple):
 
 
 def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[object, Dot], here: object) -> None:
-    """Draw dots into a canvas rect; the one that runs, dots[here], is ringed. What was only measured is hollow."""
+    """Draw dots into a canvas rect; the current one, dots[here], gets a ring. Dots only measured are hollow."""
     rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
     surface.fill(INK, rect)
     pygame.draw.rect(surface, SLATE, rect, 1)
@@ -48,7 +48,7 @@ def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[objec
 
 
 def _span(values):
-    """First and last power of ten of a scale that shows these values."""
+    """Return the first and last power of ten of a scale that contains these values."""
     low, high = log10(min(values)), log10(max(values))
     wider = max(LEAST_SPAN - (high - low), 0.0) / 2
     return low - wider, high + wider
@@ -60,7 +60,7 @@ def _spans(dots):
 
 
 def _place(plot, dots):
-    """{key: place in the frame}."""
+    """Return {key: place in the frame}."""
     (left, right), (low, high) = _spans(dots)
     places = {}
     for key, dot in dots.items():
@@ -71,7 +71,7 @@ def _place(plot, dots):
 
 
 def _draw_scale(frame, plot, dots, scale):
-    """Lines at the powers of ten, and the ends of the scale of costs below."""
+    """Draw lines at the powers of ten, and the ends of the scale of costs below."""
     (left, right), (low, high) = _spans(dots)
     for power in range(ceil(low), floor(high) + 1):
         y = plot.bottom - plot.height * (power - low) / (high - low)

@@ -1,8 +1,8 @@
 """Zones that only watch: standing, moving, thin and sweeping. Is every entry seen, with one exit, at any speed?
 
 What to see: saucers cross a field, a drifting field and a beam of one pixel, some of them faster than the zones are
-wide; below, a fast scanner runs over resting mines. Beside each zone stands how often something entered, left, and how
-often it must have done so by geometry.
+wide; below, a fast scanner runs over resting mines. Beside each zone are its entries, its exits, and the entries that
+geometry demands.
 
 Why it matters: Goals, alarms and pick-ups hang on one event each; one that is missed or doubled breaks a level.
 
@@ -36,19 +36,19 @@ LOW = pygame.Rect(4, 176, 400, 74)  # where mines rest
 SIDE_X = 412
 SAUCER, MINE = 12.0, 7.0  # [px] radii
 EVERY = 26  # steps between saucers
-DRIFT = (34.0, 150.0)  # [px] swing of the drifting field and its steps per round
-SCAN = (60.0, 348.0)  # [px] between which the scanner runs
-REST = 8  # steps the scanner rests at each end
+DRIFT = (34.0, 150.0)  # [px] amplitude of the drifting field, and its steps per round
+SCAN = (60.0, 348.0)  # [px] range of the scanner
+REST = 8  # steps of rest of the scanner at each end
 MINES = tuple((96.0 + 36.0 * i, 195.0 + 36.0 * (i % 2)) for i in range(7))
-CLEAR = 0.25  # [px] crossings this close to a graze count for neither side
-NEAR = 2.0  # [px] a crossing is over when they are further apart
-SAMPLE = 0.125  # [px] of relative motion between two looks of the slow truth
-GLOW = 14  # steps a zone or a body lights up
+CLEAR = 0.25  # [px] crossings this close to a graze are not counted
+NEAR = 2.0  # [px] distance at which a crossing is over
+SAMPLE = 0.125  # [px] of relative motion between two samples of the slow reference
+GLOW = 14  # steps for which a zone or a body lights up
 SHIP, ZONE = 1, 2  # filter bits
 
 
 class Sensors(Scene):
-    """One world: sensor bodies, and what crosses them."""
+    """One world: sensor bodies, and bodies that cross them."""
 
     name = "lab/sensors"
     title = "Sensors"
@@ -65,7 +65,7 @@ class Sensors(Scene):
     draggable = True
 
     def build(self):
-        """The zones and the mines; saucers come with time."""
+        """Build the zones and the mines; saucers come with time."""
         self.add_world()
         self.sky = load_backdrop("sky_dusk")
         planes, effects = load_atlas("planes"), load_atlas("effects")
@@ -91,15 +91,15 @@ class Sensors(Scene):
         self.due = dict.fromkeys(ZONES, 0)  # entries by geometry
         self.missed, self.false = dict.fromkeys(ZONES, 0), dict.fromkeys(ZONES, 0)
         self.unpaired = 0  # a second begin without an end, or an end without a begin
-        self.fastest = 0.0  # [px] moved in a step by something that was seen
-        self.met = {}  # (zone, body id) -> (surely, perhaps) in the crossing under way
+        self.fastest = 0.0  # [px] greatest motion per step of a detected body
+        self.met = {}  # (zone, body id) -> (certain, possible) in the current crossing
         self.glow = dict.fromkeys(ZONES, 0)
-        self.lit = {}  # body id -> steps it still glows
+        self.lit = {}  # body id -> remaining steps of its glow
         self.trails = []  # [x0, x1, y, age]
         self.way, self.rest = 1, 0
 
     def update(self, inputs):
-        """Keys, ships, zones, one step; then events against geometry."""
+        """Process keys, move ships and zones, make one step; then compare events with geometry."""
         for slider, back, forth, notch in (("speed", "left", "right", 300), ("scanner", "down", "up", 300)):
             turn = inputs.pressed(forth) - inputs.pressed(back)
             if turn:
@@ -117,14 +117,14 @@ class Sensors(Scene):
     def _launch(self):
         speed = self.values["speed"] * self.random.uniform(0.25, 1.0)
         y = self.random.uniform(HIGH.top + 14.0, HIGH.bottom - 14.0)
-        x = -20.0 - self.random.uniform(0.0, speed / 60)  # so that steps fall anywhere
+        x = -20.0 - self.random.uniform(0.0, speed / 60)  # to vary the times of entry
         body = self.world.add_body(
             Circle(SAUCER), position=(x, y), velocity=(speed, 0.0), filter=Filter(SHIP, ZONE), continuous="swept"
         )
         self.flying[body.id] = speed
 
     def _steer(self):
-        """Velocities that bring the moving zones to their next places in one step."""
+        """Set the velocities that move the zones to their next places in one step."""
         (_, middle, _), body = ZONES["drifter"], self.zones["drifter"]
         y = middle[1] + DRIFT[0] * sin(2.0 * pi * (self.frame + 1) / DRIFT[1])
         body.velocity = (0.0, (y - body.position[1]) * 60)
@@ -132,7 +132,7 @@ class Sensors(Scene):
         x = body.position[0] + self.way * self.values["scanner"] / 60 * (self.rest == 0)
         self.rest = max(0, self.rest - 1)
         if not SCAN[0] <= x <= SCAN[1]:
-            # A rest between two runs: touched in two steps in a row is one touch.
+            # A rest between two runs: contacts in two successive steps count once.
             self.way, self.rest = (1 if x < SCAN[0] else -1), REST
             x = min(max(x, SCAN[0]), SCAN[1])
         body.velocity = ((x - body.position[0]) * 60, 0.0)
@@ -144,7 +144,7 @@ class Sensors(Scene):
         )
 
     def _take_events(self):
-        """Count entries and exits and pair them up. Exits first: a body may leave and come back within a step."""
+        """Count entries and exits in pairs. Exits come first: a body may leave and return within a step."""
         for events, tally, change in (
             (self.world.events.sensor_end, self.left, -1),
             (self.world.events.sensor_begin, self.entered, 1),
@@ -167,7 +167,7 @@ class Sensors(Scene):
                     self.play("blip", 60.0, 0.12)
 
     def _compare(self, before, after):
-        """By geometry alone: who met which zone in this step? Judged when the crossing is over."""
+        """Compute by geometry alone which bodies met which zones in this step. A crossing is judged when it is over."""
         for name, zone in self.zones.items():
             half = np.array(ZONES[name][0]) / 2.0
             for identity in [*self.flying, *self.mines]:
@@ -206,7 +206,7 @@ class Sensors(Scene):
             self.trails.append([before.get(identity, (x, y))[0], x, y, 0])
 
     def draw(self, canvas, alpha):
-        """Both halls, the zones in them, and the tally at the side."""
+        """Draw both halls with their zones, and the counts at the side."""
         canvas.surface.fill(NIGHT)
         canvas.text("SENSORS", 4, 4, GOLD)
         words = f"saucers up to {self.values['speed'] / 60:.0f} px a step, scanner {self.values['scanner'] / 60:.0f} px"
@@ -307,7 +307,7 @@ class Sensors(Scene):
         canvas.text(f"{self.unpaired}", 474, y, GREEN if self.unpaired == 0 else RED, SMALL, align="right")
 
     def check(self):
-        """Every entry is seen once, leaves once, and nothing is made up."""
+        """Return the goals: every entry is reported once, with one exit, and none is false."""
         missed, false = sum(self.missed.values()), sum(self.false.values())
         balance = all(
             self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name) for name in ZONES
@@ -336,7 +336,7 @@ class Sensors(Scene):
         ]
 
     def finding(self):
-        """How many entries were missed or made up, and how far things came in a step."""
+        """Return the numbers of missed and false entries, and the greatest motion in a step."""
         due, missed, false = (sum(each.values()) for each in (self.due, self.missed, self.false))
         if not due:
             return "not yet: something has to cross a zone"
@@ -344,13 +344,13 @@ class Sensors(Scene):
         return f"{told}, with {self.fastest:.0f} px in a step through zones down to 1 px"
 
     def bot(self):
-        """Watch, and make both faster."""
+        """Return the bot: watch, and make both faster."""
         faster = 200 <= self.frame < 250 and self.frame % 4 == 0
         tap = "right" if faster else "up" if self.frame in (320, 330) else ""
         return InputFrame(frozenset((tap,))) if tap else frozenset()
 
     def state(self):
-        """The tallies; the world holds who flies."""
+        """Return the counts; the world holds the bodies."""
         tallies = (self.entered, self.left, self.due, self.missed, self.false)
         return (
             self.frame,
@@ -364,7 +364,9 @@ class Sensors(Scene):
 
 
 def least_gap(start, end, zone_start, zone_end, half):
-    """Least distance [px] of a point from a box while both move straight from start to end; sampled finely."""
+    """Return the least distance [px] of a point from a box while both move in straight lines from start to end; finely
+    sampled.
+    """
     x = np.array([start[0] - zone_start[0], end[0] - zone_end[0]])
     y = np.array([start[1] - zone_start[1], end[1] - zone_end[1]])
     reach = max(
@@ -372,7 +374,7 @@ def least_gap(start, end, zone_start, zone_end, half):
         min(abs(y[0]), abs(y[1])) - half[1] if y[0] * y[1] > 0 else 0.0,
     )
     if reach > 2.0 * SAUCER:
-        return reach  # far away in this whole step: no need to look closer
+        return reach  # far away in this whole step: no sampling needed
     count = int(max(abs(x[1] - x[0]), abs(y[1] - y[0])) / SAMPLE) + 2
     share = np.linspace(0.0, 1.0, count)
     dx = np.maximum(np.abs(x[0] + (x[1] - x[0]) * share) - half[0], 0.0)

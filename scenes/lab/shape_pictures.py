@@ -1,4 +1,4 @@
-"""The pictures of lab/shapes: two shapes' shadows on their best axis, and the set of all their differences."""
+"""The pictures of lab/shapes: projections of two shapes on their best axis, and the set of all their differences."""
 
 from math import cos, sin
 
@@ -11,12 +11,12 @@ from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import clockwise, ring
 from scenes.lab.pieces import hull
 
-RULER = 12.0  # [px] from the shapes to the ruler with their shadows
+RULER = 12.0  # [px] from the shapes to the ruler with their projections
 MARGIN = 12  # [canvas px] around the picture of the differences
 
 
 def draw_shadows(frame, lens, placed, axes, colors):
-    """All axes as short strokes on their edges, and both shadows on a ruler along the best one."""
+    """Draw all axes as short strokes on their edges, and both projections on a ruler along the best axis."""
     for row in axes[::-1]:
         points, radius = placed[int(row["owner"])]
         edge = int(row["edge"])
@@ -39,7 +39,7 @@ def draw_shadows(frame, lens, placed, axes, colors):
         for points, radius in placed
     ]
     middle = (ends[0][1] + ends[1][0]) / 2
-    # Below the shapes, or above them where there is no room below.
+    # Below the shapes, or above them if there is no room below.
     sides = sorted(((-ny, nx), (ny, -nx)), key=lambda side: -side[1])
     for tx, ty in sides:
         aside = max(px * tx + py * ty + radius for points, radius in placed for px, py in points) + RULER
@@ -73,7 +73,7 @@ def draw_shadows(frame, lens, placed, axes, colors):
 
 
 def draw_differences(frame, rect, placed, meets, step):
-    """The differences of the cores and, around it, with the radii; the origin; the step's simplex or polytope."""
+    """Draw the differences of the cores and, around it, with the radii; the origin; the step's simplex or polytope."""
     core = difference(placed[0][0], placed[1][0])
     radius = placed[0][1] + placed[1][1]
     outer = np.array(ring(core, radius, 2.0))
@@ -113,7 +113,7 @@ def draw_differences(frame, rect, placed, meets, step):
 
 
 def placed_hull(shape, pose):
-    """(corners, radius) of a shape at a pose (x, y, angle), corners as a list clockwise on the screen."""
+    """Return (corners, radius) of a shape at a pose (x, y, angle), corners as a list clockwise on the screen."""
     points, radius = hull(shape)
     c, s = cos(pose[2]), sin(pose[2])
     placed = points @ np.array([[c, s], [-s, c]]) + pose[:2]
@@ -121,7 +121,9 @@ def placed_hull(shape, pose):
 
 
 def difference(a, b):
-    """Corners of the hull of all differences of points of a and of b, clockwise on the screen (monotone chain)."""
+    """Return the corners of the hull of all differences of points of a and of b, clockwise on the screen (monotone
+    chain).
+    """
     points = sorted({(round(ax - bx, 9), round(ay - by, 9)) for ax, ay in a for bx, by in b})
     if len(points) < 3:
         return [list(point) for point in points]

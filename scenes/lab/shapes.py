@@ -50,20 +50,20 @@ ICONS = tuple(
     pygame.Rect(22 + i * (ICON + 2), 233 + row * (ICON + 1), ICON, ICON) for row in range(2) for i in range(len(NAMES))
 )
 START = ((128.0, 112.0, 0.2), (232.0, 104.0, -0.4))
-MARGIN = 36  # [px] that a shape's middle keeps from the arena's edge
-EXACT = 1e-9  # [px] within which the methods must agree, at this size
-LEG = 25  # steps of the bot with one pair of shapes
+MARGIN = 36  # [px] between a shape's middle and the arena's edge
+EXACT = 1e-9  # [px] tolerance between the methods, at this size
+LEG = 25  # steps per pair of shapes of the bot
 MOST_STEPS = 24
 
 
 class Shapes(Scene):
-    """One world with two kinematic bodies; everything shown is asked of their shapes and poses."""
+    """One world with two kinematic bodies; all results follow from their shapes and poses."""
 
     name = "lab/shapes"
     title = "Shapes"
     about = "Drag any two convex shapes: SAT, GJK and EPA step by step, with distance and depth compared."
     pieces = ("circles", "boxes", "masks", "tiles", "chains", "capsules", "queries", "casts")
-    effects = Effects()  # contacts are found and drawn; nobody is pushed
+    effects = Effects()  # contacts are found and drawn; there is no response
     features = (
         "separating axes and shadows",
         "GJK simplex and EPA polytope, round by round",
@@ -87,7 +87,7 @@ class Shapes(Scene):
     hides_pointer = False
 
     def build(self):
-        """Two bodies and the tallies."""
+        """Build two bodies and the counts."""
         self.add_world()
         self.hands = Hands(START, 1, ARENA.inflate(-2 * MARGIN, -2 * MARGIN))
         self.bodies = [
@@ -108,11 +108,11 @@ class Shapes(Scene):
 
     @property
     def step_shown(self):
-        """The round of GJK or EPA that is drawn, or None."""
+        """The drawn iteration of GJK or EPA, or None."""
         return self.steps[min(int(self.values["step"]), len(self.steps) - 1)] if self.steps else None
 
     def change_slider(self, name, value):
-        """Another shape takes the same place."""
+        """Put another shape at the same place."""
         super().change_slider(name, value)
         if name in "AB":
             which = "AB".index(name)
@@ -120,7 +120,7 @@ class Shapes(Scene):
             self.values["step"] = MOST_STEPS
 
     def update(self, inputs):
-        """Hands, one step for the overlays, and all questions anew."""
+        """Move the shapes, make one step for the overlays, and compute all results."""
         if inputs.pointer_pressed:
             self._press(*inputs.pointer)
         self.hands.move(inputs)
@@ -156,7 +156,7 @@ class Shapes(Scene):
         self.steps = gjk_steps(a, pose_a, b, pose_b)
 
     def _compare(self):
-        """Three methods and both orders: overlap or not, how far, how deep."""
+        """Compare three methods in both orders: overlap, distance, depth."""
         a, b = self.shapes
         pose_a, pose_b = (tuple(pose) for pose in self.hands.poses)
         gap, other = self.gap, distance(b, pose_b, a, pose_a)
@@ -171,11 +171,12 @@ class Shapes(Scene):
         if not meets:
             (ax, ay), (bx, by) = gap.point_a, gap.point_b
             self.worst["gap"] = max(self.worst["gap"], abs(hypot(bx - ax, by - ay) - gap.distance))
-        # No shadow's gap is wider than the gap itself, and one is as wide; the least overlap of shadows is the depth.
+        # No gap between projections is wider than the gap itself, and one equals it; the least overlap of projections
+        # is the depth.
         self.worst["axis"] = max(self.worst["axis"], abs(float(self.axes[0]["separation"]) - gap.distance))
 
     def draw(self, canvas, alpha):
-        """Grounds, icons and numbers; the geometry comes at window resolution."""
+        """Draw grounds, icons and numbers; the geometry is drawn at window resolution."""
         canvas.surface.fill(NIGHT)
         canvas.text("SHAPES", 4, 4, GOLD)
         canvas.text("distance, depth and how they are found", 302, 6, FOG, SMALL, align="right")
@@ -241,7 +242,7 @@ class Shapes(Scene):
         canvas.text(f"{wrong}", 474, y + 36, RED if wrong else GREEN, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """Shapes, shadows, witnesses and the picture of the differences."""
+        """Draw shapes, projections, witness points and the picture of the differences."""
         lens = frame.lens(self.camera)
         width = max(1, frame.scale - 1)
         surface = frame.surface
@@ -271,7 +272,7 @@ class Shapes(Scene):
             )
 
     def _draw_witness(self, frame, lens):
-        """The nearest points, and those of the step that is shown."""
+        """Draw the nearest points, and those of the shown step."""
         a, b = lens.points(*self.gap.point_a), lens.points(*self.gap.point_b)
         pygame.draw.line(frame.surface, GOLD, a, b, max(1, frame.scale - 1))
         for place in (a, b):
@@ -286,7 +287,7 @@ class Shapes(Scene):
                 pygame.draw.circle(frame.surface, color, place, 2 * frame.scale, 1)
 
     def check(self):
-        """The methods agree along the whole tour."""
+        """Return the goals: the methods agree along the whole tour."""
         return [
             Goal(
                 "shapes seen apart and in each other",
@@ -317,7 +318,7 @@ class Shapes(Scene):
         ]
 
     def finding(self):
-        """In how many poses the methods were compared, and how far apart they ever were."""
+        """Return the number of compared poses, and the greatest difference between the methods."""
         if not self.compared:
             return "not yet: the shapes have to be compared"
         wrong = self.disagreed + self.mirrored
@@ -326,12 +327,12 @@ class Shapes(Scene):
         return f"{told}; SAT and GJK are {self.worst['axis']:.1g} px apart at most, after {self.rounds} rounds"
 
     def bot(self):
-        """A tour: another pair every 25 steps; B is dragged into A and out again, turning."""
+        """Return the bot: another pair every 25 steps; B is dragged into A and out again, with rotation."""
         leg, step = divmod(self.frame, LEG)
         changes = ()
         if step == 0:
             changes = (("slider:A", leg % len(NAMES)), ("slider:B", (leg * 3 + leg // len(NAMES)) % len(NAMES)))
-        if step == 0:  # let go, so that the next press takes hold of B's middle
+        if step == 0:  # release, so that the next press grabs B's middle
             return InputFrame(frozenset(), self._pointer(1), False, 0, changes)
         share = (step - 1) / (LEG - 2)
         reach = 112.0 * abs(2.0 * share - 1.0) + 6.0
@@ -345,7 +346,7 @@ class Shapes(Scene):
         return round(self.hands.poses[which][0]), round(self.hands.poses[which][1])
 
     def state(self):
-        """The poses and the tallies."""
+        """Return the poses and the counts."""
         poses = [value for pose in self.hands.poses for value in pose]
         return (
             self.frame,

@@ -1,4 +1,4 @@
-"""The shots of lab/tunnelling: what flies from where, what stands in its way, and by geometry whether they must meet.
+"""The shots of lab/tunnelling: start, obstacle, and by geometry whether they must meet.
 
 A lane's middle is y = 0 here.
 """
@@ -20,12 +20,13 @@ SPREAD = {
     "rods": (13.0, 24.0),
     "bullets": (0.0, 3.4),
 }  # [px] off the middle; rods: beyond the plate
-SAMPLE = 0.1  # [px] between two looks of the slow truth about rods
+SAMPLE = 0.1  # [px] between two samples of the slow reference for rods
 
 
 def aim(kind, speed, plate, random):
-    """(shots, gap): each (shape, place, velocity, angle, spin), from anywhere within a step's way, so that steps fall
-    anywhere; and how near they come to what they are shot at [px], below 0 where they meet it."""
+    """Return (shots, gap): each (shape, place, velocity, angle, spin), from anywhere within the path of a step, to vary
+    the times of impact; and their distance from the target [px], below 0 if they meet it.
+    """
     start = GUN_X + random.uniform(0.0, speed / 60)
     if kind == "balls":
         offset = _aside(kind, random)
@@ -48,7 +49,7 @@ def _aside(kind, random):
 
 
 def shoot(world, shots, kind, lane, middle=0.0):
-    """Add shots to a world. lane: how they are swept; middle: y [px]. Returns the bodies."""
+    """Add shots to a world. lane: kind of sweep; middle: y [px]. Return the bodies."""
     return [
         world.add_body(
             shape,
@@ -64,17 +65,17 @@ def shoot(world, shots, kind, lane, middle=0.0):
 
 
 def raise_plate(world, width, middle=0.0):
-    """Add the plate that shots fly at, so wide [px], its middle at y `middle`. Returns the body."""
+    """Add the plate that shots fly at, so wide [px], its middle at y `middle`. Return the body."""
     return world.add_body(Polygon.box(width, 2 * PLATE_HALF), position=(PLATE_X, middle), kind="static")
 
 
 def steps_of_flight(speed):
-    """Steps of 1/60 s from the gun to the end of a lane."""
+    """Return the steps of 1/60 s from the gun to the end of a lane."""
     return ceil(60.0 * (END_X - GUN_X) / speed)
 
 
 def flights(world, kind, lane, speed, plate, count, random):
-    """Snapshots of so many single shots as they leave the gun, in a world made for them, empty but for the plate."""
+    """Return snapshots of so many single shots as they leave the gun, each in an empty world with the plate."""
     if kind != "bullets":
         raise_plate(world, plate)
     found = []
@@ -86,7 +87,7 @@ def flights(world, kind, lane, speed, plate, count, random):
 
 
 def rod_gap(start, offset, speed, angle, spin, plate):
-    """By geometry alone: how near a spinning rod comes to its plate on its way [px], negative when it meets it."""
+    """Return the least distance of a spinning rod from its plate [px], by geometry alone; negative if they meet."""
     reach = ROD_HALF + ROD_RADIUS + plate
     first, last = max((PLATE_X - reach - start) / speed, 0.0), (PLATE_X + reach - start) / speed
     count = int((last - first) * (speed + abs(spin) * ROD_HALF) / SAMPLE) + 2

@@ -1,12 +1,12 @@
 """Heaps that fall asleep, and a ball that wakes one of them: who wakes whom, and what does lying still cost?
 
-What to see: half a second after it came to rest a heap is put aside, darker, with its contacts and forces, and a step
-costs next to nothing. A knock wakes the island that it meets and no other; what falls over wakes the next one, and so
-a wave of waking, lit up, runs along the columns. When it is over all fall asleep again where they lie.
+What to see: half a second after it came to rest a heap sleeps, darker, with its contacts and forces kept, and a step
+costs next to nothing. A knock wakes the island that it meets and no other; a falling column wakes the next one, and so
+a wave of waking, lit up, runs along the columns. Then all fall asleep again where they lie.
 
 Why it matters: Most of a level lies still most of the time; a world that sleeps can be a hundred times as large.
 
-To try: drag a body out of a sleeping heap, and see who wakes with it.
+To try: drag a body out of a sleeping heap, and see which bodies wake.
 
 Source: Catto, Simulation Islands, box2d.org, 2023.
 """
@@ -38,20 +38,20 @@ WIDE = 480.0 / ZOOM  # [px] of the yard
 CRATE = Polygon.box(0.9 * METER, 0.9 * METER)
 STONES = (Circle(0.42 * METER), Polygon.box(0.8 * METER, 0.8 * METER), Capsule((-9.0, 0.0), (9.0, 0.0), 9.0))
 ROWS, PYRAMID = 7, 3.5 * METER  # rows of the pyramid, x of its middle
-COLUMNS, FIRST = 11, 8.6 * METER  # of a plank with three cubes on it: how many; x of the first
+COLUMNS, FIRST = 11, 8.6 * METER  # number of planks with three cubes on each; x of the first
 PLANK = 0.55 * METER  # [px] thick
 CUBE = Polygon.box(PLANK, PLANK)
 BOWL, DEEP, STONE_COUNT = (23.4 * METER, 28.9 * METER), 4.8 * METER, 34  # x of its walls, their height
 BALL, BALL_DENSITY, SPEED = 0.6 * METER, 4.0, 16.0 * METER  # radius, times a crate's density, [px/s]
-MOUTH = (1.2 * METER, -10.8 * METER)  # where balls come from
-BALLS = 6  # the seventh takes the first one's place
-LIT = 26  # steps that what woke is lit
+MOUTH = (1.2 * METER, -10.8 * METER)  # start of balls
+BALLS = 6  # the seventh replaces the first one
+LIT = 26  # steps for which a woken body is lit
 KNOCK = 250  # the bot's step
 SETTLE = 240  # steps in which all have fallen asleep
 RAMPS = ("wood", "teal", "coral", "violet", "gold")
-DIM = (118, 112, 150)  # what of a picture's light is left in its sleep, of 255
+DIM = (118, 112, 150)  # of 255: light of a sleeping body's picture
 SLEEP = ("off", "on")
-SLEPT = ("awake", "asleep")  # what is measured
+SLEPT = ("awake", "asleep")  # the measured states
 PLOTS = (("bodies: awake, asleep [log]", (132, 206, 168, 60)), ("microseconds a step [log]", (306, 206, 168, 60)))
 HISTORY = 600  # steps in the curves
 
@@ -82,7 +82,7 @@ class Sleeping(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """The yard and the curves; fill() piles up."""
+        """Build the yard and the curves; fill() adds the heaps."""
         self.yard = Yard(FLOOR)
         self.curves = [
             Curves(PLOTS[0][0], {"awake": GOLD, "asleep": FOG}, HISTORY),
@@ -91,7 +91,7 @@ class Sleeping(Scene):
         self.fill()
 
     def fill(self):
-        """A new world with its heaps."""
+        """Make a new world with its heaps."""
         self.worlds = []
         self.camera = Camera(((0, HEAD), (480, 254)), ZOOM, y=-(FLOOR - HEAD) / ZOOM)
         effects = self.effects.with_(sleeping=self.effects.sleeping and bool(self.values["sleep"]))
@@ -105,13 +105,13 @@ class Sleeping(Scene):
         self.heaped = len(world.bodies)
         self.shapes = {body.id: body.shapes[0] for body in world if body.kind == "dynamic"}
         self.known = {}  # body id -> (awake, island) after the last step
-        self.lit = {}  # body id -> steps that it is still lit
+        self.lit = {}  # body id -> remaining steps of light
         self.balls = []
         self.aim = FIRST
         self.since = self.thrown = 0
         self.slept_at = self.slept_again = -1  # steps after which all were asleep: at first, after the first ball
         self.idle = 0  # bodies moved in steps that began with all asleep
-        self.first_woken = 0  # islands that the first step of the wave woke
+        self.first_woken = 0  # islands woken by the first step of the wave
         self.waves = []  # (step, islands woken) since the first ball
         self.awake, self.asleep, self.islands = self._count(debug.islands(world))
 
@@ -136,12 +136,12 @@ class Sleeping(Scene):
             world.add_body(STONES[number % 3], position=(x, -(0.6 + 0.9 * row) * METER), angle=0.4 * (number % 4))
 
     def change_slider(self, name, value):
-        """Pile up anew."""
+        """Build the heaps again."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Keys and the pointer, one step, then who woke."""
+        """Process keys and the pointer, make one step, then record the woken islands."""
         turn = inputs.pressed("up") - inputs.pressed("down")
         if turn:
             self.change_slider("high", self.values["high"] + turn)
@@ -164,7 +164,7 @@ class Sleeping(Scene):
             self.slept_again = self.since
 
     def _throw(self, x, y):
-        """A heavy ball from the upper left towards a point of the yard."""
+        """Throw a heavy ball from the upper left towards a point of the yard."""
         if len(self.balls) == BALLS:
             gone = self.balls.pop(0)
             self.world.remove_body(gone)
@@ -185,7 +185,9 @@ class Sleeping(Scene):
         self.play("land")
 
     def measured(self):
-        """A step of these heaps while all sleep, and of the same heaps in a world where nobody does."""
+        """Return the runs to measure: a step of these heaps while all sleep, and of the same heaps in a world without
+        sleeping.
+        """
         if self.awake or not self.asleep or self.thrown:
             return None
         return Lanes([self._lane(how) for how in SLEPT], self._make)
@@ -199,7 +201,7 @@ class Sleeping(Scene):
         return Lane([made], self.broadphase)
 
     def _count(self, islands):
-        """Bodies awake and asleep, and islands, of which each body's is given."""
+        """Count bodies awake and asleep, and islands. islands: that of each body."""
         bodies = self.world.bodies
         moves = bodies["inverse_mass"] > 0.0
         awake = int(np.count_nonzero(bodies["awake"] & moves))
@@ -224,12 +226,12 @@ class Sleeping(Scene):
             self.waves.append((self.since, len(woken)))
 
     def observe(self):
-        """Feed the curves."""
+        """Update the curves."""
         self.curves[0].note({"awake": self.awake, "asleep": self.asleep})
         self.curves[1].note({"step": step_seconds(self.world) * 1e6})
 
     def draw(self, canvas, alpha):
-        """The heaps by island, dark in their sleep; the figures on a plate."""
+        """Draw the heaps by island, dark while asleep, and the figures on a plate."""
         self.yard.draw(canvas, "SLEEPING", "what lies still costs nothing: who wakes whom?")
         surface, camera = canvas.surface, self.camera
         for x in BOWL:
@@ -252,7 +254,7 @@ class Sleeping(Scene):
         self._draw_figures(canvas)
 
     def _draw_aim(self, surface):
-        """The mouth that balls come from, and where the next one goes."""
+        """Draw the start of the balls, and the next one's path."""
         (x, y), (to_x, to_y) = (
             self.camera.to_canvas(*place) for place in (MOUTH, (self.aim, -self.values["high"] * 0.8 * METER))
         )
@@ -277,7 +279,7 @@ class Sleeping(Scene):
             canvas.text(value, 120, 210 + number * 9, color, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """What has just woken is lit; the curves."""
+        """Draw lights on woken bodies, and the curves."""
         lens, bodies = frame.lens(self.camera), self.world.bodies
         frame.surface.set_clip(lens.clip)
         for identity, left in self.lit.items():
@@ -295,7 +297,9 @@ class Sleeping(Scene):
             curves.draw(frame, rect)
 
     def check(self):
-        """All fall asleep and cost nothing; a knock wakes one island first, then others; then all sleep again."""
+        """Return the goals: all fall asleep and cost nothing; a knock wakes one island first, then others; then all
+        sleep again.
+        """
         woken = sum(count for _, count in self.waves)
         slept = f"after {self.slept_at} steps" if self.slept_at >= 0 else f"{self.awake} awake"
         return [
@@ -312,13 +316,11 @@ class Sleeping(Scene):
         ]
 
     def finding(self):
-        """What lying still costs beside being awake, and how far a knock woke the heaps."""
+        """Return the cost of sleeping against that of being awake, and the number of islands that a knock woke."""
         told = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
         awake, asleep = (cost_of(self, self._lane(how)) for how in SLEPT)
         if awake is not None and asleep is not None:
-            told.append(
-                f"a step takes {microseconds(asleep)} asleep, {awake / asleep:,.1f} x that where nobody may sleep"
-            )
+            told.append(f"a step takes {microseconds(asleep)} asleep, {awake / asleep:,.1f} x that without sleep")
         elif self.slept_at < 0 and not self.waves:
             return "not yet: all have to fall asleep"
         if self.waves:
@@ -327,11 +329,11 @@ class Sleeping(Scene):
         return "; ".join(told)
 
     def bot(self):
-        """Wait until all sleep, then throw a ball at the top of the first column."""
+        """Return the bot: wait until all sleep, then throw a ball at the top of the first column."""
         return InputFrame(frozenset(("fire",)) if self.frame == KNOCK else frozenset())
 
     def state(self):
-        """The counts; the world holds the rest."""
+        """Return the counts; the world holds the rest."""
         return (
             self.frame,
             *self.values.values(),
@@ -352,7 +354,7 @@ class Sleeping(Scene):
 
 @lru_cache(maxsize=64)
 def dimmed(shape, ramp):
-    """The picture of a shape that sleeps."""
+    """Return the picture of a sleeping shape."""
     image = piece(shape, ramp)
     image.fill((*DIM, 255), special_flags=pygame.BLEND_RGBA_MULT)
     return RotatedPicture(image)

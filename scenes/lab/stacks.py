@@ -1,12 +1,12 @@
 """The same column of crates in three worlds, one per solver: which of them stands straight?
 
 What to see: projection pushes each overlap out by itself and forgets the weight above: the column jitters apart.
-Sequential impulse keeps from step to step what carries it. Soft step does too, and its contacts give like stiff
-springs: its column stands a third of a percent lower, and comes to rest after a nudge.
+Sequential impulse keeps its impulses from step to step. Soft step does too, and its contacts give like stiff springs:
+its column stands a third of a percent lower, and comes to rest after a nudge.
 
 Why it matters: Whatever lies on something asks this of a solver; a column is where its errors add up.
 
-To try: take substeps away, make the crate on top heavy, drag one out: who falls first?
+To try: take substeps away, make the crate on top heavy, drag one out: what falls first?
 
 Source: Catto, Iterative Dynamics with Temporal Coherence, 2005; Macklin and others, Small Steps, 2019.
 """
@@ -34,10 +34,10 @@ SIZE, ZOOM = 32.0, 0.5  # [px] a crate of one metre, drawn 16 px large
 VIEWS = ((4, 16, 154, 210), (163, 16, 154, 210), (322, 16, 154, 210))
 FLOOR = 220  # [canvas px]
 MIDDLE, GROUND = 154.0, (FLOOR - 16) / ZOOM  # [px] of each world
-UNEVEN = (0.0, 1.5, -1.0, 0.5, -1.5, 1.0)  # [px] crates are not laid exactly one over the other
-NUDGE = 40.0  # [px/s] given to a top crate that is not heavy
+UNEVEN = (0.0, 1.5, -1.0, 0.5, -1.5, 1.0)  # [px] offsets of the crates in a column
+NUDGE = 40.0  # [px/s] of the nudge to a top crate that is not heavy
 WINDOW = 60  # steps over which the sway is measured
-SETTLED = 120  # steps after which sway counts
+SETTLED = 120  # steps after which the sway is measured
 
 
 class Stacks(Scene):
@@ -58,22 +58,22 @@ class Stacks(Scene):
     legend_at = (4, 20)
 
     def build(self):
-        """The picture of the yard, then three worlds."""
+        """Make the picture of the yard, then three worlds."""
         self.yard = Yard(FLOOR)
         self.cameras = [Camera(view, ZOOM) for view in VIEWS]
         self.fill()
 
     def fill(self):
-        """Three new worlds with the same crates."""
+        """Make three new worlds with the same crates."""
         self.worlds, self.casts, self.tops = [], [], []
         self.since = self.nudged = 0
         self.touched = False
         self.track = {name: [] for name in SOLVERS}  # x of the top crate in the last steps
         self.sway = dict.fromkeys(SOLVERS, 0.0)
         self.sag = dict.fromkeys(SOLVERS, 0.0)
-        self.calm_sway = dict.fromkeys(SOLVERS, 0.0)  # the most while nobody had touched it
-        self.depth = dict.fromkeys(SOLVERS, 0.0)  # deepest since it settled
-        self.standing = dict.fromkeys(SOLVERS, 0)  # steps that the top crate stayed near its place
+        self.calm_sway = dict.fromkeys(SOLVERS, 0.0)  # greatest sway before any drag
+        self.depth = dict.fromkeys(SOLVERS, 0.0)  # greatest overlap after settling
+        self.standing = dict.fromkeys(SOLVERS, 0)  # steps for which the top crate stayed near its place
         for name in SOLVERS:
             self._raise_column(name)
 
@@ -90,12 +90,12 @@ class Stacks(Scene):
         self.tops.append(body)
 
     def change_slider(self, name, value):
-        """Another column is built at once."""
+        """Build another column at once."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Keys, three steps, three measurements."""
+        """Process keys, make three steps, and measure."""
         for name, forth, back in (("crates", "right", "left"), ("top crate", "up", "down")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -125,7 +125,7 @@ class Stacks(Scene):
         self.standing[name] += hypot(x - MIDDLE, self.sag[name]) < SIZE
 
     def measured(self):
-        """A step of each column, from when it has settled on."""
+        """Return the runs to measure: a step of each column, once it has settled."""
         if self.since < SETTLED:
             return None
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
@@ -135,26 +135,26 @@ class Stacks(Scene):
         )
 
     def stands(self, name):
-        """True while the top crate has never left its place by a crate's size."""
+        """Return whether the top crate was always within a crate's size of its place."""
         return self.standing[name] == self.since
 
     def stands_now(self, index):
-        """True while the top crate of a column is within a crate's size of its place."""
+        """Return whether the top crate of a column is within a crate's size of its place."""
         x, y = self.tops[index].position
         return hypot(x - MIDDLE, y - (GROUND - (int(self.values["crates"]) - 0.5) * SIZE)) < SIZE
 
     @property
     def offer(self):
-        """When no column is left to be nudged."""
+        """True once no column is left to nudge."""
         fallen = not any(self.stands_now(index) for index in range(len(SOLVERS)))
         return "piles them up again" if fallen else ""
 
     def views(self):
-        """One picture per solver."""
+        """Return one picture per solver."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """The columns, and under each its numbers."""
+        """Draw the columns, and under each its numbers."""
         self.yard.draw(canvas, "STACKS", "which solver lets a column of crates stand straight?")
         for index, (name, camera, cast) in enumerate(zip(SOLVERS, self.cameras, self.casts, strict=True)):
             cast.draw(canvas, camera, self.worlds[index], alpha)
@@ -172,7 +172,7 @@ class Stacks(Scene):
         tall = self.values["crates"] * SIZE
         rows = (
             ("sinks", self.sag[name] / tall),
-            ("sways", self.sway[name] / SIZE if self.track[name] else None),  # what settles does not sway yet
+            ("sways", self.sway[name] / SIZE if self.track[name] else None),  # no sway while it settles
             ("overlap", deepest(self.worlds[index]) / SIZE),
         )
         for row, (word, share) in enumerate(rows):
@@ -188,7 +188,7 @@ class Stacks(Scene):
         canvas.text(cost_text(self, (*self.chosen, name)), box.right - 4, box.y + 37, PAPER, SMALL, align="right")
 
     def draw_on_frame(self, frame):
-        """A thin line where the top of an ideal column is."""
+        """Draw a thin line at the top of an ideal column."""
         top = GROUND - self.values["crates"] * SIZE
         for camera in self.cameras:
             lens = frame.lens(camera)
@@ -197,7 +197,7 @@ class Stacks(Scene):
                 pygame.draw.line(frame.surface, PAPER, (x, y), (x + 3 * frame.scale, y))
 
     def check(self):
-        """Impulses that are kept hold the column, also against a nudge; projection does not."""
+        """Return the goals: warm started impulses hold the column, even after a nudge; projection does not."""
         pushed, kept, soft = SOLVERS
         tall = self.values["crates"] * SIZE
         return [
@@ -240,7 +240,7 @@ class Stacks(Scene):
         ]
 
     def finding(self):
-        """How far each column has sunk and swayed, and what a step of it takes."""
+        """Return the sag and sway of each column, and the time of a step."""
         if self.since <= SETTLED:
             return "not yet: the columns have to settle for two seconds"
         told = []
@@ -251,11 +251,11 @@ class Stacks(Scene):
         return "; ".join(told)
 
     def bot(self):
-        """Watch, and nudge once."""
+        """Return the bot: watch, and nudge once."""
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """The measurements; the worlds hold the rest."""
+        """Return the measurements; the worlds hold the rest."""
         measured = (self.sag, self.sway, self.calm_sway, self.depth, self.standing)
         values = (row[name] for row in measured for name in SOLVERS)
         return (self.frame, self.since, self.nudged, *self.values.values(), *values)

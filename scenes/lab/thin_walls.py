@@ -1,4 +1,4 @@
-"""Walls one pixel thin, for lab/mask_sweep: straight, aslant, a ring; and what it means to have come through."""
+"""Walls of one pixel for lab/mask_sweep: straight, slanted, a ring; and the test for shots beyond them."""
 
 from math import hypot
 
@@ -12,11 +12,11 @@ RADIUS = 27.0  # [px] of the ring's middle line
 
 
 def wall_of(shape):
-    """The wall's mask, its origin in its middle."""
+    """Return the wall's mask, its origin in its middle."""
     size = 2 * HALF + 1
     if shape == "straight":
         return PixelMask.from_array(np.ones((size, 1), bool))
-    if shape == "aslant":  # of pixels that meet at their corners alone: as thin as a wall can be
+    if shape == "aslant":  # pixels that touch at their corners alone: the thinnest possible wall
         return PixelMask.from_array(np.eye(size, dtype=bool))
     y, x = np.mgrid[0:size, 0:size] - HALF
     far = np.hypot(x, y)
@@ -28,7 +28,7 @@ def wall_of(shape):
 
 
 def is_beyond(shape, x, y):
-    """Whether a shot's middle, seen from the wall's, is where only who came through can be."""
+    """Return whether a shot's middle, relative to the wall, is where only a shot through the wall can be."""
     if shape == "straight":
         return x > 0.5
     if shape == "aslant":

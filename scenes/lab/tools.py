@@ -1,4 +1,4 @@
-"""What lab/carving digs with: round, square or star-shaped, as large as the player wants."""
+"""The tools of lab/carving: round, square or star-shaped, of the player's size."""
 
 from itertools import count
 from math import cos, hypot, pi, sin
@@ -11,20 +11,20 @@ from physics import Capsule, Circle, PixelMask, Polygon
 TOOLS = ("blast", "dig", "box", "sprite", "hand")
 STAMP_EVERY = 0.5  # radii that the pointer moves between two stamps of a box or sprite
 STAR = 12.0  # [px] from the middle of the sprite to its points
-GOLDEN = 0.6180339887498949  # multiples of it, whole parts left out, are never near one another
+GOLDEN = 0.6180339887498949  # its multiples, modulo 1, are never near one another
 
 
 class Tool:
-    """`name`: one of TOOLS; `radius` [px]. shape_at() says what is cut while the pointer is held."""
+    """A tool. `name`: one of TOOLS; `radius` [px]. cut() gives the shape while the pointer is held."""
 
     def __init__(self):
         self.name, self.radius = TOOLS[0], 0
-        self.last = None  # where it cut last, while the pointer stays down
+        self.last = None  # place of the last cut while the pointer stays down
         self.stamp: Circle | Polygon | PixelMask = Circle(1.0)
-        self.reach = ((0.0, 0.0), (0.0, 0.0))  # a box that holds what was cut last
+        self.reach = ((0.0, 0.0), (0.0, 0.0))  # box of the last cut
 
     def choose(self, name, radius):
-        """Another tool, or another size of it."""
+        """Change the tool, or its size."""
         if (name, radius) != (self.name, self.radius):
             self.name, self.radius = name, radius
             self.last, self.stamp = None, self._make()
@@ -38,7 +38,9 @@ class Tool:
         return Circle(self.radius)
 
     def cut(self, inputs):
-        """(shape, pose) to carve in this step, or None. A blast comes once a press; digging follows the pointer."""
+        """Return (shape, pose) to carve in this step, or None. A blast comes once per press; digging follows the
+        pointer.
+        """
         if not inputs.pointer_down:
             self.last = None
             return None
@@ -55,13 +57,13 @@ class Tool:
             (min(before[0], now[0]) - reach, min(before[1], now[1]) - reach),
             (max(before[0], now[0]) + reach, max(before[1], now[1]) + reach),
         )
-        if self.name == "dig" and far > 0.0:  # all that the pointer has passed over
+        if self.name == "dig" and far > 0.0:  # the path of the pointer
             return Capsule(before, now, self.radius), (0.0, 0.0)
         return self.stamp, now
 
     def ring(self):
-        """Points around it, its middle at (0, 0) [px]."""
-        if isinstance(self.stamp, Polygon):
+        """Return points around it, its middle at (0, 0) [px]."""
+        if self.name == "box":
             return list(self.stamp.points)
         angles = [2.0 * pi * k / 40 for k in range(40)]
         if self.name != "sprite":
@@ -71,7 +73,9 @@ class Tool:
 
 
 def carving(world, name, radius, ground, crumb):
-    """What carves a body of pixels with such a tool at each call, at solid places far from one another."""
+    """Return a function that carves a body of pixels with this tool at each call, at solid places far from one
+    another.
+    """
     tool = Tool()
     tool.choose(name, radius)
     body = world.body(ground)

@@ -39,14 +39,14 @@ FIN = 44.0  # [px] the blades reach in
 VIEW = ((120, 16), (360, 254))
 MIDDLE = (360.0, 254.0)  # [px] of the world: the middle of the view
 TOYS = ("red", "blue", "gold", "green", "purple", "teal")
-SLACK = 8.0  # [px] a centre beyond the wall's inner face by this much is out
-SUBSTEPS = 4  # half the time of as many as the load asks for, and no deeper than a fifteenth of a brick
-SETTLED = 120  # steps after which the load is looked at
+SLACK = 8.0  # [px] distance beyond the wall's inner face from which a centre is out
+SUBSTEPS = 4  # half the time of substeps by load, with overlaps of at most a fifteenth of a brick
+SETTLED = 120  # steps after which the load is measured
 STEEL = ((58, 60, 82), (92, 96, 124), (138, 144, 172), (190, 196, 216))
 
 
 def ring(count, size, start):
-    """Corners of a regular polygon that fills size x size about its middle."""
+    """Return the corners of a regular polygon that fills size x size about its middle."""
     angles = start + np.arange(count) * 2 * pi / count
     return [(size / 2 * cos(a), size / 2 * sin(a)) for a in angles]
 
@@ -79,13 +79,13 @@ class Tumbler(Scene):
     legend_at = (4, 138)
 
     def build(self):
-        """The yard; fill() makes drum and load."""
+        """Build the yard; fill() makes drum and load."""
         self.yard = Yard(262, 70)
         self.camera = Camera(VIEW, ZOOM)
         self.fill()
 
     def fill(self):
-        """A new world: the drum, and shapes laid out in rows inside it."""
+        """Make a new world: the drum, and shapes in rows inside it."""
         self.worlds = []
         world, self.cast = self.add_world(substeps=SUBSTEPS), Cast(load_atlas("lab"))
         self.drum = world.add_body(
@@ -98,13 +98,13 @@ class Tumbler(Scene):
             body = world.add_body(shape, position=place, angle=0.0 if name == "brick" else random.uniform(-pi, pi))
             self.cast.add(body, f"{name}_{random.choice(TOYS)}")
         self.escaped = 0
-        self.highest = MIDDLE[1] + INSIDE  # y of the highest centre since the load has settled
+        self.highest = MIDDLE[1] + INSIDE  # y of the highest centre since the load settled
         self.most = self.energy = 0.0  # kinetic energy
-        self.overlap = self.pressed = 0.0  # [px] deepest ever, and deepest of each step on average
+        self.overlap = self.pressed = 0.0  # [px] greatest overlap, and mean over the steps of the greatest overlap
         self.since = 0
 
     def change_slider(self, name, value):
-        """Another number fills the drum anew, another speed only turns it."""
+        """Fill the drum again for another number; another speed only turns it."""
         super().change_slider(name, value)
         if name == "bodies":
             self.fill()
@@ -112,7 +112,7 @@ class Tumbler(Scene):
             self.drum.angular_velocity = float(self.values["speed"])
 
     def update(self, inputs):
-        """Keys, one step, and a look at who is where."""
+        """Process keys, make one step, and check all places."""
         for name, forth, back, notch in (("speed", "right", "left", 0.1), ("bodies", "up", "down", 10)):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -136,7 +136,7 @@ class Tumbler(Scene):
             self.pressed += (deep - self.pressed) / (self.since - SETTLED)
 
     def ways(self):
-        """The present number of substeps and another, as {how it is told: lane}."""
+        """Return {name: run} of the current number of substeps and another one."""
         now, solver = self.world.substeps, self.world.solver
         asked = (now, SUBSTEPS if now == "auto" else "auto") if solver in SUBSTEPPED else (None,)
         lane = (int(self.values["bodies"]), round(float(self.values["speed"]), 1), solver, self.broadphase)
@@ -144,14 +144,16 @@ class Tumbler(Scene):
         return {words.get(substeps, f"{substeps} substeps"): (*lane, substeps) for substeps in asked}
 
     def measured(self):
-        """A step of this drum once the load has settled, with the present number of substeps and another."""
+        """Return the runs to measure: a step of this drum once the load has settled, with the current number of
+        substeps and another.
+        """
         return Lanes(list(self.ways().values()), self._make) if self.since > SETTLED else None
 
     def _make(self, name):
         return Lane([with_substeps(self.world, name[-1])], self.broadphase)
 
     def draw(self, canvas, alpha):
-        """The drum, its load, the numbers."""
+        """Draw the drum, its load, the numbers."""
         self.yard.draw(canvas, "TUMBLER", "does any of them ever get out of the turning drum?")
         angle = self.drum.angle - self.drum.angular_velocity / 60 * (1.0 - alpha)
         draw_drum(canvas.surface, self.camera, angle)
@@ -173,13 +175,13 @@ class Tumbler(Scene):
             canvas.text(value, 110, 40 + number * 10, GOLD if word == "turns" else PAPER, SMALL, align="right")
 
     def _pace(self):
-        """Root mean square speed of the load [px/s]."""
+        """Return the root mean square speed of the load [px/s]."""
         mass = float(self.world.bodies["mass"][1:].sum())
         return (2.0 * self.energy / mass) ** 0.5 if mass else 0.0
 
     def check(self):
-        """Nobody gets out, the load is carried up, and it is not thrown about."""
-        fall = 2.0 * 9.8 * 32.0 * 2.0 * INSIDE  # [px2/s2] what a fall through the whole drum gives
+        """Return the goals: no shape gets out, the load is carried up, and it is not thrown about."""
+        fall = 2.0 * 9.8 * 32.0 * 2.0 * INSIDE  # [px2/s2] energy of a fall through the whole drum
         mass = float(self.world.bodies["mass"][1:].sum())
         return [
             Goal("none gets out", 300, self.escaped == 0, f"{self.escaped} of {len(self.world.bodies) - 1}"),
@@ -205,7 +207,7 @@ class Tumbler(Scene):
         ]
 
     def finding(self):
-        """How many got out in so many turns, and how deep the load is pressed together."""
+        """Return the number of shapes out after so many turns, and the overlap in the load."""
         if self.since < SETTLED + 60:
             return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)
@@ -218,11 +220,11 @@ class Tumbler(Scene):
         return f"{told}; a step takes {', '.join(f'{microseconds(cost)} ({word})' for word, cost in costs.items())}"
 
     def bot(self):
-        """Watch."""
+        """Return the bot: watch."""
         return InputFrame()
 
     def state(self):
-        """What was seen; the world holds the rest."""
+        """Return the measurements; the world holds the rest."""
         return (
             self.frame,
             self.since,
@@ -237,7 +239,7 @@ class Tumbler(Scene):
 
 
 def drum_boxes():
-    """The walls, a little longer than a side so that the corners close, and every other one with a blade."""
+    """Return the walls, slightly longer than a side so that the corners close, and every other one with a blade."""
     side = 2.0 * (INSIDE + WALL) * np.tan(pi / SIDES)
     boxes = []
     for number in range(SIDES):
@@ -249,12 +251,12 @@ def drum_boxes():
 
 
 def radial(distance, angle):
-    """The point at a distance from the drum's middle in a direction."""
+    """Return the point at a distance from the drum's middle in a direction."""
     return distance * cos(angle), distance * sin(angle)
 
 
 def places(count):
-    """So many places inside the drum, in rows from the bottom up."""
+    """Return so many places inside the drum, in rows from the bottom up."""
     step, room = 24.0, INSIDE - 20.0
     across = [step * column for column in range(-int(room / step), int(room / step) + 1)]
     found = [(x, y) for y in reversed(across) for x in across if hypot(x, y) < room and not in_blade(x, y)]
@@ -262,7 +264,7 @@ def places(count):
 
 
 def in_blade(x, y):
-    """True if a shape laid here would start inside a blade of the drum at rest."""
+    """Return whether a shape placed here would start inside a blade of the drum at rest."""
     for number in range(0, SIDES, 2):
         c, s = radial(1.0, 2 * pi * number / SIDES)
         if c * x + s * y > INSIDE - FIN - 14.0 and abs(c * y - s * x) < WALL / 4 + 14.0:
@@ -271,7 +273,7 @@ def in_blade(x, y):
 
 
 def draw_drum(surface, camera, angle):
-    """Walls, blades and rivets at an angle, lit from above left."""
+    """Draw walls, blades and rivets at an angle, lit from the upper left."""
     x, y = camera.to_canvas(*MIDDLE)
 
     def at(distance, turn):

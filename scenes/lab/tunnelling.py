@@ -2,12 +2,12 @@
 
 What to see: a fast ball is on one side of a thin plate in one step and beyond it in the next. The ray through its
 centre finds the plate, but passes a ball that would only graze the edge. The sweep finds both, as long as nothing
-turns: a spinning rod reaches the plate with an end that was elsewhere when the step began. Bullets that fly at
-each other are each other's plate.
+turns: a spinning rod reaches the plate with an end that was elsewhere when the step began. Bullets that fly at each
+other are each other's plate.
 
 Why it matters: The cheaper the sweep, the more it misses; the lanes show what each kind of shot needs, and its price.
 
-To try: turn up the speed or thin the plate, then Space for rods: count who misses first.
+To try: turn up the speed or thin the plate, then Space for rods: see who misses first.
 
 Source: Mirtich 1996 (conservative advancement); Catto, Continuous Collision, GDC 2013.
 """
@@ -54,8 +54,8 @@ BULLET_TITLES = {"off": "off", "ray": "ray", "swept": "swept", "toi": "toi, bull
 COLORS = {"off": RED, "ray": ORANGE, "swept": SKY, "toi": GREEN}
 LANE_TOP, LANE_HEIGHT = 20, 62
 EVERY = 7  # steps between shots
-CLEAR = 0.75  # [px] shots this close to just touching are not counted either way
-GLOW_STEPS = 14  # steps a mark of a hit stays
+CLEAR = 0.75  # [px] shots this close to touching are not counted
+GLOW_STEPS = 14  # steps for which a mark of a hit stays
 SPARKS = ((255, 255, 230), (255, 214, 90), (255, 148, 40), (140, 40, 52))
 COUNT_X = 392
 
@@ -85,26 +85,26 @@ class Tunnelling(Scene):
     legend_at = (392, 226)
 
     def build(self):
-        """Four plates."""
+        """Build four plates."""
         self.add_world()
         self.sky = load_backdrop("sky_dusk")
         self.gun = pygame.transform.rotate(load_atlas("planes")["player"], -90)
         self.gun_back = pygame.transform.flip(self.gun, True, False)
-        self.trials = []  # per shot: lane, body ids, must it hit, must it pass
+        self.trials = []  # per shot: lane, body ids, must hit, must pass
         self.of_body = {}  # body id -> its trial
-        self.spent = {}  # body id -> colour: shots that have hit, seen for one more step
-        self.trails = []  # [lane, what, pose before, pose, age], only seen
-        self.marks = []  # [lane, x, y, colour, age], only seen
+        self.spent = {}  # body id -> colour: shots that have hit, visible for one more step
+        self.trails = []  # [lane, what, pose before, pose, age], for drawing only
+        self.marks = []  # [lane, x, y, colour, age], for drawing only
         keys = [(kind, lane) for kind in SHOTS for lane in LANES]
         self.fired, self.due = dict.fromkeys(keys, 0), dict.fromkeys(keys, 0)  # due: must hit, by geometry
         self.hit, self.missed = dict.fromkeys(keys, 0), dict.fromkeys(keys, 0)
-        self.false = dict.fromkeys(keys, 0)  # hits of shots that pass by
+        self.false = dict.fromkeys(keys, 0)  # hits of shots that must pass
         self.plates = {}
         self._raise_plates()
 
     @property
     def kind(self):
-        """What is shot: one of SHOTS."""
+        """Kind of the shots, one of SHOTS."""
         return SHOTS[int(self.values["shots"])]
 
     def _raise_plates(self):
@@ -115,7 +115,7 @@ class Tunnelling(Scene):
             self.plates = {lane: raise_plate(self.world, self.values["plate"], middle(lane)) for lane in LANES}
 
     def change_slider(self, name, value):
-        """Other plates are built at once; shots under way no longer count."""
+        """Build other plates at once; shots in flight are no longer counted."""
         super().change_slider(name, value)
         if name != "speed":
             self.world.remove_bodies([*self.of_body, *self.spent])
@@ -125,7 +125,7 @@ class Tunnelling(Scene):
             self._raise_plates()
 
     def update(self, inputs):
-        """Keys, guns, one step, then the count."""
+        """Process keys, fire, make one step, then count."""
         for slider, back, forth, notch in (("speed", "left", "right", 300), ("plate", "down", "up", 1)):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -147,7 +147,7 @@ class Tunnelling(Scene):
         return (*body.position, body.angle)
 
     def _fire(self):
-        """The same shot in every lane."""
+        """Fire the same shot in every lane."""
         kind = self.kind
         shots, gap = aim(kind, float(self.values["speed"]), float(self.values["plate"]), self.random)
         for lane in LANES:
@@ -159,7 +159,9 @@ class Tunnelling(Scene):
             self.due[kind, lane] += trial["must"]
 
     def measured(self):
-        """A step of each lane, with one shot in it from the gun to the end, over as many shots as make 60 steps."""
+        """Return the runs to measure: a step of each lane, with one shot in it from the gun to the end, over as many
+        shots as make 60 steps.
+        """
         speed, plate = float(self.values["speed"]), float(self.values["plate"])
         steps = steps_of_flight(speed)
 
@@ -213,7 +215,7 @@ class Tunnelling(Scene):
                 self._end(trial)
 
     def draw(self, canvas, alpha):
-        """Lanes, plates, shots at every step they made, and the counts."""
+        """Draw lanes, plates, shots at every step they made, and the counts."""
         canvas.surface.fill(NIGHT)
         canvas.text("TUNNELLING", 4, 4, GOLD)
         step = self.values["speed"] / 60
@@ -287,7 +289,7 @@ class Tunnelling(Scene):
         pygame.draw.circle(surface, WHITE, (round(pose[0]), round(pose[1])), max(radius - 3, 1))
 
     def check(self):
-        """The time of impact misses nothing; each other lane misses what it cannot see."""
+        """Return the goals: the time of impact misses nothing; each other lane has the misses of its method."""
         missed, due = self.missed, self.due
         made_up = sum(count for (kind, lane), count in self.false.items() if kind != "rods" or lane == "toi")
 
@@ -332,7 +334,7 @@ class Tunnelling(Scene):
         ]
 
     def finding(self):
-        """What each lane has missed of what it had to hit, and what a step of it takes."""
+        """Return the misses of each lane among its due hits, and the time of a step."""
         kind = self.kind
         ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}
         if not all(ended.values()):
@@ -344,28 +346,28 @@ class Tunnelling(Scene):
         return f"{kind}: {', '.join(told)}"
 
     def bot(self):
-        """Watch balls, rods and bullets; make it faster once."""
+        """Return the bot: watch balls, rods and bullets; make it faster once."""
         tap = {100: "right", 220: "fire", 420: "fire"}.get(self.frame)
         return InputFrame(frozenset((tap,)) if tap else frozenset())
 
     def state(self):
-        """The counts; the world holds the shots."""
+        """Return the counts; the world holds the shots."""
         counts = (self.fired, self.due, self.hit, self.missed, self.false)
         return (self.frame, *self.values.values(), *(value for count in counts for value in count.values()))
 
 
 def middle(lane):
-    """Canvas y of a lane's middle."""
+    """Return the canvas y of a lane's middle."""
     return LANE_TOP + LANES.index(lane) * LANE_HEIGHT + 9 + (LANE_HEIGHT - 12) / 2
 
 
 def inside(lane):
-    """The canvas rect that a lane's picture fills, without its frame."""
+    """Return the canvas rect of a lane's picture, without its frame."""
     return pygame.Rect(5, LANE_TOP + LANES.index(lane) * LANE_HEIGHT + 10, 378, LANE_HEIGHT - 14)
 
 
 def rod_ends(pose):
-    """The two ends of a rod's core, in whole pixels."""
+    """Return the two ends of a rod's core, in whole pixels."""
     x, y, angle = pose
     dx, dy = ROD_HALF * cos(angle), ROD_HALF * sin(angle)
     return (round(x - dx), round(y - dy)), (round(x + dx), round(y + dy))

@@ -1,4 +1,4 @@
-"""Where the lab's piles stand: dusk behind, grass or a wooden table under them; and the head line that all share."""
+"""The ground of the lab's piles: dusk behind, grass or a wooden table below; and the head line of all labs."""
 
 import pygame
 
@@ -28,20 +28,20 @@ class Yard:
 
 
 def draw_head(canvas, title, question):
-    """The dark line on top: the scene's name, and what it asks."""
+    """Draw the dark line on top, with the scene's name and its question."""
     canvas.surface.fill(INK, (0, 0, CANVAS_SIZE[0], HEAD))
     canvas.text(title, 4, 4, GOLD)
     canvas.text(question, CANVAS_SIZE[0] - 6, 6, FOG, SMALL, align="right")
 
 
 def plate(canvas, rect, ground=(20, 16, 32, 205)):
-    """A dark see-through plate to write on, kept on top of overlays."""
+    """Draw a dark transparent plate for text, kept on top of overlays."""
     darken(canvas, rect, ground)
     canvas.fix(rect)
 
 
 def darken(canvas, rect, ground=(20, 16, 32, 205)):
-    """A dark see-through ground in a picture."""
+    """Draw a dark transparent ground in a picture."""
     shade = pygame.Surface(pygame.Rect(rect).size, pygame.SRCALPHA)
     shade.fill(ground)
     canvas.surface.blit(shade, rect[:2])

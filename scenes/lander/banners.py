@@ -1,4 +1,4 @@
-"""Banners across the picture: the act's title, what a landing was worth, the end."""
+"""Banners across the picture: the act's title, the points of a landing, the end."""
 
 from math import inf
 
@@ -14,11 +14,11 @@ MEDAL = {"GOLD": GOLD, "SILVER": (206, 214, 230), "BRONZE": (226, 150, 92)}
 TITLE_TOP, LANDED_TOP, CLEARED_TOP = 28, 28, 34
 TITLE_HIGH, LANDED_HIGH = 80, 62  # [px] of their bands
 ROW, COLUMN = 13, 78  # [px] between two lines, and two columns
-SMOKE = 40  # steps that the last landing is left to be seen
+SMOKE = 40  # steps for which the last landing stays visible
 
 
 def draw_banners(canvas, scene):
-    """At most one of them at a time."""
+    """Draw one banner at most."""
     course = scene.course
     if course.mode == LOST:
         banner(canvas, "GAME OVER", _summary(scene), RED)
@@ -33,7 +33,7 @@ def draw_banners(canvas, scene):
 
 
 def covered(scene):
-    """The rect [canvas px] that a banner takes now, of no height where there is none."""
+    """Return the rect of the current banner [canvas px], of height 0 if there is none."""
     course = scene.course
     if course.mode == FLYING:
         high = TITLE_HIGH if scene.spectacle.act_since < TITLE else 0
@@ -44,7 +44,7 @@ def covered(scene):
 
 
 def _draw_title(canvas, scene):
-    """The act slides in from the left, its name from the right; how to do it stands below."""
+    """Draw the act's title, sliding in from the left, its name, from the right, and the instructions below."""
     course = scene.course
     share = eased(scene.spectacle.act_since, TITLE)
     middle, width = canvas.rect.centerx, canvas.rect.width
@@ -59,7 +59,7 @@ def _draw_title(canvas, scene):
 
 
 def _draw_landed(canvas, scene):
-    """What the landing gave, line by line; the tanks are filled meanwhile."""
+    """Draw the points of a landing, line by line, while the tanks are filled."""
     course = scene.course
     share = eased(course.since, CHEER)
     band(canvas, LANDED_TOP, whole(LANDED_HIGH * share))
@@ -73,7 +73,7 @@ def _draw_landed(canvas, scene):
 
 
 def _draw_bonuses(canvas, scene):
-    """The end of the course: one line after another."""
+    """Draw the end of the course, one line after another."""
     course = scene.course
     share = eased(course.since - SMOKE, inf)
     band(canvas, CLEARED_TOP, whole(178 * share))

@@ -1,4 +1,4 @@
-"""What is written over the picture: points, ships, the site, instruments, wind, a chart of the moon."""
+"""Words over the picture: points, ships, the site, instruments, wind, a chart of the moon."""
 
 from functools import lru_cache
 from math import hypot
@@ -20,16 +20,16 @@ CHART = (480 - MARGIN - 130, 230, 130, 34)
 WIND = (480 - MARGIN - 130, 217, 130, 12)
 GLASS = (14, 12, 26, 178)
 BAR = 76  # [px]
-NEWS = 252  # steps that the site's name stands on top after its banner
+NEWS = 252  # steps that the site's name stays on top after its banner
 FADE = 0.55  # [s] after which a rising word is written darker
 HELD = ((0, 0, 130, 30), (350, 0, 130, 30), (0, 220, 200, 50), (340, 214, 140, 56), (130, 0, 220, 20))
-SLOWEST_WIND = 8.0  # [px/s] less is a calm
+SLOWEST_WIND = 8.0  # [px/s] less wind is shown as calm
 FULL_WIND = 190.0
 EDGE = 18  # [px] from the picture's edge to the arrow towards a site out of sight
 
 
 def draw_words(canvas, scene, view, covered):
-    """Words that rise from what happened. `view`: world point at the picture's corner; `covered`: a banner's rect."""
+    """Draw the words that rise from events. `view`: world point at the picture's corner; `covered`: a banner's rect."""
     for rect in (*HELD, covered):
         canvas.reserve(rect)
     left, top = view
@@ -39,7 +39,7 @@ def draw_words(canvas, scene, view, covered):
 
 
 def draw_board(canvas, scene, view):
-    """The fixed words and instruments."""
+    """Draw the fixed words and the instruments."""
     _draw_score(canvas, scene)
     _draw_ships(canvas, scene)
     _draw_site(canvas, scene, view)
@@ -77,7 +77,7 @@ def _draw_ships(canvas, scene):
 
 
 def _draw_site(canvas, scene, view):
-    """Where to land; an arrow at the picture's edge while that is out of sight."""
+    """Draw a mark at the landing site, or an arrow at the picture's edge while the site is out of view."""
     course, ship = scene.course, scene.ship
     if course.over or scene.spectacle.act_since < NEWS:
         if not course.over:
@@ -114,7 +114,7 @@ def _draw_arrow(canvas, scene, view):
 
 
 def _draw_stock(canvas, scene):
-    """Fuel, hull, shells."""
+    """Draw fuel, hull and shells."""
     ship, atlas, gain = scene.ship, load_atlas("lander"), scene.spectacle.gain
     left, top, _, _ = PANEL
     canvas.surface.blit(glass(PANEL[2:]), PANEL[:2])
@@ -141,7 +141,7 @@ def _draw_stock(canvas, scene):
 
 
 def _bar(surface, rect, share, color, gain):
-    """A bar with a light upper edge and ticks at each quarter."""
+    """Draw a bar with a light upper edge and ticks at each quarter."""
     left, top, width, height = rect
     surface.fill(INK, rect)
     long = round((width - 2) * max(0.0, min(share, 1.0)))
@@ -155,7 +155,7 @@ def _bar(surface, rect, share, color, gain):
 
 
 def _draw_dials(canvas, scene):
-    """Sinking, drifting, leaning: green is good enough to land with."""
+    """Draw sinking, drift and lean: green is good enough for a landing."""
     ship = scene.ship
     left, top, _, _ = DIALS
     canvas.surface.blit(glass(DIALS[2:]), DIALS[:2])
@@ -175,12 +175,12 @@ def _draw_dials(canvas, scene):
 
 
 def judged(value, good, fair):
-    """The colour of a value: green up to `good`, gold up to `fair`, red beyond."""
+    """Return the colour of a value: green up to `good`, gold up to `fair`, red beyond."""
     return GOOD if value <= good else FAIR if value <= fair else RED
 
 
 def _draw_wind(canvas, scene):
-    """An arrow as long as the wind is strong."""
+    """Draw an arrow whose length shows the strength of the wind."""
     left, top, width, height = WIND
     canvas.surface.blit(glass((width, height)), (left, top))
     canvas.fix(WIND)
@@ -201,7 +201,7 @@ def _draw_wind(canvas, scene):
 
 
 def _draw_chart(canvas, scene, view):
-    """The whole moon, small: sites, cargo, the ship."""
+    """Draw the whole moon, small: sites, cargo, the ship."""
     left, top, width, height = CHART
     surface, moon = canvas.surface, scene.moon
     surface.blit(chart((width, height)), (left, top))
@@ -232,7 +232,7 @@ def _draw_chart(canvas, scene, view):
 
 
 def chevron(surface, x, y):
-    """A mark over the pad to land on."""
+    """Draw a mark over the pad to land on."""
     for row in range(6):
         surface.fill(INK, (x - 7 + row, y + row - 1, 15 - 2 * row, 3))
     for row in range(5):
@@ -240,7 +240,7 @@ def chevron(surface, x, y):
 
 
 def hook_mark(surface, x, y, inside):
-    """A mark over cargo: bright when the line would reach it."""
+    """Draw a mark over cargo, bright if the line would reach it."""
     color = GOOD if inside else PAPER
     for row in range(5):
         surface.fill(INK, (x - 5 + row, y + row - 1, 11 - 2 * row, 3))
@@ -250,7 +250,7 @@ def hook_mark(surface, x, y, inside):
 
 @lru_cache(maxsize=8)
 def glass(size):
-    """The ground of an instrument: dark, half clear, with a thin edge."""
+    """Return the ground of an instrument: dark, half transparent, with a thin edge."""
     out = pygame.Surface(size, pygame.SRCALPHA)
     out.fill(GLASS)
     pygame.draw.rect(out, (*SLATE, 130), (0, 0, *size), 1)
@@ -259,7 +259,7 @@ def glass(size):
 
 @lru_cache(maxsize=2)
 def chart(size):
-    """The moon's outline in little."""
+    """Return the moon's outline, small."""
     moon = the_moon()
     out = glass(size).copy()
     width, height = size[0] - 2, size[1] - 2

@@ -1,13 +1,13 @@
-"""The course: three sites as three acts, what a landing is, and how a game ends.
+"""The course: three sites as three acts, landings, and the end of a game.
 
-`scene.result` is set once, at the very end; the world goes on behind it.
+`scene.result` is set once, at the very end; the world continues behind it.
 """
 
 from game.drawing.number_text import count_text
 from game.scene import Result
 from scenes.lander.feel import FUEL, HULL, REARM, REFUEL, REPAIR, SETTLED, SHELLS, STRANDED, steps
 
-FORGOTTEN = steps(0.6)  # steps in the air after which a knock belongs to no landing
+FORGOTTEN = steps(0.6)  # steps in the air after which a knock no longer counts for a landing
 TITLE = steps(4.2)  # steps that the name of an act is shown
 CHEER = steps(3.2)  # steps that a landing's points are shown
 FIRST_BONUS, NEXT_BONUS, SHOWN = steps(2.2), steps(0.5), steps(2.0)  # after the last landing; between two; at the end
@@ -15,15 +15,17 @@ FLYING, LANDED, CLEARED, WON, LOST = "flying", "landed", "cleared", "won", "lost
 
 
 class Course:
-    """`act` 0..2 chooses the site; `mode` is one of the five above, `since` counts its steps; `rest` those at rest."""
+    """State of the course. `act` 0..2 is the site; `mode` is one of the five above, `since` counts its steps; `rest`:
+    steps at rest.
+    """
 
     def __init__(self, moon):
         self.moon = moon
         self.act, self.mode, self.since, self.rest, self.stranded = 0, FLYING, 0, 0, 0
-        self.touchdown = 0.0  # [px/s] the fastest that it came upon something since it was in the air last
-        self.airborne = 0  # [steps] that it touches nothing
+        self.touchdown = 0.0  # [px/s] greatest impact speed since it was last in the air
+        self.airborne = 0  # [steps] without contact
         self.clock = 0  # [steps] of the run, until the last landing
-        self.counted = []  # (what for, points) of the last landing, or of the end so far
+        self.counted = []  # (reason, points) of the last landing, or of the end so far
 
     @property
     def site(self):
@@ -32,14 +34,14 @@ class Course:
 
     @property
     def over(self):
-        """True when there is nothing left to fly for."""
+        """True once there is nothing left to fly for."""
         return self.mode in (CLEARED, WON, LOST)
 
     def _enter(self, mode):
         self.mode, self.since = mode, 0
 
     def step(self, scene):
-        """After the world's step."""
+        """Update the course after the world's step."""
         self.since += 1
         self.clock += self.mode in (FLYING, LANDED)
         if self.mode == LANDED and self.since >= CHEER:
@@ -52,11 +54,11 @@ class Course:
             self._watch(scene)
 
     def touched(self, speed):
-        """The ship came upon something at a speed [px/s]."""
+        """Record a contact of the ship at a speed [px/s]."""
         self.touchdown = max(self.touchdown, speed)
 
     def _watch(self, scene):
-        """Has it landed, and where; is it stuck."""
+        """Check for a landing, and for a ship that is stuck."""
         ship = scene.ship
         self.airborne = 0 if ship.touching else self.airborne + 1
         if self.airborne == FORGOTTEN:
@@ -77,7 +79,7 @@ class Course:
             scene.result = self._result(scene, won=False)
 
     def _serve(self, scene, ship):
-        """A pad fills, mends and loads."""
+        """Refuel, repair and rearm the ship on a pad."""
         filling = ship.fuel < FUEL or ship.hull < HULL
         ship.fuel, ship.hull = min(ship.fuel + REFUEL, FUEL), min(ship.hull + REPAIR, HULL)
         if self.rest % REARM == 0 and ship.shells < SHELLS:
@@ -117,7 +119,7 @@ class Course:
         return Result(won, score.points, self.clock / 60, lines)
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (
             self.act,
             self.mode,

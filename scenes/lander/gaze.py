@@ -1,16 +1,16 @@
-"""Where the camera looks: at the ship, and ahead of it."""
+"""Camera: it follows the ship and looks ahead of it."""
 
 from game.drawing.canvas import CANVAS_SIZE
 
-AHEAD_X, AHEAD_Y = 0.55, 0.45  # [s] of the ship's way that it looks ahead
-MOST_X, MOST_Y = 96.0, 62.0  # [px] and no farther
-BELOW = 14.0  # [px] more is seen under the ship than over it
-EASE, RATE = 2.6, 7.0  # [1/s] of the look ahead, and of the way there
-TOP = -150.0  # [px] the highest that is seen
+AHEAD_X, AHEAD_Y = 0.55, 0.45  # [s] of the ship's motion that it looks ahead
+MOST_X, MOST_Y = 96.0, 62.0  # [px] at most
+BELOW = 14.0  # [px] by which more is visible under the ship than over it
+EASE, RATE = 2.6, 7.0  # [1/s] of the look ahead, and of the camera's motion
+TOP = -150.0  # [px] the highest visible point
 
 
 class Gaze:
-    """Moves the scene's camera."""
+    """Mover of the scene's camera."""
 
     def __init__(self, camera, ship, moon):
         self.camera, self.ship = camera, ship
@@ -19,7 +19,7 @@ class Gaze:
         camera.center_on(ship.x, ship.y + BELOW)
 
     def step(self, dt):
-        """Once per step."""
+        """Move the camera. Call it once per step."""
         ship = self.ship
         if ship.here:
             share = min(EASE * dt, 1.0)
@@ -29,10 +29,10 @@ class Gaze:
 
 
 def limited(value, most):
-    """No farther from 0 than `most`."""
+    """Return the value limited to `most` from 0."""
     return max(-most, min(value, most))
 
 
 def sees(camera, x, y, margin):
-    """Whether a place is in the picture, or so near to it [px]."""
+    """Return whether a place is in the picture, or at most `margin` away [px]."""
     return -margin < x - camera.x < CANVAS_SIZE[0] + margin and -margin < y - camera.y < CANVAS_SIZE[1] + margin

@@ -1,4 +1,4 @@
-"""What a flight by the bot must show, and by when."""
+"""Goals of a flight by the bot, with deadlines."""
 
 from game.scene import Goal
 from scenes.lander.course import WON
@@ -8,7 +8,7 @@ CLEARED = 10500
 
 
 def goals(scene):
-    """A list of Goal."""
+    """Return a list of Goal."""
     score, course = scene.score, scene.course
     return [
         *(

@@ -1,4 +1,4 @@
-"""The gun: shells fly from the nose and burst where they touch. What is near a burst is thrown away from it."""
+"""The gun: shells fly from the nose and burst on contact. A burst pushes bodies nearby away."""
 
 from math import hypot
 
@@ -7,14 +7,14 @@ from scenes.lander.feel import MUZZLE, PUSH, PUSH_REACH, SHELL, SHELL_LIFE, SHEL
 
 
 class Gun:
-    """`shells`: body id -> steps it still flies."""
+    """The gun. `shells`: body id -> steps it still flies."""
 
     def __init__(self, world):
         self.world = world
         self.shells = {}
 
     def fire(self, ship):
-        """One shell, and its recoil."""
+        """Fire one shell, with its recoil."""
         x, y = ship.nose
         body = self.world.add_body(
             Circle(SHELL_RADIUS),
@@ -29,12 +29,12 @@ class Gun:
         ship.body.apply_impulse((-SHELL_MASS * SHELL_SPEED * x, -SHELL_MASS * SHELL_SPEED * y))
 
     def step(self):
-        """They grow old. Returns the ids of those whose time is over."""
+        """Age the shells. Return the ids of those whose time is over."""
         self.shells = {identity: left - 1 for identity, left in self.shells.items()}
         return [identity for identity, left in self.shells.items() if left <= 0]
 
     def bursts(self, begun):
-        """{shell id: place [px]} of those that touched something, from the step's events."""
+        """Return {shell id: place [px]} of those that touched a body, from the step's events."""
         found = {}
         columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
         for a, b, x, y in zip(*columns, strict=True):
@@ -44,12 +44,12 @@ class Gun:
         return found
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (*self.shells, *self.shells.values())
 
 
 def blown(body, x, y):
-    """The velocity [px/s] that a burst at a place gives a body: (vx, vy, speed), all 0 out of its reach."""
+    """Return the velocity [px/s] that a burst gives a body: (vx, vy, speed), all 0 out of its range."""
     dx, dy = body.center.x - x, body.center.y - y
     far = hypot(dx, dy)
     speed = PUSH * max(1.0 - far / PUSH_REACH, 0.0)

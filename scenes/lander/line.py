@@ -1,6 +1,6 @@
-"""The line: a rope with a claw that pulls and never pushes. What hangs on it swings.
+"""The line: a rope with a claw, which pulls but never pushes. Its load swings.
 
-Its pull is a damped spring once it is longer than LINE. It acts at both centres of mass, so it tips no ship over.
+Its pull is a damped spring once it is longer than LINE. It acts at both centres of mass, so it causes no torque.
 """
 
 from math import hypot, pi
@@ -10,14 +10,14 @@ from scenes.lander.feel import LINE, LINE_DAMPING, LINE_RATE, REACH, SNAP
 
 
 class Line:
-    """`load`: the body that hangs on it, None while it is rolled up. `torn`: it broke in this step."""
+    """The line. `load`: the body on it, None while it is retracted. `torn`: it broke in this step."""
 
     def __init__(self):
         self.load: Any = None
         self.torn = False
 
     def toggle(self, ship, loose):
-        """Catch the nearest of some bodies within reach, or let go. Returns "caught", "let go" or "missed"."""
+        """Catch the nearest of some bodies within reach, or let go. Return "caught", "let go" or "missed"."""
         if self.load is not None:
             self.load = None
             return "let go"
@@ -59,5 +59,5 @@ class Line:
             self.load = None
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (-1 if self.load is None else self.load.id,)

@@ -1,4 +1,4 @@
-"""The moon's plan: its pictures, the pads, and where all that is loose lies. Nothing here changes in a game."""
+"""The moon's plan: its pictures, the pads, and the places of all loose things. It is constant during a game."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -34,7 +34,7 @@ class Pad:
 
 @dataclass(frozen=True)
 class Wind:
-    """From the left up to the column `until`: a steady wind and the most that a gust adds [px/s]."""
+    """Wind from the left up to the column `until`: a steady wind and the most that a gust adds [px/s]."""
 
     until: float
     steady: float
@@ -43,8 +43,9 @@ class Wind:
 
 @dataclass(frozen=True)
 class Waypoint:
-    """A place [px] on the bot's way; `until`: the place up to where the way must be free before it goes on;
-    `take`: the number of the cargo that it takes along from there."""
+    """A place [px] on the bot's path. `until`: the place up to which the path must be free before it continues; `take`:
+    number of the cargo that it picks up there.
+    """
 
     at: tuple
     until: tuple = ()
@@ -52,7 +53,9 @@ class Waypoint:
 
 
 class Moon:
-    """`mask`: the ground as one PixelMask with its origin at the world's; `solid` and `massif` bool [row, column]."""
+    """The moon. `mask`: the ground as one PixelMask with its origin at the world's; `solid` and `massif` bool [row,
+    column].
+    """
 
     def __init__(self):
         plan = read_json(PLAN)
@@ -69,24 +72,24 @@ class Moon:
         self.picture, self.wall = load_backdrop("lander_ground"), load_backdrop("lander_wall")
         self.mask = PixelMask.from_surface(self.picture, origin=(0, 0))
         self.solid = self.mask.solid
-        self.tiles = self.mask.tiles  # made here, or the first shell would have to wait for them
+        self.tiles = self.mask.tiles  # made here, so that the first shell does not wait for them
         self.massif = np.ascontiguousarray((pygame.surfarray.pixels_alpha(self.wall) > 0).T)
 
     def __deepcopy__(self, memo):
-        """A copy of a scene lies on the same moon."""
+        """Return itself: a copy of a scene shares the moon."""
         return self
 
     def is_inside(self, x, y):
-        """Whether a place [px] is in the mountain, in rock or in a cave: no wind is felt there."""
+        """Return whether a place [px] is in the mountain, in rock or in a cave, where there is no wind."""
         column, row = int(x), int(y)
         return 0 <= column < self.width and 0 <= row < self.height and bool(self.massif[row, column])
 
     def wind_at(self, x):
-        """The Wind of a column."""
+        """Return the Wind of a column."""
         return next((wind for wind in self.winds if x < wind.until), self.winds[-1])
 
 
 @lru_cache(maxsize=1)
 def the_moon():
-    """The one Moon; made when a scene is."""
+    """Return the one Moon, made with the first scene."""
     return Moon()

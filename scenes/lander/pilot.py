@@ -1,7 +1,7 @@
-"""The bot: from waypoint to waypoint by a wanted velocity, the thrust that this needs, and the turn that thrust needs.
+"""The bot: it flies from waypoint to waypoint by a target velocity, the thrust for it, and the turn for the thrust.
 
-The engine is either on or off, so it is on whenever at least half of its thrust is called for. Where ice is in the way
-it hovers, turns its nose to it, and fires until a ship fits through.
+The engine is either on or off, so it is on whenever at least half of its thrust is needed. If ice is in its path the
+bot hovers, turns its nose to it, and fires until a ship fits through.
 """
 
 from math import atan2, hypot, sqrt
@@ -10,40 +10,40 @@ from typing import Any
 from scenes.lander.feel import DRAG, FUEL, HULL, REACH, SHIP_MASS, THRUST, TURN_LOSS
 from scenes.lander.ship import STAND, wrapped
 
-CRUISE, SLOWEST, SINK = 105.0, 26.0, 62.0  # [px/s] along the way, at a turn of it, and down to a pad
-BRAKING = 26.0  # [px/s2] that it counts on
-TOUCH = 15.0  # [px/s] of the touchdown
-GAIN = 2.2  # [1/s] how strongly a wrong velocity is corrected
-NEARLY = 0.03  # [rad] off it turns no more
-LEAN = 0.85  # [rad] and no more while flying
-NEAR, AT = 34.0, 16.0  # [px] a waypoint is passed; it is there
+CRUISE, SLOWEST, SINK = 105.0, 26.0, 62.0  # [px/s] along the path, at a turn of it, and down to a pad
+BRAKING = 26.0  # [px/s2] that it assumes
+TOUCH = 15.0  # [px/s] touchdown speed
+GAIN = 2.2  # [1/s] correction per error of velocity
+NEARLY = 0.03  # [rad] error at which it stops turning
+LEAN = 0.85  # [rad] greatest lean in flight
+NEAR, AT = 34.0, 16.0  # [px] distance at which a waypoint is passed; at which it is reached
 STEADY = 16.0  # [px/s] slow enough to turn and fire
-AIMED, SLIPPED = 7.0, 24.0  # [px] beside its aim it fires; [px] away from its place it gives up for now
-OVER, UPON = 13.0, 16.0  # [px], [px/s] off a pad's middle, and drifting, with which it sinks
-SIDES = (0.0, -9.0, 9.0, -19.0, 19.0)  # [px] beside the way that must be free for a ship
-LOOKS = 6  # steps between two looks at what is in the way
-FALLING = 60.0  # [px/s] it gives up aiming
+AIMED, SLIPPED = 7.0, 24.0  # [px] error of aim at which it fires; [px] drift at which it stops aiming
+OVER, UPON = 13.0, 16.0  # [px], [px/s] offset and drift over a pad with which it sinks
+SIDES = (0.0, -9.0, 9.0, -19.0, 19.0)  # [px] offsets of the rays along its path that must be free
+LOOKS = 6  # steps between two checks for obstacles
+FALLING = 60.0  # [px/s] at which it stops aiming
 LOADED, LOADED_LEAN = 62.0, 0.45  # [px/s], [rad] with a load, which swings
-OVER_CARGO, ASTRAY = 44.0, 90.0  # [px] over cargo it throws the line; cargo so far from its place is left alone
-ASIDE, GENTLY = 84.0, 7.0  # [px] over a pad it waits for cargo to go; [px/s] with which cargo stands
-ROOM, MOVES = 40.0, 10.0  # [px] around its way in which rubble must not be falling, [px/s]
+OVER_CARGO, ASTRAY = 44.0, 90.0  # [px] over cargo at which it throws the line; cargo farther from its place is ignored
+ASIDE, GENTLY = 84.0, 7.0  # [px] over a pad at which it waits for cargo to go; [px/s] speed for setting cargo down
+ROOM, MOVES = 40.0, 10.0  # [px] around its path that must be free of falling rubble, [px/s]
 STUCK, BACKING = 40, 70  # steps
-BACK_OFF = ((24.0, -48.0), (-24.0, -48.0))  # [px/s] from what is on its left, on its right
+BACK_OFF = ((24.0, -48.0), (-24.0, -48.0))  # [px/s] from an obstacle on its left, on its right
 WAIT = 22  # steps between two shells
 
 
 class Pilot:
-    """`act` and `number` name the waypoint that it flies to; `aiming` while its nose is turned to the ice."""
+    """The bot. `act` and `number` name its waypoint; `aiming` while its nose is turned to the ice."""
 
     def __init__(self):
         self.act = self.number = self.wait = 0
         self.aiming = False
-        self.leant = 0  # steps that it touches something, and then those that it backs off
-        self.loaded = False  # whether something hangs on the line
-        self.blocked: Any = None  # the place of what is in the way
+        self.leant = 0  # steps in contact, and then steps of backing off
+        self.loaded = False  # whether the line has a load
+        self.blocked: Any = None  # the place of the obstacle
 
     def keys(self, scene):
-        """The actions to hold in the next step."""
+        """Return the actions to hold in the next step."""
         ship, course = scene.ship, scene.course
         if not ship.here or course.over:
             self.number, self.aiming = 0, False
@@ -70,15 +70,15 @@ class Pilot:
         return self._steer(scene, *self._towards(ship, point.at, last=bool(point.until) or self.number == len(way) - 1))
 
     def _is_stuck(self, scene):
-        """Whether it has leant against something for so long that it backs off: rubble lies where it likes."""
+        """Return whether it has been in contact for so long that it backs off; rubble may lie anywhere."""
         self.leant = self.leant + 1 if scene.ship.touching or self.leant > STUCK else 0
         if self.leant > STUCK + BACKING:
-            # And then the last part of the way once more.
+            # Then repeat the last part of the path.
             self.leant, self.number = 0, max(self.number - 1, 0)
         return self.leant > STUCK
 
     def _waits(self, scene):
-        """On a pad until it is filled, and while a landing is celebrated."""
+        """Return whether it waits: on a pad until it is filled, and while a landing is celebrated."""
         ship, course = scene.ship, scene.course
         if scene.pad_below() is None or not ship.quiet:
             return False
@@ -117,7 +117,7 @@ class Pilot:
         if load is not None:
             high = max(pad.y - load.bounds[3], 0.0)
         elif any(piece.over is pad for piece in scene.yard.cargo.values()):
-            # Cargo has just been set down: it is gone in a moment.
+            # Cargo was just set down and will be gone in a moment.
             return 0.7 * dx, pad.y - ASIDE - ship.y
         wanted_x = max(-40.0, min(dx * 0.9, 40.0))
         if (abs(dx) > OVER or abs(ship.vx) > UPON) and high > 14.0:
@@ -128,7 +128,7 @@ class Pilot:
     # --- cargo -------------------------------------------------------------------------------------------------------
 
     def _take(self, scene, piece):
-        """Over the piece, slowly, and then the line."""
+        """Return the keys over a piece of cargo: slow down, then throw the line."""
         ship = scene.ship
         x, y = piece.body.position
         keys = self._steer(scene, *self._towards(ship, (x, y - OVER_CARGO), last=True))
@@ -139,7 +139,7 @@ class Pilot:
         return keys | {"bomb"}
 
     def _sets_down(self, scene, pad):
-        """Whether to let go in this step: the cargo stands on the pad."""
+        """Return whether to let go in this step, because the cargo stands on the pad."""
         load = scene.line.load
         if load is None or self.wait or pad.y - load.bounds[3] > 2.0 or load.velocity.length > GENTLY:
             return False
@@ -149,7 +149,7 @@ class Pilot:
     # --- keys --------------------------------------------------------------------------------------------------------
 
     def _steer(self, scene, wanted_x, wanted_y):
-        """Keys that bring the ship to a velocity [px/s]."""
+        """Return the keys that bring the ship to a velocity [px/s]."""
         ship = scene.ship
         heavy = 1.0 if scene.line.load is None else 1.0 + scene.line.load.mass / SHIP_MASS
         push_x = GAIN * (wanted_x - ship.vx) + DRAG * (ship.vx - scene.weather.wind)
@@ -168,7 +168,7 @@ class Pilot:
         return {"right"} if off > NEARLY else {"left"} if off < -NEARLY else set()
 
     def _shoot(self, scene, point, x, y):
-        """Keys to aim at what is in the way at a place, and fire; None while it has to fly back to its place first."""
+        """Return the keys to aim at an obstacle and fire; None while it has to fly back to its place first."""
         ship = scene.ship
         if not self.aiming:
             slow = ship.speed < STEADY
@@ -180,7 +180,7 @@ class Pilot:
         wanted = atan2(x - ship.x, ship.y - y)
         keys = self._turn(ship, wanted)
         if abs(ship.angle) < LEAN and ship.vy > point.at[1] - ship.y:
-            # Upright enough to keep its height meanwhile.
+            # Upright enough to keep its height.
             keys.add("up")
         if abs(wrapped(wanted - ship.angle)) * hypot(x - ship.x, y - ship.y) < AIMED and not self.wait:
             self.wait = WAIT
@@ -189,7 +189,7 @@ class Pilot:
 
 
 def falls(scene, point):
-    """Whether rubble is on its way down where the bot is about to go: it lets that pass."""
+    """Return whether rubble is falling into the bot's path, so that it waits."""
     (x, y), (end_x, end_y) = point.at, point.until
     left, right = min(x, end_x) - ROOM, max(x, end_x) + ROOM
     return any(
@@ -199,7 +199,7 @@ def falls(scene, point):
 
 
 def obstacle(ground, start, end):
-    """The nearest place [px] at which a ship on a straight way meets ground; None where it fits through."""
+    """Return the nearest place [px] at which a ship on a straight path meets ground; None if it fits through."""
     dx, dy = end[0] - start[0], end[1] - start[1]
     far = hypot(dx, dy)
     dx, dy = dx / far, dy / far

@@ -1,6 +1,6 @@
-"""Rubble: pieces of the ground and of rocks that came loose. Each is drawn with the pixels that it had there.
+"""Rubble: loose pieces of the ground and of rocks. Each is drawn with its original pixels.
 
-`source`: the place [px] in a picture of its raster's top left: of the moon's, or of the rock that it was a piece of.
+`source`: the place [px] of its raster's top left in a picture: that of the moon, or of the rock that it came from.
 """
 
 from dataclasses import dataclass
@@ -11,25 +11,25 @@ from scenes.lander.feel import CRUMB, LOOSE
 
 @dataclass(frozen=True)
 class Piece:
-    """`look`: the frame of a rock, or "ground"; `source`: (x, y) in its picture [px]."""
+    """A loose piece. `look`: the frame of a rock, or "ground"; `source`: (x, y) in its picture [px]."""
 
     look: str
     source: tuple[int, int]
 
 
 class Rubble:
-    """`pieces`: a Piece by body id: the rocks that lie about from the start, and all that was blown off."""
+    """The rubble. `pieces`: a Piece by body id: the rocks present at the start, and all that was blown off."""
 
     def __init__(self, world):
         self.world = world
         self.pieces = {}
 
     def add_rock(self, body, look):
-        """A loose rock, whole."""
+        """Add a loose whole rock."""
         self.pieces[body.id] = Piece(look, (0, 0))
 
     def add_ground(self, bodies):
-        """Pieces of the ground, just come loose: they have not moved yet."""
+        """Add pieces of the ground that have just come loose and have not moved yet."""
         for body in bodies:
             (mask,) = body.shapes
             x, y = body.position
@@ -40,11 +40,11 @@ class Rubble:
         self.pieces[body.id] = Piece(look, source)
 
     def bodies(self):
-        """Of all pieces, in the order of their ids."""
+        """Return the bodies of all pieces, in the order of their ids."""
         return [self.world.body(identity) for identity in sorted(self.pieces)]
 
     def carve(self, x, y, radius):
-        """A burst takes its part of the pieces that it reaches. Returns the ids of those of which nothing is left."""
+        """Carve a burst's disc out of the pieces in its range. Return the ids of those without pixels left."""
         gone = []
         for body in self.bodies():
             left, top, right, bottom = body.bounds
@@ -60,12 +60,12 @@ class Rubble:
         return gone
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return tuple(self.pieces)
 
 
 def _source(part, before, mask, parent):
-    """Where the raster of a piece of a piece begins in the picture that both are drawn from."""
+    """Return the place of a fragment's raster in the picture that both are drawn from."""
     (own,) = part.shapes
     x, y = parent.to_local(part.position)
     return (

@@ -1,4 +1,4 @@
-"""Pictures of rubble: each piece is its own pixels, cut out of the picture of what it was a part of, at any angle."""
+"""Pictures of rubble: the pixels of each piece, cut out of the picture that it came from, at any angle."""
 
 from functools import lru_cache
 from math import cos, pi, sin
@@ -9,19 +9,19 @@ import pygame
 from game.drawing.canvas import whole
 from game.drawing.sprites import load_atlas
 
-ANGLES = 128  # pictures of a full turn
+ANGLES = 128  # pictures per full turn
 KEPT = 300  # pieces
 
 
 class RubblePictures:
-    """Kept by the mask that they show: a piece that is carved has another."""
+    """Pictures cached by mask: a carved piece has another mask."""
 
     def __init__(self, moon):
         self.moon = moon
         self.kept = {}  # body id -> (mask, Cut)
 
     def draw(self, surface, piece, body, x, y, angle):
-        """Draw a piece whose body's origin is at a place of the surface."""
+        """Draw a piece with its body's origin at a place of the surface."""
         (mask,) = body.shapes
         kept = self.kept.get(body.id)
         if kept is None or kept[0] is not mask:
@@ -29,14 +29,14 @@ class RubblePictures:
                 self.kept.clear()
             kept = self.kept[body.id] = (mask, Cut(self._cut_out(piece, mask)))
         image = kept[1].at(angle)
-        # The picture's middle, seen from the body's origin.
+        # The picture's centre relative to the body's origin.
         u, v = mask.size[0] / 2 - mask.origin[0], mask.size[1] / 2 - mask.origin[1]
         c, s = cos(angle), sin(angle)
         width, height = image.get_size()
         surface.blit(image, (whole(x + c * u - s * v - width / 2), whole(y + s * u + c * v - height / 2)))
 
     def _cut_out(self, piece, mask):
-        """Its pixels and no others, dark and lit where they broke off."""
+        """Return the picture of its pixels, dark and lit along the fracture."""
         width, height = mask.size
         source = self.moon.picture if piece.look == "ground" else load_atlas("lander")[piece.look]
         wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)
@@ -65,7 +65,7 @@ class Cut:
         self.turned = lru_cache(maxsize=ANGLES)(self._turned)
 
     def at(self, angle):
-        """Its picture turned clockwise by the nearest angle kept [rad]."""
+        """Return the picture rotated clockwise by the nearest cached angle [rad]."""
         return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
 
     def _turned(self, number):
@@ -73,6 +73,6 @@ class Cut:
 
 
 def _beside(gone):
-    """The pixels that have one of these on one of their four sides."""
+    """Return the pixels that have one of these on one of their four sides."""
     padded = np.pad(gone, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

@@ -1,4 +1,4 @@
-"""The lander: rules. Keys turn and thrust; what a knock costs is read from its impulse."""
+"""The lander's rules. Keys turn and thrust; the damage of a knock follows from its impulse."""
 
 from game.scene import STEP_SECONDS, Scene, Slider
 from physics import Effects
@@ -20,7 +20,7 @@ from scenes.lander.yard import Yard
 
 
 class Lander(Scene):
-    """Every knock of the ship and of the cargo is an impulse that the solver found."""
+    """The lander. Knocks of the ship and of the cargo are impulses of the solver."""
 
     name = "lander"
     title = "Lander"
@@ -57,7 +57,7 @@ class Lander(Scene):
     assists = ("invincible",)
 
     def build(self):
-        """A ship on the base, and a moon."""
+        """Build a ship on the base, and a moon."""
         self.moon = the_moon()
         world = self.add_world(gravity=(0.0, self.values["gravity"]), drag=DRAG)
         self.ground = Ground(world, self.moon)
@@ -68,17 +68,17 @@ class Lander(Scene):
         self.course, self.score = Course(self.moon), Score()
         self.pilot, self.gaze = Pilot(), Gaze(self.camera, self.ship, self.moon)
         self.spectacle = Spectacle(self)
-        self.gone = []  # ids of bodies that go when the next step begins
+        self.gone = []  # ids of bodies that are removed when the next step begins
 
     def change_slider(self, name, value):
-        """Another gravity is felt at once."""
+        """Apply a changed gravity at once."""
         super().change_slider(name, value)
         self.world.gravity = (0.0, self.values["gravity"])
 
     # --- the step ----------------------------------------------------------------------------------------------------
 
     def update(self, inputs):
-        """The ship is steered, the world steps, and what happened is read from it."""
+        """Steer the ship, step the world, and read the events."""
         self._sweep()
         ship = self.ship
         if ship.here and not self.course.over:
@@ -116,7 +116,7 @@ class Lander(Scene):
             self.spectacle.line_used(self.line.toggle(ship, self.yard.light()))
 
     def _in_the_air(self):
-        """What gusts push: the ship unless it rests, and what hangs on its line."""
+        """Return the bodies that gusts push: the ship unless it rests, and the line's load."""
         ship, load = self.ship, self.line.load
         flying = ship.here and (ship.thrusting or not ship.quiet)
         return [body for body, blown_at in ((ship.body, flying), (load, load is not None)) if blown_at]
@@ -126,7 +126,7 @@ class Lander(Scene):
         if me is not None:
             begun = others(events.begin, me)
             if begun - self.ship.touching:
-                self.course.touched(self.ship.speed)  # as it was before this step
+                self.course.touched(self.ship.speed)  # before this step
             self.ship.touching |= begun
             self.ship.touching -= others(events.end, me)
             for identity in sorted(others(events.sensor_begin, me) & self.yard.cans.keys()):
@@ -144,7 +144,7 @@ class Lander(Scene):
             self._crash()
 
     def _knocks(self, hits):
-        """What knocked against what, how hard: the impulse over the mass is the change of velocity [px/s]."""
+        """Process the impacts. The impulse over the mass is the change of velocity [px/s]."""
         columns = (hits[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y", "normal_impulse"))
         for a, b, x, y, impulse in zip(*columns, strict=True):
             for identity in (a, b):
@@ -173,11 +173,11 @@ class Lander(Scene):
     # --- what happens ------------------------------------------------------------------------------------------------
 
     def pad_below(self):
-        """The Pad that the ship stands on, or None."""
+        """Return the Pad that the ship stands on, or None."""
         return next((self.yard.pads[each] for each in sorted(self.ship.touching) if each in self.yard.pads), None)
 
     def blast(self, x, y, radius):
-        """A burst: a crater, and what is near is thrown away from it."""
+        """Make a burst: a crater, and a push on bodies nearby."""
         self.spectacle.blast(x, y, radius)
         rubble = self.yard.rubble
         for identity in rubble.carve(x, y, radius):
@@ -196,12 +196,12 @@ class Lander(Scene):
                 self._hurt(speed, self.ship.x, self.ship.y)
 
     def _forget(self, identity):
-        """A body is there no more."""
+        """Drop all references to a removed body."""
         self.line.drop(identity)
         self.ship.touching.discard(identity)
 
     def give_up(self):
-        """Out of fuel, with nothing to be done about it."""
+        """Give up a ship without fuel that cannot move on."""
         self.spectacle.stranded()
         self.ship.hull = 0.0
         self._crash()
@@ -230,15 +230,15 @@ class Lander(Scene):
     # --- what the judge wants to know --------------------------------------------------------------------------------
 
     def check(self):
-        """All three sites, by the bot."""
+        """Return the goals: all three sites, by the bot."""
         return goals(self)
 
     def bot(self):
-        """The scripted player."""
+        """Return the scripted player."""
         return self.pilot.keys(self)
 
     def state(self):
-        """All that is not in the world."""
+        """Return all state outside the world."""
         parts = (self.ship, self.course, self.score, self.gun, self.line, self.weather, self.yard, self.ground)
         return (
             self.frame,
@@ -249,11 +249,11 @@ class Lander(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """The picture."""
+        """Draw the picture."""
         the_view().draw(self, canvas, alpha)
 
 
 def others(rows, identity):
-    """The bodies that share an event with `identity`."""
+    """Return the bodies that share an event with `identity`."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

@@ -1,25 +1,27 @@
-"""Points: what a landing and a delivery are worth, and what is added at the end; medals for the whole."""
+"""Points of landings, deliveries and the end; medals for the total."""
 
 from scenes.lander.feel import FUEL, HARD, HULL, SOFT
 
 LANDING, GENTLE, CENTRED, SPARED, WHOLE = 1000, 1500, 500, 1000, 500  # points, times the site's number
-DELIVERY = 4000  # for cargo that is whole
+DELIVERY = 4000  # for undamaged cargo
 CAN_WORTH = 200
 PAR, SECOND, LIFE, PURE = 300.0, 30, 3000, 5000  # [s] of a run; points per second left; per ship left; for no loss
 MEDALS = (("GOLD", 50000), ("SILVER", 34000), ("BRONZE", 0))
-OFF_CENTRE = 34.0  # [px] from a pad's middle that still counts a little
+OFF_CENTRE = 34.0  # [px] from a pad's middle up to which it still counts
 
 
 class Score:
-    """`points` in all; what happened is counted beside them."""
+    """Score. `points`: total; events are counted beside them."""
 
     def __init__(self):
         self.points = 0
         self.landings = self.delivered = self.lost = self.fired = self.cans = 0
-        self.softest = 999.0  # [px/s] of the touchdowns that counted
+        self.softest = 999.0  # [px/s] softest counted touchdown
 
     def land(self, number, speed, off, fuel, hull):
-        """A site is reached: [(what for, points)]. number: 1 for the first; speed [px/s] of the touchdown; off [px]."""
+        """Add a landing; return [(reason, points)]. number: 1 for the first site; speed [px/s] of the touchdown; off
+        [px].
+        """
         self.landings += 1
         self.softest = min(self.softest, speed)
         shares = (
@@ -34,20 +36,20 @@ class Score:
         return found
 
     def deliver(self, whole):
-        """Cargo lies on a pad, with `whole` 0..100 of it left. Returns what it is worth."""
+        """Add delivered cargo, with `whole` 0..100 of it left. Return its points."""
         self.delivered += 1
         worth = rounded(DELIVERY * (0.25 + 0.75 * whole / 100.0))
         self.points += worth
         return worth
 
     def take_can(self):
-        """A can of fuel."""
+        """Add a can of fuel; return its points."""
         self.cans += 1
         self.points += CAN_WORTH
         return CAN_WORTH
 
     def final(self, seconds, lives, cargo):
-        """[(what for, points)] of what the end is worth. lives: ships left; cargo: pieces that there were."""
+        """Return [(reason, points)] of the end. lives: ships left; cargo: number of pieces."""
         found = [("TIME", rounded(max(PAR - seconds, 0.0) * SECOND)), ("SHIPS LEFT", max(lives - 1, 0) * LIFE)]
         if not self.lost:
             found.append(("NO SHIP LOST", PURE))
@@ -56,7 +58,7 @@ class Score:
         return found
 
     def add(self, points):
-        """Take one of them in."""
+        """Add the points of one bonus."""
         self.points += points
 
     @property
@@ -65,10 +67,10 @@ class Score:
         return next(name for name, least in MEDALS if self.points >= least)
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (self.points, self.landings, self.delivered, self.lost, self.fired, self.cans, self.softest)
 
 
 def rounded(points):
-    """To whole tens."""
+    """Return the points rounded to tens."""
     return round(points / 10) * 10

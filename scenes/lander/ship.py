@@ -1,4 +1,4 @@
-"""The ship: it turns, thrusts, burns fuel and is hurt by knocks. Its picture's own pixels are its body."""
+"""The ship: it turns, thrusts, burns fuel and is damaged by knocks. Its body has its picture's pixels."""
 
 from math import cos, hypot, sin
 from typing import Any
@@ -33,18 +33,20 @@ from scenes.lander.feel import (
 )
 
 STAND = 16.0  # [px] from the ship's middle to its feet
-SIDES = 14.0  # [px] that it keeps from the world's left and right edge
+SIDES = 14.0  # [px] kept from the world's left and right edge
 HULL_MATERIAL = Material(friction=0.8, restitution=0.12)
 
 
 class Ship:
-    """`body` is None between two ships. `touching`: ids of what it touches. `away` counts the steps to the next."""
+    """The ship. `body` is None between two ships. `touching`: ids of bodies in contact. `away` counts the steps to the
+    next ship.
+    """
 
     def __init__(self, world, moon):
         self.world, self.moon = world, moon
         self.lives = LIVES
         self.body: Any = None
-        self.pad = moon.pads[0]  # where the next ship starts from
+        self.pad = moon.pads[0]  # start of the next ship
         self.fuel, self.hull, self.shells = FUEL, HULL, SHELLS
         self.x = self.y = self.angle = self.vx = self.vy = 0.0
         self.touching = set()
@@ -54,22 +56,22 @@ class Ship:
 
     @property
     def here(self):
-        """True while there is one."""
+        """True while there is a ship."""
         return self.body is not None
 
     @property
     def nose(self):
-        """The way it points, a unit vector."""
+        """Direction of the nose, a unit vector."""
         return sin(self.angle), -cos(self.angle)
 
     @property
     def speed(self):
-        """How fast it moves [px/s]."""
+        """Speed [px/s]."""
         return hypot(self.vx, self.vy)
 
     @property
     def quiet(self):
-        """At rest and upright on something."""
+        """True if it rests upright."""
         return (
             self.here
             and bool(self.touching)
@@ -79,7 +81,7 @@ class Ship:
         )
 
     def arrive(self):
-        """A ship stands on the pad that was reached last."""
+        """Place a ship on the last reached pad."""
         self.fuel, self.hull, self.shells = FUEL, HULL, max(self.shells, FEWEST_SHELLS)
         self.body = self.world.add_body(
             load_atlas("lander").mask("ship"),
@@ -94,14 +96,14 @@ class Ship:
         self.read()
 
     def read(self):
-        """Where it is and how it moves, from the world."""
+        """Read pose and motion from the world."""
         if self.body is not None:
             self.x, self.y = self.body.position
             self.vx, self.vy = self.body.velocity
             self.angle = wrapped(self.body.angle)
 
     def steer(self, inputs):
-        """Turn and thrust as the keys say."""
+        """Turn and thrust by the keys."""
         body = self.body
         self.turning = inputs.held("right") - inputs.held("left")
         self.thrusting = inputs.held("up") and self.fuel > 0.0
@@ -121,7 +123,7 @@ class Ship:
         self._stay_in_the_world(body)
 
     def _stay_in_the_world(self, body):
-        """No air above, and an end of the moon on both sides: gently back."""
+        """Push the ship gently back from the altitude limit and from both sides of the moon."""
         if self.y < CEILING:
             body.apply_force((0.0, SHIP_MASS * CEILING_PUSH * (CEILING - self.y)))
         for edge, way in ((SIDES, 1), (self.moon.width - SIDES, -1)):
@@ -129,7 +131,7 @@ class Ship:
                 body.apply_impulse((SHIP_MASS * (20.0 * way - self.vx), 0.0))
 
     def fires(self, inputs):
-        """Whether a shell leaves it in this step."""
+        """Return whether it fires a shell in this step."""
         if not inputs.held("fire") or self.cooldown or not self.shells:
             return False
         self.shells -= 1
@@ -137,13 +139,13 @@ class Ship:
         return True
 
     def knock(self, change):
-        """A knock changed its velocity by so much [px/s]. Returns what that cost of the hull."""
+        """Apply the damage of a change of velocity [px/s]. Return the loss of hull."""
         cost = min(max(change - HARMLESS, 0.0) * DAMAGE, self.hull)
         self.hull -= cost
         return cost
 
     def lose(self):
-        """It is gone. Returns the id of its body, which is to be removed."""
+        """Lose the ship. Return the id of its body, which is to be removed."""
         identity = self.body.id
         self.body = None
         self.touching = set()
@@ -153,7 +155,7 @@ class Ship:
         return identity
 
     def wait(self):
-        """A step without a ship. Returns True when the next one has come."""
+        """Count a step without a ship. Return whether the next one has come."""
         self.away = max(self.away - 1, 0)
         if self.away or not self.lives:
             return False
@@ -161,11 +163,11 @@ class Ship:
         return True
 
     def refuel(self):
-        """A can."""
+        """Take a can of fuel."""
         self.fuel = min(self.fuel + CAN, FUEL)
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (
             self.lives,
             -1 if self.body is None else self.body.id,
@@ -188,5 +190,5 @@ class Ship:
 
 
 def wrapped(angle):
-    """An angle within half a turn of 0 [rad]."""
+    """Return an angle within half a turn of 0 [rad]."""
     return (angle + 3.141592653589793) % 6.283185307179586 - 3.141592653589793

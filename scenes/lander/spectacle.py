@@ -1,4 +1,4 @@
-"""What the scene reports, as pictures, light, sounds: fire, dust, bursts, words. No rule reads any of it."""
+"""Effects of the scene's events: pictures, light and sound of fire, dust, bursts, words. No game rule reads them."""
 
 from math import cos, pi, sin
 
@@ -8,33 +8,33 @@ from scenes.shooter.fireworks import BLUE, DUST, FIRE, GOLD, SPARK, VAPOUR, Fire
 SNOW = ((246, 250, 255), (214, 226, 246), (160, 178, 214), (98, 112, 156))
 ICE = ((240, 255, 255), (170, 240, 246), (90, 190, 220), (44, 110, 160))
 STONE = ((150, 158, 190), (104, 112, 148), (70, 76, 110), (44, 46, 74))
-BELL = 13.0  # [px] from the ship's middle to where fire leaves it
-DOWNWASH = 64.0  # [px] below the bell, ground that near is blown at
+BELL = 13.0  # [px] from the ship's middle to the engine's bell
+DOWNWASH = 64.0  # [px] below the bell: ground that near is blown at
 HUM = 7  # steps between two starts of the engine's sound
 BEEPS = steps(1.1)  # between two beeps at low fuel
 ALARMS = steps(0.34)  # between two of the alarm
-KNOCK = 9.0  # [px/s] a softer one is not heard
-SMOKES = 45.0  # hull below which it smokes
+KNOCK = 9.0  # [px/s] a softer one is silent
+SMOKES = 45.0  # hull below which the ship smokes
 TINT = {"good": (170, 255, 190), "gold": (255, 226, 120), "bad": (255, 140, 120), "cold": (150, 226, 255)}
 
 
 class Spectacle:
-    """`works` flies about; the rest are clocks of what glows or is announced."""
+    """The effects. `works`: moving particles; the others are timers of lights and announcements."""
 
     def __init__(self, scene):
         self.scene = scene
         self.works = Fireworks(scene.particles)
         self.random = scene.particles.random
         self.time = 0.0
-        self.gusted = 0.0  # [px] that the wind has carried the snow
+        self.gusted = 0.0  # [px] motion of the snow by the wind
         self.act_since = 0  # steps since the act began
-        self.lit = 0  # steps that the ship is still white after a knock
-        self.pulse = self.gain = 0.0  # the score jumps when it grows, a bar when it is filled, 1..0
+        self.lit = 0  # steps that the ship stays white after a knock
+        self.pulse = self.gain = 0.0  # pulse of the score when it grows, of a bar when it is filled, 1..0
         self.shelter = 0.0  # 0 outside .. 1 deep in a cave
-        self.height = WARN_HEIGHT  # [px] from the ship's feet to the ground, as far as it is looked for
+        self.height = WARN_HEIGHT  # [px] from the ship's feet to the ground, up to a limit
 
     def step(self, dt):
-        """Everything ages."""
+        """Age all effects."""
         scene, ship = self.scene, self.scene.ship
         self.time += dt
         self.act_since += 1
@@ -53,7 +53,7 @@ class Spectacle:
         self.works.step(dt)
 
     def _engine(self, ship):
-        """Fire under the bell, and what it blows off the ground."""
+        """Emit fire under the bell, and dust from the ground."""
         scene = self.scene
         x, y = ship.nose
         self.height = scene.ground.clear_way(ship.x, ship.y + 17.0, 0.0, 1.0, WARN_HEIGHT)
@@ -97,7 +97,7 @@ class Spectacle:
                 )
 
     def _jet(self, ship, side):
-        """A puff of the small jet that turns it."""
+        """Emit a puff of the small jet that turns the ship."""
         across, down = cos(ship.angle), sin(ship.angle)
         self.scene.particles.burst(
             ship.x + 9 * side * across + 6 * down,
@@ -123,21 +123,21 @@ class Spectacle:
 
     @property
     def sinking(self):
-        """Too fast and too low."""
+        """True if it sinks too fast, too low."""
         return self.scene.ship.here and self.scene.ship.vy > WARN_SPEED and self.height < WARN_HEIGHT
 
     def _at(self, x):
-        """Where a sound comes from, on the canvas."""
+        """Return the canvas x of a sound."""
         return x - self.scene.camera.x
 
     # --- the course --------------------------------------------------------------------------------------------------
 
     def act_begins(self):
-        """The next site is named."""
+        """Announce the next site."""
         self.act_since = 0
 
     def landed(self, pad, last):
-        """A site is reached."""
+        """Show a landing at a site."""
         scene = self.scene
         self.pulse = 1.0
         for share in (-0.45, -0.2, 0.2, 0.45):
@@ -147,13 +147,13 @@ class Spectacle:
         scene.play("touchdown", volume=0.9)
 
     def served(self, rest):
-        """A pad fills the ship up."""
+        """Show the service of a pad."""
         self.gain = 1.0
         if rest % 12 == 0:
             self.scene.play("blip", self._at(self.scene.ship.x), 0.16)
 
     def arrived(self):
-        """The next ship stands on the pad."""
+        """Show the next ship on the pad."""
         ship = self.scene.ship
         self.works.ring(ship.x, ship.y, 50.0)
         self.works.sparks(ship.x, ship.y, 30, BLUE, 130)
@@ -162,7 +162,7 @@ class Spectacle:
     # --- knocks ------------------------------------------------------------------------------------------------------
 
     def ship_knocked(self, x, y, change, cost):
-        """The ship knocked against something: the harder, the more is seen and heard of it."""
+        """Show a knock of the ship: the harder, the more visible and the louder."""
         if change < KNOCK:
             return
         scene = self.scene
@@ -188,7 +188,7 @@ class Spectacle:
             scene.play("land", self._at(x), 0.3 + 0.5 * min(change / HARMLESS, 1.0))
 
     def cargo_knocked(self, piece, x, y, change, cost):
-        """Cargo knocked against something."""
+        """Show a knock of cargo."""
         if change < KNOCK:
             return
         self.scene.particles.burst(
@@ -200,7 +200,7 @@ class Spectacle:
             self.works.word(f"CARGO {piece.whole:.0f}%", piece.body.center.x, piece.body.center.y - 16, TINT["bad"])
 
     def rock_knocked(self, x, y, impulse):
-        """A rock or a piece of the ground knocked against something."""
+        """Show a knock of a rock or a piece of the ground."""
         strength = min(impulse / 30000.0, 1.0)
         if strength > 0.05:
             self.scene.particles.burst(
@@ -211,14 +211,14 @@ class Spectacle:
     # --- gun, line, bursts -------------------------------------------------------------------------------------------
 
     def fired(self):
-        """A shell leaves the nose."""
+        """Show a shell leaving the nose."""
         ship = self.scene.ship
         x, y = ship.nose
         self.works.burst("muzzle_flash", ship.x + 19 * x, ship.y + 19 * y, ship.vx, ship.vy)
         self.scene.play("heavy_laser", self._at(ship.x), 0.4)
 
     def blast(self, x, y, radius):
-        """A burst: fire, a ring, stones."""
+        """Show a burst: fire, a ring, stones."""
         large = radius > 20.0
         self.works.burst("explosion_large" if large else "explosion_small", x, y)
         self.works.ring(x, y, 4.0 * radius)
@@ -231,7 +231,7 @@ class Spectacle:
         self.scene.play("blast", self._at(x), 0.8)
 
     def line_used(self, outcome):
-        """The line caught something, let go or found nothing."""
+        """Show that the line caught a body, let go or missed."""
         ship = self.scene.ship
         if outcome == "caught":
             center = self.scene.line.load.center
@@ -242,7 +242,7 @@ class Spectacle:
         self.scene.play("hook", self._at(ship.x), 0.5 if outcome != "missed" else 0.2)
 
     def line_torn(self):
-        """Too far apart."""
+        """Show that the line tore."""
         ship = self.scene.ship
         self.works.word("LINE TORN", ship.x, ship.y - 26, TINT["bad"])
         self.scene.play("chain_break", self._at(ship.x), 0.6)
@@ -250,7 +250,7 @@ class Spectacle:
     # --- won and lost ------------------------------------------------------------------------------------------------
 
     def can_taken(self, x, y, worth):
-        """Fuel."""
+        """Show that fuel was taken."""
         self.gain = self.pulse = 1.0
         self.works.sparks(x, y, 26, GOLD, 130)
         self.works.ring(x, y, 30.0)
@@ -258,7 +258,7 @@ class Spectacle:
         self.scene.play("powerup", self._at(x), 0.6)
 
     def delivered(self, piece, worth):
-        """Cargo has arrived."""
+        """Show a delivery."""
         x, y = piece.body.center
         self.pulse = 1.0
         self.works.sparks(x, y, 40, BLUE, 150)
@@ -267,7 +267,7 @@ class Spectacle:
         self.scene.play("life", self._at(x), 0.7)
 
     def cargo_lost(self, piece):
-        """It broke."""
+        """Show that cargo broke."""
         x, y = piece.body.center
         self.works.burst("explosion_small", x, y)
         self.works.sparks(x, y, 30, FIRE, 160)
@@ -275,11 +275,11 @@ class Spectacle:
         self.scene.play("explosion", self._at(x), 0.7)
 
     def stranded(self):
-        """No fuel and no pad."""
+        """Show that the ship has no fuel and no pad."""
         self.works.word("OUT OF FUEL", self.scene.ship.x, self.scene.ship.y - 30, TINT["bad"])
 
     def ship_lost(self, x, y):
-        """It bursts."""
+        """Show the burst of the ship."""
         works = self.works
         works.chain(x, y, 18, 16, 5, 0.10)
         works.sparks(x, y, 70, FIRE, 230)
@@ -294,5 +294,5 @@ class Spectacle:
 
     @property
     def battered(self):
-        """Whether the hull asks for attention."""
+        """True if the hull is low."""
         return self.scene.ship.hull < 0.4 * HULL

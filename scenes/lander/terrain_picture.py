@@ -1,7 +1,7 @@
-"""The picture of the ground, in tiles that are kept as long as their pixels stay: rock, the wall behind, fresh edges.
+"""The picture of the ground, in tiles cached by their pixels: rock, the wall behind, fresh edges.
 
-A tile is drawn from the pixels that are still there and from nothing else, so it is right after a restart or a rewind
-too. Where rock has gone, what is left beside it is scorched, and its new edge is lit or dark as the old ones are.
+A tile is drawn from its current pixels alone, so it is right after a restart or a rewind, too. Beside carved pixels the
+rock is scorched, and its new edge is lit or dark like the old ones.
 """
 
 import numpy as np
@@ -19,11 +19,11 @@ BORDER = 3  # [px] around a tile that its edges depend on
 
 
 class TerrainPicture:
-    """Draws the tiles in view; one is enough for all games on one moon."""
+    """Drawing of the tiles in view; all games on one moon share it."""
 
     def __init__(self, moon):
         self.moon = moon
-        self.kept = {}  # (column, row) -> (pixels it was drawn from, surface or None where nothing is)
+        self.kept = {}  # (column, row) -> (pixels it was drawn from, surface or None if empty)
         self.columns, self.rows = moon.width // TILE, moon.height // TILE
         self.plain = {}
 
@@ -38,7 +38,7 @@ class TerrainPicture:
         blit_many(surface, pairs)
 
     def tile(self, ground, column, row):
-        """The picture of one tile as its pixels are now."""
+        """Return the picture of one tile with its current pixels."""
         around = ground.around(column, row, BORDER)
         version = None if around is None else around.tobytes()
         kept = self.kept.get((column, row))
@@ -63,7 +63,7 @@ class TerrainPicture:
         return out.convert() if covered == TILE * TILE and pygame.display.get_surface() else out
 
     def _holed(self, rock, column, row, around):
-        """The rock that is left of a tile, scorched and lit along its new edges."""
+        """Return the remaining rock of a tile, scorched and lit along its new edges."""
         before = padded(self.moon.solid, column, row)
         hole = before & ~around
         inner = np.s_[BORDER:-BORDER, BORDER:-BORDER]
@@ -92,7 +92,7 @@ class TerrainPicture:
 
 
 def padded(solid, column, row):
-    """Pixels of a tile and BORDER around it; beyond the moon's edge as at the edge."""
+    """Return the pixels of a tile and BORDER around it; beyond the moon's edge those of the edge."""
     rows = np.clip(np.arange(row * TILE - BORDER, (row + 1) * TILE + BORDER), 0, solid.shape[0] - 1)
     columns = np.clip(np.arange(column * TILE - BORDER, (column + 1) * TILE + BORDER), 0, solid.shape[1] - 1)
     return solid[np.ix_(rows, columns)]

@@ -1,17 +1,18 @@
-"""The wind: steady by region, with gusts that come and go. Two slow waves, whose phases the seed chooses."""
+"""The wind: steady by region, with gusts. These are two slow waves, whose phases the seed chooses."""
 
 from math import pi, sin
 
 PERIODS = (7.3, 4.1)  # [s] of the two waves; together they repeat after minutes
 FIRST_SHARE = 0.65
-CALMING = 0.04  # share of the way to the wind that it takes in a step when it changes
+CALMING = 0.04  # share of the change of wind per step
 
 
 class Weather:
-    """`wind` [px/s] at the ship, to the right, of which `steady` stays in its region; `gust` 0..1 of its strongest.
+    """The weather. `wind` [px/s] at the ship, to the right, of which `steady` is constant in its region; `gust` 0..1 of
+    the strongest.
 
-    The steady part is the world's own wind. A world whose wind changes lets nothing sleep, so gusts, which change in
-    every step, are forces on what is in the air.
+    The steady part is the world's own wind. A changing world wind keeps all bodies awake, so gusts, which change in
+    every step, are forces on the bodies in the air.
     """
 
     def __init__(self, random, moon):
@@ -20,7 +21,7 @@ class Weather:
         self.wind = self.steady = self.gust = 0.0
 
     def step(self, seconds, x, y):
-        """The wind at a time and place."""
+        """Compute the wind at a time and place."""
         region, inside = self.moon.wind_at(x), self.moon.is_inside(x, y)
         first, second = (
             sin(2.0 * pi * seconds / period + phase) for period, phase in zip(PERIODS, self.phases, strict=True)
@@ -31,12 +32,12 @@ class Weather:
         self.wind += (wanted - self.wind) * CALMING
 
     def blow(self, world, *bodies):
-        """Set the world's wind, and push bodies by the gust for the coming step."""
+        """Set the world's wind, and push bodies by the gust for the next step."""
         if world.wind.x != self.steady:
             world.wind = (self.steady, 0.0)
         for body in bodies:
             body.apply_force((body.mass * world.drag * (self.wind - self.steady), 0.0))
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (*self.phases, self.wind, self.steady, self.gust)

@@ -1,4 +1,4 @@
-"""What lies about on the moon: pads, cargo, loose rocks, cans of fuel, and pieces of rock that came off."""
+"""Things on the moon: pads, cargo, loose rocks, cans of fuel, and fragments of rock."""
 
 from game.drawing.sprites import load_atlas
 from physics import Circle, Material, Polygon
@@ -21,12 +21,14 @@ ROUND = Material(density=DENSITY, friction=0.6, restitution=0.25, rolling_resist
 STONE = Material(density=DENSITY, friction=0.7)
 DECK = Material(friction=0.9)
 ZONE_HIGH = 30.0  # [px] over a pad in which cargo counts
-CAN_RADIUS = 11.0  # [px] a can is taken from that near
-HEAVIEST = 500.0  # [mass] that the line can hold
+CAN_RADIUS = 11.0  # [px] distance from which a can is taken
+HEAVIEST = 500.0  # [mass] limit of the line
 
 
 class Cargo:
-    """One piece: `whole` 0..100 of it is left; `over`: the pad it is on, or None; `rest`: steps it has lain there."""
+    """One piece of cargo. `whole` 0..100 of it is left; `over`: the pad below it, or None; `rest`: steps at rest
+    there.
+    """
 
     def __init__(self, body, look):
         self.body, self.look = body, look
@@ -35,14 +37,16 @@ class Cargo:
         self.rest = 0
 
     def knock(self, change):
-        """A knock changed its velocity by so much [px/s]. Returns what that cost."""
+        """Apply the damage of a change of velocity [px/s]. Return the loss."""
         cost = min(max(change - CARGO_HARMLESS, 0.0) * CARGO_DAMAGE, self.whole)
         self.whole -= cost
         return cost
 
 
 class Yard:
-    """`cargo` and `cans` by body id; `rubble`: loose rocks; `pads`, `zones`: the Pad of each deck and sensor."""
+    """Things by body id: `cargo` and `cans`; `rubble`: loose rocks; `pads`, `zones`: the Pad of each deck and
+    sensor.
+    """
 
     def __init__(self, world, moon):
         self.world, atlas = world, load_atlas("lander")
@@ -84,24 +88,24 @@ class Yard:
 
     @property
     def in_all(self):
-        """How many pieces of cargo there were."""
+        """Total number of pieces of cargo."""
         return len(self.all_cargo)
 
     def piece(self, number):
-        """The Cargo of that number in the plan, None when it has gone."""
+        """Return the Cargo of that number in the plan, None if it is gone."""
         piece = self.all_cargo[number]
         return piece if piece in self.cargo.values() else None
 
     def light(self):
-        """Bodies that the line can hold."""
+        """Return the bodies that the line can hold."""
         return [body for body in self.loose() if body.mass <= HEAVIEST]
 
     def loose(self):
-        """All bodies that a blast throws about, the ship aside."""
+        """Return all bodies that a blast pushes, except the ship."""
         return [*(piece.body for piece in self.cargo.values()), *self.rubble.bodies()]
 
     def meet(self, begun, ended):
-        """Cargo that came over a pad or left it, from the sensors' events."""
+        """Update the cargo that entered or left a pad, from the sensors' events."""
         for events, came in ((ended, False), (begun, True)):
             for pair in zip(events["body_a"].tolist(), events["body_b"].tolist(), strict=True):
                 for piece, zone in (pair, pair[::-1]):
@@ -109,7 +113,7 @@ class Yard:
                         self.cargo[piece].over = self.zones[zone] if came else None
 
     def delivered(self, held):
-        """Cargo that has come to rest on a pad in this step; `held`: the id of what still hangs on the line."""
+        """Return the cargo that came to rest on a pad in this step. held: id of the line's load."""
         done = []
         for identity, piece in self.cargo.items():
             still = piece.body.velocity.length < STILL
@@ -119,7 +123,7 @@ class Yard:
         return done
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (
             *(value for identity, each in self.cargo.items() for value in (identity, each.whole, each.rest)),
             *("" if each.over is None else each.over.name for each in self.cargo.values()),

@@ -1,1 +1,1 @@
-"""The platformer: one level in three acts, a hero with ten kinds of forgiveness, and what is met on the way."""
+"""The platformer: one level in three acts, a hero with ten kinds of forgiveness, enemies and things."""

@@ -1,4 +1,4 @@
-"""What is behind the level: a sky and layers that move slower than the ground, by act, faded from one to the next."""
+"""Background of the level: a sky and layers that move slower than the ground, by act, with cross-fades."""
 
 from typing import Any
 
@@ -9,9 +9,10 @@ from game.drawing.sprites import load_backdrop
 
 FADE = 0.9  # [s] from one act's backdrop to the next
 CLOUDS_TOP = 14  # [canvas px]
-HORIZON = 62  # [canvas px] the mountains stand above the picture's lower edge: the ground hides the rest
+HORIZON = 62  # [canvas px] height of the mountains' foot above the lower edge, hidden by the ground
 FEET = {"meadow": (26, 24, 48), "keep": (34, 26, 52)}  # colour under the nearest layer, seen from high up
-# act: back to front (picture, share of the camera's way along x and along y, own drift [px/s], above the horizon [px])
+# act: back to front (picture, share of the camera's motion along x and along y, own drift [px/s], above the horizon
+# [px])
 LAYERS = {
     "meadow": (
         ("clouds", 0.05, 0.02, 3.0, None),
@@ -30,7 +31,7 @@ CAVE = (("cave_far", 0.15, 0.10), ("cave_near", 0.40, 0.25))
 
 
 class Backdrops:
-    """Draws the backdrop of the act that the look is in, and of the one before while it fades."""
+    """Drawing of the background of the current act, and of the previous one during a fade."""
 
     def __init__(self, level):
         self.sky = load_backdrop("sky_dusk")
@@ -69,7 +70,7 @@ class Backdrops:
 
 
 def lowest_view(level, act):
-    """Top [px] of the lowest picture that is seen in an act."""
+    """Return the top of the lowest view of an act [px]."""
     bottoms = [
         zone.y + zone.height for zone in level.zones if zone.properties["act"] == act and zone.width >= CANVAS_SIZE[0]
     ]
@@ -77,7 +78,7 @@ def lowest_view(level, act):
 
 
 def tile_along(surface, picture, way, y):
-    """Draw a picture side by side over the whole width, moved to the left by `way`."""
+    """Draw a picture repeatedly over the whole width, moved to the left by `way`."""
     width = picture.get_width()
     x = -whole(way) % width - width
     while x < CANVAS_SIZE[0]:

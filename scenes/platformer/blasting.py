@@ -1,7 +1,7 @@
 """A bomb, which the hero finds, carries and throws, and the walls of pixels that it blows open.
 
-A wall is a mask: the burst carves its disc out of it, and cracks through what is left. What comes loose is rubble: it
-falls, comes to rest, is pushed and walked on, each piece by the outline of its own pixels.
+A wall is a mask: the burst carves its disc out of it, and cracks through the rest. Loose pieces are rubble, each with
+the outline of its own pixels: it falls, comes to rest, and can be pushed and walked on.
 """
 
 from dataclasses import dataclass
@@ -19,25 +19,27 @@ from scenes.platformer.feel import GRAVITY, steps
 from scenes.platformer.level import BOMB_FILTER, CRATE_FILTER, TILE_FILTER
 
 RADIUS = 5.0  # [px] of the bomb
-ABOVE = 7.0  # [px] from the hero's middle up to where a bomb leaves his hands: inside him, where nothing else is
-THROW, DROPPED = (205.0, -330.0), (36.0, -40.0)  # [px/s] ahead and up, and with down held: just laid before the feet
-LENT = 0.4  # of the hero's own speed that a thrown bomb takes along
+ABOVE = 7.0  # [px] from the hero's middle up to where a bomb leaves his hands: inside him, where the space is free
+THROW, DROPPED = (205.0, -330.0), (36.0, -40.0)  # [px/s] ahead and up; with down held the bomb is laid down
+LENT = 0.4  # share of the hero's own speed that a thrown bomb keeps
 BURNS = 1.25  # [s] from the throw to the burst
-BACK = 1.6  # [s] until another one waits where it was
-LEFT_BEHIND = 420.0  # [px] carried farther than this it is taken back: it is of no use there
-CRATER, REACH = 27.0, 62.0  # [px] what the burst carves, and how far it throws
-SHOVE = 260.0  # [px/s] what lies nearest is thrown at
-HEAVIEST = 200.0  # [density px2] from which on things are shoved less
-DEEP = 260  # [px] taken of a wall: it gives way all through
+BACK = 1.6  # [s] until another one appears at its place
+LEFT_BEHIND = 420.0  # [px] a bomb carried farther than this is taken back
+CRATER, REACH = 27.0, 62.0  # [px] radius of the carved disc, and of the push
+SHOVE = 260.0  # [px/s] change of velocity of the nearest bodies
+HEAVIEST = 200.0  # [density px2] from which on bodies are pushed less
+DEEP = 260  # pixels removed from a wall from which all of it gives way
 CRUMB = 12  # [px] smaller pieces are dust
 CRACKS = 5
-RUBBLE = Material(0.35, 0.35, rolling_resistance=0.05)  # light enough to be pushed all together
+RUBBLE = Material(0.35, 0.35, rolling_resistance=0.05)  # low enough that all of it can be pushed together
 IRON = Material(1.2, 0.6, rolling_resistance=0.08)
 WAITING, CARRIED, THROWN, GONE = "waiting", "carried", "thrown", "gone"
 
 
 class Bomb:
-    """`phase`: it waits at its place, is carried, flies and rolls with its fuse lit, or is gone for a moment."""
+    """A bomb. `phase`: it waits at its place, is carried, flies and rolls with its fuse lit, or is gone for a
+    moment.
+    """
 
     kind = "bomb"
 
@@ -52,16 +54,16 @@ class Bomb:
         self.phase, self.count = phase, 0
 
     def is_reached(self, box):
-        """Whether the hero's box is where it waits."""
+        """Return whether the hero's box touches its place."""
         x, y = self.home
         return box[0] - RADIUS < x < box[2] + RADIUS and box[1] < y < box[3] + RADIUS
 
     def take(self):
-        """In the hero's hands from now on."""
+        """Put it into the hero's hands."""
         self._begin(CARRIED)
 
     def carry(self, place):
-        """The hero is at a place [px]. Returns whether it was carried too far and is back."""
+        """Move it with the hero to a place [px]. Return whether it was carried too far and went back."""
         self.place = (place[0], place[1] - ABOVE)
         if hypot(place[0] - self.home[0], place[1] - self.home[1]) < LEFT_BEHIND:
             return False
@@ -69,7 +71,7 @@ class Bomb:
         return True
 
     def throw(self, way, speed, down):
-        """It leaves the hero's hands, its fuse lit. way: -1, 1; speed: the hero's along x; down: it is only laid."""
+        """Throw it with its fuse lit. way: -1, 1; speed: the hero's along x; down: it is only laid down."""
         ahead, up = DROPPED if down else THROW
         self.body = self.world.add_body(
             Circle(RADIUS),
@@ -84,7 +86,7 @@ class Bomb:
         self._begin(THROWN)
 
     def step(self, lowest):
-        """One step. lowest [px]: below it nothing is seen. Returns "burst", "back" or None."""
+        """Make one step. lowest [px]: the lowest visible place. Return "burst", "back" or None."""
         self.count += 1
         if self.phase == THROWN and self.body is not None:
             self.place = tuple(self.body.position)
@@ -99,7 +101,7 @@ class Bomb:
         return None
 
     def go_home(self):
-        """It waits at its place again."""
+        """Put it back to its place."""
         if self.body is not None:
             self.world.remove_body(self.body)
             self.body = None
@@ -107,12 +109,12 @@ class Bomb:
         self._begin(WAITING)
 
     def state(self):
-        """What the world does not hold of it."""
+        """Return the state outside the world."""
         return self.phase, self.count, *self.place
 
 
 def arc(place, way, speed, down):
-    """Where a bomb thrown now would be, every third step [px], until anything is in its way."""
+    """Return the path of a bomb thrown now, every third step [px], up to the first obstacle."""
     ahead, up = DROPPED if down else THROW
     vx = ahead * way + (0.0 if down else LENT * speed)
     for number in range(3, steps(BURNS), 3):
@@ -122,7 +124,7 @@ def arc(place, way, speed, down):
 
 @dataclass(frozen=True)
 class Rubble:
-    """A loose piece of a wall; `left`, `top` [px]: where its raster begins in the wall's picture."""
+    """A loose piece of a wall; `left`, `top` [px]: place of its raster in the wall's picture."""
 
     body: Body
     wall: "BlastWall"
@@ -131,17 +133,17 @@ class Rubble:
 
     @property
     def box(self):
-        """Left, top, right, bottom in whole pixels around it."""
+        """Left, top, right, bottom of its bounding box in whole pixels."""
         left, top, right, bottom = cast(tuple[float, float, float, float], self.body.bounds)
         return floor(left), round(top), ceil(right), round(bottom)
 
     def slides(self, way):
-        """Whether it moved that way (-1, 1) in the last step: the hero who pushes it goes on."""
+        """Return whether it moved that way (-1, 1) in the last step, so that the hero keeps pushing it."""
         return self.body.velocity.x * way > 0.0
 
 
 class BlastWall:
-    """`body`: the mask that still stands, or None."""
+    """A wall of pixels. `body`: the remaining mask, or None."""
 
     def __init__(self, world, thing):
         self.world, self.left, self.top = world, int(thing.x), int(thing.y)
@@ -157,13 +159,13 @@ class BlastWall:
 
     @property
     def box(self):
-        """Left, top, right, bottom of what stands; nothing once it is down."""
+        """Left, top, right, bottom of the remaining wall; all 0 once it is gone."""
         if self.body is None:
             return (0, 0, 0, 0)
         return self.left, self.top, self.left + self.size[0], self.top + self.size[1]
 
     def blast(self, x, y):
-        """A bomb bursts at a place [px]. Returns the Rubble that comes loose, and whether anything was hit."""
+        """Carve a burst at a place [px]. Return the Rubble that comes loose, and whether the wall was hit."""
         if self.body is None:
             return [], False
         hit = self.body.carve(Circle(CRATER), (x, y), CRUMB)
@@ -184,7 +186,7 @@ class BlastWall:
         return Rubble(body, self, round(x - mask.origin[0]) - self.left, round(y - mask.origin[1]) - self.top)
 
     def _cracks(self, x, y):
-        """Lines that fan out from the burst, and some across them."""
+        """Return cracks that fan out from the burst, and some across them."""
         random, (width, height) = self.world.random, self.size
         solid = np.zeros((height, width), bool)
         at = (min(max(x - self.left, 0.0), width), min(max(y - self.top, 0.0), height))
@@ -197,7 +199,7 @@ class BlastWall:
 
 @lru_cache(maxsize=8)
 def built(width, height):
-    """The picture of a wall of a size, laid of the drawn one."""
+    """Return the picture of a wall of a size, tiled from the drawn one."""
     image = load_atlas("things")["blast_wall"]
     out = pygame.Surface((width, height), pygame.SRCALPHA)
     for left in range(0, width, image.get_width()):
@@ -207,7 +209,7 @@ def built(width, height):
 
 
 def shove(body, x, y):
-    """What a burst at a place [px] does to a body: the nearer and the lighter, the harder it is thrown."""
+    """Push a body by a burst at a place [px], the more the nearer and lighter it is."""
     dx, dy = body.center.x - x, body.center.y - y
     far = hypot(dx, dy)
     if far >= REACH:

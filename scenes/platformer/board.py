@@ -1,4 +1,4 @@
-"""Words and numbers over the picture: counters, acts' names, signs that are read, the iris, the result."""
+"""Words and numbers over the picture: counters, acts' names, signs, the iris, the result."""
 
 from functools import lru_cache
 
@@ -11,28 +11,28 @@ from game.drawing.nine_slice import draw_box
 from game.drawing.sprites import load_atlas
 from scenes.platformer.feel import steps
 
-SIGN_REACH = (40, 44)  # [px] how near the hero must be to read a sign
+SIGN_REACH = (40, 44)  # [px] distance from which the hero reads a sign
 SIGN_WIDTH = 260  # [canvas px] of its longest line
 SIGN_BOTTOM = 10  # [canvas px] between its box and the picture's lower edge
 LINE = 11  # [canvas px] from line to line
-IRIS = 0.32  # [s] the picture closes around the hero, and opens again
+IRIS = 0.32  # [s] of closing around the hero, and of opening again
 WIDEST = 560  # [canvas px] radius at which the iris is out of the picture
 RESULT_AFTER = 0.9  # [s] from the goal to its result
-STARS_AFTER = (0.5, 1.0, 1.5)  # [s] after that, each star appears
+STARS_AFTER = (0.5, 1.0, 1.5)  # [s] after the result, of each star
 STAR, STAR_DROP, STAR_GROWTH = (
     18,
     0.15,
     120.0,
 )  # [px] of a star, [s] that it drops for, [px/s] that it shrinks meanwhile
-MOST_GEMS = 8  # places for secrets: there is no room for more
+MOST_GEMS = 8  # room for secrets
 HOLE = (255, 0, 255)
 TITLES = {"meadow": "THE MEADOW", "cave": "THE HOLLOW", "keep": "THE KEEP"}
-TITLE_TIME, TITLE_FADE = 2.4, 0.35  # [s] the name of an act is shown; it comes and goes in
+TITLE_TIME, TITLE_FADE = 2.4, 0.35  # [s] duration of an act's name; of its fades
 TITLE_Y = 58  # [canvas px]
 
 
 def draw_board(canvas, scene, view):
-    """All of it. view: world point at the canvas' top left."""
+    """Draw all of it. view: world point at the canvas' top left."""
     opened = _opened(scene)
     if opened < 1.0:
         _draw_iris(canvas, scene, view, opened)
@@ -45,13 +45,13 @@ def draw_board(canvas, scene, view):
 
 
 def clock_text(ticks):
-    """Steps as minutes, seconds and tenths."""
+    """Return steps as minutes, seconds and tenths."""
     tenths = ticks * 10 // 60
     return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
 
 
 def stars(scene):
-    """(earned, what for) of the three stars."""
+    """Return (earned, condition) of the three stars."""
     return (
         (True, "the flag"),
         (scene.secrets == scene.things.secrets_in_all, "all secrets"),
@@ -79,7 +79,7 @@ def _draw_counters(canvas, scene):
 
 
 def _draw_gems(canvas, scene, x):
-    """A place for each secret: empty, or with its gem."""
+    """Draw a place for each secret: empty, or with its gem."""
     icon = load_atlas("ui")["icon_gem"]
     lift, places = whole(4 * scene.look.gem_pulse), min(scene.things.secrets_in_all, MOST_GEMS)
     for number in range(places):
@@ -91,14 +91,14 @@ def _draw_gems(canvas, scene, x):
 
 @lru_cache(maxsize=4)
 def _empty(icon):
-    """The shape of an icon, as a place that is still empty."""
+    """Return the silhouette of an icon, for an empty place."""
     image = icon.copy()
     image.fill((60, 60, 96, 200), special_flags=pygame.BLEND_RGBA_MULT)
     return image
 
 
 def _draw_title(canvas, look):
-    """The name of the act he has come into: it slides in and fades out of the way."""
+    """Draw the name of the act that the hero has entered; it slides in and fades out."""
     age = look.act_age
     if age >= TITLE_TIME:
         return
@@ -114,7 +114,7 @@ def _draw_title(canvas, look):
 
 
 def _draw_signs(canvas, scene):
-    """The text of the sign he stands at, below everything: it never hides him."""
+    """Draw the text of the sign at the hero, at the bottom, where it never hides him."""
     x, y = scene.hero.character.position
     for sign in scene.level.map.things_of("sign"):
         if abs(x - sign.x - sign.width / 2) < SIGN_REACH[0] and abs(y - sign.y) < SIGN_REACH[1]:
@@ -133,9 +133,9 @@ def _draw_signs(canvas, scene):
 
 
 def _opened(scene):
-    """How far the iris is open, 0..1: it closes before a new life and opens with it."""
+    """Return the opening of the iris, 0..1: it closes before a new life and opens with it."""
     if scene.phase == "won" or (scene.phase == "playing" and not scene.deaths):
-        return 1.0  # the first life begins with the level in sight: a replay may stand still there
+        return 1.0  # the first life begins with a visible level: a replay may be frozen there
     left = scene.since if scene.phase == "playing" else scene.life_after - scene.since
     return min(left / steps(IRIS), 1.0)
 
@@ -181,7 +181,7 @@ def _draw_result(canvas, scene):
 
 
 def _draw_star(canvas, image, x, y, shown, age):
-    """A star that drops in, or its shadow."""
+    """Draw a star that drops in, or its shadow."""
     size = STAR + (whole((STAR_DROP - age) * STAR_GROWTH) if shown and age < STAR_DROP else 0)
     star = pygame.transform.scale(image, (size, size))
     if not shown:

@@ -1,4 +1,6 @@
-"""A rope bridge: its picture is its shape, open from below. He jumps up through it and walks along its curve."""
+"""A rope bridge: its picture is its shape, one-way from below. The hero jumps up through it and walks along its
+curve.
+"""
 
 import numpy as np
 
@@ -6,11 +8,11 @@ from game.drawing.sprites import load_atlas
 from physics import PixelMask
 from scenes.platformer.level import TILE_FILTER
 
-NEAR = 2  # [px] his box stands on the highest point under it, as whole pixels go
+NEAR = 2  # [px] tolerance of the highest point under his box, by rounding to whole pixels
 
 
 class Bridge:
-    """`left`, `top` [px]: where the upper side of its boards begins."""
+    """A rope bridge. `left`, `top` [px]: top left of its boards' upper side."""
 
     def __init__(self, world, thing):
         self.left, self.top = int(thing.x), int(thing.y)
@@ -21,16 +23,16 @@ class Bridge:
         )
 
     def height(self, left, right):
-        """Height [px] of the highest board within some columns, or None beside the bridge."""
+        """Return the height [px] of the highest board within some columns, or None beside the bridge."""
         under = self.heights[max(left - self.left, 0) : max(right - self.left, 0)]
         return int(under.min()) if len(under) else None
 
     def bears(self, left, right, bottom):
-        """Whether feet at the height `bottom` stand on it."""
+        """Return whether feet at the height `bottom` stand on it."""
         height = self.height(left, right)
         return height is not None and abs(bottom - height) <= NEAR
 
     def holds(self, left, right, bottom, reach):
-        """Whether feet at the height `bottom` are in it, by at most `reach` px."""
+        """Return whether feet at the height `bottom` are in it, by at most `reach` px."""
         height = self.height(left, right)
         return height is not None and 0 < bottom - height <= reach

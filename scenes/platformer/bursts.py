@@ -1,4 +1,4 @@
-"""What flies in the platformer: dust, grit, sparks and confetti, each with its colours; seen and never felt.
+"""Particles of the platformer: dust, grit, sparks and confetti, each with its colours. No game rule reads them.
 
 Every function takes the scene's Particles and a place in the world [px]; speeds are px/s, lives s.
 """
@@ -26,40 +26,40 @@ UP, DOWN = -pi / 2, pi / 2  # [rad] headings
 
 
 def dust(particles, x, y, count, speed):
-    """Kicked up from the ground by feet."""
+    """Emit dust that feet kick up from the ground."""
     particles.burst(x, y, count, DUST, speed=speed, life=(0.15, 0.4), angle=UP, spread=2.8, drag=3.0, gravity=40.0)
 
 
 def slide(particles, x, y, side):
-    """Rubbed off a wall at the side -1 or 1 of a hero at (x, y)."""
+    """Emit dust rubbed off a wall at the side -1 or 1 of a hero at (x, y)."""
     x, y, heading = x + 5 * side, y + 4, DOWN * (1 + side)
     particles.burst(x, y, 2, DUST, speed=(5, 26), life=(0.2, 0.4), angle=heading, spread=1.6, gravity=60.0)
 
 
 def wall_jump(particles, x, y, away):
-    """Kicked off a wall; the hero at (x, y) leaps to the side `away`, -1 or 1."""
+    """Emit dust of a kick off a wall; the hero at (x, y) leaps to the side `away`, -1 or 1."""
     x, y, heading = x - 6 * away, y + 4, 0.0 if away > 0 else pi
     particles.burst(x, y, 10, DUST, speed=(20, 90), life=(0.2, 0.45), angle=heading, spread=1.8, gravity=120.0)
 
 
 def launch(particles, x, y):
-    """A spring lets go."""
+    """Emit particles of a released spring."""
     particles.burst(x, y, 10, GOLDEN, speed=(40, 150), life=(0.2, 0.5), angle=UP, spread=1.4)
 
 
 def squash(particles, x, y):
-    """An enemy is flattened."""
+    """Emit particles of a flattened enemy."""
     particles.burst(x, y, 14, DUST, speed=(30, 110), life=(0.2, 0.5), angle=UP, spread=2.6, gravity=200.0)
 
 
 def knock(particles, x, y, force):
-    """Two things hit each other with a force 0..1."""
+    """Emit particles of an impact with a force 0..1."""
     count, speed, life = 2 + round(16 * force), (10, 30 + 80 * force), (0.2, 0.3 + 0.4 * force)
     particles.burst(x, y, count, DUST, speed=speed, life=life, angle=UP, spread=2.6, gravity=60.0)
 
 
 def trickle(particles, box):
-    """From the underside of a stone (left, top, right, bottom) that shakes."""
+    """Emit grit from the underside of a shaking stone (left, top, right, bottom)."""
     left, _, right, bottom = box
     x = left + (right - left) * particles.random.uniform(0, 1)
     particles.burst(
@@ -68,12 +68,12 @@ def trickle(particles, box):
 
 
 def rubble(particles, x, y):
-    """A stone breaks."""
+    """Emit pieces of a breaking stone."""
     particles.burst(x, y, 18, GRIT, speed=(20, 90), life=(0.3, 0.7), spread=6.28, gravity=200.0)
 
 
 def mote(particles, view, act):
-    """One speck in the air of an act, somewhere in the view (left, top, width, height)."""
+    """Emit one speck in the air of an act, at a random place in the view (left, top, width, height)."""
     left, top, width, height = view
     x = left + width * particles.random.uniform(0, 1)
     y = top + height * particles.random.uniform(0.2, 1)
@@ -81,51 +81,51 @@ def mote(particles, view, act):
 
 
 def ember(particles, x, y):
-    """One spark rises from a flame."""
+    """Emit one spark that rises from a flame."""
     particles.burst(
         x, y - 1, 1, EMBER, speed=(6, 20), life=(0.3, 0.8), angle=UP, spread=1.2, size=(1, 1), gravity=-30.0
     )
 
 
 def kindle(particles, x, y):
-    """A lantern is lit."""
+    """Emit sparks of a lantern that is lit."""
     particles.burst(x, y, 26, EMBER, speed=(20, 110), life=(0.3, 0.9), drag=3.0, gravity=-20.0)
 
 
 def coin(particles, x, y):
-    """A coin is taken."""
+    """Emit sparkles of a taken coin."""
     particles.burst(x, y, 9, GOLDEN, speed=(20, 90), life=(0.25, 0.6), size=(1, 1), gravity=120.0)
 
 
 def gem(particles, x, y):
-    """A secret is found: a slow ring and a fast one."""
+    """Emit a slow ring and a fast one, for a found secret."""
     for speed in ((30, 60), (90, 150)):
         particles.burst(x, y, 26, GEM, speed=speed, life=(0.5, 1.2), drag=1.8)
 
 
 def hurt(particles, x, y):
-    """The hero is hit."""
+    """Emit particles of a hurt hero."""
     particles.burst(x, y, 24, BLOOD, speed=(30, 170), life=(0.25, 0.7))
 
 
 def vanish(particles, x, y):
-    """He is put back to where he stood."""
+    """Emit a puff where the hero was before he was put back."""
     particles.burst(x, y, 20, GEM, speed=(20, 110), life=(0.25, 0.6))
 
 
 def confetti(particles, x, y):
-    """The level is won."""
+    """Emit confetti of a won level."""
     for ramp in CONFETTI:
         particles.burst(x, y, 34, ramp, speed=(60, 240), life=(0.8, 2.0), angle=UP, spread=2.2, drag=1.6, gravity=150.0)
 
 
 def fuse(particles, x, y):
-    """A fuse burns."""
+    """Emit sparks of a burning fuse."""
     particles.burst(x, y, 2, EMBER, speed=(20, 80), life=(0.1, 0.3), angle=UP, spread=3.0, size=(1, 1), gravity=120.0)
 
 
 def blast(particles, x, y):
-    """A bomb bursts: fire that is quick, stones that fall, dust that stays."""
+    """Emit a burst: fast fire, falling stones, lasting dust."""
     particles.burst(x, y, 50, EMBER, speed=(60, 280), life=(0.25, 0.7), drag=3.0)
     particles.burst(x, y, 40, GRIT, speed=(50, 220), life=(0.4, 0.9), angle=UP, spread=5.0, gravity=420.0)
     particles.burst(x, y, 40, DUST, speed=(10, 70), life=(0.7, 1.6), drag=2.2, gravity=-8.0)

@@ -1,4 +1,4 @@
-"""All that a level holds, by kind and by body id, and the step in which it moves by itself."""
+"""All contents of a level, by kind and by body id, and their own step."""
 
 from scenes.platformer.blasting import CARRIED, BlastWall, Bomb, Rubble, shove
 from scenes.platformer.bridge import Bridge
@@ -7,11 +7,11 @@ from scenes.platformer.things import TRIGGERS, Belt, Crate, Crumble, Platform, T
 
 NEARBY = (400.0, 300.0)  # [px] from the hero within which enemies move: the picture's size and some more
 ENEMIES = ("walker", "hedgehog", "bat")
-BELOW = 64  # [px] under the map what falls out of it is lost
+BELOW = 64  # [px] under the map, below which things are lost
 
 
 class Contents:
-    """Made with the scene; what is taken or flattened leaves it and the world."""
+    """Contents of a level. Taken and flattened things are removed here and from the world."""
 
     def __init__(self, world, level, random):
         self.world, self.level = world, level
@@ -25,7 +25,7 @@ class Contents:
         self.bridges = [Bridge(world, thing) for thing in level.map.things_of("bridge")]
         self.bombs = [Bomb(world, thing) for thing in level.map.things_of("bomb")]
         self.rubble: list[Rubble] = []
-        # Which way each walker sets out is the one thing that the seed decides.
+        # The seed decides the first direction of each walker, and nothing else.
         enemies = [
             Bat(world, thing) if thing.kind == "bat" else Walker(world, thing, random.choice((-1, 1)))
             for thing in level.map.things
@@ -38,7 +38,7 @@ class Contents:
         self.coins_in_all, self.secrets_in_all = len(self.of("coin")), len(self.of("secret"))
 
     def _deck_under(self, one):
-        """The platform that a crate or an enemy starts on, or None."""
+        """Return the platform under a crate's or enemy's start, or None."""
         x = one.home[0] if one.kind == "crate" else one.start[0]
         bottom = one.home[1] + one.size[1] / 2 if one.kind == "crate" else one.bottom
         for platform in self.platforms:
@@ -48,17 +48,17 @@ class Contents:
         return None
 
     def of(self, kind):
-        """The triggers of a kind, in the level's order."""
+        """Return the triggers of a kind, in the level's order."""
         return [trigger for trigger in self.triggers.values() if trigger.kind == kind]
 
     @property
     def solid_boxes(self):
-        """Boxes of all that is solid for the hero and no tile."""
+        """Boxes of all solids for the hero that are no tiles."""
         groups = (self.crates, self.platforms, self.belts, self.crumbles, self.walls)
         return tuple(one.box for group in groups for one in group)
 
     def step(self, tick, seen):
-        """Platforms, stones, enemies make one step. seen: the hero is there. Returns what happened: [(word, thing)]."""
+        """Step platforms, stones and enemies. seen: the hero's place [px]. Return [(word, thing)] of the events."""
         news = []
         for platform in self.platforms:
             platform.aim(tick)
@@ -90,7 +90,7 @@ class Contents:
         return news
 
     def places(self):
-        """Position [px] of every body by its id: read at once, it is asked for often."""
+        """Return the position [px] of every body by its id, read once because it is used often."""
         rows = self.world.bodies
         return dict(zip(rows["id"].tolist(), zip(rows["x"].tolist(), rows["y"].tolist(), strict=True), strict=True))
 
@@ -100,7 +100,7 @@ class Contents:
         return next((bomb for bomb in self.bombs if bomb.phase == CARRIED), None)
 
     def blast(self, x, y):
-        """A bomb bursts at a place [px]. Returns (what came loose of walls, whether any was hit)."""
+        """Apply a burst at a place [px]. Return (loose pieces of walls, whether any wall was hit)."""
         loose, hit = [], False
         for wall in self.walls:
             pieces, struck = wall.blast(x, y)
@@ -112,7 +112,9 @@ class Contents:
         return loose, hit
 
     def press_stones(self, riding, begun):
-        """Stones under the hero (`riding`, a body or None), under enemies, and under crates of pairs that touch now."""
+        """Press the stones under the hero (`riding`, a body or None), under enemies, and under crates of pairs that
+        touch now.
+        """
         pressed = {enemy.riding for enemy in self.enemies.values()} | ({riding.id} if riding is not None else set())
         for a, b in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
             if a in self.crate_ids or b in self.crate_ids:
@@ -134,7 +136,7 @@ class Contents:
         enemy.remove()
 
     def go_home(self):
-        """A new life: all is back where it was; what was taken or flattened is gone."""
+        """Reset all things for a new life; taken and flattened ones stay gone."""
         for one in (*self.crates, *self.enemies.values()):
             self._send_home(one)
         for crumble in self.crumbles:
@@ -151,7 +153,7 @@ class Contents:
         one.go_home(moved)
 
     def state(self):
-        """What the world does not hold of them."""
+        """Return the state outside the world."""
         out: list = [trigger.lit for trigger in self.of("checkpoint")]
         for enemy in self.enemies.values():
             out += enemy.state()

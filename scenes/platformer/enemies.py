@@ -1,6 +1,6 @@
-"""The three that hurt: walkers, which are stomped; hedgehogs, which are not; bats, which hang and dive.
+"""The three enemies: walkers, which can be stomped; hedgehogs, which cannot; bats, which hang and dive.
 
-None is solid for the hero: contacts with them are read after the step. A crate that comes down on one flattens it.
+None is solid for the hero: contacts with them are read after the step. A crate that falls on one flattens it.
 """
 
 from math import cos, pi, sin
@@ -11,20 +11,20 @@ from physics import Body, Character, Polygon
 from scenes.platformer.feel import FALL_SPEED, GRAVITY, approach
 from scenes.platformer.level import ENEMY_FILTER, TRIGGER_FILTER
 
-WALK_SPEED = {"walker": 36.0, "hedgehog": 24.0}  # [px/s] a fifth of the hero's: it can be read and waited for
-BOXES = {"walker": (16, 13), "hedgehog": (16, 11), "bat": (14, 9)}  # [px] inside the sprite: its rim does not hurt
+WALK_SPEED = {"walker": 36.0, "hedgehog": 24.0}  # [px/s] a fifth of the hero's: easy to judge and to wait for
+BOXES = {"walker": (16, 13), "hedgehog": (16, 11), "bat": (14, 9)}  # [px] smaller than the sprite, whose rim is safe
 # Bats
-LAIR = (104.0, 150.0)  # [px] to either side and down: who comes into it wakes the bat
-DIVE = 0.75  # [s] down to the height at which it saw the hero
-FLY_SPEED = 84.0  # [px/s] slower than a run: one can get away
-WAVE, WAVE_TIME = 11.0, 0.9  # [px], [s] up and down of its flight
-FLIGHT = 2.6  # [s] until it turns back to where it hung
+LAIR = (104.0, 150.0)  # [px] to either side and down: a hero in it wakes the bat
+DIVE = 0.75  # [s] down to the height of the hero when it woke
+FLY_SPEED = 84.0  # [px/s] slower than a run, so that the hero can escape
+WAVE, WAVE_TIME = 11.0, 0.9  # [px], [s] vertical wave of its flight
+FLIGHT = 2.6  # [s] until it turns back to its place
 HOME_SPEED = 120.0  # [px/s]
 HANGING, FLYING, RETURNING = "hanging", "flying", "returning"
 
 
 class Creature:
-    """A box that goes its own way: what walkers and bats have in common. It pushes nothing: walkers turn at crates."""
+    """A box that moves by itself, base of walkers and bats. It pushes nothing: walkers turn at crates."""
 
     def __init__(self, world, kind, start):
         self.kind, self.size, self.start = kind, BOXES[kind], start
@@ -32,7 +32,7 @@ class Creature:
 
     @property
     def body(self):
-        """The body by which the world knows it."""
+        """Its body in the world."""
         return self.character.body
 
     @property
@@ -47,29 +47,31 @@ class Creature:
 
 
 class Walker(Creature):
-    """Walks to and fro around its home and turns at walls and crates. Where it is carried, its home comes along."""
+    """An enemy that walks to and fro around its home and turns at walls and crates. When carried, its home moves
+    along.
+    """
 
     def __init__(self, world, thing, way):
         height = BOXES[thing.kind][1]
         super().__init__(world, thing.kind, (thing.x + thing.width / 2, thing.y + thing.height - height / 2))
-        self.home = self.start[0]  # [px] the middle of its beat
+        self.home = self.start[0]  # [px] the middle of its range
         self.range = float(thing.properties.get("range", 0))
         self.way = self.first_way = way
         self.vy = 0.0
-        self.left_at = self.character.position[0]  # where its own last move ended
+        self.left_at = self.character.position[0]  # end of its own last move
         self.squeezed = False
         self.riding = -1  # id of the body under its feet
 
     @property
     def stompable(self):
-        """Whether its back is a step."""
+        """True if the hero can stomp it."""
         return self.kind == "walker"
 
     def step(self, seen):
-        """One step of walking. seen: where the hero is [px]. Returns False: it never wakes up."""
+        """Make one step of walking. seen: the hero's place [px]. Return False: it never wakes up."""
         x, _ = self.character.position
         if self.character.surface_speed == 0.0:
-            self.home += x - self.left_at  # a platform carries its beat along; a belt carries only itself
+            self.home += x - self.left_at  # a platform moves its range along; a belt moves only the walker
         if (x - self.home) * self.way >= self.range:
             self.way = -self.way
         self.vy = approach(self.vy, FALL_SPEED, GRAVITY * STEP_SECONDS)
@@ -85,11 +87,11 @@ class Walker(Creature):
         return False
 
     def rest(self, x):
-        """A step far from the hero, at x [px]."""
+        """Make a step far from the hero, at x [px]."""
         self.left_at = x
 
     def place_after(self, seconds):
-        """Where it will be on free ground [px]: it turns at the ends of its range."""
+        """Return its place after so many seconds on free ground [px]: it turns at the ends of its range."""
         if not self.range:
             return self.character.position[0]
         there = self.character.position[0] + self.way * WALK_SPEED[self.kind] * seconds
@@ -97,22 +99,22 @@ class Walker(Creature):
         return 2.0 * end - there if (there - end) * self.way > 0.0 else there
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Stand where the level put it; moved: how far what it stood on has gone since [px]."""
+        """Return to its start; moved: motion of the ground under it since [px]."""
         self.character.move_to((self.start[0] + moved[0], self.start[1] + moved[1]))
         self.home = self.left_at = self.character.position[0]
         self.way, self.vy, self.riding = self.first_way, 0.0, -1
 
     def remove(self):
-        """Out of the world."""
+        """Remove it from the world."""
         self.character.remove()
 
     def state(self):
-        """What the world does not hold of it."""
+        """Return the state outside the world."""
         return self.way, self.home, self.vy, self.left_at, self.riding
 
 
 class Bat(Creature):
-    """Hangs until the hero comes into its lair, dives to his height, flies on in a wave, and goes back to hang."""
+    """An enemy that hangs until the hero enters its lair, dives to his height, flies on in a wave, and returns."""
 
     stompable = True
     riding = -1
@@ -135,7 +137,7 @@ class Bat(Creature):
         self.phase, self.count, self.way, self.from_y, self.to_y = HANGING, 0, 1, 0.0, 0.0
 
     def step(self, seen):
-        """One step of flight. seen: where the hero is [px]. Returns whether it has just woken up."""
+        """Make one step of flight. seen: the hero's place [px]. Return whether it has just woken up."""
         x, y = self.character.position
         if self.phase == HANGING:
             if self.seen:
@@ -160,10 +162,10 @@ class Bat(Creature):
         return False
 
     def rest(self, x):
-        """A step far from the hero: it stays in the air."""
+        """Make a step far from the hero: it stays in the air."""
 
     def _return(self, x, y):
-        """Fly back; where rock is in the way it is there at once when nobody can see it."""
+        """Fly back; if rock is in the way it is moved there at once while out of view."""
         way = HOME_SPEED * STEP_SECONDS
         dx, dy = self.start[0] - x, self.start[1] - y
         far = max(abs(dx), abs(dy), 1e-9)
@@ -175,20 +177,20 @@ class Bat(Creature):
             self._hang()
 
     def place_after(self, seconds):
-        """Where it will be along x if nothing stops it [px]."""
+        """Return its x after so many seconds without obstacles [px]."""
         return self.character.position[0] + (self.way * FLY_SPEED * seconds if self.phase == FLYING else 0.0)
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Hang where the level put it, until the hero comes into its lair again."""
+        """Return to its start, until the hero enters its lair again."""
         self.seen = False
         self.character.move_to(self.start)
         self._hang()
 
     def remove(self):
-        """Out of the world."""
+        """Remove it from the world."""
         self.character.remove()
         self.character.world.remove_body(self.lair)
 
     def state(self):
-        """What the world does not hold of it."""
+        """Return the state outside the world."""
         return self.phase, self.count, self.way, self.from_y, self.to_y, self.seen

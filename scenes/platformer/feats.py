@@ -1,10 +1,10 @@
-"""What has been done in a run, for the judge: each thing that a level holds, used at least once, by when."""
+"""Feats of a run, for the goals: each thing of a level, used at least once, with deadlines."""
 
 from game.scene import Goal
 from scenes.platformer.feel import HEIGHT, WIDTH
 
 WORDS = {"jump": "jumps", "wall_jump": "wall jumps", "drop": "drops"}
-# feat: (object that makes it possible, or None; how often or how many steps; by which step of the level as made)
+# feat: (object that it needs, or None; number of times or steps; deadline in steps for the level as made)
 WANTED = {
     "slope": (None, 20, 900),
     "stomps": ("walker", 1, 1500),
@@ -24,11 +24,11 @@ WANTED = {
 }
 GOAL_DUE = 9000  # [steps]
 
-TILT = 0.1  # rise per px from which ground is a slope that was walked
+TILT = 0.1  # rise per px from which ground counts as a slope
 
 
 class Feats:
-    """`done`: how often, or in how many steps, by name."""
+    """Feats. `done`: number of times, or of steps, by name."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -37,7 +37,7 @@ class Feats:
         self.inside_solid = 0
 
     def count(self):
-        """After each step."""
+        """Count the feats of a step."""
         scene, done = self.scene, self.done
         hero = scene.hero
         left, top, _, _ = hero.box
@@ -69,11 +69,11 @@ class Feats:
             )
 
     def broke(self):
-        """A stone has crumbled."""
+        """Count a crumbled stone."""
         self.done["crumbled"] += 1
 
     def goals(self):
-        """The scene's goals."""
+        """Return the scene's goals."""
         scene, things = self.scene, self.scene.things
         kinds = {thing.kind for thing in scene.level.map.things}
         lit = sum(trigger.lit for trigger in scene.checkpoints)

@@ -1,33 +1,33 @@
-"""Where the camera looks: ahead of a run, not at every hop, up and down when asked, and only into the zone he is in."""
+"""Camera: it looks ahead of a run, ignores small jumps, looks up and down on demand, and stays in the hero's zone."""
 
 from math import exp
 
 from game.drawing.canvas import CANVAS_SIZE
 from scenes.platformer.feel import RUN_SPEED
 
-AHEAD = 64.0  # [px] it looks this far in the way of a run
-STANDING_AHEAD = AHEAD * 0.35  # [px] and this far in the way he faces when he stands
-AHEAD_RATE = 1.8  # [1/s] slowly, so that a step back does not swing the picture
+AHEAD = 64.0  # [px] look ahead in the direction of a run
+STANDING_AHEAD = AHEAD * 0.35  # [px] and in the direction he faces when he stands
+AHEAD_RATE = 1.8  # [1/s] slow, so that a step back does not swing the picture
 FOLLOW_RATE = 6.5  # [1/s]
-RUNNING = 60.0  # [px/s] faster than this it looks where he runs, slower where he faces
+RUNNING = 60.0  # [px/s] from which it looks in the direction of motion, below it where he faces
 DEAD_ZONE = (6.0, 10.0)  # [px] small moves leave the picture still
 RAISED = 46.0  # [px] the hero stands below the middle: there is more to see above
-JUMP_ROOM = 58.0  # [px] a jump of that height does not lift the camera; its landing does
+JUMP_ROOM = 58.0  # [px] a jump of this height does not lift the camera; its landing does
 PEEK, PEEK_AFTER = 62.0, 24  # [px], [steps] that up or down is held on the ground
 
 
 class Gaze:
-    """Owned by the look; moves the scene's camera."""
+    """Mover of the scene's camera; owned by the look."""
 
     def __init__(self, scene):
         self.scene = scene
         self.ahead = STANDING_AHEAD
         self.level_y = scene.hero.character.position[1]
-        self.peeking = 0  # steps that he has looked up or down
+        self.peeking = 0  # steps of looking up or down
         scene.camera.keep_within(0, 0, *scene.level.size)
 
     def arrive(self, x, y):
-        """The picture is there at once."""
+        """Move the picture there at once."""
         self.level_y, self.ahead, self.peeking = y, STANDING_AHEAD, 0
         self.scene.camera.center_on(*self._kept(x + self.ahead, y - RAISED))
 
@@ -45,7 +45,7 @@ class Gaze:
         scene.camera.follow(*self._kept(x + self.ahead, self.level_y - RAISED + peek), dt, FOLLOW_RATE, DEAD_ZONE)
 
     def _kept(self, x, y):
-        """The point moved so that the picture around it stays in the hero's zone, where that is larger."""
+        """Return the point moved so that the view stays in the hero's zone, if that is larger."""
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         width, height = CANVAS_SIZE
         wide = next((zone for zone in zones if zone.width >= width), None)
@@ -58,5 +58,5 @@ class Gaze:
 
 
 def rows_of(zone):
-    """Top and bottom [px] of what may be seen from a zone: its own, unless it says otherwise."""
+    """Return top and bottom [px] of the view allowed from a zone: its own, unless it sets another."""
     return zone.properties.get("view_top", zone.y), zone.properties.get("view_bottom", zone.y + zone.height)

@@ -1,4 +1,4 @@
-"""The hero: the moves that are made of the numbers in feel.py."""
+"""The hero: moves with the numbers of feel.py."""
 
 from collections.abc import Sequence
 from math import sqrt
@@ -60,15 +60,17 @@ TIMERS = ("coyote", "drop", "locked", "kept", "lift")
 
 
 class Hero:
-    """Speeds, timers [steps] and what happened in the last step (`news`: words for sound, dust and the judge)."""
+    """The hero: speeds, timers [steps] and `news`, the events of the last step as words for sound, dust and the
+    goals.
+    """
 
     def __init__(self, world, level, position):
         self.world, self.level = world, level
         self.character = Character(
             world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero", push=PUSH
         )
-        self.crates: Sequence[Crate | Rubble] = ()  # what he can push
-        # Boxes (left, top, right, bottom) of what is solid and no tile, refreshed before each step.
+        self.crates: Sequence[Crate | Rubble] = ()  # bodies that he can push
+        # Boxes (left, top, right, bottom) of the solids that are no tiles, refreshed before each step.
         self.solids: Sequence[tuple] = ()
         self.bridges: Sequence[Bridge] = ()  # open from below, as planks are
         self.ladders = {}  # body id -> trigger of the ladders that he touches
@@ -77,17 +79,17 @@ class Hero:
         self.place(position)
 
     def place(self, position):
-        """Stand still somewhere, as at a start."""
+        """Stand still at a place, as at a start."""
         self.character.move_to(position)
-        self.character.move(0.0, 0.0)  # forgets a squeeze that was not told yet
+        self.character.move(0.0, 0.0)  # clears a squeeze that was not reported yet
         self.before = self.character.position
         self.vx = self.vy = self.rise_speed = self.lift_x = self.lift_y = self.kept_vx = self.slope = 0.0
         self.buffer = self.coyote = self.rise = self.drop = self.locked = self.kept = self.lift = 0
         self.grip = steps(SLIDE_TIME)
         self.locked_way = self.wall = self.sliding = 0
         self.grounded = self.pushing = self.crushed = False
-        self.pushed: Crate | Rubble | None = None  # the crate beside him that he runs against
-        self.peak = self.before[1]  # highest since he left the ground [px]
+        self.pushed: Crate | Rubble | None = None  # the crate that he runs against
+        self.peak = self.before[1]  # highest point since he left the ground [px]
         self.riding: Body | None = None
         self.ladder: Trigger | None = None
         self.gazing = 0  # -1 looks up, 1 ducks
@@ -101,7 +103,7 @@ class Hero:
         return left, top, left + WIDTH, top + HEIGHT
 
     def step(self, inputs):
-        """One step of moves."""
+        """Make one step of moves."""
         self.news.clear()
         self.before = self.character.position
         way = inputs.held("right") - inputs.held("left") if self.locked == 0 else self.locked_way
@@ -122,11 +124,11 @@ class Hero:
         self._travel()
 
     def listen(self, inputs):
-        """Note a press of jump, which counts for a moment; also while the picture stands still."""
+        """Record a press of jump, which counts for a moment; also while the picture is frozen."""
         self.buffer = steps(BUFFER) if inputs.pressed("jump") else max(self.buffer - 1, 0)
 
     def rest(self):
-        """A step without keys: he slows down and falls to the ground (the goal is reached)."""
+        """Make a step without keys: he slows down and falls to the ground (the goal is reached)."""
         self.news.clear()
         self.before = self.character.position
         self.ladder, self.gazing = None, 0
@@ -156,7 +158,7 @@ class Hero:
             return
         limit = FALL_SPEED
         if down:
-            # From the plain limit it grows to the fast one: a tap of down is not yet a plunge.
+            # The limit grows from the plain to the fast one, so that a tap of down is not yet a plunge.
             limit = min(max(FALL_SPEED, self.vy + FAST_FALL_GAIN * STEP_SECONDS), FAST_FALL_SPEED)
         elif way and way == self.wall and self.vy >= 0.0 and self.grip > 0:
             tired = 1.0 - self.grip / steps(SLIDE_TIME)
@@ -207,14 +209,14 @@ class Hero:
         self.grip = steps(SLIDE_TIME)
 
     def on_boards(self):
-        """Whether what he stands on is open from below, so that down and jump drop him through it."""
+        """Return whether he stands on one-way ground, through which down and jump drop him."""
         left, _, right, bottom = self.box
         return self.level.on_plank(left, bottom, WIDTH) or any(one.bears(left, right, bottom) for one in self.bridges)
 
     # --- ladders ---------------------------------------------------------------------------------------------------
 
     def _grab(self, up, down):
-        """Hold on to a ladder that he touches: by up from beside or below, by down from its top."""
+        """Hold on to a touched ladder: with up from beside or below, with down from its top."""
         if up == down or self.vy < 0.0:
             return
         bottom = self.box[3]
@@ -227,7 +229,7 @@ class Hero:
                 return
 
     def _climb(self, way, turn, down):
-        """One step on the ladder. turn: -1 up, 1 down."""
+        """Make one step on the ladder. turn: -1 up, 1 down."""
         if self.buffer:
             self.ladder, self.coyote = None, 0 if down else 1
             self.vx = self.vy = 0.0
@@ -251,7 +253,7 @@ class Hero:
         self.drop = 2 if turn > 0 else 0  # past its own top
 
     def _leave_ladder(self, moved, ladder):
-        """Off at its foot, or stand on its top."""
+        """Leave the ladder at its foot, or stand on its top."""
         if self.vy > 0.0 and moved.grounded:
             self.ladder, self.drop, self.grounded = None, 0, True
         elif self.box[3] <= ladder.top:
@@ -262,18 +264,18 @@ class Hero:
     # --- what happens to him -----------------------------------------------------------------------------------------
 
     def launch(self):
-        """A spring throws him: always as high, whatever is held."""
+        """Throw him by a spring, to the same height whatever is held."""
         self._rise(SPRING_SPEED)
         self.rise = 0
         self.news.append("launch")
 
     def bounce(self):
-        """Up from an enemy's back."""
+        """Bounce off an enemy's back."""
         self._rise(STOMP_SPEED)
         self.news.append("stomp")
 
     def throw(self, way):
-        """Thrown back by what would have hurt him."""
+        """Throw him back, in place of a hurt."""
         self._rise(THROWN[1])
         self.rise, self.kept, self.drop = 0, 0, 0
         self.locked, self.locked_way, self.vx = steps(THROWN_TIME), way, way * THROWN[0]
@@ -282,7 +284,7 @@ class Hero:
     # --- the way through the world -----------------------------------------------------------------------------------
 
     def _travel(self):
-        # The speed is along the ground: the same uphill, where each pixel along x is more than a pixel of way.
+        # The speed is along the ground: the same uphill, where a pixel along x is a longer path.
         along = 1.0 / sqrt(1.0 + self.slope * self.slope) if self.grounded else 1.0
         dx, dy = self.vx * along * STEP_SECONDS, self.vy * STEP_SECONDS
         if self.ladder is None and self._nearly_up():
@@ -314,7 +316,7 @@ class Hero:
         self.grounded = grounded
 
     def _remember_lift(self):
-        """The speed of what carries him: a platform's, a crate's, a belt's."""
+        """Record the speed of the ground that carries him: a platform's, a crate's, a belt's."""
         vx, vy = self.riding.velocity if self.riding is not None else (0.0, 0.0)
         vx += self.character.surface_speed
         if (vx, vy) != (0.0, 0.0):
@@ -322,7 +324,7 @@ class Hero:
             self.lift = steps(LIFT_TIME)
 
     def _nearly_up(self):
-        """Whether he still rises, and his feet are just under the top of a plank they pass."""
+        """Return whether he rises, with his feet just under the top of a plank."""
         if self.vy > 0.0 or self.grounded:
             return False
         left, _, right, bottom = self.box
@@ -330,7 +332,7 @@ class Hero:
         return any(within(left, right, bottom, POP_REACH) for within in boards)
 
     def _bump(self, dy):
-        """The head hit something: slip past its corner, or stop rising."""
+        """React to a hit of the head: slip past its corner, or stop rising."""
         sides = (1, -1) if self.vx == 0.0 else (1 if self.vx > 0.0 else -1,)
         for reach in range(1, CORNER + 1):
             for side in sides:
@@ -344,7 +346,7 @@ class Hero:
         self.news.append("bump")
 
     def _slip_out(self):
-        """Squeezed by a corner only: out to the nearer side. Returns whether there was room."""
+        """Move out to the nearer side when squeezed by a corner. Return whether there was room."""
         x, y = self.character.position
         for reach in range(1, CORNER + 1):
             for side in (-1, 1):
@@ -354,7 +356,7 @@ class Hero:
         return False
 
     def _blocked(self, dx, dy):
-        """Whether the box, shifted by whole pixels, would be in something solid."""
+        """Return whether the box, shifted by whole pixels, would overlap a solid."""
         left, top, right, bottom = self.box
         left, top, right, bottom = left + dx, top + dy, right + dx, bottom + dy
         return self.level.blocks(left, top, WIDTH, HEIGHT) or any(
@@ -371,7 +373,7 @@ class Hero:
         return None
 
     def state(self):
-        """All that the next step depends on and that is not in the world."""
+        """Return all state that the next step depends on outside the world."""
         return (
             self.vx,
             self.vy,

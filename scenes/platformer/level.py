@@ -1,4 +1,4 @@
-"""The level as the game asks about it: the map's solid tiles as one body, and quick questions about single tiles."""
+"""The level: the map's solid tiles as one body, and fast queries about single tiles."""
 
 from functools import lru_cache
 from math import floor
@@ -11,7 +11,7 @@ from game.places import LEVELS
 from physics import Filter
 from scenes.platformer.level_rules import LARGEST, check_level
 
-# Who is who. Two shapes meet if each one's membership is in the other's mask.
+# Categories. Two shapes collide if each one's membership is in the other's mask.
 TILES, HERO, ENEMY, CRATE, PLATFORM, TRIGGER, DEBRIS, BOMB = 1, 2, 4, 8, 16, 32, 64, 128
 FILTER_NAMES = {
     TILES: "ground",
@@ -62,10 +62,10 @@ class Level:
         self.hints = sorted(self.map.things_of("hint"), key=lambda hint: hint.properties["order"])
 
     def __deepcopy__(self, memo):
-        return self  # nothing in it changes, and its pictures are kept by it
+        return self  # it is constant, and its pictures are cached by it
 
     def _find_lights(self):
-        """(x, y, name) of every tile of the decoration that glows [px]."""
+        """Return (x, y, name) of every glowing tile of the decoration [px]."""
         names = {number: tile.get("name") for number, tile in self.map.tiles.items() if tile.get("name") in GLOWS}
         layer = self.map.layers.get("decor", np.zeros((0, 0), int))
         for row, line in enumerate(layer.tolist()):
@@ -75,7 +75,7 @@ class Level:
                     yield (column + 0.5) * self.tile + dx, (row + 0.5) * self.tile + dy, names[number]
 
     def zones_at(self, x, y):
-        """The zones that hold a point [px], in the map's order: the first one tells the act."""
+        """Return the zones that contain a point [px], in the map's order; the first one decides the act."""
         return [zone for zone in self.zones if zone.x <= x < zone.x + zone.width and zone.y <= y < zone.y + zone.height]
 
     def add_to(self, world):
@@ -83,17 +83,17 @@ class Level:
         return world.add_body(self.grid, kind="static", filter=TILE_FILTER, user="tiles")
 
     def kind(self, column, row):
-        """What a tile is. Beside the map there is rock, above and below it nothing."""
+        """Return the kind of a tile. Beside the map there is rock, above and below it nothing."""
         if not 0 <= column < self.map.columns:
             return SOLID
         return self.kinds[row][column] if 0 <= row < self.map.rows else EMPTY
 
     def kind_at(self, x, y):
-        """What the tile at a point [px] is."""
+        """Return the kind of the tile at a point [px]."""
         return self.kind(floor(x / self.tile), floor(y / self.tile))
 
     def surface(self, column, row, x):
-        """Top of a tile's ground at the column of pixels x [px], or None where it has none."""
+        """Return the top of a tile's ground at the column of pixels x [px], or None without ground."""
         kind = self.kind(column, row)
         if kind == SOLID:
             return row * self.tile
@@ -105,7 +105,7 @@ class Level:
         return (row + 1 - low - (high - low) * share) * self.tile
 
     def blocks(self, left, top, width, height):
-        """Whether a box overlaps rock or the ground of a slope. Planks are open from below, so they never do."""
+        """Return whether a box overlaps rock or the ground of a slope. Planks are one-way, so they never block."""
         bottom = top + height
         for row in range(floor(top / self.tile), floor((bottom - 1) / self.tile) + 1):
             for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1):
@@ -121,7 +121,7 @@ class Level:
         return False
 
     def on_plank(self, left, bottom, width):
-        """Whether feet at the height `bottom` stand on planks alone."""
+        """Return whether feet at the height `bottom` stand on planks alone."""
         if bottom % self.tile:
             return False
         row = bottom // self.tile
@@ -132,14 +132,14 @@ class Level:
         return PLANK in under and under <= {PLANK, EMPTY}
 
     def plank_within(self, left, right, bottom, reach):
-        """Whether feet at the height `bottom` are in a plank, by at most `reach` px."""
+        """Return whether feet at the height `bottom` are in a plank, by at most `reach` px."""
         row = (bottom - 1) // self.tile
         if not 0 < bottom - row * self.tile <= reach:
             return False
         return any(self.kind(column, row) == PLANK for column in range(left // self.tile, (right - 1) // self.tile + 1))
 
     def drop_to_ground(self, x, y, most):
-        """How far below y the ground is at x [px], at most `most`. Planks do not count."""
+        """Return the distance from y down to the ground at x [px], at most `most`. Planks do not count."""
         row = floor(y / self.tile)
         column = floor(x / self.tile)
         while row * self.tile < y + most:
@@ -152,19 +152,19 @@ class Level:
 
 @lru_cache(maxsize=4)
 def load_level(path=None, stamp=None):
-    """A level that can be played, read once per path and stamp (its time of change). Raises FileError."""
+    """Return a playable level, read once per path and stamp (its time of change). Raises FileError."""
     tilemap = load_tilemap(LEVELS / "platformer.tmj" if path is None else path, LARGEST)
     check_level(tilemap)
     return Level(tilemap, map_picture(tilemap))
 
 
 def level_of(path=None):
-    """The level at a path, read anew when the file has changed; None: the game's own. Raises FileError."""
+    """Return the level at a path, read again if the file has changed; None: the game's own. Raises FileError."""
     if path is None:
         return load_level()
     path = Path(path)
     try:
         stamp = path.stat().st_mtime_ns
-    except (OSError, ValueError):  # reading it says why
+    except (OSError, ValueError):  # reading it reports the reason
         stamp = None
     return load_level(path, stamp)

@@ -1,11 +1,11 @@
-"""What a map must hold to be played: each mistake is told by file, place and reason."""
+"""Requirements of a playable map: each error names file, place and reason."""
 
 from dataclasses import dataclass
 
 from game.errors import FileError
 
 TILE_SIZE = 16
-SMALLEST, LARGEST = (30, 17), (1024, 256)  # [tiles] the picture; what is checked and painted in a moment
+SMALLEST, LARGEST = (30, 17), (1024, 256)  # [tiles] the picture; the limit for quick checks and painting
 MOST_THINGS = 1500
 ACTS = ("meadow", "cave", "keep")
 HINTS = ("run", "jump", "climb", "kick", "ride", "drop", "push", "fall", "spring", "throw")
@@ -14,12 +14,12 @@ FAR = 1e5  # [px] beyond any map
 
 @dataclass(frozen=True)
 class Kind:
-    """How often an object of a kind may be there, and its properties: name -> (type, least, most, needed)."""
+    """Limits of a kind: number of its objects, and its properties: name -> (type, least, most, needed)."""
 
     least: int = 0
     most: int = MOST_THINGS
     properties: tuple = ()
-    outside: bool = False  # may reach over the map's edge
+    outside: bool = False  # may extend over the map's edge
 
 
 def _number(name, least, most, needed=True):
@@ -60,7 +60,7 @@ KINDS = {
 
 
 def check_level(tilemap):
-    """Raise FileError for the first thing in a map that cannot be played."""
+    """Raise FileError for the first unplayable thing in a map."""
     _check_size(tilemap)
     for thing in tilemap.things:
         _check_thing(tilemap, thing)

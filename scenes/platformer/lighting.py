@@ -1,4 +1,4 @@
-"""Light: glows that add to the picture, and the dark of the cave that takes from it where no light reaches."""
+"""Light: glows that brighten the picture, and the dark of the cave beyond all light."""
 
 from functools import lru_cache
 
@@ -7,12 +7,12 @@ import pygame
 from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_atlas
 
-AMBIENT = (136, 132, 180)  # what is left of each colour where the cave is darkest
-STEPS = 12  # of darkness between day and that, each with light discs of its own
-GRAIN = 2  # [px] between the radii that a flickering light takes: so few pictures are kept
+AMBIENT = (136, 132, 180)  # share of each colour left where the cave is darkest
+STEPS = 12  # levels of darkness, each with light discs of its own
+GRAIN = 2  # [px] between the radii of a flickering light, so that few pictures are cached
 BRIGHTEST = 0.62  # of a light's colour in the middle of its disc
-WARM = ("torch", "lantern", "window", "fuse")  # these glow as they are drawn, the others in cold colours
-# What shines: (flicker share, its speed, radius of its glow, radius of the light in the dark [px], colour)
+WARM = ("torch", "lantern", "window", "fuse")  # these keep their drawn colours, the others are cold
+# Lights: (flicker share, its speed, radius of its glow, radius of the light in the dark [px], colour)
 SHINES = {
     "torch": (0.10, 11.0, 32, 92, (255, 206, 150)),
     "lantern": (0.05, 5.0, 32, 100, (255, 220, 170)),
@@ -30,13 +30,13 @@ SHINES = {
 
 
 class Lighting:
-    """Draws over the world and under the words."""
+    """Drawing of light, over the world and under the words."""
 
     def __init__(self):
         self.cover = pygame.Surface(CANVAS_SIZE)
 
     def draw(self, surface, lights, dark, time):
-        """lights: (canvas x, canvas y, name); dark 0..1."""
+        """Draw the lights: (canvas x, canvas y, name); dark 0..1."""
         level = whole(dark * STEPS)
         if level:
             self.cover.fill([whole(255 - (255 - part) * level / STEPS) for part in AMBIENT])
@@ -61,13 +61,13 @@ class Lighting:
 
 
 def flickering(radius, share, speed, time, x):
-    """The radius of a light at a time [s]; two lights do not flicker together."""
+    """Return the radius of a light at a time [s]; two lights do not flicker together."""
     return GRAIN * whole(radius * (1.0 - share + share * wave(time * speed / 6.28 + x * 0.013)) / GRAIN)
 
 
 @lru_cache(maxsize=128)
 def glow(radius, warm):
-    """The drawn light at another size; cold ones have red and blue changed over."""
+    """Return the drawn light at another size; cold ones have red and blue swapped."""
     image = pygame.transform.scale(load_atlas("things")["lantern_light"], (2 * radius, 2 * radius))
     if not warm:
         pixels = pygame.surfarray.pixels3d(image)
@@ -78,7 +78,7 @@ def glow(radius, warm):
 
 @lru_cache(maxsize=128)
 def disc(radius, color, share):
-    """A round light that falls off in rings, as much of it as there is darkness."""
+    """Return a round light that falls off in rings, in proportion to the darkness."""
     image = pygame.Surface((2 * radius, 2 * radius))
     rings = max(radius // 5, 3)
     for ring in range(rings):
@@ -93,6 +93,6 @@ def disc(radius, color, share):
 
 
 def wave(turns):
-    """A soft wave -1..1 per turn, of two parabolas: no table and no sine per coin."""
+    """Return a soft wave -1..1 per turn, of two parabolas: no table and no sine per coin."""
     part = turns % 1.0
     return 16.0 * part * (0.5 - part) if part < 0.5 else -16.0 * (part - 0.5) * (1.0 - part)

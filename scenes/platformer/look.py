@@ -1,4 +1,4 @@
-"""What is only seen and heard: squash and stretch, dust, trails, sparkles, an act's light. No rule reads any of it."""
+"""Effects of the platformer: squash and stretch, dust, trails, sparkles, an act's light. No game rule reads them."""
 
 from math import cos, exp, sin
 
@@ -8,7 +8,7 @@ from scenes.platformer.blasting import THROWN
 from scenes.platformer.feel import FALL_SPEED, HEIGHT, RUN_SPEED
 from scenes.platformer.gaze import Gaze
 
-# Squash and stretch: (width, height) at the moment, and how fast it fades
+# Squash and stretch: (width, height) at its start, and the rate at which it fades
 STRETCHES = {
     "jump": (0.60, 1.40),
     "wall_jump": (0.60, 1.40),
@@ -32,80 +32,80 @@ SOUNDS = {
     "drop": ("blip", 0.4),
     "thrown": ("hit", 0.7),
 }
-FALLEN = 260.0  # [px/s] how fast a hurt hero is thrown up before he falls out of the picture
+FALLEN = 260.0  # [px/s] speed of a hurt hero up, before he falls out of the picture
 FALLEN_GRAVITY = 1100.0  # [px/s2]
 RUN_DUST = 11  # steps between puffs of a run
 MOTE_EVERY = 9  # steps between motes of light in the air
 EMBER_EVERY = 5  # steps between sparks of a flame
-RUNG = 14.0  # [px] of climbing between two sounds of it
-LOUDEST = 400000.0  # [density px3/s] impulse of a hit beyond which nothing gets louder: the large crate from 10 tiles
-FAINTEST, SHAKING = 0.02, 0.25  # of that: quieter is not heard, harder shakes the picture
-SQUASHED = 0.5  # [s] a flattened walker is seen
-TUMBLED = 1.2  # [s] a flattened bat or hedgehog is seen to fall
-QUICK, AFTERIMAGES = 250.0, 7  # [px/s] faster than this he leaves so many pictures of himself behind
-DARKEN = 2.2  # [1/s] how quickly eyes and light get used to another act
-COVER_RATE = 7.0  # [1/s] a covered room is seen, and hidden again
-PULSE_FADE, GEM_FADE = 4.0, 1.5  # [1/s] how fast the jumps of the counters end
+RUNG = 14.0  # [px] of climbing between two sounds
+LOUDEST = 400000.0  # [density px3/s] impulse of the loudest hit: the large crate from 10 tiles
+FAINTEST, SHAKING = 0.02, 0.25  # shares of that: a weaker hit is silent, a stronger one shakes the picture
+SQUASHED = 0.5  # [s] that a flattened walker is visible
+TUMBLED = 1.2  # [s] that a flattened bat or hedgehog is seen falling
+QUICK, AFTERIMAGES = 250.0, 7  # [px/s] speed from which he leaves so many afterimages
+DARKEN = 2.2  # [1/s] rate at which the light changes to another act
+COVER_RATE = 7.0  # [1/s] rate at which a covered room opens and closes
+PULSE_FADE, GEM_FADE = 4.0, 1.5  # [1/s] rate at which the counters' pulses end
 BLAST_LIFE = 0.54  # [s] all frames of a burst
 FUSE_SOUND = 12  # steps between two sounds of a fuse that burns
 FUSE = (4.0, -7.5)  # [px] from the middle of a bomb to the end of its fuse
 PUFF_LIFE = 0.3  # [s] all frames of dust or a sparkle
-HELD_STEP = STEP_SECONDS / 4  # [s] that pass for lights and coins while the picture stands still
-SPLIT_TIME = 2.6  # [s] the time at a checkpoint against the best run's is shown
-WINDOW = 20.0, 72.0  # [px] the ghost passed a checkpoint when it was that near
+HELD_STEP = STEP_SECONDS / 4  # [s] per step for lights and coins while the picture is frozen
+SPLIT_TIME = 2.6  # [s] that the time at a checkpoint against the best run's is shown
+WINDOW = 20.0, 72.0  # [px] window in which the ghost passed a checkpoint
 
 
 class Look:
-    """Owned by the scene, which tells it what happened."""
+    """The effects; owned by the scene, which reports its events."""
 
     def __init__(self, scene):
         self.scene = scene
         self.time = 0.0
         self.width = self.height = 1.0  # the hero's stretch
-        self.run = self.climb = 0.0  # [px] way on the ground and on ladders, which drive the frames
+        self.run = self.climb = 0.0  # [px] path on the ground and on ladders, which drives the frames
         self.blasts = []  # [x, y, age s]
         self.puffs = []  # [animation, x, y, age s]
         self.flat = []  # flattened enemies: [kind, x, bottom, way, age s]
         self.afterimages = []  # [x, bottom, frame, way, age steps]
         self.pulse = 0.0  # the coin counter's jump, 1..0
         self.gem_pulse = 0.0
-        self.fall = self.fall_speed = 0.0  # a hurt hero's way down
+        self.fall = self.fall_speed = 0.0  # a hurt hero's fall
         self.bodies, self.angles = {}, {}  # body id -> place, and angle of a crate, before this step
-        self.act = "meadow"  # where no zone says otherwise
+        self.act = "meadow"  # without a zone
         self.act = self.last_act = self._act()
         self.act_age = 0.0  # [s] in this act
         self.dark = 1.0 if self.act == "cave" else 0.0
-        self.open = [0.0] * len(scene.level.covers)  # how far each covered room is seen, 0..1
+        self.open = [0.0] * len(scene.level.covers)  # opening of each covered room, 0..1
         self.split = None  # (seconds against the ghost's, time shown)
         self.gaze = Gaze(scene)
         self.arrive()
 
     @property
     def foot(self):
-        """Where the hero's feet are drawn [px]."""
+        """Place of the hero's drawn feet [px]."""
         return self.scene.hero.box[3] + (self.fall if self.scene.phase == "hurt" else 0.0)
 
     def _act(self):
-        """The act of the zone that the hero is in; between zones, that of the last one."""
+        """Return the act of the zone that the hero is in; between zones, that of the last one."""
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         return zones[0].properties["act"] if zones else self.act
 
     def begin_step(self):
-        """Before anything moves."""
+        """Record the places before the step."""
         rows = self.scene.world.bodies
         self.bodies = self.scene.things.places()
         self.angles = dict(zip(rows["id"].tolist(), rows["angle"].tolist(), strict=True))
 
     def hold(self):
-        """A step in which the picture stands still: sparks fly on, what glows or turns goes on slowly."""
+        """Make a step of the frozen picture: sparks fly on, lights and coins slow down."""
         self.time += HELD_STEP
 
     def before(self, body):
-        """Where a body was before the last step [px]."""
+        """Return the place of a body before the last step [px]."""
         return self.bodies.get(body.id, body.position)
 
     def step(self, dt):
-        """After everything has moved."""
+        """Update the effects after the step."""
         scene, hero = self.scene, self.scene.hero
         self.time += dt
         back = 1.0 - exp(-STRETCH_RATE * dt)
@@ -162,7 +162,7 @@ class Look:
             self.split = (self.split[0], self.split[1] + dt) if self.split[1] < SPLIT_TIME else None
 
     def _burn_fuses(self):
-        """Sparks and the hiss of every fuse that is lit."""
+        """Emit sparks and the hiss of every lit fuse."""
         for bomb in self.scene.things.bombs:
             if bomb.phase == THROWN:
                 bursts.fuse(self.scene.particles, *fuse_end(bomb))
@@ -181,21 +181,21 @@ class Look:
             self.open[number] += (float(inside) - self.open[number]) * (1.0 - exp(-COVER_RATE * dt))
 
     def hidden(self, x, y):
-        """Whether a cover is still over a point: light from there must not tell."""
+        """Return whether a cover hides a point: light from there must not show."""
         return any(
             seen < 0.5 and cover.x <= x <= cover.x + cover.width and cover.y <= y <= cover.y + cover.height
             for cover, seen in zip(self.scene.level.covers, self.open, strict=True)
         )
 
     def _leave_images(self, hero):
-        """Where he is quicker than he can run or fall by himself."""
+        """Leave afterimages while he is faster than by running or falling."""
         quick = hero.vy < -QUICK or hero.vy > FALL_SPEED + 20.0 or (abs(hero.vx) > QUICK - 20.0 and not hero.grounded)
         if quick and self.scene.frame % 2 == 0 and self.scene.phase == "playing" and self.scene.trail:
             x, bottom, name, way = self.scene.trail[-1]
             self.afterimages.append([x, bottom, name, way, 0])
 
     def _air(self, scene):
-        """Motes drift through the air of an act, sparks rise from flames."""
+        """Emit motes in the air of an act, and sparks from flames."""
         left, top = scene.camera.view()
         width, height = scene.camera.size
         if scene.frame % MOTE_EVERY == 0:
@@ -209,7 +209,7 @@ class Look:
     # --- what the scene reports --------------------------------------------------------------------------------------
 
     def hear(self, news):
-        """Words of the hero's step, as sound, stretch and dust."""
+        """Turn the words of the hero's step into sound, stretch and dust."""
         for word in news:
             if word in STRETCHES:
                 self.width, self.height = STRETCHES[word]
@@ -228,7 +228,7 @@ class Look:
                 bursts.launch(self.scene.particles, *self._feet())
 
     def tell(self, word, thing):
-        """A stone shakes, breaks or is back, a bat wakes."""
+        """Show an event: a stone shakes, breaks or is back, a bat wakes."""
         scene = self.scene
         if word == "wake":
             self._sound_at("blip", thing.character.position[0], 0.35)
@@ -248,7 +248,7 @@ class Look:
             self._puff("sparkle", x, y)
 
     def _tell_bomb(self, word, x, y):
-        """It is taken, thrown, or back at its place."""
+        """Show a bomb that is taken, thrown, or back at its place."""
         if word == "taken":
             self._sound_at("hook", x, 0.5)
             self._puff("sparkle", x, y)
@@ -260,7 +260,7 @@ class Look:
             self._sound_at("blip", x, 0.4)
 
     def burst(self, x, y, loose, hit):
-        """A bomb bursts; what came loose of a wall throws dust about where it was."""
+        """Show a bursting bomb; loose pieces of a wall leave dust at their places."""
         scene = self.scene
         self.blasts.append([x, y, 0.0])
         bursts.blast(scene.particles, x, y)
@@ -275,7 +275,7 @@ class Look:
             self._sound_at("crumble", x, 1.0)
 
     def took(self, trigger):
-        """A coin or a gem: sparkle and count."""
+        """Show a taken coin or gem."""
         if trigger.kind == "secret":
             bursts.gem(self.scene.particles, trigger.x, trigger.y)
             self.gem_pulse = 1.0
@@ -288,12 +288,12 @@ class Look:
         self._sound("coin", 0.6)
 
     def threw(self, trigger):
-        """A spring has thrown a crate."""
+        """Show a spring that has thrown a crate."""
         self._sound_at("spring", trigger.x, 0.7)
         bursts.launch(self.scene.particles, trigger.x, trigger.foot[1] - 8)
 
     def lit(self, trigger):
-        """A lantern is lit; the time against the ghost's is told."""
+        """Show a lit lantern, and the time against the ghost's."""
         x, bottom = trigger.foot
         bursts.kindle(self.scene.particles, x, bottom - 24)
         self._sound("checkpoint", 0.8)
@@ -303,7 +303,7 @@ class Look:
                 break
 
     def squashed(self, enemy):
-        """An enemy is flat."""
+        """Show a flattened enemy."""
         x, _ = enemy.character.position
         self.flat.append([enemy.kind, x, enemy.bottom, enemy.way, 0.0])
         bursts.squash(self.scene.particles, x, enemy.bottom - 6)
@@ -312,7 +312,7 @@ class Look:
             self._sound_at("stomp", x, 0.6)
 
     def struck(self, x, y, impulse):
-        """Something hit something at a point: everything about it grows with the impulse."""
+        """Show an impact at a point, in proportion to its impulse."""
         force = min(impulse / LOUDEST, 1.0)
         if force < FAINTEST or not self._in_picture(x, y):
             return
@@ -322,7 +322,7 @@ class Look:
             self.scene.camera.shake(0.35 * force)
 
     def hurt(self):
-        """The hero is thrown out of the picture."""
+        """Show the hurt hero thrown out of the picture."""
         x, y = self.scene.hero.character.position
         self.fall, self.fall_speed = 0.0, -FALLEN
         bursts.hurt(self.scene.particles, x, y)
@@ -331,17 +331,17 @@ class Look:
         self._sound("hurt", 0.9)
 
     def vanished(self):
-        """He is put back to where he stood: a puff where he was."""
+        """Show a puff where the hero was before he was put back."""
         bursts.vanish(self.scene.particles, *self.scene.hero.character.position)
         self.scene.camera.shake(0.25)
 
     def won(self, trigger):
-        """Confetti."""
+        """Show confetti."""
         bursts.confetti(self.scene.particles, trigger.x, trigger.y - 10)
         self._sound("goal", 1.0)
 
     def arrive(self):
-        """A life starts: the picture is there at once."""
+        """Move the picture to the start of a life at once."""
         self.gaze.arrive(*self.scene.spawn)
         self.afterimages.clear()
         self.width, self.height = 0.5, 1.4
@@ -370,7 +370,7 @@ class Look:
 
 
 def fuse_end(bomb):
-    """Where the fuse of a bomb burns [px]."""
+    """Return the place of a bomb's burning fuse [px]."""
     x, y = bomb.place
     angle = 0.0 if bomb.body is None else bomb.body.angle
     return x + cos(angle) * FUSE[0] - sin(angle) * FUSE[1], y + sin(angle) * FUSE[0] + cos(angle) * FUSE[1]

@@ -1,7 +1,7 @@
-"""The scripted player: goes from hint to hint of the map and presses keys by rules.
+"""The scripted player: it follows the map's hints and presses keys by rules.
 
-A hint says where to be next and how: run (and jump at what is in the way), jump at once, climb, kick from wall to
-wall, ride a platform, drop through a plank, push, fall, throw a bomb, or let a spring throw it. When, it sees for
+A hint gives the next place and the way to it: run (and jump at obstacles), jump at once, climb, kick from wall to wall,
+ride a platform, drop through a plank, push, fall, throw a bomb, or let a spring throw it. The bot finds the moment
 itself: whether a platform is docked, where an enemy will be, whether there is ground ahead.
 """
 
@@ -10,22 +10,22 @@ from math import sqrt
 from scenes.platformer.blasting import CARRIED, WAITING
 from scenes.platformer.feel import GRAVITY, RUN_SPEED
 
-NEAR_X, NEAR_Y, NEAR_UP = 9, 8, 18  # [px] beside, below and above a hint (on a crate) that count as there
-EDGE = 10  # [px] before an edge it jumps
+NEAR_X, NEAR_Y, NEAR_UP = 9, 8, 18  # [px] beside, below and above a hint (on a crate) that count as reached
+EDGE = 10  # [px] before an edge at which it jumps
 STEP = 18  # [px] lower ground ahead is no gap
 HOLD = 40  # steps that jump is held
 FLIGHT = 0.63  # [s] from a full jump's start to an enemy's back
-REACH = (100, 128)  # [px] how far a full jump carries in that time
-CLOSE, FAST_CLOSE = 34, 54  # [px] the last chance to jump over an enemy, over one that flies
-RUN_UP = 62  # [px] before what is to be jumped over at full speed
+REACH = (100, 128)  # [px] range of a full jump in that time
+CLOSE, FAST_CLOSE = 34, 54  # [px] last chance to jump over an enemy, over a flying one
+RUN_UP = 62  # [px] before an obstacle that needs a jump at full speed
 PAUSE, LONGEST_PAUSE = 37, 90  # steps
-DOCK = 1.5  # [px] a platform that near its end is docked
-THROW_FROM, AWAY = 62, 96  # [px] it throws a bomb so far from where it is to burst, and then keeps away from it
-KICK_SPEED = -90.0  # [px/s] slower than this upwards, it kicks
+DOCK = 1.5  # [px] from its end at which a platform is docked
+THROW_FROM, AWAY = 62, 96  # [px] distance of a bomb's throw from its target, and then from the burst
+KICK_SPEED = -90.0  # [px/s] it kicks when rising slower than this
 
 
 class Runner:
-    """Remembers which hint is next, which was next at the last checkpoint, and whether jump is still to be released."""
+    """The bot: the next hint, the next one at the last checkpoint, and whether jump must be released."""
 
     def __init__(self):
         self.next = self.kept = 0
@@ -33,22 +33,22 @@ class Runner:
         self.start_again()
 
     def remember(self):
-        """A checkpoint was lit."""
+        """Record the hint at a lit checkpoint."""
         self.kept = self.next
 
     def start_again(self):
-        """A new life: it waits a while, each time another one, since the same steps would end the same way."""
+        """Start a new life after a wait, of another length each time, because the same steps would end the same way."""
         self.next = self.kept
         self.lives += 1
         self.pause = self.lives * PAUSE % LONGEST_PAUSE
-        self.hold = 0  # steps that jump is still held
-        self.fresh = True  # a hint has just become the next one
+        self.hold = 0  # steps for which jump is held
+        self.fresh = True  # the hint has just become the next one
         self.boarded = None  # the platform that it rides
-        self.thrown = False  # a spring has thrown him on the way to this hint
+        self.thrown = False  # a spring has thrown it towards this hint
         self.dropped = False
 
     def keys(self, scene):
-        """The actions of the next step."""
+        """Return the actions of the next step."""
         hints = scene.level.hints
         if scene.phase != "playing" or self.next >= len(hints) or self.pause:
             self.pause = max(self.pause - 1, 0)
@@ -64,7 +64,9 @@ class Runner:
         return self._press(scene.hero, set(keys), jump)
 
     def _press(self, hero, keys, jump):
-        """Held while it rises; up for one step before the next press, since only a fresh press jumps."""
+        """Press jump: held while it rises, and released for one step before the next press, because only a fresh press
+        jumps.
+        """
         if jump and self.hold == 0:
             self.hold = HOLD
         elif self.hold and (hero.vy >= 0.0 or self.hold == 1) and self.hold < HOLD - 1:
@@ -101,7 +103,7 @@ class Runner:
         return _keys(way), self._must_jump(scene, hero, hint, way)
 
     def _needs_a_run_up(self, scene, hero, way):
-        """Whether spikes that walk are so near that a jump from here, at this speed, would end on them."""
+        """Return whether walking spikes are so near that a jump from here, at this speed, would end on them."""
         x, feet = hero.character.position[0], hero.box[3]
         return (
             hero.vx * way < 120.0
@@ -115,7 +117,7 @@ class Runner:
         )
 
     def _waits_at_edge(self, scene, hero, hint, way):
-        """Whether spikes that walk are just where a step down from here would end."""
+        """Return whether walking spikes are where a step down from here would end."""
         x, feet = hero.character.position[0], hero.box[3]
         if _foot(hint) < feet + STEP or self._ground(scene, x + 16 * way, feet):
             return False
@@ -127,7 +129,7 @@ class Runner:
         )
 
     def _landing_aside(self, scene, hero):
-        """The way to steer in the air so as not to come down on spikes that walk; 0 if none are there."""
+        """Return the direction to steer in the air so as not to land on walking spikes; 0 if there are none."""
         x, feet = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             depth = enemy.top - feet
@@ -136,7 +138,7 @@ class Runner:
             time = (sqrt(hero.vy * hero.vy + 2.0 * GRAVITY * depth) - hero.vy) / GRAVITY
             lands, there = x + hero.vx * time, enemy.place_after(time)
             if abs(lands - there) < 26:
-                # Past it where he nearly is already, else short of it.
+                # Past it if he is nearly there, else short of it.
                 return 1 if lands > there + 6 * (1 if hero.vx > 0.0 else -1) else -1
         return 0
 
@@ -183,7 +185,7 @@ class Runner:
     def _spring(self, scene, hero, hint):
         self.thrown = hero.vy < -300.0 or (self.thrown and not hero.grounded)
         if self.thrown:
-            # With a wall at hand and still too low, the kicks begin where the throw ends.
+            # With a wall in reach and still too low, the kicks begin where the throw ends.
             return self._kick(scene, hero, hint) if hero.wall or hero.locked else (_keys(_way(hero, hint, 3)), False)
         spring = min(
             scene.things.of("spring"),
@@ -195,7 +197,7 @@ class Runner:
         return _keys(way), hero.wall == way or self._enemy_ahead(scene, hero, way)
 
     def _throw(self, scene, hero, hint):
-        """Take the bomb, throw it from where it reaches the hint, and get away until the dust settles."""
+        """Return the keys to take the bomb, throw it within range of the hint, and stay away until the dust settles."""
         bomb = min(scene.things.bombs, key=lambda one: abs(one.home[0] - _middle(hint)))
         x = hero.character.position[0]
         if bomb.phase == CARRIED:
@@ -211,7 +213,7 @@ class Runner:
         if self.boarded is None:
             return self._board(scene, hero, hint)
         platform = self.boarded
-        # Wherever it came aboard: off is where the hint is.
+        # Wherever it boarded, the exit is at the hint.
         there = _nearest_end(platform, _middle(hint), _foot(hint))
         left, _, right, _ = platform.box
         on_it = left - 4 <= x <= right + 4 and feet <= platform.box[1] + 4
@@ -253,7 +255,7 @@ class Runner:
         return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
 
     def _place_on(self, scene, platform, x):
-        """Where to come down on a platform: on its crate, if it has a large one, else in its middle."""
+        """Return the landing place on a platform: on its large crate, if it has one, else in its middle."""
         left, top, right, _ = platform.box
         for crate in scene.things.crates:
             at, _ = crate.body.position
@@ -264,7 +266,7 @@ class Runner:
     # --- what to do there --------------------------------------------------------------------------------------------
 
     def _must_jump(self, scene, hero, hint, way):
-        """What is in the way: a wall, a gap that does not lead there, an enemy."""
+        """Return whether to jump because of an obstacle: a wall, a gap that does not lead to the hint, an enemy."""
         if not way:
             return self._enemy_near(scene, hero)
         left, _, right, bottom = hero.box
@@ -280,7 +282,7 @@ class Runner:
         return self._enemy_ahead(scene, hero, way)
 
     def _ground(self, scene, x, bottom):
-        """Whether there is something to stand on at x, no more than a step lower."""
+        """Return whether there is ground at x, at most a step lower."""
         level = scene.level
         if level.drop_to_ground(x, bottom - 4, STEP + 4) < STEP + 4 or level.kind_at(x, bottom + 2) == "one_way":
             return True
@@ -296,7 +298,7 @@ class Runner:
         return False
 
     def _enemy_ahead(self, scene, hero, way):
-        """Jump now: onto one that can be stomped, over one that cannot."""
+        """Return whether to jump now, onto a stompable enemy or over another one."""
         x, bottom = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             there = (enemy.character.position[0] - x) * way
@@ -310,7 +312,7 @@ class Runner:
         return False
 
     def _enemy_near(self, scene, hero):
-        """One that comes from either side while he stands."""
+        """Return whether an enemy approaches from either side while he stands."""
         x, bottom = hero.character.position[0], hero.box[3]
         return any(
             0.0 < (x - enemy.character.position[0]) * enemy.way < CLOSE and abs(enemy.bottom - bottom) < 10
@@ -327,7 +329,7 @@ def _foot(hint):
 
 
 def _nearest_end(platform, x, y):
-    """Of the two places [px] between which a platform goes."""
+    """Return the nearest of the two ends [px] of a platform's path."""
     return min((platform.start, platform.end), key=lambda end: abs(x - end[0]) + abs(y - end[1]))
 
 
@@ -350,7 +352,7 @@ def _docked(platform, place):
 
 
 def _soon(platform, place, tick, within):
-    """Whether it is docked there now or within some steps, and not about to leave."""
+    """Return whether it is docked there now or within some steps, and not about to leave."""
     here = platform.place_at(tick)
     far = abs(here[0] - place[0]) + abs(here[1] - place[1])
     then = platform.place_at(tick + within)

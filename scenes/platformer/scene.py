@@ -15,20 +15,20 @@ from scenes.platformer.look import Look
 from scenes.platformer.runner import Runner
 from scenes.platformer.view import hero_frame, level_view
 
-MOURNING = 0.6  # [s] from the hurt to the next life: long enough to see why, short enough to try again
-MERCY = 1.2  # [s] in which enemies do not hurt a new life, or one who was thrown back
+MOURNING = 0.6  # [s] from the hurt to the next life: long enough to see the reason, short enough to try again
+MERCY = 1.2  # [s] in which enemies do not hurt after a new life or a throw back
 APPLAUSE = 1.6  # [s] from the goal to its result
-HIT_STOP = 4  # [steps] the picture stands still when he is hurt: 67 ms
+HIT_STOP = 4  # [steps] that the picture is frozen when he is hurt: 67 ms
 STOMP_STOP = 3  # [steps] and when he stomps
-STRIKE = 60.0  # [px/s] slower is a crate that is pushed or rocks: two steps of gravity
+STRIKE = 60.0  # [px/s] a slower crate is pushed or rocks: two steps of gravity
 CRUSHING = 120000.0  # [density px3/s] the large crate after a fall of a tile
-STOMP_DEPTH = 9  # [px] feet this far below an enemy's top still stomp it
+STOMP_DEPTH = 9  # [px] below an enemy's top at which feet still stomp it
 COIN_WORTH, SECRET_WORTH = 100, 1000
 PLAYING, HURT, WON = "playing", "hurt", "won"
 
 
 class Platformer(Scene):
-    """Keys move the hero; what he touches is read from the events of the step."""
+    """The platformer. Keys move the hero; contacts are read from the events of the step."""
 
     name = "platformer"
     title = "Platformer"
@@ -70,7 +70,7 @@ class Platformer(Scene):
     life_after = steps(MOURNING)
 
     def build(self):
-        """The level and all in it."""
+        """Build the level and its contents."""
         self.level = level_of(self.level_file)
         self.add_world(gravity=(0.0, GRAVITY))
         self.level.add_to(self.world)
@@ -78,20 +78,20 @@ class Platformer(Scene):
         self.spawn = (start.x + start.width / 2, start.y + start.height - HEIGHT / 2)
         self.hero = Hero(self.world, self.level, self.spawn)
         self.things = Contents(self.world, self.level, self.random)
-        self.world.bodies["sleep_time"] = SLEEP_TIME  # what does not move in the first step has lain there before
+        self.world.bodies["sleep_time"] = SLEEP_TIME  # bodies at rest in the first step count as having rested before
         self.checkpoints = self.things.of("checkpoint")
-        self.touched = set()  # ids of the enemies that he touches
+        self.touched = set()  # ids of the enemies in contact
         self.phase, self.since, self.mercy, self.stop = PLAYING, 0, 0, 0
         self.coins = self.secrets = self.deaths = 0
-        self.clock = 0  # [steps] of the run, with its hurts, without the picture's stops
+        self.clock = 0  # [steps] of the run, with its hurts, without the frozen steps
         self.ticks = 0  # [steps] of the world
-        self.safe = self.spawn  # where he last stood on plain ground: with the assist, spikes throw him back there
+        self.safe = self.spawn  # his last place on plain ground, where the assist puts him back from spikes
         self.feats = Feats(self)
         self.runner = Runner()
         self.look = Look(self)
 
     def update(self, inputs):
-        """Things move, the hero moves, the world steps, and what happened is read from it."""
+        """Move things and the hero, step the world, and read the events."""
         if self.stop:
             self.stop -= 1
             self.hero.listen(inputs)
@@ -145,7 +145,7 @@ class Platformer(Scene):
             self._lose()
 
     def _handle_bombs(self, inputs):
-        """A bomb that he comes to is taken; a press throws it, or lays it down."""
+        """Take a bomb that he reaches; throw it, or lay it down, at a press."""
         hero, bomb = self.hero, self.things.carried
         if bomb is None:
             for each in self.things.bombs:
@@ -160,7 +160,7 @@ class Platformer(Scene):
             self.look.tell("thrown", bomb)
 
     def _burst(self, bomb):
-        """A bomb bursts: walls give way, enemies are flat, and a hero who stands too near is thrown back, not hurt."""
+        """Burst a bomb: walls break, enemies are flattened, and a hero too near is thrown back without a hurt."""
         x, y = bomb.place
         loose, hit = self.things.blast(x, y)
         self.feats.done["walls blown"] += bool(loose)
@@ -198,7 +198,7 @@ class Platformer(Scene):
         self.mercy = max(self.mercy - 1, 0)
 
     def _read_springs(self, begun):
-        """Crates that have come down on a spring."""
+        """Throw crates that have landed on a spring."""
         things = self.things
         for pair in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
             for crate, spring in (pair, pair[::-1]):
@@ -209,7 +209,7 @@ class Platformer(Scene):
                     self.feats.done["crates thrown"] += 1
 
     def _strike(self, hit, me):
-        """A crate hit something: how hard, its impulse says. An enemy under it is flat, a hero under it is hurt."""
+        """Process an impact of a crate by its impulse: it flattens an enemy and hurts a hero under it."""
         impulse, pair = float(hit["normal_impulse"]), (int(hit["body_a"]), int(hit["body_b"]))
         enemies = self.things.enemies
         self.look.struck(float(hit["point_x"]), float(hit["point_y"]), impulse)
@@ -257,11 +257,11 @@ class Platformer(Scene):
             self.look.lit(trigger)
 
     def _meet(self, enemy):
-        """The back of some is a step; all else of them hurts."""
+        """Process a contact with an enemy: some can be stomped; all else hurts."""
         hero = self.hero
         if self.phase != PLAYING:
             return
-        # Where his feet were a step ago: a quick fall must not end as a hit from beside.
+        # His feet one step before: a fast fall must not count as a hit from the side.
         depth = hero.box[3] - hero.vy * STEP_SECONDS - enemy.top
         if enemy.stompable and hero.vy > 0.0 and depth <= STOMP_DEPTH:
             self._flatten(enemy)
@@ -273,7 +273,7 @@ class Platformer(Scene):
             self._hurt(1 if hero.character.position[0] >= enemy.character.position[0] else -1)
 
     def _hurt(self, away):
-        """Something hurts him: he loses this life, or with the assist is only thrown `away` (-1, 1)."""
+        """Hurt him: he loses this life, or with the assist is thrown `away` (-1, 1)."""
         if self.phase != PLAYING or (self.mercy and self.assist["invincible"]):
             return
         if self.assist["invincible"]:
@@ -284,7 +284,7 @@ class Platformer(Scene):
             self._lose()
 
     def _impale(self):
-        """Spikes: a life, or with the assist the way back to where he last stood."""
+        """Process spikes: he loses a life, or with the assist goes back to his last ground."""
         if not self.assist["invincible"]:
             self._lose()
             return
@@ -325,15 +325,15 @@ class Platformer(Scene):
     # --- the rest of a scene -----------------------------------------------------------------------------------------
 
     def check(self):
-        """All that the level teaches, by when the bot is past it."""
+        """Return the goals: all that the level teaches, with deadlines for the bot."""
         return self.feats.goals()
 
     def bot(self):
-        """The scripted player."""
+        """Return the scripted player."""
         return self.runner.keys(self)
 
     def state(self):
-        """All that is not in the world."""
+        """Return all state outside the world."""
         return (
             self.frame,
             self.ticks,
@@ -353,11 +353,11 @@ class Platformer(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """The picture."""
+        """Draw the picture."""
         level_view(self.level).draw(self, canvas, 1.0 if self.stop else alpha)
 
 
 def others(rows, identity):
-    """The bodies that share an event with `identity`."""
+    """Return the bodies that share an event with `identity`."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

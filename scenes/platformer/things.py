@@ -1,4 +1,4 @@
-"""What the hero meets and what does not walk: triggers that are touched, platforms, belts, crumbling stones, crates."""
+"""Things without walking: triggers, platforms, belts, crumbling stones, crates."""
 
 from math import ceil, cos, floor, pi, sin
 
@@ -18,27 +18,24 @@ from scenes.platformer.level import (
     TRIGGER_FILTER,
 )
 
-CRATE_DENSITY = 0.5  # the large one weighs two and a half heroes: he tips what he stands on
+CRATE_DENSITY = 0.5  # the large one weighs two and a half heroes: the hero tips what he stands on
 CRATE_FRICTION = 0.3  # the ground's is twice that
-SLIDES = 0.1  # [px] a step that a crate gives way by
-SPRING_KEEPS = 0.5  # of its speed along x that a crate keeps when a spring throws it: up is where it aims
-COIN_REACH = 2  # [px] around a coin: whoever comes that close meant it
-LANTERN_SHINES = 64  # [px] above a checkpoint it is still reached: nobody loses it to a jump
+SLIDES = 0.1  # [px] a step from which a crate counts as moving
+SPRING_KEEPS = 0.5  # share of its speed along x that a crate keeps on a spring, which throws upwards
+COIN_REACH = 2  # [px] around a coin in which it is taken
+LANTERN_SHINES = 64  # [px] above a checkpoint in which it counts, so that a jump does not miss it
 SPRING_INSET = (2, 7)  # [px] the plate lies low in its tile
-LADDER_INSET, LADDER_OVER = (
-    3,
-    4,
-)  # [px] from its sides; above its top, where one who stands there reaches it with the feet
+LADDER_INSET, LADDER_OVER = (3, 4)  # [px] from its sides; above its top, in reach of the feet of a hero on it
 TRIGGERS = ("coin", "secret", "spring", "spikes", "checkpoint", "goal", "ladder")
-SHAKES = 0.5  # [s] a crumbling stone holds from the first foot on it
-GONE = 3.0  # [s] until it is back, if nobody is in its place
-BITS = ((-10.0, 2.0), (0.0, -3.0), (10.0, 2.0))  # [px] where its pieces start from
+SHAKES = 0.5  # [s] that a crumbling stone holds after the first foot
+GONE = 3.0  # [s] until it is back, if its place is free
+BITS = ((-10.0, 2.0), (0.0, -3.0), (10.0, 2.0))  # [px] starts of its pieces
 BIT_SIZE, BIT_DENSITY = 7, 0.2
 BIT_LIFE = 1.6  # [s]
 
 
 class Trigger:
-    """A sensor body of the level. `lit`: a checkpoint that was reached; `touched`: the step of the last touch."""
+    """A sensor body of the level. `lit`: a reached checkpoint; `touched`: the step of the last touch."""
 
     def __init__(self, world, thing):
         self.kind, self.thing = thing.kind, thing
@@ -86,7 +83,7 @@ class Trigger:
 
 
 class Platform:
-    """A kinematic box that swings between two places: slow at the ends, where one steps on and off."""
+    """A kinematic box that moves between two places, slowly near the ends, for boarding."""
 
     kind = "platform"
 
@@ -107,7 +104,7 @@ class Platform:
         )
 
     def place_at(self, tick):
-        """Where its centre is after so many steps of the world [px]."""
+        """Return its centre after so many steps of the world [px]."""
         share = (1.0 - cos(2.0 * pi * tick * STEP_SECONDS / self.period)) / 2.0
         return (
             self.start[0] + (self.end[0] - self.start[0]) * share,
@@ -115,21 +112,21 @@ class Platform:
         )
 
     def aim(self, tick):
-        """Give it the velocity that takes it to its next place in one step: it moves in the world, and so carries."""
+        """Set the velocity that moves it to its next place in one step, so that it carries bodies."""
         x, y = self.body.position
         next_x, next_y = self.place_at(tick + 1)
         self.body.velocity = ((next_x - x) / STEP_SECONDS, (next_y - y) / STEP_SECONDS)
 
     @property
     def box(self):
-        """Left, top, right, bottom in whole pixels, as characters feel it."""
+        """Left, top, right, bottom in whole pixels, as for characters."""
         x, y = self.body.position
         left, top = int(x - self.size[0] / 2 + 0.5), int(y - self.size[1] / 2 + 0.5)
         return left, top, left + int(self.size[0]), top + int(self.size[1])
 
 
 class Block:
-    """A box of the level that stands still and is no tile: a belt, whose surface runs, or a crumbling stone."""
+    """A static box of the level that is no tile: a belt, or a crumbling stone."""
 
     def __init__(self, world, thing):
         self.world, self.thing, self.kind = world, thing, thing.kind
@@ -140,7 +137,7 @@ class Block:
 
 
 class Belt(Block):
-    """Its surface runs at `speed` [px/s] to the right and carries what lies or stands on it."""
+    """A belt. Its surface moves at `speed` [px/s] to the right and carries bodies on it."""
 
     def __init__(self, world, thing):
         super().__init__(world, thing)
@@ -170,7 +167,7 @@ class Crumble(Block):
         self.stand()
 
     def stand(self):
-        """Be there, whole."""
+        """Restore the whole stone."""
         if self.body is None:
             self.body = self.world.add_body(
                 Polygon.box(*self.size),
@@ -183,11 +180,11 @@ class Crumble(Block):
         self.box, self.count, self.shaking = self.whole, 0, False
 
     def press(self):
-        """Somebody is on it."""
+        """Begin to shake, because it carries a load."""
         self.shaking = self.body is not None
 
     def step(self):
-        """One step. Returns "shake" or "break" when it begins to, or "back"."""
+        """Make one step. Return "shake" or "break" when that begins, or "back"."""
         for bit in self.bits:
             bit[1] += 1
         for body, _ in [bit for bit in self.bits if bit[1] > steps(BIT_LIFE)]:
@@ -226,7 +223,7 @@ class Crumble(Block):
 
 
 class Crate:
-    """A body of the physics: it falls, stacks, tips over, is pushed, ridden, thrown and carried."""
+    """A dynamic body: it falls, stacks, tips over, and can be pushed, ridden, thrown and carried."""
 
     kind = "crate"
 
@@ -240,28 +237,28 @@ class Crate:
             user="crate",
             material=Material(CRATE_DENSITY, CRATE_FRICTION),
             continuous="toi",
-        )  # or a fall of two tiles ends 5 px deep in the ground
+        )  # otherwise a fall of two tiles ends 5 px deep in the ground
 
     def slides(self, way):
-        """Whether it moved that way (-1, 1) in the last step."""
+        """Return whether it moved that way (-1, 1) in the last step."""
         row = self.body.world.bodies[self.body.world.rows(self.body.id)]
         return (row["x"] - row["previous_x"]) * way > SLIDES
 
     def launch(self):
-        """A spring throws it by an impulse: as high as it throws the hero, whatever its mass."""
+        """Throw it by a spring's impulse, as high as the hero, whatever its mass."""
         vx, vy = self.body.velocity
         mass = self.body.mass
         self.body.apply_impulse(((SPRING_KEEPS - 1.0) * vx * mass, -(SPRING_SPEED + vy) * mass))
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Stand where the level put it; moved: how far what it stood on has gone since [px]."""
+        """Return to its start; moved: motion of the ground under it since [px]."""
         self.body.move_to((self.home[0] + moved[0], self.home[1] + moved[1]), 0.0)
         self.body.velocity = (0.0, 0.0)
         self.body.angular_velocity = 0.0
 
     @property
     def box(self):
-        """Left, top, right, bottom in whole pixels around it, however it lies."""
+        """Left, top, right, bottom of its bounding box in whole pixels."""
         x, y = self.body.position
         c, s = abs(cos(self.body.angle)), abs(sin(self.body.angle))
         half_width, half_height = (c * self.size[0] + s * self.size[1]) / 2, (s * self.size[0] + c * self.size[1]) / 2

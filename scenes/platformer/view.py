@@ -1,6 +1,6 @@
-"""The picture of the platformer: backdrop, tiles in chunks, things, the hero and his ghost, lights, and words on top.
+"""The picture of the platformer: background, tiles in chunks, things, the hero and his ghost, lights, and words on top.
 
-Everything is read, nothing is changed: pictures are cached, state is not touched.
+Drawing changes no state; pictures are cached.
 """
 
 from functools import lru_cache
@@ -21,26 +21,26 @@ from scenes.platformer.lighting import Lighting, wave
 from scenes.platformer.look import AFTERIMAGES, fuse_end
 from scenes.platformer.things import SHAKES
 
-STRIDE = 13.0  # [px] of way per frame of the run: feet do not slide
+STRIDE = 13.0  # [px] of path per frame of the run, so that feet do not slide
 PUSH_STRIDE, RUNG_STRIDE = 9.0, 7.0
-ABOVE_BOARDS = 12  # [px] a bridge's ropes begin above the ends of its boards
-STANDING = 12.0  # [px/s] slower than this he is drawn standing
+ABOVE_BOARDS = 12  # [px] start of a bridge's ropes above the ends of its boards
+STANDING = 12.0  # [px/s] below which he is drawn standing
 FRAME = 24  # [px] width and height of the hero's pictures
-NEAR = 40  # [px] around the picture in which things are still drawn
-LIT_FROM = 100  # [px] around the picture from where light still reaches into it
-COIN_WAVE = 0.9  # [px] coins bob by this much, in a wave along the level
+NEAR = 40  # [px] around the picture in which things are drawn
+LIT_FROM = 100  # [px] around the picture from which light reaches into it
+COIN_WAVE = 0.9  # [px] bobbing of coins, in a wave along the level
 GHOST = (96, 190, 255)  # added to a ghost's colours
 GHOST_ALPHA = 130
 IMAGE = (120, 130, 220)  # to an afterimage's
-IMAGE_ALPHA, ALPHA_STEP = 110, 22  # of a fresh one; it fades in steps, so that few pictures are kept
-SPARED_BLINK = 8  # [steps] of one blink of one who was just hurt
-TUMBLE = (30.0, 90.0, 420.0)  # [px/s], [px/s], [px/s2] aside, up and down of what was flattened and is no walker
+IMAGE_ALPHA, ALPHA_STEP = 110, 22  # of a fresh one; it fades in steps, so that few pictures are cached
+SPARED_BLINK = 8  # [steps] of one blink of a hero who was just hurt
+TUMBLE = (30.0, 90.0, 420.0)  # [px/s], [px/s], [px/s2] aside, up and down, of flattened bats and hedgehogs
 LAYERS = ("wall", "decor", "solid")
 SHINING = ("secret", "goal", "coin")
 
 
 class View:
-    """Draws one level; made when the first picture is wanted."""
+    """Drawing of one level; made for the first picture."""
 
     def __init__(self, level):
         self.level = level
@@ -69,7 +69,7 @@ class View:
                         self.layers[name].draw(canvas, camera)
 
     def _cover(self, thing):
-        """(picture, left, top) of what hides a room, its walls with it."""
+        """Return (picture, left, top) of the cover of a room, with its walls."""
         tile = self.level.tile
         left, top = int(thing.x) - tile, int(thing.y) - tile
         canvas = Canvas(pygame.Surface((int(thing.width) + 2 * tile, int(thing.height) + 2 * tile), pygame.SRCALPHA))
@@ -80,7 +80,7 @@ class View:
         return canvas.surface, left, top
 
     def draw(self, scene, canvas, alpha):
-        """The whole picture."""
+        """Draw the whole picture."""
         left, top = scene.camera.view(alpha)
         self.left, self.top = left, top
         self.near = [
@@ -139,7 +139,7 @@ class View:
         return self.things.animation("spring").at((scene.ticks - trigger.touched) / 60, loop=False)
 
     def _draw_blocks(self, canvas, scene):
-        """Belts and crumbling stones."""
+        """Draw belts and crumbling stones."""
         things = self.things
         for belt in scene.things.belts:
             left, top, right, _ = belt.box
@@ -227,7 +227,7 @@ class View:
                 canvas.surface.blit(picture, place)
 
     def _lights(self, scene, alpha):
-        """(canvas x, canvas y, name) of what shines in the picture."""
+        """Return (canvas x, canvas y, name) of the lights in the picture."""
         for x, y, name in self.level.lights:
             if self._sees(x, y, LIT_FROM) and not scene.look.hidden(x, y):
                 yield x - self.left, y - self.top, name
@@ -270,7 +270,7 @@ class View:
         self._stand(canvas, image, x, bottom)
 
     def _draw_ghost(self, canvas, scene):
-        """The best run at the same moment, half seen."""
+        """Draw the best run at the same moment, half transparent."""
         if not scene.ghost or scene.clock >= len(scene.ghost) or scene.phase == "won":
             return
         x, bottom, name, way = scene.ghost[max(scene.clock - 1, 0)]
@@ -285,7 +285,7 @@ class View:
         return image if way > 0 else pygame.transform.flip(image, True, False)
 
     def _tinted(self, name, way, color, alpha):
-        """A frame in one light colour, half seen."""
+        """Return a frame in one light colour, half transparent."""
         image = self.shaped(name, way, FRAME, FRAME).copy()
         image.fill((*color, 0), special_flags=pygame.BLEND_RGBA_ADD)
         image.fill((255, 255, 255, alpha), special_flags=pygame.BLEND_RGBA_MULT)
@@ -293,7 +293,7 @@ class View:
 
 
 def hero_frame(scene):
-    """(frame name, way he faces) of the hero as he is now."""
+    """Return (frame name, direction he faces) of the hero in his current state."""
     hero, look, frames = scene.hero, scene.look, load_atlas("hero")
     if scene.phase == "hurt":
         return "hurt_0", hero.facing
@@ -318,13 +318,13 @@ def hero_frame(scene):
 
 @lru_cache(maxsize=2)
 def level_view(level):
-    """The View of a level: its pictures outlive a restart."""
+    """Return the View of a level; its pictures are kept over a restart."""
     return View(level)
 
 
 @lru_cache(maxsize=8)
 def deck(width):
-    """A platform of any width: the ends of the drawn one, its middle as often as needed."""
+    """Return a platform of any width: the ends of the drawn one, with its middle repeated."""
     image = load_atlas("things")["platform"]
     out = pygame.Surface((width, image.get_height()), pygame.SRCALPHA)
     for x in range(16, width - 16, 16):
@@ -336,30 +336,32 @@ def deck(width):
 
 @lru_cache(maxsize=64)
 def flipped(image, mirrored, upside_down=False):
-    """A picture as it is drawn or the other way round, on its feet or on its head."""
+    """Return a picture, mirrored or upside down if asked for."""
     return pygame.transform.flip(image, mirrored, upside_down) if mirrored or upside_down else image
 
 
 def between(before, now, alpha):
-    """A place between two steps."""
+    """Return a place interpolated between two steps."""
     return before[0] + (now[0] - before[0]) * alpha, before[1] + (now[1] - before[1]) * alpha
 
 
 def cycle(animation, seconds):
-    """The name of the frame shown after so many seconds."""
+    """Return the name of the frame after so many seconds."""
     return animation.names[animation.index_at(seconds)]
 
 
 def strode(animation, way, stride):
-    """The name of the frame shown after so much way [px]."""
+    """Return the name of the frame after so much path [px]."""
     return animation.names[int(way / stride) % len(animation.names)]
 
 
 def lowered(level, hero):
-    """How far below his box the hero is drawn [px]: on a slope it stands on its corner, his feet at their middle."""
+    """Return the offset of the drawn hero below his box [px]: on a slope it stands on its corner, his feet at their
+    middle.
+    """
     if hero.slope == 0.0:
         return 0.0
     left, _, right, bottom = hero.box
     half = 0.5 * (right - left)
-    # No further than the slope falls from his corner to his middle: a crate that tilts a little is ground as well.
+    # No further than the slope falls from his corner to his middle: a slightly tilted crate counts as ground, too.
     return min(level.drop_to_ground((left + right) / 2, bottom, half), abs(hero.slope) * half)

@@ -13,16 +13,16 @@ from scenes.shooter.director import READY, WARNING
 from scenes.shooter.ending import ASKING, CLEARED, LOST, WON
 from scenes.shooter.spectacle import BONUS_SHOWN
 
-SLIDE = 24  # steps that a banner takes to come in, and to go
+SLIDE = 24  # steps of a banner's entry, and of its exit
 STRIPE = 16  # [px] of the warning's slanted stripes
-SMOKE = 50  # steps that the boss's end is left to be seen
-BLINK = 20  # steps: WARNING is bright and dark by turns, three times in two seconds
+SMOKE = 50  # steps for which the boss's end stays visible
+BLINK = 20  # steps: WARNING is bright and dark in turn, three times in two seconds
 HALF = 28  # [px] from the top of a band of two lines to the line that it grows from
 HURRY = 4  # the digit of the countdown below which it is red
 
 
 def draw_banners(canvas, scene):
-    """At most one of them at a time."""
+    """Draw one banner at most."""
     director, ending = scene.director, scene.ending
     if ending.mode == ASKING:
         _draw_continue(canvas, scene)
@@ -41,13 +41,13 @@ def draw_banners(canvas, scene):
 
 
 def eased(step, whole_time):
-    """0..1..0: quickly in, slowly to rest; the same way out at the end."""
+    """Return the position of a banner, 0..1..0: quick at the start, slow to rest; mirrored at the end."""
     share = min(step / SLIDE, (whole_time - step) / SLIDE, 1.0)
     return 1.0 - (1.0 - max(share, 0.0)) ** 3
 
 
 def _draw_title(canvas, director):
-    """STAGE 1 slides in from the left, its name from the right, and both out again."""
+    """Draw STAGE 1, sliding in from the left, its name, from the right, and both out again."""
     share = eased(director.since, READY)
     middle, width = canvas.rect.centerx, canvas.rect.width
     band(canvas, 92, whole(58 * share))
@@ -59,7 +59,7 @@ def _draw_title(canvas, director):
 
 
 def _draw_warning(canvas, scene):
-    """Stripes run past above and below the word."""
+    """Draw stripes that run past above and below the word."""
     since = scene.director.since
     share = eased(since, WARNING)
     high = whole(56 * share)
@@ -85,7 +85,7 @@ def _draw_bonus(canvas, bonus):
 
 
 def _draw_bonuses(canvas, scene):
-    """The end of the stage: one line after another."""
+    """Draw the end of the stage, one line after another."""
     ending = scene.ending
     share = eased(ending.since - SMOKE, inf)
     band(canvas, 70, whole(112 * share))
@@ -119,7 +119,7 @@ def _summary(scene):
 
 
 def band(canvas, top, high):
-    """A dark band that grows from its middle line, and further downwards once it is as high as two lines need."""
+    """Draw a dark band that grows from its middle line, and further downwards once it is as high as two lines need."""
     if high > 0:
         canvas.surface.blit(
             _shade(canvas.rect.width, high), (0, top + HALF - high // 2 if high <= 2 * HALF + 2 else top)
@@ -127,7 +127,7 @@ def band(canvas, top, high):
 
 
 def text_inside(canvas, text, x, y, color, scale):
-    """Text that slides: written only while it is all inside of the picture."""
+    """Draw sliding text, only while all of it is inside the picture."""
     rect = canvas.text_rect(text, x, y, TEXT, scale, "center")
     if canvas.rect.contains(rect):
         canvas.text(text, x, y, color, TEXT, scale, "center", True)
@@ -142,7 +142,7 @@ def _shade(width, high):
 
 @lru_cache(maxsize=2)
 def stripes(width):
-    """Slanted stripes of the warning."""
+    """Return the slanted stripes of the warning."""
     image = pygame.Surface((width, 8))
     image.fill(INK)
     for x in range(-STRIPE, width, 2 * STRIPE):

@@ -1,34 +1,35 @@
-"""How hard hits were: the impulse that each would have handed on. It scales damage, sparks, debris and sound."""
+"""Strength of hits: the impulse that each would transfer. It scales damage, sparks, debris and sound."""
 
 from math import hypot
 
 
 class Blow:
-    """An impulse [px3/s] on a body of some mass [px2]: where to, and how it compares with a plain shot's."""
+    """An impulse [px3/s] on a body of some mass [px2], with its direction and its ratio to a plain shot's."""
 
-    USUAL = 22000.0  # [px3/s] a shot of the player's, straight on
-    FASTEST = 140.0  # [px/s] that debris is given
+    USUAL = 22000.0  # [px3/s] a shot of the player's, head on
+    FASTEST = 140.0  # [px/s] limit for debris
 
     def __init__(self, x=0.0, y=0.0, mass=1.0):
         self.x, self.y, self.mass = x, y, mass
 
     @property
     def strength(self):
-        """1 for a plain shot, 0.5 at the least (a glance) and 2.5 at the most (rammed)."""
+        """1 for a plain shot, 0.5 at least (a glance) and 2.5 at most (rammed)."""
         return min(max(hypot(self.x, self.y) / self.USUAL, 0.5), 2.5)
 
     @property
     def kick(self):
-        """The velocity [px/s] that it gives to what is left of the body."""
+        """Velocity [px/s] that it gives to the debris of the body."""
         x, y = self.x / self.mass, self.y / self.mass
         share = min(1.0, self.FASTEST / max(hypot(x, y), 1.0))
         return x * share, y * share
 
 
 class Blows:
-    """The hits of one step, looked up by who hit whom. Nothing is pushed in this scene, so speed and masses tell.
+    """The hits of one step by pair of bodies. The scene has no collision response, so speeds and masses give the
+    impulse.
 
-    `weights`: masses of bodies that stand for something heavier than themselves (a core for its plane).
+    `weights`: masses of bodies that stand for heavier ones (a core for its plane).
     """
 
     def __init__(self, world, weights=None):
@@ -48,12 +49,12 @@ class Blows:
             self.found[b, a] = (-impulse * nx, -impulse * ny)
 
     def on(self, identity, *others):
-        """The Blow that a body took from others."""
+        """Return the Blow that other bodies gave to a body."""
         each = [self.found.get((other, identity), (0.0, 0.0)) for other in others]
         return Blow(sum(x for x, _ in each), sum(y for _, y in each), self.mass.get(identity) or 1.0)
 
 
 def push(dx, dy):
-    """The Blow of a bomb away from its middle: as hard as a plain shot, on something light."""
+    """Return the Blow of a bomb, away from its middle: as strong as a plain shot on a light body."""
     far = max(hypot(dx, dy), 1.0)
     return Blow(Blow.USUAL * dx / far, Blow.USUAL * dy / far, Blow.USUAL / 90.0)

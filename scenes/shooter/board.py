@@ -1,4 +1,4 @@
-"""What is written over the sky all the time: score, chain, lives, bombs, power, hits, and the leader's health."""
+"""Permanent words over the sky: score, chain, lives, bombs, power, hits, and the leader's health."""
 
 from game.drawing.canvas import SMALL, TEXT, whole
 from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
@@ -9,23 +9,23 @@ from scenes.shooter.plane import TOP_POWER
 from scenes.shooter.score import HOLD, TOP_CHAIN
 from scenes.shooter.spectacle import NEWS
 
-HEALTH = ((230, 60, 70), (255, 190, 70), (120, 220, 120))  # by how much is left
+HEALTH = ((230, 60, 70), (255, 190, 70), (120, 220, 120))  # by remaining health
 FADE = 0.55  # [s] after which a rising word is written darker
 HELD = (
     (0, 0, 132, 36),
     (380, 0, 100, 44),
     (140, 0, 226, 28),
     (0, 254, 150, 16),
-)  # [canvas px] where the fixed words stand
+)  # [canvas px] places of the fixed words
 BAR = (148, 17, 184, 7)  # [canvas px] of the leader's health
 CHAIN = (MARGIN, 17, 60, 4)
 HEALTH_WIDTH = 36  # [px] of the bar at a damaged plane
-PHASE_NAME = 150  # steps that the name of a leader's phase is shown
+PHASE_NAME = 150  # steps for which the name of a leader's phase is shown
 SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 
 def draw_words(canvas, scene, view):
-    """Words that rise from what happened; bullets are drawn over them. `view`: world point at the picture's corner."""
+    """Draw the words that rise from events, under the bullets. `view`: world point at the picture's corner."""
     for rect in HELD:
         canvas.reserve(rect)
     left, top = view
@@ -35,7 +35,7 @@ def draw_words(canvas, scene, view):
 
 
 def draw_board(canvas, scene):
-    """The fixed words."""
+    """Draw the fixed words."""
     _draw_score(canvas, scene)
     _draw_stock(canvas, scene)
     _draw_hits(canvas, scene)
@@ -63,13 +63,13 @@ def _draw_score(canvas, scene):
 
 
 def _draw_stock(canvas, scene):
-    """Lives, bombs, power: one row each, from the right."""
+    """Draw lives, bombs, power: one row each, from the right."""
     ui, plane, gain = load_atlas("ui"), scene.plane, scene.spectacle.gain
     right = canvas.rect.right - MARGIN
     rows = (("icon_life", max(plane.lives - plane.here, 0)), ("icon_bomb", plane.bombs), ("icon_power", plane.power))
     for row, (name, count) in enumerate(rows):
         image = ui[name]
-        # What was just gained jumps.
+        # The last gain jumps.
         lift = whole(3 * gain) if row == 2 else 0
         icons(canvas, image, count, right - count * (image.get_width() + 2) + 2, MARGIN + 12 * row - lift)
     if plane.power == TOP_POWER:
@@ -77,7 +77,7 @@ def _draw_stock(canvas, scene):
 
 
 def _draw_hits(canvas, scene):
-    """How often core, hull and box were met: what hurts is bright."""
+    """Draw the numbers of contacts of core, hull and box; the one that hurts is bright."""
     ui, y, x = load_atlas("ui"), canvas.rect.bottom - 14, MARGIN
     counts = scene.hits.count
     for part in ("core", "hull"):
@@ -97,7 +97,7 @@ def _draw_wave(canvas, scene):
 
 
 def _draw_leader(canvas, scene, leader):
-    """Name and timer over a bar with a mark for every phase that is still to come."""
+    """Draw name and timer over a bar with a mark for every remaining phase."""
     left, top, width, height = BAR
     phases = len(leader.phases)
     canvas.text(leader.name, left, MARGIN, PAPER, TEXT, outline=True)
@@ -124,11 +124,11 @@ def _draw_leader(canvas, scene, leader):
 
 
 def draw_health(surface, place, share):
-    """A small bar behind a damaged plane's tail."""
+    """Draw a small bar behind a damaged plane's tail."""
     surface.fill(INK, (*place, HEALTH_WIDTH, 4))
     surface.fill(health_color(share), (place[0] + 1, place[1] + 1, max(1, round((HEALTH_WIDTH - 2) * share)), 2))
 
 
 def health_color(share):
-    """Red, yellow or green, by how much is left, 0..1."""
+    """Return red, yellow or green, by the remaining share 0..1."""
     return HEALTH[max(0, min(int(share * 3), 2))]

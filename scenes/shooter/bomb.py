@@ -1,20 +1,22 @@
-"""The bomb: a sensor circle that grows around the place where it went off, and reports what it meets.
+"""The bomb: a sensor circle that grows around its start, and reports contacts.
 
-Bullets that it meets are gone, planes are damaged once, and the player is a ghost while it burns.
+Bullets in it are removed, planes are damaged once, and the player is a ghost while it burns.
 """
 
 from physics import Circle
 from scenes.shooter.cast import BLASTING, steps
 
-GROW, BURN = steps(0.45), steps(1.1)  # steps until it is as large as it gets, and until it is over
+GROW, BURN = steps(0.45), steps(1.1)  # steps of its growth, and of its whole life
 EVERY = 3  # steps between two sizes of its shape
 FIRST, REACH = 20.0, 120.0  # [px] radius
-SHELTER = steps(2.0)  # steps that the player is a ghost
+SHELTER = steps(2.0)  # steps for which the player is a ghost
 DAMAGE, LEADER_DAMAGE = 18.0, 45.0  # plain shots
 
 
 class Bomb:
-    """`body` is None while there is none; `age` counts its steps; `struck` holds the planes that it has damaged."""
+    """The bomb. `body` is None while there is none; `age` counts its steps; `struck`: the planes that it has
+    damaged.
+    """
 
     def __init__(self, world):
         self.world = world
@@ -25,12 +27,12 @@ class Bomb:
 
     @property
     def radius(self):
-        """[px] now: fast at first, then slower."""
+        """Present radius [px]: it grows fast at first, then more slowly."""
         left = 1.0 - min(self.age / GROW, 1.0)
         return FIRST + (REACH - FIRST) * (1.0 - left * left)
 
     def drop(self, x, y):
-        """It goes off at a place [px]."""
+        """Set it off at a place [px]."""
         self.x, self.y, self.age = x, y, 0
         self.struck = set()
         self.body = self.world.add_body(
@@ -38,7 +40,7 @@ class Bomb:
         )
 
     def step(self):
-        """It grows. Returns the id of its body when it is over, to be removed, else None."""
+        """Let it grow. Return the id of its body when it ends, to be removed, else None."""
         if self.body is None:
             return None
         self.age += 1
@@ -50,11 +52,11 @@ class Bomb:
         return body.id
 
     def strikes(self, identity):
-        """True the first time that it meets a plane."""
+        """Return whether it meets this plane for the first time."""
         new = identity not in self.struck
         self.struck.add(identity)
         return new
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (self.x, self.y, self.age, -1 if self.body is None else self.body.id, *sorted(self.struck))

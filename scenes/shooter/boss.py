@@ -1,6 +1,6 @@
-"""Leaders: the mid-boss and the boss. A leader fights in phases, each with its own health, timer, way and patterns.
+"""Leaders: the mid-boss and the boss. A leader fights in phases, each with its own health, timer, path and patterns.
 
-Between two phases it cannot be hurt and does not fire: the sky is cleared, and everybody takes a breath.
+Between two phases it cannot be hurt and does not fire: the sky is cleared, for a rest.
 """
 
 from math import pi, sin
@@ -14,14 +14,16 @@ LOOKS = ("midboss_0", "boss_a_0", "boss_b_0", "boss_c_0")
 ENTRY_Y, HOME_Y = -60.0, 70.0  # [px]
 ARRIVE_SPEED, SWING_SPEED = 95.0, 130.0  # [px/s]
 CHANGE = steps(1.6)  # steps between two phases
-DRESSED = steps(0.5)  # steps into them, when the next look shows behind the smoke
-FALL = steps(2.6)  # steps that it burns before it is gone
+DRESSED = steps(0.5)  # steps into them, at which the next look appears behind the smoke
+FALL = steps(2.6)  # steps that it burns before it is removed
 SINK = 14.0  # [px/s] while it burns
-ALMOST = 5.0  # [s] before the end of a phase, when its timer is counted aloud
+ALMOST = 5.0  # [s] before the end of a phase, in which its timer is counted aloud
 
 
 class Leader(Enemy):
-    """`phase` is the number of the one that runs; `clock` the steps left of it; `beaten` tells of the last."""
+    """A leader. `phase` is the number of the current one; `clock`: the remaining steps of it; `beaten`: result of the
+    last.
+    """
 
     heavy = leads = True
 
@@ -35,7 +37,7 @@ class Leader(Enemy):
 
     @property
     def phase(self):
-        """The phase that runs."""
+        """The current phase."""
         return self.phases[self.number]
 
     @property
@@ -45,23 +47,23 @@ class Leader(Enemy):
 
     @property
     def sheltered(self):
-        """True while nothing hurts it."""
+        """True while it cannot be hurt."""
         return self.mode != "fight"
 
     @property
     def seconds_left(self):
-        """Of the phase's timer."""
+        """Remaining time of the phase [s]."""
         return self.clock / 60
 
     def _take_up(self):
-        """Begin the phase that `number` says."""
+        """Begin the phase of index `number`."""
         self.health = self.full = float(self.phase.health)
         self.clock = steps(self.phase.seconds)
         self.guns = [Gun(pattern) for pattern in self.phase.patterns]
         self.frame = "midboss_0" if self.kind == "midboss" else f"boss_{'abc'[self.number]}_0"
 
     def think(self, sky):
-        """What a mode is, in one place: arrive, fight, change, fall, leave."""
+        """Choose the motion and fire of each mode: arrive, fight, change, fall, leave."""
         if self.mode == "arrive":
             if self.approach(self.home_x, self.home_y, ARRIVE_SPEED) < 3.0:
                 self.begin("fight")
@@ -89,12 +91,12 @@ class Leader(Enemy):
             self.vx, self.vy = self.vx * 0.96, max(self.vy - 2.0, -110.0)
 
     def _swing(self):
-        """A slow figure of eight about its place."""
+        """Move in a slow figure of eight about its place."""
         move, turn = self.phase.move, 2 * pi * self.since / 60 / self.phase.move.seconds
         self.approach(self.home_x + move.across * sin(turn), self.home_y + move.down * sin(2 * turn), SWING_SPEED)
 
     def end_phase(self, beaten):
-        """The phase is over. After the last one it falls, or flies away if only its time ran out."""
+        """End the phase. After the last one it falls, or flies away if its time ran out."""
         self.beaten = beaten
         if not self.last:
             self.begin("change")
@@ -103,7 +105,7 @@ class Leader(Enemy):
             self.side = FALLING
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (
             *super().state(),
             self.number,

@@ -9,7 +9,7 @@ from physics.tables.table import Table
 from scenes.shooter.cast import HEIGHT, MARGIN, WIDTH
 
 DOWN, UP = pi / 2, -pi / 2  # [rad] headings; y points down
-# The frame that collides, in atlas "effects", and its heading as painted (None: round, it is never turned).
+# The colliding frame, in atlas "effects", and its painted heading (None: round, never rotated).
 LOOKS = {
     "shot": ("player_bullet_0", UP),
     "side": ("side_bullet", UP),
@@ -24,12 +24,12 @@ LOOKS = {
 }
 NAMES = tuple(LOOKS)
 HOSTILE_LOOKS = NAMES[3:]
-GRAZED, BOXED, HULLED, CORED = 1, 2, 4, 8  # what of the player a bullet has met already: it counts once
+GRAZED, BOXED, HULLED, CORED = 1, 2, 4, 8  # parts of the player that a bullet has met: each counts once
 BULLET = np.dtype([("id", np.int64), ("look", np.int64), ("met", np.int64)])
 
 
 class Bullets:
-    """The bullets of one side. `table.rows` holds id, look and what it met; where it is, the world knows."""
+    """The bullets of one side. `table.rows` holds id, look and contacts; the world has the positions."""
 
     def __init__(self, world, side):
         self.world, self.side = world, side
@@ -41,16 +41,16 @@ class Bullets:
 
     @property
     def ids(self):
-        """Ids of all, ascending."""
+        """Ids of all bullets, ascending."""
         return self._rows["id"]
 
     @property
     def _rows(self) -> np.ndarray:
-        return self.table.rows  # a column is asked for by its name, which NumPy's stubs allow of no known dtype
+        return self.table.rows  # NumPy's stubs allow a column by name for no known dtype
 
     def make_room(self, count):
-        """Let every table grow before the first step, so that no step of the fight has to and memory stays as it is."""
-        apart = 1000.0 + 20.0 * np.arange(count)  # on a diagonal far away: no two of them are ever a pair
+        """Let every table grow before the first step, so that no later step allocates."""
+        apart = 1000.0 + 20.0 * np.arange(count)  # on a diagonal far away: none of them are ever a pair
         ids = self.world.add_bodies(
             mask_of("small"), np.column_stack((apart, apart)), kind="kinematic", filter=self.side
         )
@@ -62,7 +62,8 @@ class Bullets:
 
     def fire(self, look, x, y, headings, speed, out=0.0):
         """Add one bullet per heading [rad], `out` [px] along it from (x, y) [px], speed in px/s. They fly from the next
-        step on."""
+        step on.
+        """
         painted = LOOKS[look][1]
         for heading in headings:
             angle = 0.0 if painted is None else heading - painted
@@ -70,7 +71,7 @@ class Bullets:
             self.volley[look].append((x + out * across, y + out * down, speed * across, speed * down, angle))
 
     def launch(self):
-        """Put the volley into the world: one call per look that was fired."""
+        """Put the volley into the world: one call per look in it."""
         for look, fired in self.volley.items():
             if not fired:
                 continue
@@ -84,18 +85,19 @@ class Bullets:
             fired.clear()
 
     def places(self):
-        """Rows of the world's bodies, in the order of the table."""
+        """Return rows of the world's bodies, in the order of the table."""
         return self.world.rows(self.ids)
 
     def has(self, ids):
-        """Which of some ids are bullets of this side. O(k log n): ids stand in their order."""
+        """Return which of some ids are bullets of this side. O(k log n): ids are in order."""
         if not len(self):
             return np.zeros(len(ids), bool)
         return self.ids[self._nearest(ids)] == ids
 
     def meet(self, ids, what):
-        """Note that bullets met a part of the player (GRAZED ...). Returns those that meet it for the first time; ids
-        of others are ignored."""
+        """Record that bullets met a part of the player (GRAZED ...). Return those that meet it for the first time;
+        other ids are ignored.
+        """
         at = self._nearest(ids[self.has(ids)])
         met = self._rows["met"]
         new = at[(met[at] & what) == 0]
@@ -111,19 +113,19 @@ class Bullets:
             self.table.keep(keep)
 
     def _nearest(self, ids):
-        """The row where each id stands, or would: always a row there is."""
+        """Return the row of each id, or where it would be; always an existing row."""
         return np.minimum(np.searchsorted(np.ascontiguousarray(self.ids), ids), max(len(self) - 1, 0))
 
     def state(self):
-        """For the digest: the whole table."""
+        """Return the state for the digest: the whole table."""
         return self.table.rows.tobytes().hex()
 
 
 def mask_of(look):
-    """The pixels of a bullet."""
+    """Return the pixels of a bullet."""
     return load_atlas("effects").mask(LOOKS[look][0])
 
 
 def outside(x, y):
-    """Which places [px] are farther out than anything can be seen."""
+    """Return which places [px] are beyond all visible ones."""
     return (x < -MARGIN) | (x > WIDTH + MARGIN) | (y < -2 * MARGIN) | (y > HEIGHT + MARGIN)

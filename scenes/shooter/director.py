@@ -1,46 +1,46 @@
-"""Plays a stage: sends what is due, and stops its clock while a leader is announced, fights and falls."""
+"""Director of a stage: it sends the due planes, and stops its clock while a leader is announced, fights and falls."""
 
 from dataclasses import replace
 
 from scenes.shooter.cast import WIDTH, steps
 from scenes.shooter.pace import Pace
 
-SCATTER = 0.03  # of the side that a plane may enter beside its place
+SCATTER = 0.03  # of the side: random offset of a plane's entry
 WARNING = steps(3.0)  # steps between the warning and its leader
-CLEARING = steps(8.0)  # steps that a warning waits for the last planes of the waves before it
-REST = steps(1.5)  # steps of peace when a leader is gone
+CLEARING = steps(8.0)  # steps that a warning waits for the last planes of earlier waves
+REST = steps(1.5)  # steps of rest after a leader
 READY = steps(3.0)  # steps of the stage's title, before its clock begins
 
 
 class Director:
-    """`clock` counts the steps of the stage; `wave` is the name and `number` the number of the wave that came last.
+    """The director. `clock` counts the steps of the stage; `wave` and `number`: name and number of the last wave.
 
     `mode`: "ready", then "run"; for a leader "clearing", "warning", "leader", "rest"; after the boss "over".
     """
 
     def __init__(self, stage):
         self.stage = stage
-        self.clock = self.next = 0  # steps; the event that comes next
+        self.clock = self.next = 0  # steps; index of the next event
         self.mode, self.since = "ready", 0
         self.number, self.wave = 0, ""
-        self.grounds = [(-1e9, stage.events[0].ground)]  # (px that the ground had moved when it came, name)
+        self.grounds = [(-1e9, stage.events[0].ground)]  # (motion of the ground [px] at its start, name)
         self.pace = Pace()
         self.due = []  # (step, group, number in the group, wave), earliest first
-        self.left = {}  # wave -> its planes that are not shot down yet
+        self.left = {}  # wave -> its planes that are not shot down
         self.mirrored = False
 
     @property
     def ground(self):
-        """The name of the stretch that came last."""
+        """The name of the last stretch."""
         return self.grounds[-1][1]
 
     @property
     def announced(self):
-        """The event of the leader that comes or fights, or None."""
+        """The event of the announced or fighting leader, or None."""
         return self.stage.events[self.next - 1] if self.mode in ("clearing", "warning", "leader") else None
 
     def step(self, sky):
-        """Launch what is due; `sky` is the scene."""
+        """Launch all that is due; `sky` is the scene."""
         self.since += 1
         if self.mode == "run":
             self.clock += 1
@@ -109,7 +109,7 @@ class Director:
         sky.spectacle.wave(self)
 
     def _launch(self, sky):
-        # The clock may stand still for a leader while a wave is not all there: what is due then comes anyway.
+        # The clock may stop for a leader before a wave is complete: its due planes still come.
         now = self.clock + (self.since if self.mode == "clearing" else 0)
         while self.due and self.due[0][0] <= now:
             _, group, number, wave = self.due.pop(0)
@@ -121,7 +121,7 @@ class Director:
             sky.fleet.launch(self._turned(group), share, carries, self.pace, wave, sky.scrolled)
 
     def _turned(self, group):
-        """A group as the wave is flown: by chance the other way around."""
+        """Return a group as the wave flies it: mirrored at random."""
         if not self.mirrored:
             return group
         other = {"left": "right", "right": "left"}.get(group.side, group.side)
@@ -129,14 +129,14 @@ class Director:
         return replace(group, sway=-group.sway, side=other, bend=bend)
 
     def shot_down(self, enemy):
-        """Count a plane of a wave. True if it was the last: all of them were shot down."""
+        """Count a plane of a wave. Return whether it was the last one and all were shot down."""
         if enemy.wave not in self.left:
             return False
         self.left[enemy.wave] -= 1
         return self.left[enemy.wave] == 0
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (
             self.clock,
             self.next,

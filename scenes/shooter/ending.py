@@ -1,6 +1,6 @@
-"""How a game ends: lives run out and a countdown asks whether to go on, or the stage is cleared and bonuses counted.
+"""The end of a game: a countdown offers to continue after the last life, or bonuses are counted after the stage.
 
-`scene.result` is set once, at the very end; then the picture stands and keys do nothing.
+`scene.result` is set once, at the very end; then the picture is frozen and keys have no effect.
 """
 
 from game.drawing.number_text import count_text
@@ -8,28 +8,28 @@ from game.scene import Result
 from scenes.shooter.cast import steps
 
 COUNTDOWN = 10  # seconds, shown as 9..0
-GRACE = steps(0.7)  # steps in which a key still held from the fight says nothing
+GRACE = steps(0.7)  # steps in which a key held from the fight is ignored
 MOST_CONTINUES = 3
 FIRST_BONUS, NEXT_BONUS = steps(1.5), steps(0.5)  # after the boss is gone, and between two bonuses
-SHOWN = steps(2.0)  # steps that all bonuses stand before the result
+SHOWN = steps(2.0)  # steps that all bonuses are shown before the result
 
 PLAYING, ASKING, CLEARED, WON, LOST = "playing", "asking", "cleared", "won", "lost"
 
 
 class Ending:
-    """`mode` is one of the five above; `since` counts its steps; `left` those of the countdown."""
+    """The end. `mode` is one of the five above; `since` counts its steps; `left`: those of the countdown."""
 
     def __init__(self):
         self.mode, self.since, self.left = PLAYING, 0, 0
-        self.counted = []  # (what for, points) of the bonuses so far
+        self.counted = []  # (reason, points) of the bonuses so far
 
     @property
     def digit(self):
-        """What the countdown shows."""
+        """Digit of the countdown."""
         return self.left // 60
 
     def step(self, scene, inputs):
-        """Returns True while time stands still."""
+        """Make a step. Return whether time is stopped."""
         self.since += 1
         if self.mode == PLAYING:
             if scene.plane.lives == 0 and scene.plane.away == 0:
@@ -73,7 +73,7 @@ class Ending:
         scene.result = self._result(scene, won=False)
 
     def clear(self, scene):
-        """The boss is gone."""
+        """Begin the end after the boss."""
         self._enter(CLEARED)
         scene.clear_bullets()
         scene.plane.shelter(steps(60))
@@ -100,5 +100,5 @@ class Ending:
         return Result(won, score.points, (scene.frame + 1) / 60, lines)
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (self.mode, self.since, self.left, len(self.counted))

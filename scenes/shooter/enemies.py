@@ -1,7 +1,7 @@
-"""Three kinds that come from above: dart, saucer, gunship. Each thinks once per step: a velocity, a turn, a volley.
+"""Three kinds that come from above: dart, saucer, gunship. Each decides once per step: velocity, turn, volley.
 
-The dart waits, aims and dives at where you are. The saucer weaves down and fires at you. The gunship takes its place,
-drifts, and fills the sky with patterns.
+The dart waits, aims and dives at the player's place. The saucer weaves down and fires at the player. The gunship takes
+its place, drifts, and fills the sky with patterns.
 """
 
 from math import atan2, cos, hypot, pi, sin
@@ -13,24 +13,24 @@ from scenes.shooter.cast import HOSTILE, WIDTH, steps
 from scenes.shooter.patterns import aimed, fan, ring
 
 ENTRY_Y = -40.0  # [px] above the picture
-APPROACH = 3.2  # [1/s] how quickly a plane closes in on its place
-NOTCH = 2 * pi / 64  # [rad] planes are turned in such steps: every other angle at which a mask is drawn
+APPROACH = 3.2  # [1/s] rate at which a plane approaches its place
+NOTCH = 2 * pi / 64  # [rad] step of the planes' angles: every other angle at which a mask is drawn
 EDGE = 40.0  # [px] from the sides that gunships keep
 
 
 class Enemy:
-    """`frame` names the picture and the mask that collides; `health` in plain shots; `side` says who meets it.
+    """A plane. `frame`: the picture and the colliding mask; `health` in plain shots; `side`: its filter.
 
-    A kind adds think(sky): set vx, vy [px/s] and angle for the coming step; `sky` is the scene.
+    A kind adds think(sky): set vx, vy [px/s] and angle for the next step; `sky` is the scene.
     """
 
     kind, frame, health, points = "", "", 1, 0
     side = HOSTILE
-    heavy = False  # smokes when it is damaged, shows its health, and survives ramming the player
+    heavy = False  # smokes when damaged, shows its health, and survives ramming the player
     leads = False  # a mid-boss or a boss
 
     def __init__(self, x, y, group, pace):
-        self.id = -1  # of its body, given when it is launched
+        self.id = -1  # of its body, set at the launch
         self.x, self.y = x, y
         self.home_x, self.home_y = x, group.hover
         self.sway, self.bend = group.sway, group.bend
@@ -39,36 +39,36 @@ class Enemy:
         self.vx = self.vy = self.angle = 0.0
         self.heading = DOWN
         self.age = self.since = self.volleys = 0
-        self.met = 0  # what of the player it has met: see bullets
+        self.met = 0  # parts of the player that it has met: see bullets
         self.mode = "arrive"
 
     @staticmethod
     def entry(group, share):
-        """Where a plane of a group comes in [px]: from above, unless the kind says otherwise."""
+        """Return the entry [px] of a plane of a group: from above, unless the kind overrides it."""
         return WIDTH * share, ENTRY_Y
 
     def begin(self, mode):
-        """Change what it does."""
+        """Change its mode."""
         self.mode, self.since = mode, 0
 
     def approach(self, x, y, most):
-        """Fly towards a place, slower as it comes near; `most` [px/s]. Returns how far it is [px]."""
+        """Fly towards a place, slower when near; `most` [px/s]. Return the distance [px]."""
         far = hypot(x - self.x, y - self.y)
         speed = min(most, APPROACH * far)
         self.vx, self.vy = (0.0, 0.0) if far < 0.5 else (speed * (x - self.x) / far, speed * (y - self.y) / far)
         return far
 
     def face(self, heading):
-        """Turn the picture, and the mask with it, to a heading [rad], in notches."""
+        """Rotate the picture and its mask to a heading [rad], in notches."""
         self.heading = heading
         self.angle = round((heading - DOWN) / NOTCH) * NOTCH
 
     def ahead(self, seconds):
-        """Where it will be after so many seconds (array), as far as anybody can tell: x and y [px]."""
+        """Return its predicted x and y after so many seconds (array) [px]."""
         return self.x + self.vx * seconds, self.y + self.vy * seconds
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (
             self.id,
             self.kind,
@@ -89,7 +89,7 @@ class Enemy:
 
 
 class Dart(Enemy):
-    """Waits for a moment, turns to you, dives at where you are then."""
+    """A plane that waits for a moment, turns to the player, and dives at that place."""
 
     kind, frame, health, points = "dart", "dart_0", 3, 100
     DIVE_SPEED, DIVE_GAIN = 205.0, 190.0  # [px/s], [px/s2]
@@ -117,7 +117,7 @@ class Dart(Enemy):
 
 
 class Saucer(Enemy):
-    """Weaves down the sky and fires at you while it is well above you."""
+    """A plane that weaves down the sky and fires at the player while well above."""
 
     kind, frame, health, points = "saucer", "saucer_0", 8, 200
     FALL, TURNS = 40.0, 0.36  # [px/s], swings per second
@@ -126,7 +126,7 @@ class Saucer(Enemy):
 
     @staticmethod
     def entry(group, share):
-        """Far enough from the sides to weave."""
+        """Return an entry far enough from the sides to weave."""
         room = abs(group.sway) + 20.0
         return min(max(WIDTH * share, room), WIDTH - room), ENTRY_Y
 
@@ -158,13 +158,13 @@ class Saucer(Enemy):
 
 
 class Gunship(Enemy):
-    """Takes its place, drifts from side to side, fires fans and rings by turns; leaves when its time is up."""
+    """A plane that takes its place, drifts from side to side, fires fans and rings in turn, and leaves after a time."""
 
     kind, frame, health, points = "gunship", "gunship_0", 90, 1000
     heavy = True
     BETWEEN, FIRST = 1.15, 0.6  # [s]
     FAN, RING = 104.0, 82.0  # [px/s]
-    FAN_GAP = 0.31  # [rad] a plane fits through it from 140 px on
+    FAN_GAP = 0.31  # [rad] a plane fits through the gap from 140 px on
     DRIFT, STAY = 26.0, 16.0  # [px/s], [s]
 
     def think(self, sky):

@@ -1,6 +1,6 @@
-"""Two kinds that come otherwise: the hornet flies in curved files from the sides, the turret stands on the ground.
+"""Two other kinds: the hornet flies in curved files from the sides, the turret stands on the ground.
 
-The hornet fires at where you will be. The turret fires slow walls and fans, and nobody can ram it.
+The hornet leads its target. The turret fires slow walls and fans, and cannot be rammed.
 """
 
 from math import cos, hypot, pi, radians, sin
@@ -10,17 +10,17 @@ from scenes.shooter.cast import GROUND_SPEED, GROUNDED, HEIGHT, WIDTH, steps
 from scenes.shooter.enemies import Enemy
 from scenes.shooter.patterns import aimed, fan, lead
 
-OUT = 26.0  # [px] outside of the picture, where a hornet comes in
+OUT = 26.0  # [px] outside of the picture, where a hornet enters
 
 
 class Hornet(Enemy):
-    """Flies straight, then along an arc of `bend`, then straight again, and fires twice at where you will be."""
+    """A plane that flies straight, then along an arc of `bend`, then straight again, and fires twice with lead."""
 
     kind, frame, health, points = "hornet", "hornet_0", 3, 150
     SPEED, TURN = 150.0, radians(75.0)  # [px/s], [rad/s]: an arc of 115 px
     STRAIGHT = 0.45  # [s] before the arc begins
     MOMENTS, BULLET = (0.8, 1.7), 150.0  # [s], [px/s]
-    CLOSE = 80.0  # [px] nearer than that it does not fire: nobody could dodge
+    CLOSE = 80.0  # [px] within which it does not fire, because the bullet could not be dodged
 
     def __init__(self, x, y, group, pace):
         super().__init__(x, y, group, pace)
@@ -32,7 +32,7 @@ class Hornet(Enemy):
 
     @staticmethod
     def entry(group, share):
-        """Through one of the sides; `share` is how far down it, or along the bottom."""
+        """Return the entry through one of the sides; `share`: its place down the side, or along the bottom."""
         if group.side == "below":
             return WIDTH * share, HEIGHT + OUT
         return (-OUT if group.side == "left" else WIDTH + OUT), HEIGHT * share
@@ -58,12 +58,12 @@ class Hornet(Enemy):
         sky.spectacle.enemy_fires(self)
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (*super().state(), self.turn, self.left)
 
 
 class Turret(Enemy):
-    """Moves with the ground; by turns a short wall straight down and a fan at you."""
+    """A gun that moves with the ground and fires a short wall straight down and a fan at the player in turn."""
 
     kind, frame, health, points = "turret", "turret_0", 24, 400
     side = GROUNDED

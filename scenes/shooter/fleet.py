@@ -1,4 +1,4 @@
-"""All enemies in the sky: launched, stepped, dressed, forgotten."""
+"""All enemies in the sky: launch, step, picture, removal."""
 
 from math import pi
 
@@ -12,36 +12,36 @@ from scenes.shooter.pace import EASY
 KINDS = {each.kind: each for each in (Dart, Saucer, Gunship, Hornet, Turret)}
 DIVES = 20  # notches to either side of straight down: darts dive no flatter
 SIDEWAYS = 10  # half notches that side bullets lean at most
-ALL_AROUND = 32  # hornets fly anywhere
+ALL_AROUND = 32  # hornets fly in all directions
 
 
 class Fleet:
-    """Enemies by body id, in the order in which they came."""
+    """Enemies by body id, in the order of arrival."""
 
     def __init__(self, world, tier):
         self.world, self.tier = world, tier
         self.planes = {}
-        self.longest = 0  # steps that any enemy without a timer of its own has been in the sky
+        self.longest = 0  # longest time in the sky of an enemy without a timer of its own [steps]
 
     def __len__(self):
         return len(self.planes)
 
     @property
     def leader(self):
-        """The mid-boss or boss that is here, or None."""
+        """The current mid-boss or boss, or None."""
         return next((plane for plane in self.planes.values() if plane.leads), None)
 
     def launch(self, group, share, carries="", pace=EASY, wave=0, scrolled=0.0):
-        """Send one plane of a group in, over ground that has moved so far [px]. Returns it."""
+        """Launch one plane of a group, over ground that has moved so far [px]. Return it."""
         made = KINDS[group.kind]
         plane = made(*made.entry(group, share), group, pace)
         if plane.side is GROUNDED:
-            plane.y += scrolled % 1.0  # so that it steps from pixel to pixel together with its ground
+            plane.y += scrolled % 1.0  # so that it moves from pixel to pixel together with its ground
         plane.carries, plane.wave = carries, wave
         return self._add(plane)
 
     def launch_leader(self, event):
-        """Send a mid-boss or a boss in. Returns it."""
+        """Launch a mid-boss or a boss. Return it."""
         return self._add(Leader(event))
 
     def _add(self, plane):
@@ -58,7 +58,7 @@ class Fleet:
         return plane
 
     def step(self, sky):
-        """Let every plane think, and write what it wants into the world's columns."""
+        """Step every plane, and write its velocity into the world's columns."""
         if not self.planes:
             return
         planes = list(self.planes.values())
@@ -86,14 +86,16 @@ class Fleet:
 
 
 def dress(world, identity, frame, tier):
-    """Let a plane collide as the picture it shows now, at the scene's tier."""
+    """Give a plane the shape of its current picture, at the scene's tier."""
     body = world.body(identity)
     body.set_shapes(load_atlas("planes").mask(frame))
     body.tier = tier
 
 
 def draw_turned():
-    """Turn the masks of what turns before the first step, so that no step of the game has to (1.7 ms each, once)."""
+    """Rotate the masks of turning planes before the first step, so that no step of the game does (1.7 ms each,
+    once).
+    """
     planes, effects = load_atlas("planes"), load_atlas("effects")
     for frames, notches in ((("dart_0", "dart_1"), DIVES), (("hornet_0",), ALL_AROUND)):
         for notch in range(-notches, notches + 1):

@@ -1,15 +1,15 @@
-"""What a stage played by the bot must show, and by when."""
+"""Goals of a stage played by the bot, with deadlines."""
 
 from game.scene import Goal
 from scenes.shooter.cast import steps
 
 FOUGHT = {"dart": 900, "saucer": 1500, "hornet": 2400, "turret": 3300, "gunship": 4200}  # kind -> frame
-MIDBOSS, BOSS, CLEARED = 9000, 18000, 18600  # frames: what every timer leaves time for
-LONGEST = steps(40)  # steps that a plane without a timer of its own may be in the sky
+MIDBOSS, BOSS, CLEARED = 9000, 18000, 18600  # frames: enough for every timer
+LONGEST = steps(40)  # steps that a plane without a timer of its own may stay in the sky
 
 
 def stage_goals(scene):
-    """A list of Goal."""
+    """Return a list of Goal."""
     score, fleet = scene.score, scene.fleet
     kinds = {event.event for event in scene.director.stage.events}
     sent = {group.kind for event in scene.director.stage.events for group in event.groups}

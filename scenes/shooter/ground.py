@@ -1,7 +1,6 @@
-"""What the planes fly over: a stretch of ground that scrolls, the next one coming in from above, clouds, rain.
+"""The ground below the planes: a scrolling stretch, the next one coming in from above, clouds, rain.
 
-Where two stretches meet, the border is a coast of noise, not a line: a pixel belongs to the upper one where it is
-above a wavy threshold.
+The border of two stretches is a coast of noise: a pixel belongs to the upper one if it is above a wavy threshold.
 """
 
 from functools import cache, lru_cache
@@ -14,20 +13,20 @@ from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 from scenes.shooter.cast import GROUND_SPEED, steps
 
-# Layer over the ground, its way down [px/s], px it shifts for each px the plane is off the middle, fixed shift [px]
+# Layer over the ground, its speed down [px/s], px of shift for each px of the plane off the middle, fixed shift [px]
 LAYERS = (("cloud_shadows", 46.0, 0.06, 40), ("clouds_low", 46.0, 0.08, 0), ("clouds_high", 92.0, 0.16, 0))
-BORDER = 150  # [px] that the meeting of two stretches is high
-DARKEN = steps(5.0)  # steps in which clouds turn dark over a stormy stretch
+BORDER = 150  # [px] height of the transition between two stretches
+DARKEN = steps(5.0)  # steps in which clouds darken over a stormy stretch
 SHADES = 6  # of dark clouds
 DARKEST = (96, 104, 138)  # factors, of 255, on clouds of a storm
 STREAKS = 16  # wisps of air that show the speed
 DROPS = 70  # of rain in the picture
-BLUER = 20  # more blue than red is in the colour of water; rock is grey
-CONTRAST = (150, 150, 158)  # factors, of 255, on the ground where the player wants more contrast
+BLUER = 20  # excess of blue over red in the colour of water; rock is grey
+CONTRAST = (150, 150, 158)  # factors, of 255, on the ground for the palette with more contrast
 
 
 def draw_ground(surface, scene, alpha, left, top):
-    """Ground, scorched places and clouds; (left, top) is the camera's shake [px]."""
+    """Draw ground, scorched places and clouds; (left, top) is the camera's shake [px]."""
     spectacle, grounds = scene.spectacle, scene.director.grounds
     scrolled = scene.scrolled_before + (scene.scrolled - scene.scrolled_before) * alpha
     _draw_stretches(surface, grounds, scrolled, left, top)
@@ -46,7 +45,7 @@ def draw_ground(surface, scene, alpha, left, top):
 
 
 def is_water(scene, x, y):
-    """Whether what is seen of the ground at a place of the picture [px] is water."""
+    """Return whether the visible ground at a place of the picture [px] is water."""
     since, name = scene.director.grounds[-1]
     line = scene.scrolled - since - BORDER / 2
     if y > line and len(scene.director.grounds) > 1:
@@ -63,7 +62,7 @@ def is_water(scene, x, y):
 
 
 def storm_share(grounds, scrolled):
-    """How much of a storm there is, 0..1."""
+    """Return the strength of the storm, 0..1."""
     since, name = grounds[-1]
     grown = min(max((scrolled - since) / GROUND_SPEED * 60 / DARKEN, 0.0), 1.0)
     if name == "storm":
@@ -73,7 +72,7 @@ def storm_share(grounds, scrolled):
 
 def _draw_stretches(surface, grounds, scrolled, left, top):
     since, name = grounds[-1]
-    line = whole(scrolled - since) - BORDER - top  # where the new stretch is all there, on the canvas
+    line = whole(scrolled - since) - BORDER - top  # from where the new stretch covers all, on the canvas
     if len(grounds) == 1 or line > CANVAS_SIZE[1]:
         tile(surface, stretch(name), -left, scrolled - top)
         return
@@ -104,13 +103,13 @@ def _draw_air(surface, time, off, storm):
 
 @cache
 def stretch(name):
-    """The picture of a ground."""
+    """Return the picture of a ground."""
     return load_backdrop(name)
 
 
 @cache
 def clouds(name, shade):
-    """A layer of clouds, darker by steps as a storm comes."""
+    """Return a layer of clouds, darker by steps as a storm comes."""
     picture = load_backdrop(name)
     if shade == 0:
         return picture
@@ -122,7 +121,7 @@ def clouds(name, shade):
 
 @lru_cache(maxsize=1)
 def coast_line():
-    """White where the upper of two stretches is seen, clear where the lower is: BORDER rows of the picture's width."""
+    """Return a mask: white for the upper of two stretches, clear for the lower; BORDER rows of the picture's width."""
     width = CANVAS_SIZE[0]
     x, y = np.arange(width)[:, None], np.arange(BORDER)[None, :]
     turn = 2 * np.pi * x / width
@@ -139,7 +138,7 @@ def coast_line():
 
 @lru_cache(maxsize=1)
 def streak():
-    """A wisp of air."""
+    """Return a wisp of air."""
     image = pygame.Surface((1, 14), pygame.SRCALPHA)
     for row in range(14):
         image.set_at((0, row), (220, 236, 255, 4 + 4 * row))
@@ -148,7 +147,7 @@ def streak():
 
 @lru_cache(maxsize=1)
 def drop():
-    """A drop of rain, slanted."""
+    """Return a drop of rain, slanted."""
     image = pygame.Surface((3, 10), pygame.SRCALPHA)
     for row in range(10):
         image.set_at((row * 3 // 10, row), (186, 208, 240, 18 + 8 * row))
@@ -157,7 +156,7 @@ def drop():
 
 @lru_cache(maxsize=8)
 def scar(size):
-    """A scorched place: dark, ragged, clear towards its edge."""
+    """Return a scorched place: dark, ragged, clear towards its edge."""
     reach = 2 * size + 1
     x, y = np.meshgrid(np.arange(reach) - size, np.arange(reach) - size, indexing="ij")
     ragged = 1.0 + 0.16 * np.sin(5 * np.arctan2(y, x) + 1.0) + 0.1 * np.sin(9 * np.arctan2(y, x))

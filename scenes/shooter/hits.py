@@ -1,7 +1,7 @@
-"""What met the player in a step, three times over: by its core, by its hull, by its box.
+"""Contacts of the player in a step, by its core, by its hull and by its box.
 
-All three are looked at in every step and counted; the scene chooses whether core or hull hurts. So the numbers side by
-side show what exact shapes are worth. A bullet or plane counts once for each.
+All three are tested and counted in every step; the scene chooses whether core or hull hurts. The three counts show the
+effect of exact shapes. A bullet or plane counts once for each.
 """
 
 import numpy as np
@@ -13,14 +13,14 @@ PARTS = {"core": CORED, "hull": HULLED}
 
 
 class Hits:
-    """`count` of what met each part; `now` holds the ids of this step that touched core or hull anew."""
+    """Counts of contacts. `count`: per part; `now`: ids of this step with a new contact of core or hull."""
 
     def __init__(self):
         self.count = {"core": 0, "hull": 0, "box": 0}
         self.now = {"core": [], "hull": []}
 
     def read(self, world, plane, incoming, fleet):
-        """Look at the step just made. Returns the ids of bullets that the ring grazed for the first time."""
+        """Read the last step. Return the ids of bullets that graze the ring for the first time."""
         events = world.events
         for part, bit in PARTS.items():
             self.now[part] = partners(events.begin, plane.bodies[part].id)
@@ -37,12 +37,12 @@ class Hits:
                 self.count[part] += 1
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return tuple(self.count.values())
 
 
 def partners(events, identity):
-    """Ids of the bodies that met one body, in some events."""
+    """Return ids of the bodies that met one body, in some events."""
     if not len(events):
         return []
     a, b = events["body_a"], events["body_b"]
@@ -50,16 +50,16 @@ def partners(events, identity):
 
 
 def boxes_met(world, identity):
-    """Ids of the enemies and bullets whose box overlapped that of a body in the last step."""
+    """Return ids of the enemies and bullets whose box overlapped the body's in the last step."""
     shapes = world.shapes
-    box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # whatever the tier, it has one shape
+    box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # it has one shape, whatever the tier
     a, b = world.candidates[:, 0], world.candidates[:, 1]
     others = np.concatenate([b[a == box["id"]], a[b == box["id"]]])
     if not len(others):
         return others.astype(np.int64)
     rows = np.searchsorted(np.ascontiguousarray(shapes["id"]), others)
     other = shapes[rows[(shapes["membership"][rows] & (ENEMY | BULLET)) != 0]]
-    # Open boxes: an edge that only touches an edge is nothing to be proud of.
+    # Open boxes: touching edges do not count.
     over = (
         (other["min_x"] < box["max_x"])
         & (other["max_x"] > box["min_x"])

@@ -10,13 +10,13 @@ from scenes.shooter.fireworks import RING_LIFE
 LINE = (150, 236, 255)
 WAVE = (255, 214, 150)
 SHADES = 8  # of a fading shock wave
-ROUNDING = 4  # [px] between the radii that are drawn: so few pictures are kept
+ROUNDING = 4  # [px] between the drawn radii, so that few pictures are cached
 BLAST = 120  # [px] radius of the light of a blast
-INSIDE = 12  # [px] that the drawn ring may be smaller than the blast
+INSIDE = 12  # [px] by which the drawn ring may be smaller than the blast
 
 
 def draw_rings(view, works):
-    """Shock waves: thin circles of light that grow quickly, then slowly, and fade."""
+    """Draw shock waves: thin circles of light that grow fast, then slowly, and fade."""
     for x, y, radius, age in works.rings:
         share = age / RING_LIFE
         grown = max(4, int(radius * (1.0 - (1.0 - share) ** 3)))
@@ -25,7 +25,7 @@ def draw_rings(view, works):
 
 
 def draw_bomb(view, scene):
-    """The blast: its ring as it grows, then a light that fades."""
+    """Draw the blast: its ring while it grows, then a light that fades."""
     bomb = scene.bomb
     if bomb.body is None:
         return
@@ -41,7 +41,7 @@ def draw_bomb(view, scene):
 
 @lru_cache(maxsize=600)
 def wave(radius, bright):
-    """A circle of light, `bright` of SHADES."""
+    """Return a circle of light, `bright` of SHADES."""
     image = pygame.Surface((2 * radius + 2, 2 * radius + 2))
     color = [c * bright // SHADES // 2 for c in WAVE]
     pygame.draw.circle(image, color, (radius + 1, radius + 1), radius, max(1, min(3, radius // 12)))
@@ -50,7 +50,7 @@ def wave(radius, bright):
 
 @lru_cache(maxsize=12)
 def blast(tenths):
-    """The light inside a blast: bright in the middle, dithered rings outwards."""
+    """Return the light inside a blast: bright in the middle, dithered rings outwards."""
     image = pygame.Surface((2 * BLAST, 2 * BLAST))
     for number, radius in enumerate(range(BLAST - 4, 10, -14)):
         level = (6 + 5 * number) * tenths // 10
@@ -60,7 +60,7 @@ def blast(tenths):
 
 @lru_cache(maxsize=80)
 def faded(image, alpha):
-    """A clearer copy: alpha, 0..255, of what is solid."""
+    """Return a more transparent copy: alpha, 0..255, of the solid pixels."""
     copy = image.copy()
     copy.fill((255, 255, 255, alpha), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
@@ -68,7 +68,7 @@ def faded(image, alpha):
 
 @lru_cache(maxsize=2)
 def circle_line(radius):
-    """The ring that bullets graze."""
+    """Return the ring that bullets graze."""
     image = pygame.Surface((2 * radius + 2, 2 * radius + 2), pygame.SRCALPHA)
     pygame.draw.circle(image, (*LINE, 110), (radius + 1, radius + 1), radius, 1)
     return image

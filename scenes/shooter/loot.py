@@ -1,4 +1,4 @@
-"""Pick-ups: power, bombs, lives. They drift down, come to you when you are near, and the plane's ring takes them."""
+"""Pick-ups: power, bombs, lives. They drift down, fly to a player nearby, and are taken by the plane's ring."""
 
 from math import cos, hypot, pi
 
@@ -10,21 +10,21 @@ REACH, FAR_REACH, PULL = (
     58.0,
     130.0,
     170.0,
-)  # [px] from which it comes to you, the same while you focus; how fast [px/s]
-TOSS, TOSS_TIME = 90.0, 34  # [px/s] upwards, and steps: what a lost plane leaves can be caught again
-EDGE = 16.0  # [px] from the sides that it keeps
+)  # [px] range in which it flies to the player, the same while focusing; speed [px/s]
+TOSS, TOSS_TIME = 90.0, 34  # [px/s] upwards, and steps: a lost plane's items can be caught again
+EDGE = 16.0  # [px] kept from the sides
 PICTURES = {"power": "powerup", "bomb": "bomb_item", "life": "life_item"}
 
 
 class Item:
-    """`born`: the step it appeared in; `tossed`: thrown up by a plane that was lost."""
+    """A pick-up. `born`: the step it appeared in; `tossed`: thrown up by a lost plane."""
 
     def __init__(self, what, born, tossed):
         self.what, self.born, self.tossed = what, born, tossed
 
 
 class Loot:
-    """`items` by the body of each."""
+    """The pick-ups. `items`: Item by body id."""
 
     def __init__(self, world):
         self.world = world
@@ -34,13 +34,13 @@ class Loot:
         return len(self.items)
 
     def drop(self, what, x, y, now, tossed=False):
-        """Leave one at a place [px]."""
+        """Drop one at a place [px]."""
         mask = load_atlas("planes").mask(PICTURES[what] + "_0")
         body = self.world.add_body(mask, kind="kinematic", filter=LOOT, position=(min(max(x, EDGE), WIDTH - EDGE), y))
         self.items[body.id] = Item(what, now, tossed)
 
     def step(self, now, plane):
-        """Choose the velocities of the coming step."""
+        """Choose the velocities of the next step."""
         if not self.items:
             return
         rows, bodies = self.world.rows(list(self.items)), self.world.bodies
@@ -64,7 +64,7 @@ class Loot:
             self.items.pop(identity, None)
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return tuple(
             value for identity, item in self.items.items() for value in (identity, item.what, item.born, item.tossed)
         )

@@ -1,11 +1,11 @@
-"""How hard it is: factors that a stage turns up as it goes on."""
+"""Difficulty: factors that a stage raises as it proceeds."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Pace:
-    """Factors on the speed of bullets and dives, the time between volleys and on health; bullets more in a volley."""
+    """Factors on the speed of bullets and dives, the time between volleys, and health; extra bullets in a volley."""
 
     speed: float = 1.0
     patience: float = 1.0

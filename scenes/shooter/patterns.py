@@ -1,6 +1,6 @@
-"""What guns do: headings of bullets from a few primitives, and a Gun that plays one pattern of a stage file.
+"""Guns: headings of bullets from a few primitives, and a Gun that plays one pattern of a stage file.
 
-aimed, lead and fan look for the player; ring, spiral and wall fill the sky; a stream holds the heading it began with.
+aimed, lead and fan target the player; ring, spiral and wall fill the sky; a stream keeps its first heading.
 """
 
 from math import atan2, hypot, pi, radians, sin
@@ -8,38 +8,38 @@ from math import atan2, hypot, pi, radians, sin
 from scenes.shooter.bullets import DOWN
 from scenes.shooter.cast import WIDTH, steps
 
-WALL_Y = -8.0  # [px] where a wall of bullets comes from
-WALL_EDGE = 30.0  # [px] from the sides that the middle of its gap keeps
+WALL_Y = -8.0  # [px] start of a wall of bullets
+WALL_EDGE = 30.0  # [px] kept from the sides by the middle of its gap
 
 
 def aimed(x, y, target):
-    """The heading at the target (x, y)."""
+    """Return the heading at the target (x, y)."""
     return atan2(target[1] - y, target[0] - x)
 
 
 def lead(x, y, target, velocity, speed):
-    """The heading that meets a target which goes on as it flies, for a bullet of that speed [px/s]."""
+    """Return the heading that hits a target of constant velocity, for a bullet of that speed [px/s]."""
     ahead = 0.0
-    for _ in range(3):  # each round halves the error or better: targets are slower than bullets
+    for _ in range(3):  # each round halves the error at least, because targets are slower than bullets
         ahead_x, ahead_y = target[0] + velocity[0] * ahead, target[1] + velocity[1] * ahead
         ahead = hypot(ahead_x - x, ahead_y - y) / speed
     return atan2(ahead_y - y, ahead_x - x)
 
 
 def fan(heading, count, spread):
-    """`count` headings, `spread` [rad] from first to last, around one."""
+    """Return `count` headings around one, `spread` [rad] from first to last."""
     if count == 1:
         return [heading]
     return [heading + spread * (number / (count - 1) - 0.5) for number in range(count)]
 
 
 def ring(count, turn=0.0):
-    """`count` headings all around, the first at `turn` [rad]."""
+    """Return `count` headings in all directions, the first at `turn` [rad]."""
     return [turn + 2 * pi * number / count for number in range(count)]
 
 
 def wall(spacing, middle, gap, width=WIDTH):
-    """Places across [px] of a row of bullets with a gap around its middle."""
+    """Return the places across [px] of a row of bullets with a gap around its middle."""
     count = int(width / spacing) + 1
     edge = (width - (count - 1) * spacing) / 2
     places = [edge + spacing * number for number in range(count)]
@@ -47,18 +47,18 @@ def wall(spacing, middle, gap, width=WIDTH):
 
 
 class Gun:
-    """Plays a Pattern: when the next shot is due, which of a burst it is, and where it points."""
+    """Player of a Pattern: the time of the next shot, its number in the burst, and its heading."""
 
     def __init__(self, pattern):
         self.pattern = pattern
         self.wait = max(steps(pattern.after), 1)  # steps until the next shot
         self.fired = 0  # shots so far
         self.age = 0  # steps
-        self.held = DOWN  # heading of the stream that runs [rad]
+        self.held = DOWN  # heading of the current stream [rad]
         self.middle = WIDTH / 2  # of the last wall's gap [px]
 
     def step(self, sky, x, y):
-        """Fire if a shot is due; (x, y) [px] is the middle of what carries it. True if it fired."""
+        """Fire if a shot is due; (x, y) [px] is the middle of the plane. Return whether it fired."""
         self.age += 1
         self.wait -= 1
         if self.wait > 0:
@@ -73,7 +73,7 @@ class Gun:
                 headings = self._headings(sky, x + dx, y + dy, shot, speed)
                 sky.incoming.fire(pattern.bullet, x + dx, y + dy, headings, speed, pattern.out)
         self.fired += 1
-        # Rounded against the start, not one by one: a rate that is no whole number of steps is kept on average.
+        # Rounded from the start, not one by one, so that a fractional rate is exact on average.
         rest = pattern.rest if shot + 1 == pattern.shots else 0.0
         self.wait = max(steps(pattern.every * (self.fired + 1)) - steps(pattern.every * self.fired) + steps(rest), 1)
         return True
@@ -104,5 +104,5 @@ class Gun:
             sky.incoming.fire(pattern.bullet, x, WALL_Y, (DOWN,), speed)
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return self.wait, self.fired, self.age, self.held, self.middle

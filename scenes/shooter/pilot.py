@@ -1,8 +1,7 @@
-"""The bot: it looks ahead where bullets will be, tries some ways to fly, and takes the least dangerous.
+"""The bot: it predicts bullets, compares several plans of flight, and takes the least dangerous.
 
-Each plan is a direction flown for some steps and then rest. All plans, moments and threats are compared in one
-array expression; what is predicted is read from the tables' positions and velocities. Where every plan ends in a hit,
-it drops a bomb.
+Each plan is a direction flown for some steps and then rest. All plans, moments and threats are compared in one array
+expression, from the positions and velocities in the tables. If every plan ends in a hit, it drops a bomb.
 """
 
 import numpy as np
@@ -12,23 +11,23 @@ from scenes.shooter.cast import GROUNDED, HEIGHT
 from scenes.shooter.plane import BOTTOM, CORE_RADIUS, DIAGONAL, FOCUS, LEFT, SPEED, TOP
 
 MOMENTS = np.array([1, 3, 5, 8, 11, 14, 18, 22, 27, 32, 38, 45], dtype=np.float64)  # steps ahead
-SOON = 5  # of these are so near that only a bomb would help
-WEIGHTS = 1.0 / (1.0 + MOMENTS / 14.0)  # what comes later can still be dodged later
-FLOWN = (5.0, 12.0, 26.0)  # steps that a direction is held
-SIZE = {"core": CORE_RADIUS + 1.0, "hull": 15.0}  # [px] radius of what must not be met, for the prediction
+SOON = 5  # of these: so near that only a bomb would help
+WEIGHTS = 1.0 / (1.0 + MOMENTS / 14.0)  # later threats can still be dodged
+FLOWN = (5.0, 12.0, 26.0)  # steps for which a direction is held
+SIZE = {"core": CORE_RADIUS + 1.0, "hull": 15.0}  # [px] radius of the vulnerable part, for the prediction
 ENEMY_RADIUS = {"dart": 13.0, "saucer": 16.0, "gunship": 25.0, "hornet": 12.0, "midboss": 38.0, "boss": 56.0}
-CAUTION = {"pixels": 1.0, "obb": 1.3, "aabb": 1.2, "circle": 1.3}  # factor on enemies' sizes: what is tested is larger
-COMFORT = 14.0  # [px] nearer than this is uncomfortable
-DEADLY = 0.8  # [px] nearer than this is a hit
-HIT = 60.0  # the cost of one
-NEAR, MOST = 130.0, 64  # [px] farther threats can wait, and so can more than so many
-AT_ONCE = 7  # plans that are compared at once: arrays stay small
-LINE_Y = 216.0  # [px] where it likes to fly
-CROWD = 1500  # bullets in the sky at which it uses its first bomb, come what may
+CAUTION = {"pixels": 1.0, "obb": 1.3, "aabb": 1.2, "circle": 1.3}  # factor on enemies' sizes
+COMFORT = 14.0  # [px] a smaller distance costs
+DEADLY = 0.8  # [px] a smaller distance is a hit
+HIT = 60.0  # cost of a hit
+NEAR, MOST = 130.0, 64  # [px] range of the threats; at most so many
+AT_ONCE = 7  # plans compared at once, so that arrays stay small
+LINE_Y = 216.0  # [px] its preferred height
+CROWD = 1500  # bullets in the sky at which it uses its first bomb in any case
 
 
 def directions():
-    """(dx, dy, steps, focus) of every plan; the first stays."""
+    """Return (dx, dy, steps, focus) of every plan; the first one stays."""
     plans = [(0.0, 0.0, 0.0, False)]
     for focus in (False, True):
         for dx in (-1, 0, 1):
@@ -39,7 +38,7 @@ def directions():
 
 
 class Pilot:
-    """keys(scene) gives the actions to hold in the next step."""
+    """The bot. keys(scene) gives the actions to hold in the next step."""
 
     def __init__(self):
         self.plans = directions()
@@ -49,7 +48,7 @@ class Pilot:
         self.way_x, self.way_y = (dx * speed)[:, None] * held, (dy * speed)[:, None] * held
 
     def keys(self, scene):
-        """Fly where it is safest, and among safe ways to where there is something to shoot or to take."""
+        """Return the keys of the safest plan, and among safe ones of that nearest to a target or pick-up."""
         plane = scene.plane
         if not plane.here:
             return frozenset()
@@ -72,14 +71,14 @@ class Pilot:
         return frozenset(actions)
 
     def _bombs(self, scene, doomed):
-        """A bomb when it is hit, or is about to be, or when the sky has never been fuller."""
+        """Return whether to bomb: on a hit, before a certain one, or when the sky has never been fuller."""
         if not scene.plane.bombs or scene.bomb.body is not None:
             return False
         crowded = not scene.score.bombs and len(scene.incoming) >= CROWD
         return scene.stricken > 0 or (not scene.plane.safe and doomed) or crowded
 
     def _danger(self, scene, x, y, place_x, place_y):
-        """Cost of each plan by what comes near, and which plans end in a hit soon."""
+        """Return the cost of each plan by near threats, and which plans end in a hit soon."""
         ahead_x, ahead_y, radius = threats(scene, x, y)
         if not len(radius):
             return np.zeros(len(place_x)), np.zeros(len(place_x), bool)
@@ -101,7 +100,7 @@ class Pilot:
         return cost, doomed
 
     def _distance(self, scene, x, y, end_x, end_y):
-        """Cost of each plan by how far it ends from where there is something to do."""
+        """Return the cost of each plan by the distance of its end from a target or pick-up."""
         goal_x, goal_y, pull = 240.0, LINE_Y, 0.004
         prey = [
             e for e in scene.fleet.planes.values() if -20 < e.y < y - 30 and e.mode not in ("dive", "fall", "leave")
@@ -121,7 +120,7 @@ class Pilot:
 
 
 def threats(scene, x, y):
-    """Where bullets and enemies near (x, y) will be, x and y [moment, threat] in px, and the radius [px] of each."""
+    """Return the predicted x and y [moment, threat] of bullets and enemies near (x, y) [px], and their radii [px]."""
     bodies, incoming = scene.world.bodies, scene.incoming
     rows = incoming.places()
     sizes = np.array([mask_of(name).size[0] / 2 - 0.5 for name in NAMES])[incoming.table.rows["look"]]

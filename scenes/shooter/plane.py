@@ -1,7 +1,7 @@
 """The player's plane: it moves at once, banks, fires, is lost and comes back.
 
-Three bodies fly as one: a small core, the hull, which is the mask of the frame that is shown, and a ring around them, a
-sensor. The world tests all three; which of core and hull a hit hurts is the scene's choice.
+It has three bodies: a small core, the hull, which is the mask of the shown frame, and a ring around them, a sensor. The
+world tests all three; the scene chooses whether hits of core or hull hurt.
 """
 
 from math import pi
@@ -13,8 +13,8 @@ from scenes.shooter.cast import AT_RISK, GHOST, HEIGHT, WIDTH, steps
 from scenes.shooter.fleet import dress
 
 SPEED, FOCUS = 168.0, 0.5  # [px/s]; factor while focusing
-DIAGONAL = 0.7071067811865476  # both keys of a diagonal together are no faster than one alone
-BORDER = 16.0  # [px] that its centre keeps from the edges of the picture
+DIAGONAL = 0.7071067811865476  # a diagonal with both keys is no faster than one alone
+BORDER = 16.0  # [px] kept by its centre from the edges of the picture
 LEFT, RIGHT, TOP, BOTTOM = BORDER, WIDTH - BORDER, BORDER, HEIGHT - BORDER
 START_X, START_Y, ENTRY_Y = WIDTH / 2, 222.0, HEIGHT + 30.0
 CORE_RADIUS, RING_RADIUS = 2.5, 16.0  # [px]
@@ -24,10 +24,10 @@ AWAY = steps(1.0)  # steps between two lives
 BANK_RATE = 0.34  # frames of bank per step
 BANKS = ("player_left2", "player_left1", "player", "player_right1", "player_right2")
 LIVES, MOST_LIVES, BOMBS, MOST_BOMBS, TOP_POWER = 3, 6, 3, 6, 5
-POWER_LOST = 2  # levels, with a life; one of them can be caught again
+POWER_LOST = 2  # levels lost with a life; one of them can be caught again
 COOLDOWN = 6  # steps between two volleys
 SHOT_SPEED, SIDE_SPEED = 560.0, 480.0
-# What a volley is, by power: shots and heavy shots by their x [px] off the nose, side bullets by their lean [rad] from
+# The volley by power: shots and heavy shots by their x [px] off the nose, side bullets by their lean [rad] from
 # straight up.
 VOLLEYS = (
     ((-5, 5), (), ()),
@@ -39,14 +39,15 @@ VOLLEYS = (
 
 
 class Plane:
-    """`bodies` holds core, hull and ring, or nothing between two lives; `power` 1.. chooses the volley; `safe` counts
-    the steps as a ghost down."""
+    """The plane. `bodies`: core, hull and ring, or nothing between two lives; `power` 1.. chooses the volley; `safe`:
+    remaining steps as a ghost.
+    """
 
     def __init__(self, world, tier):
         self.world = world
         self.lives, self.power, self.bombs = LIVES, 1, BOMBS
         self.tier = tier
-        self.right = RIGHT  # how far it may fly
+        self.right = RIGHT  # limit of its flight
         self.bank = 0.0
         self.safe = self.away = self.cooldown = self.entering = 0
         self.bodies = {}
@@ -57,7 +58,7 @@ class Plane:
 
     @property
     def here(self):
-        """True while it flies: not between two lives."""
+        """True while it flies, and not between two lives."""
         return bool(self.bodies)
 
     @property
@@ -67,11 +68,11 @@ class Plane:
 
     @property
     def frame(self):
-        """The picture shown, which is the mask that collides."""
+        """The shown picture, whose mask collides."""
         return BANKS[round(self.bank) + 2]
 
     def arrive(self):
-        """A life starts below the picture."""
+        """Start a life below the picture."""
         self.bank = 0.0
         self.x, self.y = START_X, ENTRY_Y
         shapes = {
@@ -109,7 +110,7 @@ class Plane:
             self._fire(shots)
 
     def shelter(self, count):
-        """Be a ghost for so many steps at least."""
+        """Become a ghost for so many steps at least."""
         self.safe = max(self.safe, count)
         if self.here:
             self._haunt(self.safe > 0)
@@ -144,14 +145,14 @@ class Plane:
         for look, places in (("shot", straight), ("heavy", heavy)):
             for x in places:
                 shots.fire(look, self.x + x, self.y - 14 + abs(x) * 0.6, (UP,), SHOT_SPEED)
-        # Focus draws the side bullets together.
+        # Focusing draws the side bullets together.
         spread = 0.45 if self.focusing else 1.0
         for lean in leaning:
             shots.fire("side", self.x + 40 * lean / pi, self.y - 6, (UP + lean * spread,), SIDE_SPEED)
         self.cooldown, self.fired = COOLDOWN, True
 
     def lose_life(self):
-        """It is hit. Returns the ids of its bodies, which are to be removed."""
+        """Lose a life. Return the ids of its bodies, which are to be removed."""
         wreck = [body.id for body in self.bodies.values()]
         self.bodies = {}
         self.lives -= 1
@@ -166,14 +167,14 @@ class Plane:
         self.lives, self.bombs, self.away = LIVES, BOMBS, 1
 
     def gain(self, what):
-        """A pick-up: power, bomb or life. Returns False when there is nothing left to gain."""
+        """Take a pick-up: power, bomb or life. Return whether anything was gained."""
         held, most = {"power": ("power", TOP_POWER), "bomb": ("bombs", MOST_BOMBS), "life": ("lives", MOST_LIVES)}[what]
         before = getattr(self, held)
         setattr(self, held, min(before + 1, most))
         return before < most
 
     def state(self):
-        """For the digest."""
+        """Return the state for the digest."""
         return (
             self.lives,
             self.power,

@@ -1,4 +1,4 @@
-"""The plane shooter: rules. Every hit, graze, blast and pick-up is read from the events of the step."""
+"""The plane shooter's rules. Every hit, graze, blast and pick-up is read from the events of the step."""
 
 import numpy as np
 
@@ -22,15 +22,15 @@ from scenes.shooter.stage import load_stage
 from scenes.shooter.view import the_view
 from scenes.shooter.wreckage import DRAG, STRIKE, Wreckage
 
-FREEZE = 3  # steps that the game stands still when the player is hit or a phase ends: 50 ms
+FREEZE = 3  # steps that the game is frozen after a hit of the player or the end of a phase: 50 ms
 LAST_MOMENT = 6  # steps after a hit in which a bomb still saves the plane
-SWEEP_EVERY = 8  # steps between two looks for what has left the sky: removing costs by the batch
+SWEEP_EVERY = 8  # steps between two checks for bodies outside the sky: removal costs per batch
 ROOM = 1800  # bullets that the tables have room for from the start
-DROP_EVERY = 45  # kills between two power-ups that nobody carried
+DROP_EVERY = 45  # kills between two power-ups that no enemy carried
 
 
 class Shooter(Scene):
-    """Keys move the plane; filters say who may meet; masks and circles say who did."""
+    """The shooter. Keys move the plane; filters define the possible contacts, masks and circles decide them."""
 
     name = "shooter"
     title = "Shooter"
@@ -49,7 +49,7 @@ class Shooter(Scene):
     filter_names = FILTER_NAMES
     actions = (("arrows", "fly"), ("Space", "fire"), ("Shift", "focus"), ("X", "bomb"))
     tiers = ("pixels", "obb", "aabb", "circle")
-    broadphase = "sweep"  # bullets are spread over the whole sky: four times as quick as a grid with 1,500 of them
+    broadphase = "sweep"  # bullets are spread over the whole sky: four times as fast as a grid with 1,500 of them
     sliders = (Slider("hurts", 0, 1, 0, choices=("core", "hull")),)
     music = "shooter"
     ranked_by = "points"
@@ -58,7 +58,7 @@ class Shooter(Scene):
     level_suffix = ".json"
 
     def build(self):
-        """An empty sky, and you."""
+        """Build an empty sky, and the player."""
         draw_turned()
         self.music = type(self).music
         stage = load_stage(self.level_file)
@@ -71,31 +71,31 @@ class Shooter(Scene):
         self.blows, self.hits = Blows(world), Hits()
         self.director, self.score, self.ending = Director(stage), Score(KINDS), Ending()
         self.pilot, self.spectacle = Pilot(), Spectacle(self)
-        self.scrolled = self.scrolled_before = 0.0  # [px] that the ground has moved, now and a step ago
-        self.gone = []  # bodies that go when the next step begins
-        self.hit_by = []  # what hit the player; it is lost when `stricken` has counted down
-        self.hit_blow = Blow()  # how hard that was
+        self.scrolled = self.scrolled_before = 0.0  # [px] motion of the ground, now and a step ago
+        self.gone = []  # bodies to be removed when the next step begins
+        self.hit_by = []  # what hit the player, which is lost when `stricken` has counted down
+        self.hit_blow = Blow()  # strength of that hit
         self.freeze = self.stricken = self.since_drop = self.unknown = self.most_bullets = 0
         self.beaten = {"midboss": False, "boss": False}
 
     def set_tier(self, name):
-        """Test all sprites at another tier, also those that come later."""
+        """Test all sprites at another tier, including later ones."""
         super().set_tier(name)
         self.fleet.tier = self.plane.tier = name
 
     @property
     def target(self):
-        """Where the player is, or was last [px]."""
+        """Place of the player, or the last one [px]."""
         return self.plane.x, self.plane.y
 
     @property
     def pace(self):
-        """How hard it is now."""
+        """Current difficulty."""
         return self.director.pace
 
     @property
     def hurts(self):
-        """Which part of the player must be met: core or hull."""
+        """Vulnerable part of the player: core or hull."""
         return ("core", "hull")[int(self.values["hurts"])]
 
     @property
@@ -104,7 +104,7 @@ class Shooter(Scene):
         return None if self.plane.ghost or self.plane.body is None else self.plane.body.id
 
     def update(self, inputs):
-        """All choose their velocities, the world steps, and what happened is read from it."""
+        """Choose all velocities, step the world, and read the events."""
         self.scrolled_before = self.scrolled
         self.spectacle.step(STEP_SECONDS)
         if self.ending.step(self, inputs):
@@ -113,7 +113,7 @@ class Shooter(Scene):
         if self.stricken:
             self._last_moment(inputs)
         if self.freeze:
-            # No time passes: for a moment everybody sees what met.
+            # No time passes, so that the contact is visible for a moment.
             self.freeze -= 1
             self.world.step(0.0)
             return
@@ -123,7 +123,7 @@ class Shooter(Scene):
         self._read_events()
 
     def _last_moment(self, inputs):
-        """The plane is hit; a bomb within a few steps still saves it."""
+        """Process the steps after a hit, in which a bomb still saves the plane."""
         self.stricken -= 1
         if inputs.pressed("bomb") and self.plane.bombs and self.bomb.body is None:
             self.stricken, self.freeze, self.hit_by = 0, 0, []
@@ -163,7 +163,7 @@ class Shooter(Scene):
         self.spectacle.bomb_dropped(self.bomb)
 
     def _read_events(self):
-        """Who met whom in this step. What goes stays until the next step begins: hits can be looked at."""
+        """Read the events of the step. Removals wait until the next step begins, so that hits can be inspected."""
         parts = self.plane.bodies
         self.blows = Blows(self.world, {parts["core"].id: parts["hull"].mass} if parts else None)
         begun, met = self.world.events.begin, self.world.events.sensor_begin
@@ -177,7 +177,7 @@ class Shooter(Scene):
             return
         self._take_loot(partners(met, self.plane.bodies["ring"].id))
         grazed = self.hits.read(self.world, self.plane, self.incoming, self.fleet)
-        # What a shot or a bomb has just done away with hits nobody any more: in doubt, for the player.
+        # An enemy or bullet destroyed in this step hits no more: in doubt, for the player.
         hit_by = [identity for identity in self.hits.now[self.hurts] if not self._is_lost(identity)]
         if hit_by and not self.stricken:
             self._hit(hit_by)
@@ -185,7 +185,7 @@ class Shooter(Scene):
             self.spectacle.grazed(self.plane, self.world, grazed, self.score.graze(len(grazed)))
 
     def _is_lost(self, identity):
-        """Whether a body goes, or breaks, when the next step begins."""
+        """Return whether a body is removed, or breaks, when the next step begins."""
         return identity in self.gone or self.wreckage.is_marked(identity)
 
     def _hit(self, hit_by):
@@ -199,7 +199,7 @@ class Shooter(Scene):
         self.spectacle.player_hit(self.plane, hit_by, LAST_MOMENT)
 
     def stop_time(self):
-        """Stand still for a moment, if the player likes that."""
+        """Freeze the game for a moment, if the settings allow it."""
         self.freeze = FREEZE if self.assist["hit_stop"] else 0
 
     def _shots_that_hit(self, begun, a, b):
@@ -217,7 +217,7 @@ class Shooter(Scene):
             self._damage(enemy, self.blows.on(enemy.id, int(shots[each])), place)
 
     def _damage(self, enemy, blow, place, times=1.0):
-        """A blow hurts as much as its impulse is strong."""
+        """Damage an enemy in proportion to the blow's impulse."""
         if enemy.leads and enemy.sheltered:
             self.spectacle.glanced(enemy, *place)
             return
@@ -230,13 +230,13 @@ class Shooter(Scene):
             self._destroy(enemy, blow, place)
 
     def _pieces_that_strike(self, begun):
-        """What falls on a small plane damages it."""
+        """Damage the small planes that pieces strike."""
         for piece, enemy, place in self.wreckage.strikes(begun, self.fleet):
             if enemy.health > 0.0:
                 self._damage(enemy, self.blows.on(enemy.id, piece), place, STRIKE)
 
     def _blast(self, met):
-        """The bomb met bullets and planes."""
+        """Apply the bomb's contacts with bullets and planes."""
         known = self.fleet.planes.keys() | self.gone
         self._burn([identity for identity in met if identity not in known])
         for identity in sorted(set(met) & self.fleet.planes.keys()):
@@ -246,7 +246,7 @@ class Shooter(Scene):
                 self._damage(enemy, blow, (enemy.x, enemy.y), LEADER_DAMAGE if enemy.leads else DAMAGE)
 
     def _burn(self, bullets):
-        """Bullets turn into sparks and points."""
+        """Turn bullets into sparks and points."""
         if not len(bullets):
             return
         self.gone += bullets
@@ -285,7 +285,7 @@ class Shooter(Scene):
             self.gone.append(identity)
 
     def _lose_life(self):
-        """The plane is lost, with what rammed it and all bullets in the air."""
+        """Lose the plane, the plane that rammed it, and all bullets in the air."""
         self.score.hit()
         self.spectacle.player_lost(self.plane, self.hit_blow)
         if self.plane.power > 1:
@@ -300,19 +300,19 @@ class Shooter(Scene):
         self.clear_bullets()
 
     def clear_bullets(self):
-        """All that was fired at the player is gone, for points."""
+        """Remove all bullets at the player, for points."""
         known = set(self.gone)
         self._burn([identity for identity in self.incoming.ids.tolist() if identity not in known])
 
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def warn(self, event):
-        """A leader is near."""
+        """Announce a leader."""
         self.music = "boss"
         self.spectacle.warning(event)
 
     def end_phase(self, leader, beaten):
-        """A leader's phase was shot through, or its time is over."""
+        """End a leader's phase, beaten or out of time."""
         left = leader.clock / max(steps(leader.phase.seconds), 1)
         worth = self.score.phase(leader.phase.bonus, left) if beaten else 0
         last = leader.last
@@ -325,13 +325,13 @@ class Shooter(Scene):
         self._reward()
 
     def bury(self, leader):
-        """A leader has burnt out."""
+        """Remove a burnt-out leader."""
         self.wreckage.mark(leader, leader.x, leader.y, Blow())
         self.spectacle.leader_gone(leader)
         self.loot.drop("life" if leader.kind == "midboss" else "power", leader.x, leader.y, self.frame)
 
     def leader_gone(self, event):
-        """The fight is over; after the boss so is the stage."""
+        """End the fight, and after the boss the stage."""
         self.music = "shooter"
         if event.event == "boss":
             self.ending.clear(self)
@@ -339,7 +339,7 @@ class Shooter(Scene):
     # --- bodies ------------------------------------------------------------------------------------------------------
 
     def _sweep(self):
-        """Break what is to break; remove, in one batch, all that was hit and all that has left the sky."""
+        """Break and remove, in one batch, all that was hit or has left the sky."""
         for plane, x, y in self.wreckage.break_due(self.fleet):
             self.spectacle.broke(plane, x, y)
         bodies = self.world.bodies
@@ -360,15 +360,15 @@ class Shooter(Scene):
     # --- what the judge wants to know --------------------------------------------------------------------------------
 
     def check(self):
-        """The stage, played by the bot."""
+        """Return the goals of the stage, played by the bot."""
         return stage_goals(self)
 
     def bot(self):
-        """The scripted player."""
+        """Return the scripted player."""
         return self.pilot.keys(self)
 
     def state(self):
-        """All that is not in the world."""
+        """Return all state outside the world."""
         planes = [value for plane in self.fleet.planes.values() for value in plane.state()]
         parts = (self.plane, self.score, self.director, self.hits, self.bomb, self.loot, self.ending, self.wreckage)
         return (
@@ -396,5 +396,5 @@ class Shooter(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """The picture."""
+        """Draw the picture."""
         the_view().draw(self, canvas, alpha)

@@ -1,4 +1,4 @@
-"""What the scene reports, as pictures, light, sounds: who is hit, who bursts, what was won. No rule reads any of it."""
+"""Effects of the scene's events: pictures, light, sounds of hits, bursts and gains. No game rule reads them."""
 
 from math import pi
 
@@ -7,16 +7,16 @@ from scenes.shooter.fireworks import BLUE, DUST, FIRE, FOAM, GOLD, SPARK, VAPOUR
 from scenes.shooter.ground import is_water
 from scenes.shooter.plane import TOP_POWER
 
-SMOKE_EVERY = 5  # steps between puffs of something large that is damaged
-FLASH = 3  # steps that a plane stays white when it is hit
-LEAN_RATE = 0.06  # share of the way to the plane that the parallax goes in a step
+SMOKE_EVERY = 5  # steps between puffs of a large damaged plane
+FLASH = 3  # steps that a plane stays white after a hit
+LEAN_RATE = 0.06  # share of the distance to the plane that the parallax follows per step
 NEWS = 130  # steps that the name of a wave is shown
-BONUS_SHOWN = 120  # steps that what a phase gave is shown
-PULSE_FADE, GAIN_FADE = 5.0, 2.0  # [1/s] how fast the score's jump and the weapon's icon's end
-HEALTH_RATE = 0.12  # share of the way to the real health that the leader's bar goes in a step
-SMALL, LARGE = 30, 160  # [px] pieces of wreckage that do not trail fire, and those that are heard
-BURNING = 0.8  # of its fall a piece burns
-SHOT_SOUND = 6  # steps at least between two sounds of a leader's guns
+BONUS_SHOWN = 120  # steps that the bonus of a phase is shown
+PULSE_FADE, GAIN_FADE = 5.0, 2.0  # [1/s] rate of the pulses of the score and of the weapon's icon
+HEALTH_RATE = 0.12  # share of the distance to the real health that the leader's bar follows per step
+SMALL, LARGE = 30, 160  # [px] limit of pieces without a trail of fire, and of audible ones
+BURNING = 0.8  # of its fall, in which a piece burns
+SHOT_SOUND = 6  # least steps between two sounds of a leader's guns
 GRAZE_WORDS = 45  # steps between two words about grazes
 MOST_EMBERS = 100  # bullets that burn with sparks at once; more would hide the picture
 # kind -> explosion, sound, volume, shake, sparks, pieces of debris
@@ -37,30 +37,30 @@ PAINT = {
     "midboss": (2, 0),
     "boss": (1, 0),
 }  # frames of the debris
-PRAISE = (150, 226, 255)  # colour of what was done well
+PRAISE = (150, 226, 255)  # colour of praise
 WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 
 
 class Spectacle:
-    """`works` flies about; the rest are clocks of what glows, jumps or is announced."""
+    """The effects. `works`: moving decoration; the others are timers of lights, pulses and announcements."""
 
     def __init__(self, scene):
         self.scene = scene
         self.works = Fireworks(scene.particles)
         self.random = scene.particles.random
         self.time = 0.0
-        self.flashes = {}  # body id -> steps it stays white
+        self.flashes = {}  # body id -> remaining white steps
         self.muzzle = 9  # steps since the last volley
         self.quiet = 0  # steps until a leader's guns are heard again
         self.hush = 0  # steps until a graze is written again
-        self.news = 0  # steps that the name of the wave is still shown
-        self.pulse = self.gain = 0.0  # the score, and the weapon's icon, jump when they grow, 1..0
-        self.bonus = ["", 0, 0]  # what a phase gave: title, points, steps it is still shown
-        self.health = 0.0  # of the leader, as its bar shows it: it follows the real one
-        self.lean = self.lean_before = 0.0  # [px] off the middle, as the parallax sees it: slower than the plane
+        self.news = 0  # steps for which the name of the wave is still shown
+        self.pulse = self.gain = 0.0  # pulses of the score and of the weapon's icon, 1..0
+        self.bonus = ["", 0, 0]  # bonus of a phase: title, points, remaining steps
+        self.health = 0.0  # of the leader on its bar, which follows the real one
+        self.lean = self.lean_before = 0.0  # [px] off the middle for the parallax, slower than the plane
 
     def step(self, dt):
-        """Everything ages."""
+        """Age all effects."""
         scene = self.scene
         self.time += dt
         self.muzzle += 1
@@ -78,7 +78,7 @@ class Spectacle:
         self.works.step(dt, still=scene.freeze > 0)
 
     def _trails(self):
-        """Smoke of what is damaged, vapour behind what is quick."""
+        """Emit smoke of damaged planes, and vapour behind fast ones."""
         particles, plane = self.scene.particles, self.scene.plane
         for enemy in self.scene.fleet.planes.values():
             if enemy.heavy and enemy.health < enemy.full / 2 and enemy.age % SMOKE_EVERY == 0:
@@ -96,7 +96,7 @@ class Spectacle:
                 particles.burst(plane.x + side, plane.y + 6, 1, VAPOUR, speed=(0, 4), life=(0.2, 0.4), size=(1, 1))
 
     def _trail_pieces(self):
-        """Flames, then smoke, behind what falls."""
+        """Emit flames, then smoke, behind falling pieces."""
         world, pieces = self.scene.world, self.scene.wreckage.pieces
         for identity, piece in pieces.items():
             burns = piece.age < BURNING * piece.life
@@ -109,54 +109,54 @@ class Spectacle:
                 self.works.burst("smoke", x, y, 0.0, 10.0)
 
     def lean_at(self, alpha):
-        """The parallax' shift between two steps [px]."""
+        """Return the parallax shift between two steps [px]."""
         return self.lean_before + (self.lean - self.lean_before) * alpha
 
     # --- the stage ---------------------------------------------------------------------------------------------------
 
     def wave(self, director):
-        """A wave begins."""
+        """Announce a wave."""
         self.news = NEWS
         if director.number > 1:
             self.scene.play("blip", volume=0.3)
 
     def wave_done(self, enemy, worth):
-        """All planes of a wave are down."""
+        """Show that all planes of a wave are down."""
         self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, PRAISE)
 
     def warning(self, event):
-        """A leader is near."""
+        """Announce a leader."""
         self.scene.play("warning", volume=0.9)
         self.scene.camera.shake(0.2)
 
     # --- shots -------------------------------------------------------------------------------------------------------
 
     def player_fires(self, plane):
-        """Muzzle flash and sound."""
+        """Show a muzzle flash, with its sound."""
         self.muzzle = 0
         self.scene.play("heavy_laser" if plane.power == TOP_POWER else "laser", plane.x, 0.2)
 
     def enemy_fires(self, enemy):
-        """A plane opens fire."""
+        """Show that a plane opens fire."""
         self.works.burst("muzzle_flash", enemy.x, enemy.y + 8)
         self.scene.play("enemy_shot", enemy.x, 0.35)
 
     def leader_fires(self, leader):
-        """One of a leader's guns fired."""
+        """Show a shot of a leader's gun."""
         if not self.quiet:
             self.quiet = SHOT_SOUND
             self.works.burst("muzzle_flash", leader.x, leader.y + 22)
             self.scene.play("enemy_shot", leader.x, 0.3)
 
     def dive(self, dart):
-        """A dart lights its burner."""
+        """Show that a dart lights its burner."""
         self.scene.particles.burst(
             dart.x, dart.y - 8, 14, FIRE, speed=(30, 120), life=(0.2, 0.5), angle=-pi / 2, spread=1.4
         )
         self.scene.play("enemy_shot", dart.x, 0.3)
 
     def struck(self, enemy, x, y, blow):
-        """A shot hits a plane and does not bring it down: the harder, the more sparks."""
+        """Show a shot that damages a plane: the harder, the more sparks."""
         self.flashes[enemy.id] = FLASH
         self.works.burst("spark", x, y, 0.0, 20.0)
         self.scene.particles.burst(
@@ -173,13 +173,13 @@ class Spectacle:
         self.scene.play("hit", x, min(0.25 * blow.strength, 1.0))
 
     def glanced(self, enemy, x, y):
-        """A shot hits what nothing hurts now."""
+        """Show a shot at an invulnerable target."""
         self.scene.particles.burst(
             x, y, 3, BLUE, speed=(40, 120), life=(0.1, 0.25), angle=pi / 2, spread=2.6, size=(1, 1)
         )
 
     def destroyed(self, enemy, worth, blow):
-        """A plane is brought down. Its pieces go on as it flew, with what the last blow gave them."""
+        """Show a destroyed plane. Its pieces keep its velocity, plus that of the last blow."""
         animation, sound, volume, shake, sparks, pieces = DEATHS[enemy.kind]
         x, y, works = enemy.x, enemy.y, self.works
         works.burst(animation, x, y, enemy.vx * 0.2, enemy.vy * 0.2 + 10)
@@ -201,13 +201,13 @@ class Spectacle:
         self.scene.play(sound, x, min(volume * (0.8 + 0.2 * blow.strength), 1.0))
 
     def broke(self, plane, x, y):
-        """A plane breaks along its cracks, which cross at a place."""
+        """Show a plane that breaks along its cracks, which cross at a place."""
         self.works.burst("spark", x, y)
         self.works.sparks(x, y, 18, SPARK, 220)
         self.scene.play("tear", x, 1.0 if plane.leads else 0.7)
 
     def piece_down(self, identity, piece):
-        """A piece falls into water or on the ground: the larger, the more of it is seen and heard."""
+        """Show a piece that falls into water or on the ground, in proportion to its size."""
         x, y = self.scene.world.body(identity).center
         count, loud = min(4 + piece.mask.area // 12, 24), min(0.2 + piece.mask.area / 900, 0.7)
         if is_water(self.scene, x, y):
@@ -223,20 +223,20 @@ class Spectacle:
     # --- the player --------------------------------------------------------------------------------------------------
 
     def player_hit(self, plane, hit_by, still):
-        """Something met: plane and bullet stand white for as many steps as a bomb would still save it."""
+        """Show a contact: plane and bullet stay white for as many steps as a bomb would still save it."""
         for identity in (plane.body.id, *hit_by):
             self.flashes[identity] = still + 1
         self.scene.camera.shake(0.35)
         self.scene.play("hurt", plane.x, 0.8)
 
     def hit_taken(self, plane):
-        """A hit that costs nothing."""
+        """Show a hit that costs nothing."""
         self.flashes[plane.body.id] = FLASH + 1
         self.works.sparks(plane.x, plane.y, 10, BLUE, 120)
         self.scene.play("hurt", plane.x, 0.4)
 
     def player_lost(self, plane, blow):
-        """The plane bursts."""
+        """Show the burst of the player's plane."""
         x, y, works = plane.x, plane.y, self.works
         works.burst("explosion_large", x, y, 0.0, 12.0)
         works.chain(x, y, 16, 16, 4, 0.12)
@@ -250,7 +250,7 @@ class Spectacle:
         self.scene.play("big_explosion", x, 0.8)
 
     def bomb_dropped(self, bomb):
-        """The sky lights up."""
+        """Show the flash of a bomb."""
         self.works.ring(bomb.x, bomb.y, 150.0)
         self.works.sparks(bomb.x, bomb.y, 60, BLUE, 320)
         self.works.sparks(bomb.x, bomb.y, 30, GOLD, 220)
@@ -259,12 +259,12 @@ class Spectacle:
         self.scene.play("bomb", bomb.x, 0.9)
 
     def bullets_burnt(self, xs, ys):
-        """Bullets that vanish turn into sparks; of very many, only some are seen to."""
+        """Show bullets that turn into sparks; of very many, only some."""
         each = -(-len(xs) // MOST_EMBERS)
         self.works.embers(xs[::each], ys[::each])
 
     def grazed(self, plane, world, ids, worth):
-        """Bullets passed close by."""
+        """Show grazes."""
         bodies = world.bodies
         for row in world.rows(ids).tolist():
             x, y = bodies["x"][row].item(), bodies["y"][row].item()
@@ -276,16 +276,16 @@ class Spectacle:
         self.scene.play("graze", plane.x, 0.3)
 
     def chain_broken(self, plane):
-        """Nothing happened for too long."""
+        """Show that the chain broke."""
         self.works.word("CHAIN LOST", plane.x, plane.y - 26, (214, 190, 206))
         self.scene.play("chain_break", plane.x, 0.5)
 
     def loot_left(self, x, y):
-        """A pick-up appears."""
+        """Show a new pick-up."""
         self.works.sparks(x, y, 14, GOLD, 90)
 
     def loot_taken(self, plane, what, worth):
-        """A pick-up is taken."""
+        """Show a taken pick-up."""
         self.gain = 1.0
         self.works.sparks(plane.x, plane.y, 30, GOLD, 150)
         self.works.ring(plane.x, plane.y, 30.0)
@@ -293,20 +293,20 @@ class Spectacle:
         self.scene.play("life" if what == "life" and not worth else "powerup", plane.x, 0.7)
 
     def life_won(self, plane):
-        """An extra life."""
+        """Show an extra life."""
         self.works.word("1UP", plane.x, plane.y - 30, (170, 255, 190))
         self.works.ring(plane.x, plane.y, 44.0)
         self.scene.play("life", plane.x, 0.9)
 
     def went_on(self):
-        """The player goes on after the last life."""
+        """Show that the player continues after the last life."""
         self.scene.flash.start(0.5)
         self.scene.play("confirm", volume=0.8)
 
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def phase_over(self, leader, last, worth):
-        """The sky is cleared, and the leader shows what it took."""
+        """Show the end of a phase: the sky is cleared, and the leader is damaged."""
         x, y, works = leader.x, leader.y, self.works
         self.bonus = ["PHASE BONUS" if worth else "TIME OUT", worth, BONUS_SHOWN]
         works.ring(x, y, 220.0)
@@ -319,7 +319,7 @@ class Spectacle:
         self.scene.play("big_explosion", x, 0.9)
 
     def leader_burns(self, leader, whole):
-        """It falls to pieces, one explosion after another, quicker towards the end."""
+        """Show a falling leader: explosions that come faster towards the end."""
         share = leader.since / whole
         every = 10 if share < 0.5 else 5
         if leader.since % every == 0:
@@ -333,7 +333,7 @@ class Spectacle:
             self.flashes[leader.id] = 2
 
     def leader_gone(self, leader):
-        """The last and largest explosion."""
+        """Show the last and largest explosion."""
         x, y, works = leader.x, leader.y, self.works
         works.burst("explosion_large", x, y)
         for dx, dy in ((-40, -10), (40, -8), (-20, 22), (22, 20), (0, -24)):

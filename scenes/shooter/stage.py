@@ -1,7 +1,7 @@
-"""A stage is data: what comes when, and what it fires. This file says what a stage file may hold, and reads one.
+"""Stage files: the format of a stage (events in time, and their fire), and its reader.
 
-Events stand in the order of their times. The clock of the stage [s] stands still while a mid-boss or a boss fights.
-Lengths are pixels of the sky (480 x 270), speeds px/s, angles degrees: 0 to the right, 90 down.
+Events are in the order of their times. The clock of the stage [s] stops while a mid-boss or a boss fights. Lengths are
+pixels of the sky (480 x 270), speeds px/s, angles degrees: 0 to the right, 90 down.
 """
 
 from dataclasses import dataclass
@@ -21,15 +21,16 @@ ITEMS = ("power", "bomb", "life")
 SIDES = ("left", "right", "below")
 LONGEST = 600  # [s] of a stage's clock
 MOST_PLANES = 80  # of one wave
-SLOWEST = 20.0  # [px/s] a bullet that hardly moves would stay for ever
-MOST_FIRE = 1000  # bullets that a phase may fire per second, by all its patterns
+SLOWEST = 20.0  # [px/s] a slower bullet would stay for ever
+MOST_FIRE = 1000  # bullets per second of a phase, over all its patterns
 
 
 @dataclass(frozen=True)
 class Group:
-    """Planes of one kind, one after another. `places`: shares 0..1 of the side by which each enters; `every` and
-    `after` [s]; `carries`: what the last one leaves. `hover` [px down] and `sway` [px], `side` and `bend` [deg]: see
-    the kinds."""
+    """Planes of one kind, one after another. `places`: shares 0..1 of the side at which each enters; `every` and
+    `after` [s]; `carries`: item of the last one. `hover` [px down] and `sway` [px], `side` and `bend` [deg]: see the
+    kinds.
+    """
 
     kind: str
     places: tuple
@@ -44,9 +45,10 @@ class Group:
 
 @dataclass(frozen=True)
 class Pattern:
-    """One gun: a primitive and its numbers. `every` [s] between shots; after `shots` of them it rests `rest` [s]
-    more; the first comes after `after` [s]; each shot of such a burst is `faster` [px/s]; `muzzles`: places [px] off
-    the middle, and `out` how far from them [px] bullets begin."""
+    """One gun: a primitive and its numbers. `every` [s] between shots; after `shots` of them a rest of `rest` [s] more.
+    The first shot comes after `after` [s]; each shot of a burst is faster than the last by `faster` [px/s].
+    `muzzles`: places [px] off the middle, and `out`: distance of the bullets' start from them [px].
+    """
 
     shoot: str
     bullet: str
@@ -70,14 +72,14 @@ class Pattern:
 
     @property
     def per_second(self):
-        """Bullets that it fires in a second, on average."""
+        """Average rate of fire [bullets/s]."""
         each = WALL_WIDTH / self.spacing if self.shoot == "wall" else self.count
         return each * len(self.muzzles) * self.shots / (self.shots * self.every + self.rest)
 
 
 @dataclass(frozen=True)
 class Move:
-    """A leader's way: it swings `across` and `down` [px] about its place, once in `seconds`."""
+    """A leader's path: it swings `across` and `down` [px] about its place, once in `seconds`."""
 
     across: float
     down: float
@@ -86,7 +88,7 @@ class Move:
 
 @dataclass(frozen=True)
 class Phase:
-    """A part of a fight: so much `health` to shoot away, or `seconds` to live through; `bonus` points for the first."""
+    """A part of a fight: so much `health` to shoot away, or `seconds` to survive; `bonus`: points for the former."""
 
     name: str
     health: float
@@ -98,7 +100,7 @@ class Phase:
 
 @dataclass(frozen=True)
 class Event:
-    """`event` says which of the others count: a wave has groups, a leader phases."""
+    """One event. `event` decides which other fields count: a wave has groups, a leader phases."""
 
     event: str
     at: float
@@ -116,7 +118,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Stage:
-    """`title` and `name` stand on its first picture."""
+    """A stage. `title` and `name` are shown on its first picture."""
 
     title: str
     name: str
@@ -138,7 +140,7 @@ def _pattern(**fields):
     return Record(Pattern, **fields)
 
 
-WALL_WIDTH = 480.0  # [px] a wall reaches across the sky
+WALL_WIDTH = 480.0  # [px] width of a wall across the sky
 HOVER = Number(24, 120, 56.0)
 GROUPS = {
     "dart": _group(hover=HOVER),
@@ -206,7 +208,7 @@ FILE = {
 
 
 def load_stage(path=None):
-    """A stage file, or the game's own. Raises FileError naming the file, the place and the reason."""
+    """Return a stage file, or the game's own. Raises FileError naming the file, the place and the reason."""
     return _own() if path is None else read_stage(path)
 
 
@@ -216,7 +218,7 @@ def _own():
 
 
 def read_stage(path):
-    """The stage in a file. Raises FileError."""
+    """Return the stage in a file. Raises FileError."""
     reader, data = Reader(path), read_json(path)
     _check_version(reader, data)
     fields = reader.fields("", data, FILE)
@@ -228,7 +230,7 @@ def read_stage(path):
 
 
 def _check_version(reader, data):
-    # Before all else: a newer file may well have fields that are unknown here.
+    # Checked first: a newer file may have fields that are unknown here.
     version = data.get("version") if isinstance(data, dict) else None
     if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
         reader.fail("version", f"is {version}, newer than this game can read ({VERSION})")

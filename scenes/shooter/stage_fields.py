@@ -1,4 +1,4 @@
-"""Fields of a data file, read one by one: what is unknown, missing, of a wrong type or range is named by place."""
+"""Fields of a data file, with errors for unknown, missing and invalid ones that name the place."""
 
 from difflib import get_close_matches
 from math import isfinite
@@ -15,7 +15,7 @@ class Number:
         self.low, self.high, self.default, self.whole = low, high, default, whole
 
     def read(self, reader, place, value):
-        """The number, or FileError."""
+        """Return the number, or FileError."""
         kind = "a whole number" if self.whole else "a number"
         whole = isinstance(value, int) and not isinstance(value, bool)
         if not whole and (self.whole or not isinstance(value, float) or not isfinite(value)):
@@ -26,13 +26,13 @@ class Number:
 
 
 class Text:
-    """Words of 1 to `most` characters that the game's font can write."""
+    """Text of 1 to `most` characters of the game's font."""
 
     def __init__(self, most, default=REQUIRED):
         self.most, self.default = most, default
 
     def read(self, reader, place, value):
-        """The text, or FileError."""
+        """Return the text, or FileError."""
         if not isinstance(value, str):
             reader.fail(place, f"must be text (got {value!r:.60})")
         if not 1 <= len(value) <= self.most:
@@ -50,20 +50,20 @@ class Choice:
         self.names, self.default = tuple(names), default
 
     def read(self, reader, place, value):
-        """The name, or FileError with the nearest one as a guess."""
+        """Return the name, or FileError with the nearest one as a suggestion."""
         if value not in self.names:
             reader.fail(place, f"must be one of {', '.join(self.names)} (got {value!r:.60}){guess(value, self.names)}")
         return value
 
 
 class List:
-    """`fewest` to `most` entries, each read by `entry`."""
+    """A list of `fewest` to `most` entries, each read by `entry`."""
 
     def __init__(self, entry, fewest, most, default=REQUIRED):
         self.entry, self.fewest, self.most, self.default = entry, fewest, most, default
 
     def read(self, reader, place, value):
-        """The entries as a tuple, or FileError."""
+        """Return the entries as a tuple, or FileError."""
         if not isinstance(value, list):
             reader.fail(place, f"must be a list (got {value!r:.40})")
         if not self.fewest <= len(value) <= self.most:
@@ -73,24 +73,24 @@ class List:
 
 
 class Record:
-    """Named fields, made into `make(**fields)`."""
+    """Named fields, passed to `make(**fields)`."""
 
     def __init__(self, make, default=REQUIRED, **fields):
         self.make, self.fields, self.default = make, fields, default
 
     def read(self, reader, place, value):
-        """What make() returns, or FileError."""
+        """Return the result of make(), or FileError."""
         return self.make(**reader.fields(place, value, self.fields))
 
 
 class Variant:
-    """Named fields, of which one, `tag`, says which others there are: `records` by its value."""
+    """Named fields, of which one, `tag`, selects the others: `records` by its value."""
 
     def __init__(self, tag, records, **shared):
         self.tag, self.shared, self.records = tag, shared, records
 
     def read(self, reader, place, value):
-        """What the chosen record's make() returns, or FileError."""
+        """Return the result of the chosen record's make(), or FileError."""
         tag = Choice(self.records)
         if not isinstance(value, dict) or self.tag not in value:
             reader.fields(place, value, {self.tag: tag}, others=True)
@@ -101,7 +101,7 @@ class Variant:
 
 
 class Reader:
-    """Reads the content of one file, whose path its errors name."""
+    """Reader of one file, whose path its errors name."""
 
     def __init__(self, path):
         self.path = path
@@ -111,7 +111,7 @@ class Reader:
         raise FileError(self.path, place, reason)
 
     def fields(self, place, value, wanted, others=False):
-        """{name: value} of all wanted fields; unknown ones are refused unless `others` may stand beside them."""
+        """Return {name: value} of all wanted fields; unknown ones are refused except `others`."""
         if not isinstance(value, dict):
             self.fail(place or "file", f"must be an object with {', '.join(wanted)} (got {value!r:.40})")
         if not others:
@@ -130,11 +130,11 @@ class Reader:
 
 
 def join(place, name):
-    """The place of a field in a record."""
+    """Return the place of a field in a record."""
     return f"{place}.{name}" if place else str(name)
 
 
 def guess(name, names):
-    """The nearest of some names as a question, or nothing."""
+    """Return the nearest of some names as a question, or ""."""
     near = get_close_matches(str(name), list(names), n=1)
     return f"; did you mean {near[0]}?" if near else ""

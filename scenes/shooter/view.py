@@ -1,7 +1,7 @@
-"""The picture of the shooter, from the ground up: shadows, planes, fire, and bullets above everything.
+"""The picture of the shooter, from the ground up: shadows, planes, fire, and bullets on top.
 
-Everything is read, nothing is changed. Swarms are placed with NumPy and blitted in one call per layer. A sprite
-stands where the physics puts its mask: floor(position - origin + 0.5).
+Drawing changes no state. Swarms are placed with NumPy and blitted in one call per layer. A sprite is drawn at the place
+of its mask in physics: floor(position - origin + 0.5).
 """
 
 from functools import lru_cache
@@ -42,22 +42,22 @@ GLOWS = {
     "purple": "glow_blue",
     "big": "glow_small",
 }
-MOST_GLOWS = 160  # bullets of a look that glow; more would be one bright fog, and cost time
-OUT = 24  # [px] outside of the picture, where a bullet's light is no longer seen
+MOST_GLOWS = 160  # bullets of a look with a glow; more would be one bright fog, and slow
+OUT = 24  # [px] outside of the picture, from where a bullet's light is invisible
 EXHAUST_AT = 15  # [px] from the plane's middle to the root of its flame
 EXHAUST_PLAY = 0.35  # share by which the flame is longer or shorter at full speed up or down
-MUZZLE_AT, MUZZLE_STEPS = 16, 4  # [px] from the plane's middle to its guns; steps that their flash is seen
-WHITE, PALE = 190, 28  # how much a hit brightens a plane; what takes many hits only glimmers
-FAINT = 120  # alpha of a ghost, and of the core while nobody looks for it
+MUZZLE_AT, MUZZLE_STEPS = 16, 4  # [px] from the plane's middle to its guns; steps of their flash
+WHITE, PALE = 190, 28  # brightness that a hit adds to a plane; sturdy ones only glimmer
+FAINT = 120  # alpha of a ghost, and of the core while it is not marked
 TUMBLES = 14  # quarter turns of debris a second
-STURDY = 20  # health from which on it is shown
+STURDY = 20  # health from which it is shown
 HEALTH_AT = 26  # [px] from a plane's middle up to its health
-LIT = 0.25  # [s] that an explosion lights up what is around it
+LIT = 0.25  # [s] that an explosion lights its surroundings
 BLINK = 8  # steps of one blink of a ghost
 
 
 class View:
-    """Caches of pictures; one is enough for all shooters."""
+    """Picture caches, shared by all shooters."""
 
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
@@ -70,7 +70,9 @@ class View:
         self.wrecks = WreckView(self)
 
     def sprite(self, atlas, frame, angle=0.0, mask=None):
-        """(image, origin in it) of a frame at an angle: exactly the pixels of the mask of the frame that collides."""
+        """Return (image, origin in it) of a frame at an angle: exactly the pixels of the mask of the colliding
+        frame.
+        """
         mask = mask or frame
         if angle == 0.0:
             return atlas[frame], atlas.mask(mask).origin
@@ -80,7 +82,7 @@ class View:
         return self.turned[key].at(angle)
 
     def draw(self, scene, canvas, alpha):
-        """The whole picture."""
+        """Draw the whole picture."""
         self.surface, self.alpha = canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         self.time = scene.spectacle.time
@@ -112,7 +114,7 @@ class View:
         banners.draw_banners(canvas, scene)
 
     def places(self, scene, ids):
-        """Interpolated x and y of bodies [px], as arrays, and their angles."""
+        """Return interpolated x and y of bodies [px], as arrays, and their angles."""
         rows, bodies = scene.world.rows(ids), scene.world.bodies
         x, y = bodies["x"][rows], bodies["y"][rows]
         back = 1.0 - self.alpha
@@ -123,23 +125,25 @@ class View:
         )
 
     def at(self, x, y, origin):
-        """Canvas place of a picture whose origin is at a world point."""
+        """Return the canvas place of a picture whose origin is at a world point."""
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
 
     def shadow(self, image, place, high=1.0):
-        """(picture, canvas place) of the shadow of a picture whose middle is at a world point, so high over the ground
-        as a share of the planes' height.
+        """Return (picture, canvas place) of the shadow of a picture centred on a world point. high: height over the
+        ground as a share of the planes' height.
         """
         dark = shade(image)
         x, y = place[0] + SHADOW_AT[0] * high, place[1] + SHADOW_AT[1] * high
         return dark, self.at(x, y, middle(dark))
 
     def add_light(self, image, x, y):
-        """Add a picture to what is there, its middle at a world point."""
+        """Add a picture's light, centred on a world point."""
         self.surface.blit(image, self.at(x, y, middle(image)), special_flags=pygame.BLEND_RGB_ADD)
 
     def _planes(self, scene):
-        """(picture, place, whiteness) of all in the air, the player last; (picture, place) of what is on the ground."""
+        """Return (picture, place, whiteness) of all in the air, the player last; (picture, place) of all on the
+        ground.
+        """
         ground, air = [], []
         fleet, flashes = scene.fleet.planes, scene.spectacle.flashes
         if fleet:
@@ -162,7 +166,7 @@ class View:
         return ground, air
 
     def _frame(self, plane):
-        """Most run through pictures that share one mask; a dart's picture is its mode."""
+        """Return the frame: most kinds cycle through pictures that share one mask; a dart's picture is its mode."""
         if plane.kind == "dart":
             return plane.frame
         animation = self.planes.animation(plane.frame[:-2])
@@ -187,7 +191,7 @@ class View:
         for item, px, py in zip(scene.loot.items.values(), x.tolist(), y.tolist(), strict=True):
             image = self.planes.animation(PICTURES[item.what]).at(self.time)
             self.add_light(self.effects["glow_blue" if item.what == "bomb" else "glow_small"], px, py)
-            # It breathes: wide and low, then narrow and high.
+            # It pulses: wide and low, then narrow and high.
             image = self.stretched(image, round(2 * sin(6.0 * self.time + 0.1 * px)))
             self.surface.blit(image, self.at(px, py, middle(image)))
 
@@ -213,13 +217,13 @@ class View:
                 self._stamp_turned(shown, frame, x[mine], y[mine], angles[mine])
 
     def _stamp(self, image, origin, x, y, flags=0):
-        """One picture at many places."""
+        """Draw one picture at many places."""
         across = (np.floor(x - origin[0] + 0.5).astype(np.int64) - self.left).tolist()
         down = (np.floor(y - origin[1] + 0.5).astype(np.int64) - self.top).tolist()
         blit_many(self.surface, list(zip(repeat(image), zip(across, down, strict=True))), flags)
 
     def _stamp_turned(self, shown, frame, x, y, angles):
-        """One picture at many places, each at its own angle."""
+        """Draw one picture at many places, each at its own angle."""
         pairs = []
         for px, py, angle in zip(x.tolist(), y.tolist(), angles.tolist(), strict=True):
             image, origin = self.sprite(self.effects, shown, angle, frame)
@@ -227,7 +231,7 @@ class View:
         blit_many(self.surface, pairs)
 
     def _draw_player_marks(self, scene):
-        """Muzzle flash, the core, clear while focusing, and the hull's outline where that is what hurts."""
+        """Draw muzzle flash, the core, clearly while focusing, and the hull's outline if that is vulnerable."""
         player = scene.plane
         if not player.here:
             return
@@ -236,7 +240,7 @@ class View:
             image = self.effects[f"muzzle_flash_{min(scene.spectacle.muzzle, 2)}"]
             self.surface.blit(image, self.at(x[0], y[0] - MUZZLE_AT, middle(image)))
         image, origin = self.sprite(self.planes, player.frame)
-        # Where nothing may blink, a steady line says that the plane is a ghost.
+        # Without blinking, a steady line marks the ghost.
         steady = player.safe and not scene.accessibility.flashing and scene.ending.mode == PLAYING
         if steady or scene.hurts == "hull":
             self.surface.blit(self.outlined(image), self.at(x[0], y[0], (origin[0] + 1, origin[1] + 1)))
@@ -263,7 +267,7 @@ class View:
         blit_many(self.surface, pairs)
 
     def _draw_bursts(self, works):
-        # Smoke lies under fire, whatever came first.
+        # Smoke is drawn under fire, whatever came first.
         for name, x, y, _, _, age in sorted(works.bursts, key=lambda burst: burst[0] != "smoke"):
             if age < 0.0:
                 continue
@@ -275,32 +279,32 @@ class View:
 
 @lru_cache(maxsize=1)
 def the_view():
-    """The one View, made when the first picture is wanted."""
+    """Return the one View, made when the first picture is wanted."""
     return View()
 
 
 def middle(image):
-    """The middle of a picture, as an origin in it."""
+    """Return the middle of a picture, as an origin in it."""
     width, height = image.get_size()
     return width / 2, height / 2
 
 
 def shade(image):
-    """The shadow of a picture: its silhouette, small as seen from above, dark and clear."""
+    """Return the shadow of a picture: its silhouette, reduced, dark and transparent."""
     silhouette = pygame.mask.from_surface(image).to_surface(setcolor=SHADOW, unsetcolor=(0, 0, 0, 0))
     width, height = image.get_size()
     return pygame.transform.scale(silhouette, (max(1, width * 3 // 4), max(1, height * 3 // 4)))
 
 
 def ghostly(image):
-    """A plane that nothing can hit, in every other moment: bright and clear."""
+    """Return a plane that cannot be hit, in every other moment: bright and transparent."""
     copy = lit(image, 90)
     copy.fill((255, 255, 255, FAINT), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
 
 
 def outline(image):
-    """A thin line around the solid pixels of a picture, one pixel larger on each side."""
+    """Return a thin line around the solid pixels of a picture, one pixel larger on each side."""
     width, height = image.get_size()
     mask = pygame.Mask((width + 2, height + 2))
     solid = pygame.mask.from_surface(image)
@@ -311,13 +315,13 @@ def outline(image):
 
 
 def stretched(image, more):
-    """A picture some pixels wider, and as much less high."""
+    """Return a picture some pixels wider, and as many less high."""
     width, height = image.get_size()
     return pygame.transform.scale(image, (width + more, height - more)) if more else image
 
 
 def tumbled(image, quarters, small):
-    """Debris: turned by quarters as it tumbles, two thirds of its size when it is nearly burnt."""
+    """Return debris, rotated by quarters, and at two thirds of its size when nearly burnt."""
     image = pygame.transform.rotate(image, 90 * quarters)
     if small:
         image = pygame.transform.scale(image, (image.get_width() * 2 // 3, image.get_height() * 2 // 3))

@@ -1,4 +1,4 @@
-"""Pieces of broken planes as they are seen: their own pixels, smaller the lower they are, each with its shadow."""
+"""Pieces of broken planes: their own pixels, smaller the lower they are, each with its shadow."""
 
 import numpy as np
 import pygame
@@ -6,21 +6,21 @@ import pygame
 from game.drawing.blit import blit_many
 from game.drawing.fragment import FragmentPicture, cut_out
 
-HOT, COLD = (255, 196, 84), (24, 14, 22)  # colours of a fresh edge and of one that has burnt out
+HOT, COLD = (255, 196, 84), (24, 14, 22)  # colours of a fresh edge and of a burnt-out one
 COOL = 26  # steps until an edge is dark
-LOW = 0.68  # size of a piece on the ground, of that in the sky
+LOW = 0.68  # size of a piece on the ground, relative to that in the sky
 KEPT = 64  # pieces
 
 
 class WreckView:
-    """Pictures are kept by the mask that they show."""
+    """Pictures cached by mask."""
 
     def __init__(self, view):
         self.view = view
         self.kept = {}  # (body id, hot) -> (mask, FragmentPicture)
 
     def draw(self, scene, shaded=False):
-        """All pieces, the lowest first; shaded: their shadows on the ground."""
+        """Draw all pieces, the lowest first; shaded: their shadows on the ground."""
         pieces = scene.wreckage.pieces
         if not pieces:
             return
@@ -52,7 +52,7 @@ class WreckView:
 
 
 def sooty(image):
-    """A copy that fire has darkened, in a grain of every other pixel."""
+    """Return a copy darkened by fire, in a grain of every other pixel."""
     out = image.copy()
     pixels = pygame.surfarray.pixels3d(out)
     columns, rows = np.indices(pixels.shape[:2])

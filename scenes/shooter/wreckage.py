@@ -1,9 +1,8 @@
 """Wreckage: a heavy plane that is shot down breaks along cracks, and its pieces fall, each a body of its own pixels.
 
-A piece is drawn with its pixels and tested by them, exactly, at whatever angle it tumbles. It goes on as the plane
-flew, turns as it was torn off, and the air, which stands over the ground, slows it down; seen from above, nothing falls
-across the picture. While it is still up where planes fly it damages small ones that it strikes; nothing that it does
-ever hurts the player.
+A piece is drawn with its pixels and tested by them, exactly, at any angle. It keeps the plane's velocity, rotates as it
+was torn off, and is slowed by the air, which is fixed to the ground. Seen from above, nothing falls across the picture.
+While it is at the height of the planes it damages small ones that it strikes; it never hurts the player.
 """
 
 from dataclasses import dataclass
@@ -17,33 +16,34 @@ from physics import PixelMask, fit
 from scenes.shooter.blows import Blow
 from scenes.shooter.cast import FALLING, WRECKED, steps
 
-STRIKE = 4.0  # times a blow of a piece on a small plane counts: it is lighter than it looks
+STRIKE = 4.0  # factor on a blow of a piece on a small plane, which is too light otherwise
 DRAG = 0.9  # [1/s] of the air on pieces; planes have engines
 CRUMB = 14  # [px] smaller pieces burn at once
-CROSSING = (0.9, 1.9)  # [rad] between the two cracks that cross where the last hit was
-INWARD = 0.6  # of the way from a plane's middle to the hit, where its cracks cross: a hit on the rim chips nothing off
+CROSSING = (0.9, 1.9)  # [rad] between the two cracks that cross at the last hit
+INWARD = 0.6  # of the distance from a plane's middle to the hit: the place where its cracks cross
 APART = 24.0  # [px] between further cracks of something large
 TORN = (26.0, 62.0)  # [px/s] away from the crossing
-KEPT, KICKED = 0.6, 0.25  # of the plane's velocity, and of what the last blow gives to debris
+KEPT, KICKED = 0.6, 0.25  # shares of the plane's velocity, and of the last blow's kick
 SPIN = (0.8, 3.4)  # [rad/s]
 LIFE = (1.5, 2.3)  # [s] until a piece is down
-HARMLESS = 0.55  # of the height at which planes fly: pieces below it strike nothing
+HARMLESS = 0.55  # of the height of the planes: pieces below it strike nothing
 
 
 @dataclass
 class Due:
-    """A plane that breaks when the next step begins: what was hit can be looked at until then."""
+    """A plane that breaks when the next step begins, so that the hit can be inspected until then."""
 
     identity: int
-    x: float  # [px] where the last blow struck
+    x: float  # [px] place of the last blow
     y: float
     blow: Blow
 
 
 @dataclass
 class Piece:
-    """Its pixels; `frame`: what it was a part of; `left`, `top` [px]: where its raster begins in that picture; `life`,
-    `age` [steps]."""
+    """A piece with its pixels. `frame`: its origin; `left`, `top` [px]: place of its raster in that picture; `life`,
+    `age` [steps].
+    """
 
     mask: PixelMask
     frame: str
@@ -55,12 +55,12 @@ class Piece:
 
     @property
     def high(self):
-        """Its height, of that at which planes fly: at first it hardly falls."""
+        """Height, relative to that of the planes: at first it hardly falls."""
         return 1.0 - (self.age / self.life) ** 2
 
 
 class Wreckage:
-    """`pieces` by body id; `due`: planes that break when the next step begins."""
+    """The wreckage. `pieces` by body id; `due`: planes that break when the next step begins."""
 
     def __init__(self, world):
         self.world = world
@@ -70,15 +70,15 @@ class Wreckage:
         return len(self.pieces)
 
     def mark(self, plane, x, y, blow):
-        """A plane is to break, struck last at a place [px]."""
+        """Mark a plane to break, struck last at a place [px]."""
         self.due.append(Due(plane.id, x, y, blow))
 
     def is_marked(self, identity):
-        """Whether a body is a plane that is about to break."""
+        """Return whether a body is a plane that is about to break."""
         return any(due.identity == identity for due in self.due)
 
     def break_due(self, fleet):
-        """Break what was marked. Returns [(plane, x, y)] of what did, with the places where the cracks cross [px]."""
+        """Break the marked planes. Return [(plane, x, y)] with the places where the cracks cross [px]."""
         broken = []
         for due in self.due:
             plane = fleet.planes.pop(due.identity)
@@ -112,7 +112,7 @@ class Wreckage:
         self.pieces[part.id] = Piece(own, frame, left, top, steps(random.uniform(*LIFE)))
 
     def step(self):
-        """All fall. Returns [(id, piece)] of those that are down."""
+        """Let all pieces fall. Return [(id, piece)] of those that are down."""
         for identity, piece in self.pieces.items():
             piece.age += 1
             if piece.strikes and piece.high < HARMLESS:
@@ -121,7 +121,7 @@ class Wreckage:
         return [(identity, piece) for identity, piece in self.pieces.items() if piece.age >= piece.life]
 
     def strikes(self, begun, fleet):
-        """(id of a piece, small plane, place [px]) of all that they met in a step, by its events."""
+        """Return (id of a piece, small plane, place [px]) of all contacts in a step, from its events."""
         columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
         for a, b, x, y in zip(*columns, strict=True):
             piece, struck = (a, b) if a in self.pieces else (b, a)
@@ -135,7 +135,7 @@ class Wreckage:
             self.pieces.pop(identity, None)
 
     def state(self):
-        """For the digest; how they fly is in the world's."""
+        """Return the state for the digest; the world's state has the motion."""
         out: list = []
         for due in self.due:
             out += (due.identity, due.x, due.y, due.blow.x, due.blow.y, due.blow.mass)
@@ -145,8 +145,8 @@ class Wreckage:
 
 
 def cracks(mask, x, y, random):
-    """A mask of jagged lines right through another one: two that cross at a place [px, from its origin], more through
-    what is large. It stands on the same pixels at the same pose.
+    """Return a mask of jagged lines across another mask: two that cross at a place [px, from its origin], more across a
+    large one. It is placed on the same pixels at the same pose.
     """
     height, width = mask.solid.shape
     solid = np.zeros((height, width), bool)

@@ -1,7 +1,7 @@
-"""python -m tests.accuracy.compare FIRST SECOND: where two reports of one machine contradict each other, and which
-series of which charts are surely slower, or faster, in the second.
+"""python -m tests.accuracy.compare FIRST SECOND: compare two reports of one machine: contradictions, and series of
+charts that are certainly slower or faster in the second.
 
-What is sure in one must not be wrong in the other. A tie contradicts nobody that is in it.
+A certain result of one report must not be wrong in the other. A tie contradicts none of its members.
 """
 
 import json
@@ -38,7 +38,7 @@ def claims_of(report: Reports, charts: Sequence[Chart] = CHARTS) -> dict[str, Cl
 
 
 def contradicts(a: Claim, b: Claim) -> bool:
-    """Whether what one is sure of is wrong by the other."""
+    """Return whether a certain result of one is wrong by the other."""
     if a.order and b.order:
         return not set(a.order) & set(b.order)
     return {a.verdict, b.verdict} == {HOLDS, FAILS}
@@ -52,7 +52,7 @@ def contradictions(first: Reports, second: Reports, charts: Sequence[Chart] = CH
 
 
 class Change(NamedTuple):
-    """How a series' times in the second report stand to those in the first, beside what was timed in turns with it."""
+    """Ratio of a series' times in the second report to those in the first, beside the series timed in turns with it."""
 
     ratio: float  # median of the least times
     sure: float  # share of its rows whose intervals, least to median, are apart

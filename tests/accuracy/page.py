@@ -28,14 +28,14 @@ STORY = {  # by chart: the panel that tells the most
 }
 INTRODUCTION = """# What accuracy costs in time
 
-What {version} measured on one machine ({machine}),
+Measurements of {version} on one machine ({machine}),
 in a full report of {seconds:.0f} s. Costs are the least, the median and the upper quartile of several runs; errors are
-against references that cannot be argued with, which each plot names. A line joins what nothing beats in both; dashes
-are what a player can see. An ordering is claimed where intervals are apart and by more than a tenth; else it is a tie.
+against exact references, which each plot names. A line joins the dots that no other beats in both; dashes are the limit
+of what a player can see. An ordering needs separate intervals and a difference of more than a tenth; else it is a tie.
 
 ```sh
-python main.py --report DIR             # measures it all again, with the plots to point at, the tables and the raw data
-python -m tests.accuracy DIR            # makes this page from that report
+python main.py --report DIR             # measures it again, with interactive plots, tables and raw data
+python -m tests.accuracy DIR            # writes this page from that report
 ```
 """
 
@@ -61,7 +61,7 @@ def rows_of(kept: dict, chart: Chart) -> list:
 
 
 def dots(kept: dict, chart: Chart) -> list[Dot]:
-    """What the chart's plot of the story shows."""
+    """Return the dots of the story's plot in the chart."""
     return dots_of(panel_of(chart, rows_of(kept, chart)), rows_of(kept, chart))
 
 
@@ -78,7 +78,7 @@ def text(kept: dict) -> str:
     for chart in charts():
         rows = rows_of(kept, chart)
         claims = chart.claims(rows)
-        # What somebody claims goes first, then what is sure.
+        # Claims of papers come first, then certain ones.
         told = sorted(claims, key=lambda claim: (not claim.source, claim.verdict == TIE))
         lines = [f"| {claim.text} | {claim.figure} | {claim.verdict} | {claim.source} |" for claim in told[:MOST]]
         table = "\n".join(["| claim | measured | verdict | whose |", "|---|---|---|---|", *lines]) if lines else ""
@@ -94,5 +94,5 @@ def text(kept: dict) -> str:
 
 
 def read(path: Path = KEPT) -> dict:
-    """What is kept."""
+    """Return the stored report."""
     return json.loads(path.read_text(encoding="utf-8"))

@@ -48,7 +48,7 @@ def oklab(rgb):
 
 
 def pieces(solid):
-    """How many separate pieces a mask (h, w) bool has, corners joining."""
+    """Return the number of separate pieces of a mask (h, w) bool, with corners joining."""
     left, count = solid.copy(), 0
     while left.any():
         count += 1

@@ -1,4 +1,4 @@
-"""What is kept in assets/ is what its scripts make, to the bit, twice the same."""
+"""The files in assets/ equal the results of their scripts, to the bit, twice the same."""
 
 import numpy as np
 import pytest

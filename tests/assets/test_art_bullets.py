@@ -69,7 +69,7 @@ def test_safe_twins_collide_alike():
 
 
 def test_safe_kinds_are_told_apart_by_shape_or_size():
-    """Where two safe kinds share a colour, their cores or their sizes differ."""
+    """Two safe kinds of one colour differ in their cores or sizes."""
     kinds = [(SAFE[name][0], SAFE[name][1], ROUND.get(name, (0, 0))[1]) for name in SAFE]
     assert len(set(kinds)) == len(kinds)
     shapes = [(shape, ROUND.get(name, (0, 0))[1]) for name, (_, shape) in SAFE.items()]

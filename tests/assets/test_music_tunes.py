@@ -33,7 +33,7 @@ def shares(samples, *edges):
 
 
 def loudness(sides):
-    """What the level is set by: without the lows that add little to how loud a tune seems."""
+    """Return the loudness that sets the level: without the low frequencies, which add little."""
     return decibels(sides - low_pass(sides, 100.0, RATE))
 
 

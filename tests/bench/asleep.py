@@ -1,4 +1,6 @@
-"""What sleeps costs nothing: a step of 100,000 sleeping boxes, and with one awake, against that of an empty world."""
+"""Sleeping bodies cost nothing: a step of 100,000 sleeping boxes, and with one awake, against that of an empty
+world.
+"""
 
 import statistics
 from time import perf_counter

@@ -36,7 +36,7 @@ def sprite_images(rng, count):
 
 
 class Sprite(pygame.sprite.Sprite):
-    """What pygame's collision asks for: a mask and a rect."""
+    """The interface of pygame's collision functions: a mask and a rect."""
 
     def __init__(self, mask, rect):
         super().__init__()
@@ -65,7 +65,7 @@ class Field:
         self.group = pygame.sprite.Group(*self.sprites)
 
     def hits_of_groupcollide(self):
-        """What a pygame program writes first."""
+        """Return the result of the usual first version of a pygame program."""
         group, place, collide = self.group, self.place, pygame.sprite.collide_mask
         # The stubs ask for a bool where pygame itself documents this function, which returns a point or None.
         hits = pygame.sprite.groupcollide(group, group, False, False, collide)  # pyright: ignore[reportArgumentType]
@@ -109,7 +109,7 @@ def pairs_of(found):
 
 
 def mean_step(field, world, read):
-    """Mean seconds of some steps; read: and somebody looks at the contacts of each."""
+    """Return the mean seconds of some steps; read: with the contacts of each step read."""
     spent = 0.0
     for _ in range(STEPS):
         field.turn_back(world)

@@ -1,7 +1,8 @@
-"""What a run of the benchmarks found, as one JSON object: ratios by name, the machine they were measured on, and the
-disk that what is needed at run time takes there.
+"""Results of a run of the benchmarks as one JSON object: ratios by name, the machine, and the disk space that the
+program needs there at run time.
 
-A ratio is our time over the peer's in the same run, so less is better, and it means nearly the same on another machine.
+A ratio is this project's time over the peer's in the same run, so less is better, and it is nearly the same on another
+machine.
 """
 
 import json

@@ -186,7 +186,7 @@ def measure_stages(every):
 
 
 def measure_sleep(rows):
-    """What a step costs awake and all asleep. Prints the table; returns {name: asleep over awake}."""
+    """Measure the time of a step awake and all asleep. Print the table; return {name: asleep over awake}."""
     lines, ratios, boxes = [], {}, rows * (rows + 1) // 2
     for solver in ("soft_step", "sequential_impulse"):
         awake, asleep = Ours(rows, solver, 4), Ours(rows, solver, 4, EFFECTS.with_(sleeping=True))

@@ -1,10 +1,10 @@
 """`python -m tests.bench.starts [SCENE ...] [--first] [--seconds 10] [--runs 5]`: from the start to play.
 
-The whole program in a process of its own, as a user starts it, under the dummy driver or on the display that is there
-(--display). Without a scene: the title. Games are played by their bots, in labs nobody touches a thing. Told are
-medians over the runs: seconds from the start of the process to the first picture, steps and pictures a second in each
-of the first seconds, milliseconds of a frame (p50, p99, longest) without the wait for the next, kernels compiled in the
-program itself, and seconds until all that was called runs compiled. --first: with an empty cache each time.
+It runs the whole program in a process of its own, as a user starts it, under the dummy driver or on the display
+(--display). Without a scene: the title. Games are played by their bots; labs get no input. It prints medians over the
+runs. These are: seconds from the start of the process to the first picture, and steps and pictures a second in each of
+the first seconds. Further: milliseconds of a frame (p50, p99, longest) without the wait for the next, kernels compiled
+in the program itself, and seconds until all called kernels run compiled. --first: with an empty cache each time.
 """
 
 import argparse

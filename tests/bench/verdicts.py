@@ -85,7 +85,7 @@ def half_over(rng, count):
 
 
 def is_near(solid, where):
-    """Whether the second sprite meets the first when it is moved by up to 2 px in one of 16 directions."""
+    """Return whether the second sprite meets the first when it is moved by up to 2 px in one of 16 directions."""
     near = np.zeros(len(where), bool)
     for way in np.arange(16) * np.pi / 8:
         for step in (0.5 * NEAR, NEAR):

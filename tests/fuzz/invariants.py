@@ -1,13 +1,14 @@
-"""What holds after every line of every program (hard_cases section 1): numbers, normals, handles, events, contacts.
+"""Invariants after every line of every program: numbers, normals, handles, events, contacts.
 
-Reads the tables and asks the public functions; knows nothing of how a step is made.
+They read the tables and call the public functions; they are independent of the implementation of a step.
 """
 
 import numpy as np
 
 from game.invariants.numbers import not_finite, not_unit
 from game.invariants.pairs import disagreement, looks_only
-from game.invariants.sample import CONVEX, pair_of
+from game.invariants.sample import pair_of
+from physics.shapes.values import Convex
 from tests.stability.invariants import pulling
 
 STATIC, DYNAMIC = 0, 2
@@ -36,7 +37,7 @@ class Watch:
         self.kept = None  # the two, when the snapshot was taken
 
     def before(self):
-        """What a wrong call must not change."""
+        """Record the state that a wrong call must not change."""
         return self.world.digest()
 
     def unchanged(self, before, error):
@@ -152,7 +153,7 @@ class Watch:
         return list(zip(rows["shape_a"].tolist(), rows["shape_b"].tolist(), strict=True))
 
     def contacts_begin(self):
-        """Who overlaps, or is pushed, has begun to touch."""
+        """Check that every overlapping or pushed pair has begun to touch."""
         rows = self.world.contacts
         rows = rows[(rows["separation"] <= 0.0) | (rows["normal_impulse"] > 0.0)]
         found = set(zip(rows["shape_a"].tolist(), rows["shape_b"].tolist(), strict=True))
@@ -164,7 +165,7 @@ class Watch:
         for body in world:
             row = world.bodies[world.rows([body.id])[0]]
             for identity, shape in zip(body.shape_ids, body.shapes, strict=True):
-                if isinstance(shape, CONVEX) and not row["quarantined"]:
+                if isinstance(shape, Convex) and not row["quarantined"]:
                     placed.append((identity, row))
         placed.sort(key=lambda each: each[0])
         for at, (a, row_a) in enumerate(placed):

@@ -22,7 +22,7 @@ PROGRAM = "<program>"
 
 
 class Failure(NamedTuple):
-    """How a program fails: what kind of failure, in one line; where, and all that is known."""
+    """Failure of a program: its kind in one line; the place, and all details."""
 
     kind: str
     line: int
@@ -35,7 +35,7 @@ def space_of():
 
 
 def is_documented(error):
-    """Whether an error was raised by physics with a raise, for something wrong that it was handed."""
+    """Return whether an error was raised by physics with a raise, for an invalid argument."""
     if not isinstance(error, (ValueError, TypeError, RuntimeError, KeyError)):
         return False
     last = traceback.extract_tb(error.__traceback__)[-1]
@@ -129,7 +129,7 @@ def run_lines(lines, strategy=None):
 
 
 def failure_of(lines, strategy=None):
-    """How a program fails, None if it does not. strategy: the other broad phase that it has to end alike under."""
+    """Return the failure of a program, None if it passes. strategy: the other broad phase, whose end must be equal."""
     failure, runner = run_lines(lines)
     if failure or strategy is None:
         return failure

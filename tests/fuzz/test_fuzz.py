@@ -29,7 +29,7 @@ def test_programs_are_the_same_every_time():
 
 
 def test_wrong_calls_are_no_failure():
-    """What is documented to raise is tried, and must change nothing."""
+    """Calls that are documented to raise do so, and change nothing."""
     failure, runner = run_lines(
         [
             "world = World()",

@@ -1,4 +1,4 @@
-"""What scenes for tests of the shell have in common: their worlds are stepped, and nothing else happens."""
+"""Common base of the scenes for tests of the shell: their worlds are stepped, with nothing else."""
 
 
 class Plain:

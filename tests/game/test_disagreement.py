@@ -134,7 +134,7 @@ class Visit(Scene):
 
     @property
     def own_body(self):
-        """Who stands."""
+        """Return the id of its own body."""
         return self.mine.id
 
     def draw(self, canvas, alpha):
@@ -149,7 +149,7 @@ class Visit(Scene):
         return frozenset()
 
     def state(self):
-        """Nothing of its own."""
+        """Return an empty state."""
         return ()
 
 

@@ -52,7 +52,7 @@ def tiers_of(wish):
 
 
 def figures_of(scene):
-    """What would be measured beside the game, with costs that nothing else has."""
+    """Return figures in place of the measurements beside the game, with costs of their own."""
     wish = scene.measured()
     if isinstance(wish, Sprites):
         return tiers_of(wish)

@@ -8,10 +8,9 @@ import pytest
 
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputState
-from game.overlays.layer import LAYER_NAMES
 from game.overlays.layer_masks import BLOCK, SEAM
 from game.overlays.mask_edges import mask_edges
-from game.overlays.stack import Overlays
+from game.overlays.stack import Overlays, layer_names
 from game.run.digest import scene_digest
 from game.run.picture import Picture
 from game.scene import Scene
@@ -27,7 +26,7 @@ SPRITES = (
     ("hero", "idle_0"),
     ("planes", "dart_0"),
 )
-NEAR = 0.71 + 0.01  # [px] an edge may leave the pixels' by: api.md says smooth + 0.21
+NEAR = 0.71 + 0.01  # [px] greatest distance of an edge from the pixels': smooth + 0.21, plus rounding
 
 
 def turned(points, pose):
@@ -96,7 +95,7 @@ def test_worlds_without_response_have_no_outlines():
 
 
 def test_masks_are_shown_where_they_are_where_bodies_are_pushed():
-    """Where bodies are pushed nobody draws a mask at its angle until he is asked: all lay at (0, 0), and met there."""
+    """With response no mask is drawn at its angle before it is needed: all were at (0, 0), and met there."""
     world = World(Effects.rigid_bodies(), gravity=(0.0, 0.0))
     mask = PixelMask.from_array(np.ones((8, 30), bool))
     for x in (40.0, 66.0):
@@ -152,7 +151,7 @@ def test_lines_stand_at_the_steps_pose_in_every_window(layer, scale, alpha):
     assert scene_digest(scene) == before
     mine = np.flatnonzero(scene.world.shapes["body"] == scene.flying.id)
     lines = mask_edges(scene.world, mine, float(scale)).outer
-    wanted = (255, 255, 255) if layer == "masks" else overlays.layers[LAYER_NAMES.index(layer)].color[:3]
+    wanted = (255, 255, 255) if layer == "masks" else overlays.layers[layer_names().index(layer)].color[:3]
     picture = pygame.surfarray.array3d(frame.surface)
     for x, y in middles(lines):
         column, row = round(x * scale), round(y * scale)

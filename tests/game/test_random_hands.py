@@ -1,5 +1,6 @@
-"""Somebody who presses whatever there is, in every scene: nothing that keys, buttons, clicks, drags, the wheel or a
-window that loses its focus do, in any order, may end the program or leave a number that is none."""
+"""Random input in every scene: keys, buttons, clicks, drags, the wheel or a window that loses its focus, in any order,
+must neither end the program nor leave a number that is not finite.
+"""
 
 import threading
 
@@ -95,7 +96,7 @@ class Hands:
 
 
 def watched(monkeypatch):
-    """What threads end with, in a list."""
+    """Return the list of errors that end threads."""
     ended = []
     monkeypatch.setattr(threading, "excepthook", lambda told: ended.append(told.exc_value))
     return ended

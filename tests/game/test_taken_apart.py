@@ -1,4 +1,4 @@
-"""One step, taken apart: stage by stage, forwards and back to the bit, and play goes on as if nobody had looked."""
+"""Step inspector: stage by stage, forwards and back to the bit; play continues as if it had not been inspected."""
 
 import numpy as np
 import pygame
@@ -40,7 +40,7 @@ def apart(session, world=None):
 
 
 def tables_of(world):
-    """What a place shows, as bytes: column by column, what lies between them is nothing."""
+    """Return the tables of a stop as bytes, column by column, without the gaps between columns."""
     shown = [*photographed(world).values(), world.contacts, debug.contact_points(world), debug.bounds(world)]
     parts = [each[name] for each in shown for name in each.dtype.names or [...]]
     return [part.tobytes() for part in parts] + [world.digest()]

@@ -119,7 +119,7 @@ def test_wherever_a_ring_is_there_is_a_place_for_the_card(size):
 
 
 class Blank:
-    """Nothing on the canvas."""
+    """A scene with an empty canvas."""
 
     def draw(self, canvas, alpha):
-        """Nothing."""
+        """Draw nothing."""

@@ -17,7 +17,7 @@ class Mutant:
 
     @property
     def key(self):
-        """What operators.change asks for."""
+        """Arguments of operators.change."""
         return self.kernel, self.kind, self.seed
 
     def __str__(self):
@@ -35,7 +35,7 @@ MUTANTS = (
     Mutant("collide_circles", "sign", ("test_circles_in_closed_form",)),
     Mutant("collide_polygon_circle", "sign", ("test_circle_and_polygon_hit_with_the_exact_depth",)),
     Mutant("edge_normal", "minus", ("test_polygons_hit_with_the_least_push_as_depth",)),
-    Mutant("best_edge", "turn", ("test_polygons_hit_with_the_least_push_as_depth",)),
+    Mutant("find_max_separation", "turn", ("test_polygons_hit_with_the_least_push_as_depth",)),
     Mutant("clip_edges", "edge", ("test_boxes_face_to_face_have_two_points",)),
     Mutant("support", "turn", ("test_disc_and_box_in_closed_form",)),
     Mutant("reduce_simplex", "turn", ("test_boxes_that_share_an_edge",), seed=3),
@@ -45,7 +45,9 @@ MUTANTS = (
     # pixels
     Mutant("columns_up_to", "sign", ("test_every_offset_across_a_word_border",)),
     Mutant("shared_rectangle", "side", ("test_random_masks_hit_as_the_double_loop_says",)),
-    Mutant("way_out", "sign", ("test_symmetric_full_overlap_has_a_unit_normal_and_a_depth_that_parts",), seed=2),
+    Mutant(
+        "separation_along", "sign", ("test_symmetric_full_overlap_has_a_unit_normal_and_a_depth_that_parts",), seed=2
+    ),
     # sweeps, rays
     Mutant("cast_on_polygon", "turn", ("test_ray_against_a_box",)),
     Mutant("sweep_circles", "minus", ("test_two_discs_in_closed_form",)),

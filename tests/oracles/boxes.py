@@ -12,5 +12,5 @@ def touching_pairs(lower, upper):
 
 
 def agree(a, b):
-    """Whether two (membership, mask) filters let each other through."""
+    """Return whether two (membership, mask) filters accept each other."""
     return bool(a[0] & b[1]) and bool(b[0] & a[1])

@@ -79,8 +79,7 @@ def disc_gap(geometry, x, y, radius):
 
 
 def convex_depth(a, b):
-    """How deep two overlapping convex polygons are in each other:
-    the least push along a face normal that parts them."""
+    """Return the depth of two overlapping convex polygons: the least push along a face normal that separates them."""
     least = math.inf
     for first, second in ((a, b), (b, a)):
         corners = list(first.exterior.coords)

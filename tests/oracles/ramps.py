@@ -1,10 +1,10 @@
-"""Where a convex shape stands on a straight slope, in closed form."""
+"""Pose of a convex shape on a straight slope, in closed form."""
 
 import math
 
 
 def reach(points, radius, x, y):
-    """How far [px] a rounded hull of points reaches from its origin along a unit direction."""
+    """Return the reach [px] of a rounded hull of points from its origin along a unit direction."""
     return max(px * x + py * y for px, py in points) + radius
 
 

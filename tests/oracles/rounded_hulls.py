@@ -27,7 +27,7 @@ class Hulls(NamedTuple):
 
 
 class Bounds(NamedTuple):
-    """What is known of n distances [px], negative where the hulls overlap."""
+    """Bounds on n distances [px], negative for overlapping hulls."""
 
     lower: np.ndarray  # the widest gap over the normals of all faces and the line between the nearest points
     shadows: np.ndarray  # gap along the best axis of x and y: of an overlap, minus the AABBs' least overlap

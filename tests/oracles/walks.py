@@ -1,4 +1,4 @@
-"""Whether a box of whole pixels stands inside the ground, tile by tile and pixel column by pixel column."""
+"""Test of a box of whole pixels against the ground, tile by tile and pixel column by pixel column."""
 
 
 def inside_ground(solid, slopes, size, left, top, width, height):

@@ -86,7 +86,7 @@ def connected(solid, diagonal):
 
 
 def lies_on_the_right_side(figure, solid, spare=0.0):
-    """Whether a figure holds each solid pixel's centre and no clear one's, or that no deeper than a spare [px]."""
+    """Return whether a figure contains the centre of each solid pixel and of no clear one, within a tolerance [px]."""
     rows, columns = np.mgrid[-1 : solid.shape[0] + 1, -1 : solid.shape[1] + 1] + 0.5
     shapely.prepare(figure)
     inside = shapely.contains_xy(figure, columns, rows)

@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture
 def alone(monkeypatch):
-    """Nothing is kept but what a test keeps."""
+    """Empty the cache of all but a test's own entries."""
     monkeypatch.setattr(kept, "_kept", {})
     monkeypatch.setattr(kept, "_files", [])
     monkeypatch.setattr(kept, "recorded", {})

@@ -1,4 +1,6 @@
-"""Outlines keep to the pixels as api.md tells: distances, centres, pieces, sharp corners, few corners."""
+"""Outlines keep to the pixels within their documented limits: distances, centres, pieces, sharp corners, few
+corners.
+"""
 
 import numpy as np
 import pytest

@@ -41,7 +41,7 @@ def whole(parts):
 
 
 def is_near(line, other, distance):
-    """Whether each point of a line, taken every 0.05 px, is within a distance of another."""
+    """Return whether each point of a line, taken every 0.05 px, is within a distance of another."""
     points = shapely.points(shapely.get_coordinates(shapely.segmentize(line, 0.05)))
     shapely.prepare(other)
     return bool(shapely.dwithin(other, points, distance).all())

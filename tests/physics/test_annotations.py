@@ -12,7 +12,7 @@ FILES = sorted(PHYSICS.rglob("*.py"))
 
 
 def is_kernel(function):
-    """Whether numba compiles the function: it is decorated as one of the kinds of kernels."""
+    """Return whether numba compiles the function: it is decorated as one of the kinds of kernels."""
     return any(isinstance(each, ast.Name) and each.id in DECORATORS for each in function.decorator_list)
 
 

@@ -1,4 +1,4 @@
-"""What sleeps is out of every loop, is still told, and comes back when something is done to it."""
+"""Sleeping bodies are in no loop, are still reported, and wake when they are changed."""
 
 import numpy as np
 import pytest
@@ -211,11 +211,11 @@ def test_many_islands_fall_asleep_in_one_step():
     ids = world.add_bodies(BOX, [(30.0 * k - 4500.0, -8.0) for k in range(300)])
     for _ in range(60):
         world.step()
-    assert len(world.sleepers.islands) == 300 and not world.bodies["awake"][world.rows(ids)].any()
+    assert len(world.sleeping_set.islands) == 300 and not world.bodies["awake"][world.rows(ids)].any()
     assert len(world.sleeping_contacts) == 600
     world.body(int(ids[7])).apply_impulse((1e5, 0.0))
     world.step()
-    assert len(world.sleepers.islands) == 299 and len(world.awake.dynamic) == 1
+    assert len(world.sleeping_set.islands) == 299 and len(world.awake.dynamic) == 1
 
 
 def test_what_was_in_an_island_and_now_stands_is_ground():
@@ -225,7 +225,7 @@ def test_what_was_in_an_island_and_now_stands_is_ground():
     world.step()
     boxes[2].set_kind("static")
     fall_asleep(world, boxes[:2])
-    assert boxes[2].id in world.sleepers.links
+    assert boxes[2].id in world.sleeping_set.links
     boxes[0].wake()
     world.step()
     fall_asleep(world, boxes[:2])
@@ -235,7 +235,7 @@ def test_what_was_in_an_island_and_now_stands_is_ground():
 
 @pytest.mark.parametrize("strategy", BROADPHASES)
 def test_falling_asleep_leaves_each_pair_once(strategy):
-    """Nothing changed but what is awake: sweep and prune was asked all the same, by what had changed before."""
+    """Only the set of awake bodies changed: sweep and prune was queried again, by the previous changes."""
     world = World(broadphase=BROADPHASES[strategy]())
     floor(world)
     boxes = [world.add_body(BOX, position=(40.0 * k - 60, -8 - 16 * j)) for k in range(3) for j in range(2)]

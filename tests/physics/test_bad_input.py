@@ -1,6 +1,6 @@
-"""Every argument of every public function, with a wrong kind, a wrong value, NaN and infinity (hard_cases K1 to K6).
+"""Every argument of every public function, with a wrong kind, a wrong value, NaN and infinity.
 
-The error names the argument and the value; the world is as it was, down to its tables.
+The error names the argument and the value; the world is unchanged, down to its tables.
 """
 
 import math
@@ -66,7 +66,7 @@ def world_of_three():
 
 
 def state(world):
-    """Everything that an argument may not have touched."""
+    """Return all state that a refused argument must not change."""
     return (
         world.digest(),
         world.bodies.tobytes(),
@@ -80,7 +80,7 @@ def state(world):
         world.broadphase,
         world._next_body,
         world._next_shape,
-        world._given.rows.tobytes(),
+        world._definitions.rows.tobytes(),
         dict(world._targets),
         world.time,
         str(world.random.bit_generator.state),

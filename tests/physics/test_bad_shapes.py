@@ -1,7 +1,6 @@
-"""Shapes, materials and worlds handed in wrong, or just barely right (hard_cases B8, E13, K; issue text "Bad input").
+"""Shapes, materials and worlds with invalid, or just valid, arguments.
 
-A refusal names the argument and the value and leaves the world as it was; what is accepted works, however thin or
-large.
+An error names the argument and the value and leaves the world unchanged; accepted values work, however thin or large.
 """
 
 import math

@@ -1,4 +1,6 @@
-"""What can be read of a body and set on it: it counts from the next step on, exactly as if it had been added so."""
+"""Values of a body that can be read and set: a change applies from the next step on, exactly as if it had been added
+so.
+"""
 
 import math
 

@@ -134,7 +134,7 @@ def test_closest_ends_where_no_body_is_anywhere(column, value):
 
 @kernel
 def columns_of(values, origin, buckets, columns_out, buckets_out):
-    """Where each value is drawn, and its bucket as an angle."""
+    """Write the column of each value's drawing, and its bucket as an angle."""
     for k in range(len(values)):
         columns_out[k] = snapped(values[k], origin)
         buckets_out[k] = bucket_at(values[k], buckets)

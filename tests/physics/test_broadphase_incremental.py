@@ -1,4 +1,6 @@
-"""What a broad phase keeps from step to step: the counters say that still things cost nothing, and few cost little."""
+"""Data that a broad phase keeps from step to step: by the counters still bodies cost nothing, and few changes cost
+little.
+"""
 
 import math
 

@@ -1,4 +1,4 @@
-"""find_pairs of every strategy against the double loop (hard_cases A1, A2, A3, A5)."""
+"""find_pairs of every strategy against the double loop."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Chains: one-sided, ghosts, no seams, against the distance from their line (hard_cases E1, E6, geometry)."""
+"""Chains: one-sided, ghosts, no seams, against the distance from their line."""
 
 import math
 

@@ -12,7 +12,7 @@ BOX = Polygon.box(10, 20)
 
 
 def overlaps(a, b):
-    """Whether two character boxes share pixels."""
+    """Return whether two character boxes share pixels."""
     (ax, ay), (bx, by) = a.position, b.position
     aw, bw = (a.world.characters.rows[a._row]["width"], b.world.characters.rows[b._row]["width"])
     ah, bh = (a.world.characters.rows[a._row]["height"], b.world.characters.rows[b._row]["height"])

@@ -28,7 +28,7 @@ def land(world, shape, slope, x=-40.0, dy=2.0, **options):
 
 
 def above(hero, shape, slope, ground=(0.0, 0.0)):
-    """How far [px] a character is above where it touches the slope, downwards."""
+    """Return the distance [px] of a character above its contact with the slope, downwards."""
     form, points, radius = SHAPES[shape]
     x, y = hero.position
     return resting_y(points, radius, x, slope, ground) - y

@@ -26,7 +26,7 @@ MAKERS = (BruteForce, SweepAndPrune, lambda: SweepAndPrune(axes="both"), Spatial
 
 
 class Twin:
-    """What the world should know, in plain lists."""
+    """The expected state of a world, in plain lists."""
 
     def __init__(self):
         self.bodies = {}  # id -> [x, y, vx, vy, radius, kind, filter]

@@ -34,9 +34,9 @@ def heap(effects, solver="soft_step", shapes=SHAPES, **arguments):
 
 def ask_again(world):
     """Have every contact asked anew in the next step."""
-    world.contact_rows["again"] = False
-    for island in world.sleepers.islands.values():
-        island.contacts["again"] = False
+    world.contact_rows["can_recycle"] = False
+    for island in world.sleeping_set.islands.values():
+        island.contacts["can_recycle"] = False
 
 
 def follow(make, edit):
@@ -59,7 +59,7 @@ def follow(make, edit):
 
 
 def leave(world, step, memory):
-    """Nothing is done by hand."""
+    """Leave the world unchanged."""
 
 
 def move_floor(world, step, memory):
@@ -129,14 +129,14 @@ def test_a_heap_that_hands_move(edit, effects):
 
 
 def test_contacts_that_sleep_are_asked_when_they_wake():
-    """Where the other side stood in the last step tells nothing about who was asleep in it."""
+    """The places of the other side in the last step say nothing about a body that was asleep in it."""
     world, _, bodies = heap(Effects.rigid_bodies(), shapes=(Polygon.box(24, 24),))
     for _ in range(120):
         world.step()
         if not any(body.awake for body in bodies):
             break
-    asleep = [island.contacts for island in world.sleepers.islands.values()]
-    assert sum(map(len, asleep)) >= 12 and not any(rows["again"].any() for rows in asleep)
+    asleep = [island.contacts for island in world.sleeping_set.islands.values()]
+    assert sum(map(len, asleep)) >= 12 and not any(rows["can_recycle"].any() for rows in asleep)
 
 
 def test_contacts_sleep_exactly_where_they_stand():
@@ -148,7 +148,7 @@ def test_contacts_sleep_exactly_where_they_stand():
         world.step()
         if not any(body.awake for body in bodies):
             break
-    islands = list(world.sleepers.islands.values())
+    islands = list(world.sleeping_set.islands.values())
     assert sum(len(island.contacts) for island in islands) >= 12
     for island in islands:
         rows = world.rows(island.contacts["body_a"]), world.rows(island.contacts["body_b"])
@@ -198,9 +198,9 @@ def test_what_rests_is_used_as_it_is_and_what_turns_is_not():
     world, _, _ = heap(AWAKE, shapes=(Polygon.box(24, 24),))
     for _ in range(STEPS):
         world.step()
-    assert world.contact_rows["again"].all() and len(world.contact_rows) >= 12
+    assert world.contact_rows["can_recycle"].all() and len(world.contact_rows) >= 12
     world.bodies["angular_velocity"][9:] = math.tau
     world.step()
-    again = world.contact_rows["again"]
+    again = world.contact_rows["can_recycle"]
     turned = (world.contact_rows["body_row_a"] >= 9) | (world.contact_rows["body_row_b"] >= 9)
     assert turned.any() and not again[turned].any() and again[~turned].any()

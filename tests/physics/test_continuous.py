@@ -1,5 +1,4 @@
-"""Fast bodies: time of impact in closed form, tunnelling shown both ways, no speed lost (hard_cases E4, G,
-section 4)."""
+"""Fast bodies: time of impact in closed form, tunnelling shown both ways, no speed lost."""
 
 import math
 
@@ -65,7 +64,7 @@ def test_box_stops_at_a_wall_where_it_touches(angle, wall):
 
 
 def random_shots(mode, seed, kind, effects=FAST, count=1000):
-    """How many of `count` fast bodies fly past a thin wall without a contact."""
+    """Return how many of `count` fast bodies pass a thin wall without a contact."""
     rng = np.random.default_rng(seed)
     world = still_world(effects)
     if kind == "tiles":

@@ -1,4 +1,4 @@
-"""What overlays read, what tiers are made of, and the warm-up: against naive loops and geometry."""
+"""Data of the overlays, sources of the tiers, and the warm-up: against naive loops and geometry."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Distance and depth: certificates instead of golden values, hard_cases C, and agreement with collide (U10)."""
+"""Distance and depth: certificates instead of golden values, and agreement with collide (U10)."""
 
 import math
 from itertools import pairwise

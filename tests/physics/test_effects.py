@@ -1,4 +1,4 @@
-"""Only what a scene calls for exists: stages, counters, tables, compiled kernels (hard_cases M1 to M4)."""
+"""Only declared effects exist: stages, counters, tables, compiled kernels."""
 
 import json
 import os
@@ -172,6 +172,14 @@ def test_shooter_without_solver_sees_the_same_hits_as_with_all_effects():
     assert lists[0] == lists[1] and len(lists[0]) > (5 if JIT else 0)
 
 
+def test_boxes_alone_are_all_reported_in_the_step_in_which_the_table_grows():
+    world = World(Effects(narrowphase=False))
+    world.add_bodies(Circle(5.0), [(6.0 * k, 0.0) for k in range(100)])
+    for _ in range(2):  # two tables take turns
+        world.step()
+        assert len(world.contacts) == 99
+
+
 def test_presets_and_names():
     assert Effects.detection() == Effects() and Effects().names() == ["narrowphase"]
     assert Effects.rigid_bodies().response and World().effects == Effects.rigid_bodies()
@@ -185,12 +193,14 @@ import json, sys
 import numpy as np
 from physics import *
 from physics import jit
+from physics.jit.tiers import parts_of
 effects, masks = json.loads(sys.argv[1]), sys.argv[2] == "masks"
 world = World(Effects(**effects), BruteForce())
 shape = PixelMask(np.ones((4, 4), bool)) if masks else Circle(5.0)
 world.add_bodies(shape, [(0, 0), (3, 0)], [(1, 0), (0, 0)])
 world.step(); world.step()
-print(json.dumps(sorted({f.py_func.__name__ for f in jit.registry if f.signatures})))
+compiled = {part for kernel in jit.registry if kernel.signatures for part in parts_of(kernel)}
+print(json.dumps(sorted({each.py_func.__name__ for each in compiled})))
 """
 
 
@@ -210,7 +220,7 @@ def compiled(effects, shapes="circles"):
 @pytest.mark.skipif(not JIT, reason="nothing is compiled")
 def test_kernels_of_absent_stages_are_not_compiled():
     lean = compiled({})
-    assert "find_all" in lean and "collide_circle_pairs" in lean
+    assert "find_all" in lean and "collide_circle_pair" in lean
     for name in (
         "integrate_velocities",
         "project",
@@ -219,10 +229,10 @@ def test_kernels_of_absent_stages_are_not_compiled():
         "stay_behind",
         "carry_and_push",
         "walk",
-        "collide_mask_pairs",
-        "collide_polygon_pairs",
-        "collide_grid_pairs",
-        "find_in_trees",
+        "collide_mask_pair",
+        "collide_polygon_pair",
+        "collide_grid_pair",
+        "find_pairs_in_trees",
         "find_in_cells",
         "sweep_one",
         "cast_ray_at_rows",
@@ -230,7 +240,7 @@ def test_kernels_of_absent_stages_are_not_compiled():
         assert name not in lean, name
     full = compiled({"response": True, "gravity": True, "continuous": True}, "masks")
     assert {"integrate_velocities", "project", "find_impacts"} <= full
-    assert "collide_circle_pairs" not in full and "walk" not in full
+    assert "collide_circle_pair" not in full and "walk" not in full
 
 
 def test_polygons_in_a_mask_scene_and_masks_in_a_box_scene_cost_nothing():

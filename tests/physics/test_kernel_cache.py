@@ -19,7 +19,7 @@ pytestmark = pytest.mark.skipif(not physics.JIT, reason="nothing is compiled")
 
 # A factory of parts that differ by what they close over alone, and kernels that call one or several of them.
 TOY = """
-from physics.jit import inlined, kernel, separate, subkernel
+from physics.jit import inlined, kernel, noalias, subkernel
 
 SCALE = 3.0
 
@@ -131,7 +131,7 @@ CHANGES = {
     "the sign of zero": ("SCALE = 3.0", "SCALE = -0.0"),
     "what is closed over": ("(1.0, 2.0, 5.0)", "(1.5, 2.5, 5.5)"),
     "inlining": ("    @subkernel", "    @inlined"),
-    "aliasing": ("    @subkernel", "    @separate"),
+    "aliasing": ("    @subkernel", "    @noalias"),
     "a default": ("def part(x):", "def part(x, unused=1):"),
 }
 
@@ -242,7 +242,7 @@ def test_every_kernel_of_the_package_has_a_content_of_its_own():
 
 
 def test_plain_twins_call_plain_twins_alone():
-    """Nothing inside a plain kernel is a Kernel any more, however deep."""
+    """A plain kernel contains no Kernel, at any depth."""
     from physics.jit.kernels import Kernel
     from physics.jit.plain import Builtin, globals_of
 

@@ -58,7 +58,9 @@ EXPOSED = {
 @posix
 @pytest.mark.parametrize("kind", EXPOSED)
 def test_an_exposed_folder_is_not_used_and_not_changed(tmp_path, monkeypatch, capsys, kind):
-    """Nothing in it is read or changed; one beside it is used, in this start and in the next, and it is said why."""
+    """Its files are neither read nor changed; a folder beside it is used, in this start and in the next, with a
+    reported reason.
+    """
     make, reason = EXPOSED[kind]
     (tmp_path / "elsewhere").mkdir(mode=0o700)
     folder = tmp_path / "kernels"

@@ -1,4 +1,4 @@
-"""PixelMask.outline and smooth: the contract of api.md, kept by what a user gets, with shapely as the judge."""
+"""PixelMask.outline and smooth: the documented contract, checked on results by shapely."""
 
 import math
 

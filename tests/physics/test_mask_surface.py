@@ -1,4 +1,4 @@
-"""Masks from pygame surfaces, from arrays, and what they weigh (hard_cases D14, D15, K6)."""
+"""Masks from pygame surfaces and from arrays, and their mass."""
 
 import numpy as np
 import pygame

@@ -1,4 +1,4 @@
-"""Pixel masks by AND of words, against the naive double loop (hard_cases D1, D2, D3, D4, D9, D10, D12)."""
+"""Pixel masks by AND of words, against the naive double loop."""
 
 import math
 

@@ -68,7 +68,7 @@ def drawn(mask, pose):
 
 
 def verdicts(a, pose_a, b, poses, full=False):
-    """Whether a at one pose and b at each of many meet, and the area that is told, by the passes that worlds use."""
+    """Return whether a at one pose meets b at each of many, and the reported area, by the passes that worlds use."""
     library, bodies, shapes = Library(), np.zeros(1 + len(poses), BODY), np.zeros(1 + len(poses), SHAPE)
     for row, (mask, pose) in enumerate([(a, pose_a), *((b, pose) for pose in poses)]):
         place(library, mask, bodies, shapes, row, pose)
@@ -148,7 +148,7 @@ def test_squares_that_touch_share_nothing_at_any_quarter_turn(turn_a, turn_b):
 
 @pytest.mark.parametrize("quarter", [0, 1])
 def test_squares_side_by_side_share_nothing_at_any_angle_that_both_have(quarter):
-    """Where they stand is rounded; by so little nothing is shared, and by a thousand times as much something is."""
+    """Their places are rounded: with that error no area is shared, and with a thousand times as much some is."""
     a, b = PixelMask(np.ones((5, 5), bool), snap=False), PixelMask(np.ones((5, 5), bool), snap=False)
     for angle in np.linspace(0.05, 3.1, 40).tolist():
         c, s = math.cos(angle), math.sin(angle)

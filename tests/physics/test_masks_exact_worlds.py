@@ -167,7 +167,7 @@ def test_flipped_scaled_and_values_of_its_own_keep_it_unsnapped():
 
 @pytest.mark.parametrize("response", [False, True])
 def test_a_mask_that_turns_is_drawn_for_pictures_only(response):
-    """Whoever tests it reads it as it was added; as drawn it would cost a drawing at every angle."""
+    """Tests read it as it was added; drawing it at every angle would be a cost."""
     world = World(Effects(rotation=True, sensors=True, response=response))
     world.add_body(Chain([(-40.0, 0.0), (40.0, 0.0)]), kind="static", position=(0.0, 6.0))
     bar = world.add_body(BAR, angular_velocity=1.5, kind="kinematic")

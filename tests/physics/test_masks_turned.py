@@ -1,4 +1,4 @@
-"""Turned masks: always from the source, with the area of the source (hard_cases D5, D6, D7)."""
+"""Rotated masks: always from the source, with the area of the source."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Mass, centre and inertia of every shape against closed forms and bounds (hard_cases I2 to I5)."""
+"""Mass, centre and inertia of every shape against closed forms and bounds."""
 
 import math
 

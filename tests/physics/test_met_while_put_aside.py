@@ -1,4 +1,4 @@
-"""What is changed of a body while it is asleep or quarantined, and two circles about one point."""
+"""Changes of a body while it sleeps or is disabled, and two circles about one point."""
 
 import numpy as np
 

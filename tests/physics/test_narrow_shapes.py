@@ -1,4 +1,4 @@
-"""Circles, boxes, polygons, bounds and tiles against an exact outline (hard_cases B, U2, U7, U8, U10)."""
+"""Circles, boxes, polygons, bounds and tiles against an exact outline (U2, U7, U8, U10)."""
 
 import math
 

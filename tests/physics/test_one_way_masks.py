@@ -370,7 +370,7 @@ def test_carving_cuts_it():
     assert left.position.y == pytest.approx(TOP - 6, abs=0.16)
     assert middle.position.y > TOP + 30
     rows = world.shapes[(world.shapes["role"] == PART) & (world.shapes["body"] == body.id)]
-    assert len(rows) >= 1 and (rows["kind"] == CHAIN).all() and (rows["owner"] == before[0]).all()
+    assert len(rows) >= 1 and (rows["kind"] == CHAIN).all() and (rows["parent"] == before[0]).all()
 
 
 def test_what_breaks_off_lies_as_any_other():

@@ -1,5 +1,4 @@
-"""Two shapes, asked in every way: overlap, depth, distance, contact and time of impact agree (hard_cases U7, U8, U10,
-4)."""
+"""Two shapes in all queries: overlap, depth, distance, contact and time of impact agree (U7, U8, U10)."""
 
 import math
 

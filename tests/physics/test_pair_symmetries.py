@@ -1,6 +1,7 @@
-"""What must not matter to two shapes: who is named first, left and right, where they are, the unit of length.
+"""Symmetries of two shapes: order, mirroring, place, unit of length.
 
-test_pair_agreement turns and swaps; here is what stands in no other test, for collide, distance and time_of_impact."""
+test_pair_agreement rotates and swaps; these tests cover the rest, for collide, distance and time_of_impact.
+"""
 
 import math
 

@@ -59,7 +59,7 @@ def test_a_row_reads_and_writes_the_table(name, count):
             value = getattr(seen[index], column)
             assert _same(value, rows[column][index].item()), column
             setattr(written[index], column, value)
-    for column in rows.dtype.names:  # what lies between columns is nobody's
+    for column in rows.dtype.names:  # the bytes between columns are undefined
         assert others[column].tobytes() == rows[column].tobytes(), column
     for index in (-1, count, count + 5):  # -1 stands for none in many columns
         with pytest.raises(IndexError, match=f"row {index} of a table of {count}"):

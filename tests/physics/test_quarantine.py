@@ -1,4 +1,4 @@
-"""A body that stops being finite is put aside, and nobody else notices (hard_cases A5, K1, U1)."""
+"""A body with a value that is not finite is disabled, without effect on the others (U1)."""
 
 import math
 

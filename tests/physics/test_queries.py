@@ -59,7 +59,7 @@ class EveryShape:
 
 
 def answers(world, rng):
-    """What the world says to a fixed list of questions drawn from rng."""
+    """Return the world's answers to a fixed list of queries drawn from rng."""
     found = []
     for _ in range(6 if JIT else 2):
         x, y, dx, dy, angle = *rng.uniform(-150, 150, 2), *rng.uniform(-400, 400, 2), rng.uniform(-3, 3)

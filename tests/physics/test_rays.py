@@ -1,4 +1,4 @@
-"""Rays and the other queries: boundaries, insides, zero length, ties (hard_cases A9), against exact outlines."""
+"""Rays and the other queries: boundaries, insides, zero length, ties, against exact outlines."""
 
 import math
 

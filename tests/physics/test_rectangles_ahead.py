@@ -1,4 +1,4 @@
-"""Where nothing is piled up rectangles reach ahead along the motion: less is looked for, and nothing is missed."""
+"""Without stacking, swept AABBs extend ahead along the motion: fewer searches, and no missed pair."""
 
 import numpy as np
 import pytest

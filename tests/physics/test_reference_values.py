@@ -1,6 +1,7 @@
-"""What bodies do, against closed forms and their own recurrences (hard_cases section 4): motion, impacts, friction.
+"""Motion of bodies against closed forms and their own recurrences: motion, impacts, friction.
 
-Metres: pixels_per_meter=1, y down. The discrete solution first, to the bit or nearly; the continuum after it, loosely.
+Metres: pixels_per_meter=1, y down. The discrete solution comes first, to the bit or nearly; then the continuum,
+loosely.
 """
 
 import math
@@ -23,7 +24,7 @@ STACKING = ("soft_step", "sequential_impulse")
     "solver, substeps", [("soft_step", 1), ("soft_step", 4), ("soft_step", 7), ("sequential_impulse", 4)]
 )
 def test_free_fall_is_a_parabola(solver, substeps):
-    """What stacks flies as exactly as it adds up, whatever the length of a substep."""
+    """With stacking, flight is exact up to rounding, whatever the length of a substep."""
     world = metres(solver, substeps=substeps)
     ball = world.add_body(Circle(0.1), position=(2.0, -7.0), velocity=(1.5, -3.0))
     wheel = world.add_body(Circle(0.5), position=(9.0, -90.0), angular_velocity=0.5)

@@ -1,4 +1,4 @@
-"""What the solvers do to velocities and poses (section 4 of hard_cases, U3, U5)."""
+"""Effects of the solvers on velocities and poses (U3, U5)."""
 
 import math
 

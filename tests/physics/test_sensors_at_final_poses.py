@@ -97,7 +97,7 @@ def crowd(effects, solver, sensors, seed):
 
 
 def senses(body, shape):
-    """Whether a shape of a body is a sensor."""
+    """Return whether a shape of a body is a sensor."""
     return body.sensor if shape.sensor is None else shape.sensor
 
 
@@ -160,7 +160,7 @@ class Ways:
         }
 
     def meet(self, a, b):
-        """Whether two shapes, each (body, shape), come to meet on one of the ways, within the slop."""
+        """Return whether two shapes, each (body, shape), meet on one of the paths, within the slop."""
         ends = {body.id: (body.center, body.angle) for body, _ in (a, b)}
         slop = self.world.tolerances.slop
         return any(
@@ -294,7 +294,7 @@ def test_a_sensor_sees_what_falls_asleep_in_it_and_what_is_woken(snap):
 
 @pytest.mark.parametrize("seed", range(2))
 def test_sensors_go_on_when_the_solver_changes(seed):
-    """What touched under one solver neither ends nor begins anew under the next."""
+    """A contact under one solver neither ends nor begins again under the next."""
     rng = np.random.default_rng(seed)
     sensors = [(kind, "static") for kind in KINDS]
     world = crowd(Effects.rigid_bodies().with_(continuous=False), None, sensors, seed)

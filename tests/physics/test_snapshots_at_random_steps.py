@@ -116,7 +116,9 @@ def told(world):
 
 
 def run(effects, solver, seed, put_back=lambda world, moment: world):
-    """What every step tells; put_back(world, moment) gives the world to go on with, moment: before or after edits."""
+    """Return the reports of every step; put_back(world, moment) gives the world to continue with, moment: before or
+    after edits.
+    """
     world, found = start(effects, solver, seed), []
     for step in range(STEPS):
         world = put_back(world, (step, "before edits"))

@@ -1,4 +1,6 @@
-"""What a solver makes faster than any speed is taken out and told, before it is swept, told of or begun with again."""
+"""A body that a solver makes faster than any limit is disabled and reported, before it is swept, reported or used
+again.
+"""
 
 import pytest
 

@@ -247,7 +247,7 @@ PRODUCTS = ("changed_count", "impacts", "parked", "swept_sensors")  # made and u
 
 
 def mistakes(stages) -> list[str]:
-    """What is wrong with the order of some stages."""
+    """Return the errors in the order of some stages."""
     names = [each.stage for each in stages]
     found = [f"{b} before {a}" for a, b in BEFORE if a in names and b in names and names.index(a) > names.index(b)]
     for product in PRODUCTS:
@@ -292,7 +292,7 @@ def test_a_wrong_order_is_found():
 
 
 def test_no_world_hands_messages_between_stages():
-    """What a step leaves on a world is what `finish` says: nothing else about it is new or changed in kind."""
+    """The new fields of a world after a step are those of `finish`; no other field is new or changed in kind."""
     world, _, _ = busy(Effects.rigid_bodies())
     before = set(vars(world))
     world.step()

@@ -1,5 +1,4 @@
-"""What moves what lies on it: kinematic platforms, conveyors, rolling resistance;
-and events of what comes and goes (H5)."""
+"""Surfaces that move bodies: kinematic platforms, conveyors, rolling resistance; and the events of such pairs."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What stands for a mask in each tier, against its pixels as shapely figures."""
+"""Shapes of a mask in each tier, against its pixels as shapely figures."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Tiles merge into runs: nothing that slides over them, or down along them, feels a seam (hard_cases E3, E4, U10)."""
+"""Tiles merge into runs: bodies that slide over them, or down along them, feel no seam (U10)."""
 
 import numpy as np
 import pytest

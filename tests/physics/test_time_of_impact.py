@@ -1,5 +1,4 @@
-"""Time of impact: closed forms, turning bodies against dense sampling, starts in contact (hard_cases C2, C16, C17,
-G20)."""
+"""Time of impact: closed forms, rotating bodies against dense sampling, starts in contact."""
 
 import math
 
@@ -25,7 +24,7 @@ def missed(found):
 
 
 def test_two_discs_in_closed_form():
-    """hard_cases §4: 1e-12; the swapped call is the same with the normal turned round."""
+    """To 1e-12; the swapped call gives the same with the opposite normal."""
     found = time_of_impact(Circle(0.3), (-3, 0.3, 0), (197, 0.3, 0), Circle(0.3), ORIGIN, ORIGIN)
     assert found.hit and found.fraction == pytest.approx(0.012401923788647, abs=1e-14)
     assert found.normal == pytest.approx((math.sqrt(0.75), -0.5)) and found.point == pytest.approx(
@@ -216,14 +215,14 @@ def sweep(geometry, bodies, shapes, motions, slack, one_way, room, work_inout):
 
 
 def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
-    """What the world's sweep says of a mover (start and end pose in one) against another shape."""
+    """Return the result of the world's sweep of a mover (start and end pose in one) against another shape."""
     library, bodies, shapes, work = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE), np.zeros(len(COUNTERS), np.int64)
     for row, shape in enumerate((mover, other)):
         s = shapes[row : row + 1]
         s["kind"], s["geometry"], s["wrapped"] = library.add(shape)
         s["radius"], s["local_x"], s["local_y"] = rounding_of(shape)
         s["body_row"] = row
-    bodies["smallest_half"] = mover.smallest_half
+    bodies["min_half_extent"] = mover.min_half_extent
     motions = np.array([motion, motion_b], np.float64)
     found = sweep(library.tables, bodies, shapes, motions, slack, True, new_rotational_workspace(), work)
     assert work[CAP_HITS] == 0 and work[GJK_ITERATIONS] >= 0

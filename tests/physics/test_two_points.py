@@ -59,6 +59,6 @@ def test_points_that_are_one_share_what_one_would_take():
 
 
 def test_a_second_point_that_nothing_pushes_changes_nothing():
-    """What lanes hold of a manifold of one point."""
+    """Lanes hold such a manifold if it has one point."""
     assert solve_two(0.7, 0.0, 0.0, 0.0, 0.0, 0.2, 0.0) == (pytest.approx(0.9), 0.0)
     assert solve_two(-0.7, 0.0, 0.0, 0.0, 0.0, 0.2, 0.0) == (0.0, 0.0)

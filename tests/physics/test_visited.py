@@ -77,5 +77,5 @@ def test_nothing_was_visited_before_the_first_query_nor_in_an_empty_world():
     world.ray_cast((0, 0), (9, 9))
     assert len(debug.visited(world).rects) == 0
     world.add_body(Circle(3.0))
-    world.overlap(Circle(1.0), (0.0, 0.0), Filter.ALL)  # never stepped: the structure has heard of nobody
+    world.overlap(Circle(1.0), (0.0, 0.0), Filter.ALL)  # never stepped: the structure is empty
     assert len(debug.visited(world).asked) == 1 and len(debug.visited(world).rects) == 0

@@ -1,4 +1,4 @@
-"""Who listened to the process that measures ended in a traceback where a scene was left at the wrong moment."""
+"""A client of the measuring process ended in a traceback if the scene was left at the wrong moment."""
 
 import os
 from queue import SimpleQueue

@@ -1,5 +1,4 @@
-"""What was being packed while the measuring process died took the place of "has ended" with "I/O operation on
-closed file"."""
+"""Data being packed while the measuring process died replaced "has ended" with "I/O operation on closed file"."""
 
 import threading
 from time import monotonic, sleep

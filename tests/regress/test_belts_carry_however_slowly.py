@@ -1,4 +1,4 @@
-"""What stands on a surface that runs is not at rest, however slowly it runs."""
+"""A body on a moving surface is not at rest, however slow the surface."""
 
 import pytest
 
@@ -57,7 +57,7 @@ def test_what_carries_its_own_belt_goes_on():
 
 
 def test_beside_it_and_without_the_effect_crates_sleep():
-    """A belt keeps awake what it bears, nobody else; without the effect it is inert."""
+    """A belt keeps the bodies on it awake, and no others; without the effect it is inert."""
     world = on_belt(1.0)
     world.add_body(Polygon.box(200, 20), position=(4000, 10), kind="static")
     beside = world.add_body(Polygon.box(20, 20), position=(4000, -10))

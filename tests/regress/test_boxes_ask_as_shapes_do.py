@@ -1,4 +1,4 @@
-"""Worlds that stop at AABBs told of sensors as of what is solid, and of what sleeps as of what is awake."""
+"""Worlds without narrow phase reported sensors like solids, and sleeping bodies like awake ones."""
 
 import numpy as np
 import pytest
@@ -26,7 +26,7 @@ def test_sensors_push_nobody_without_a_narrow_phase():
 
 @pytest.mark.parametrize("narrowphase", [True, False])
 def test_pair_that_falls_asleep_begins_once(narrowphase):
-    """A hero who stands still is awake and can wake nobody: what lies on him sleeps, and is told of no more."""
+    """A standing hero is awake but wakes no body: a body on him sleeps, and is reported no more."""
     world = World(PILES.with_(narrowphase=narrowphase))
     plank = world.add_body(Polygon.box(172.0, 2.0))
     Character(world, Circle(7.0), (0.0, 0.0))

@@ -1,4 +1,4 @@
-"""A pair with a carved mask was a candidate twice: its new parts stand in rows after those of what was added later."""
+"""A pair with a carved mask was a candidate twice: its new parts have rows after those of shapes added later."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""A character that was put into a still solid is let out, a little in each move, or stays where it is."""
+"""A character that was put into a static solid is moved out, a little in each move, or stays in place."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Found by random programs: a character's body that was made static was carried on, with the speed of what it rode."""
+"""Found by random programs: a character's body that was made static was still carried, with the speed of its ground."""
 
 import pytest
 

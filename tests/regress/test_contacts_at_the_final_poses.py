@@ -1,4 +1,4 @@
-"""Contacts describe the poses that a step ends with: their points, normals, separations and areas (api.md, 6)."""
+"""Contacts describe the poses that a step ends with: their points, normals, separations and areas."""
 
 import math
 
@@ -37,7 +37,7 @@ def detected(world, contact, margin=40.0):
 
 
 def motion(world, contact):
-    """How far the sides have moved on each other at a contact, turns along their arms included [px]."""
+    """Return the relative motion of the sides at a contact, including rotation at their arms [px]."""
     total = np.zeros(2)
     turns = 0.0
     for name, sign in (("body_a", -1.0), ("body_b", 1.0)):

@@ -1,4 +1,4 @@
-"""Where nothing is pushed a step asks of two masks only whether they meet: their contacts told an area of 0."""
+"""Without response a step tests only whether two masks overlap: their contacts had an area of 0."""
 
 import numpy as np
 import pytest

@@ -1,7 +1,7 @@
-"""A corner of a mask's outline that several parts share: one of them tells of it, and one that can.
+"""A corner of a mask's outline that several parts share: its contact must come from a part that can report it.
 
-It was the first of them, though both its sides there were covered: then none told. What stood on such a corner had no
-contact; what came to it fast was stopped by the sweep in every step, and its speed grew by gravity's for ever.
+It came from the first of them, though both its sides there were covered, so there was none. A body on such a corner had
+no contact; a fast one was stopped by the sweep in every step, and its speed grew by gravity's for ever.
 """
 
 import math

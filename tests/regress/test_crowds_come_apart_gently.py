@@ -1,4 +1,4 @@
-"""What starts in one place is let out at the push-out speed, per body, whatever the number of contacts."""
+"""Bodies that start in one place are separated at the push-out speed, per body, whatever the number of contacts."""
 
 import numpy as np
 import pytest

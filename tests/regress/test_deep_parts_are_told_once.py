@@ -1,6 +1,6 @@
-"""A sprite deep in another, that moves little: the push that leads it out is found again, and not told once more.
+"""A sprite deep in another that moves little: the push that separates it is found again, and not reported twice.
 
-What is used again has turned by some bits since, and was taken for another face: a manifold more in every step.
+A recycled manifold has rotated by some bits since, and was taken for another face: a manifold more in every step.
 """
 
 import math

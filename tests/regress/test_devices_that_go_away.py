@@ -1,4 +1,4 @@
-"""A sound device unplugged, a display lost or a mode refused in mid-game was a traceback of pygame."""
+"""A sound device unplugged, a display lost or a window mode refused during play ended in a traceback of pygame."""
 
 import pygame as K
 import pytest

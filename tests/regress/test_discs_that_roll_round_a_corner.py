@@ -1,5 +1,6 @@
-"""A disc that came round a corner was held off along the line to that corner for ever: its manifold was taken for the
-same as long as it had not turned since the last step, and it sank into the face beyond, by up to its own size."""
+"""A disc that rolled around a corner was pushed along the line to that corner for ever: its manifold was recycled as
+long as it had not rotated since the last step, and it sank into the face beyond, by up to its own size.
+"""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""What no shape uses any longer is not kept: memory follows what is there, not what has been."""
+"""Geometry without shapes is freed: memory follows the current shapes, not past ones."""
 
 import gc
 import tracemalloc

@@ -1,4 +1,4 @@
-"""A TileGrid cannot turn: whoever asks for it is told; a table that says it takes its body out of the simulation."""
+"""A TileGrid cannot rotate: a call that asks for it raises; a table that says so disables the body."""
 
 import math
 

@@ -1,4 +1,6 @@
-"""A box of a thousand times the mass, taken off two boxes, left its forces in their contacts: they flew up by 87 mm."""
+"""A box of a thousand times the mass, removed from two boxes, left its forces in their contacts: they flew up by 87
+mm.
+"""
 
 import pytest
 

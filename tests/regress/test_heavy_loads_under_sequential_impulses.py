@@ -1,6 +1,7 @@
-"""What had closed a gap under sequential impulses was stopped dead after the passes, however slowly it came: a light
-box between the floor and a load of a hundred of its masses, which trembles there, was knocked from under it within
-nine seconds."""
+"""A body that had closed a gap under sequential impulses was stopped after the passes, however slow it was: a light box
+between the floor and a load of a hundred times its mass, which trembles there, was knocked from under it within nine
+seconds.
+"""
 
 from physics import Material, Polygon
 from tests.stability.piles import floor, metres, needs_speed

@@ -1,6 +1,7 @@
-"""Who flies and hits with both ends, or in a corner, within one step keeps his energy: each hit is as hard as the one
-before has left it. It was bounced by the speeds from before the step: eleven of forty capsules in a room won or lost
-more than 1 % in a thousand steps, one 41 %."""
+"""A body that hits with both ends, or in a corner, within one step keeps its energy: each hit is as hard as the one
+before has left it. It bounced with the speeds from before the step: eleven of forty capsules in a room won or lost more
+than 1 % in a thousand steps, one 41 %.
+"""
 
 import pytest
 

@@ -43,7 +43,7 @@ def test_it_ends_without_a_word(module):
 
 
 def test_afterwards_it_is_an_exception_again(monkeypatch):
-    """A run in progress cleans up, and whoever called main() from a program of his own has his Ctrl-C back."""
+    """A run in progress cleans up, and a program that called main() gets its Ctrl-C back."""
     import game.command_line
     import main
 

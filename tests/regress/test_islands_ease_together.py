@@ -1,5 +1,6 @@
-"""Bodies of one island that were eased at different times asked for fewer substeps one after the other, each forgot
-that it had asked, and the island never took fewer: three crates dropped by 5 cm kept 32 for ever."""
+"""Bodies of one island whose cooldowns ended at different times asked for fewer substeps one after the other, each
+request was dropped, and the island never took fewer: three crates dropped by 5 cm kept 32 for ever.
+"""
 
 from physics import Polygon
 from tests.stability.piles import floor, metres

@@ -1,4 +1,4 @@
-"""A large piece of ground that tumbled over a sensor took 0.11 s and 20 MB for each angle, and kept them all."""
+"""A large piece of ground that tumbled over a sensor took 0.11 s and 20 MB for each angle, and cached them all."""
 
 import math
 import weakref

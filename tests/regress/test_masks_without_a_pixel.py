@@ -1,4 +1,4 @@
-"""A mask without a pixel weighs nothing: as all of a body that is pushed it fell, and its inertia was 0."""
+"""A mask without pixels has no mass: as the only shape of a dynamic body it fell, and its inertia was 0."""
 
 import numpy as np
 import pytest

@@ -1,6 +1,6 @@
-"""The lander's third site lies in a cave that is closed by ice on both sides: nothing else held the mountain over it.
+"""The lander's third site is in a cave that is closed by ice on both sides: nothing else held the mountain over it.
 
-Whoever had shot both plugs away, the bot on three seeds of eight, had 900 px of mountain come down on the pad.
+With both plugs shot away, as by the bot on three seeds of eight, 900 px of mountain fell on the pad.
 """
 
 import pytest

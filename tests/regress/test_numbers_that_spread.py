@@ -1,7 +1,7 @@
-"""A force, a mass or a radius that was no number reached the whole heap in one step, and a sweep of it ended Python.
+"""A force, a mass or a radius that was not finite reached the whole heap in one step, and a sweep of it ended Python.
 
-Positions and velocities alone were looked at. 0.1.0 also hung in a character's `climb` of 1e308, read past its arrays
-for a radius of NaN, and raised "math domain error" from a question about a body whose angle is infinite.
+Positions and velocities alone were checked. 0.1.0 also hung in a character's `climb` of 1e308, read past its arrays for
+a radius of NaN, and raised "math domain error" in a query about a body whose angle is infinite.
 """
 
 import math

@@ -1,4 +1,4 @@
-"""Another gravity, wind or drag wakes what rests under the old one; what is not felt wakes nobody."""
+"""Another gravity, wind or drag wakes the bodies at rest under the old one; a change without effect wakes none."""
 
 import pytest
 

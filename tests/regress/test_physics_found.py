@@ -217,9 +217,9 @@ def test_motion_rectangles_of_masks_are_where_they_are_drawn_and_no_wider():
         lower, upper = np.minimum(first, last), np.maximum(first, last) + (9.0, 7.0)
         near = 2.0 * world.tolerances.slop
         apart = np.maximum(lower[:, None] - upper[None], lower[None] - upper[:, None]).max(axis=2)
-        wanted = np.unique(world.shapes["owner"])[np.argwhere(np.triu(apart <= near, 1))]
+        wanted = np.unique(world.shapes["parent"])[np.argwhere(np.triu(apart <= near, 1))]
         world.step()
-        still = set(np.unique(world.shapes["owner"])[~speeds.any(axis=1)].tolist())
+        still = set(np.unique(world.shapes["parent"])[~speeds.any(axis=1)].tolist())
         told, wanted = ([tuple(each) for each in pairs.tolist()] for pairs in (world.candidates, wanted))
         assert set(wanted) <= set(told)
         at_rest = [[each for each in pairs if still.issuperset(each)] for pairs in (told, wanted)]

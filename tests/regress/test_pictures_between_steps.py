@@ -1,6 +1,6 @@
-"""A window shows what lies between two steps. Lanes were empty there whose cameras nobody told that a step begins.
+"""A window shows interpolated states. Lanes were empty there if their cameras were not notified of the step.
 
-A headless run draws at the last step's poses, so that all of this looked right in every screenshot.
+A headless run draws at the last step's poses, so this was invisible in every screenshot.
 """
 
 import numpy as np

@@ -17,7 +17,7 @@ from tests.scenes.test_platformer_maps import save, small
 
 @pytest.fixture
 def folder(tmp_path):
-    """levels/ beside a picture that is nobody's business."""
+    """Return a folder levels/ beside a private picture."""
     made = tmp_path / "levels"
     (made / "art").mkdir(parents=True)
     shutil.copy(IMAGES / "tiles.png", tmp_path / "secret.png")

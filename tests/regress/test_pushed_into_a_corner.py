@@ -1,7 +1,7 @@
-"""What a moving corner pushes ahead of it stays in front of both its sides.
+"""A body that a moving corner pushes ahead stays in front of both its sides.
 
-Only the first side that is met was looked at: one that had pushed as far as it has to, and still was met first, hid the
-other, and a small body in the corner of a turning room came out through it.
+Only the first side that met it was examined. A side that had pushed far enough, and still met it first, hid the other,
+and a small body in the corner of a rotating room came out through it.
 """
 
 import math
@@ -18,7 +18,9 @@ STEPS = 3
 
 
 def gets_out(solver, velocity, turn, place, angle, beside, spin):
-    """Whether a box gets out of a room that moves and turns; place, beside: from the corner, from the room's speed."""
+    """Return whether a box gets out of a room that moves and rotates; place, beside: from the corner, from the room's
+    speed.
+    """
     effects = Effects(response=True, rotation=True, friction=True, stacking=True, continuous=True)
     world = World(effects, solver=solver, substeps=1)
     room = world.add_body(Chain(CORNERS, loop=True), kind="kinematic", velocity=velocity, angular_velocity=turn)

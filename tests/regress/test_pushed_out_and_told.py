@@ -1,5 +1,6 @@
-"""Who stepped into a wall past its middle was pushed out on the far side, with nothing to slow it: moved by a contact
-that no event told, as at the end of the step they were apart and no impulse had acted."""
+"""A body that stepped into a wall past its middle was pushed out on the far side, with nothing to slow it: moved by a
+contact that no event reported, because at the end of the step they were apart and no impulse had acted.
+"""
 
 import pytest
 
@@ -8,7 +9,7 @@ from physics import Circle, Effects, Polygon, World
 
 @pytest.mark.parametrize("aside", [11.0 - 0.9 * k for k in range(29)])
 def test_every_pair_that_is_pushed_apart_is_told(aside):
-    """Where it ends is rounded: apart by a bit, or in by one, as coordinates fall."""
+    """Its end is rounded: apart by a bit, or in by one, depending on the coordinates."""
     world, y = World(Effects(response=True)), 960.0 + aside
     wall = world.add_body(Polygon.box(1.0, 22.0), position=(0.0, 960.0), kind="static")
     disc = world.add_body(Circle(5.0), position=(-8.0, y), velocity=(600.0, 0.0))

@@ -1,4 +1,6 @@
-"""A character walks in whole pixels: what slept a hair away was pushed and did not wake, and jerked when it did."""
+"""A character moves in whole pixels: a sleeping body at a small distance was pushed without waking, and jerked when it
+woke.
+"""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""A pygame Mask or Surface is no array of bool: NumPy would read its words, and nobody would be told."""
+"""A pygame Mask or Surface is no array of bool: NumPy would read its words without an error."""
 
 import numpy as np
 import pygame

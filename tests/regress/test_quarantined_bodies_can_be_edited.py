@@ -1,4 +1,4 @@
-"""What is done to a quarantined body concerns nobody else: it has no place in the broad phase to write to."""
+"""Changes of a disabled body affect no other: it has no place in the broad phase to write to."""
 
 import math
 
@@ -24,7 +24,7 @@ EDITS = {
 
 
 def crowd(effects, strategy=SpatialHashGrid):
-    """As many shapes as the broad phase has slots, so that the last slot is somebody's."""
+    """Fill all slots of the broad phase with shapes, so that the last slot is in use."""
     world = World(effects, strategy())
     world.add_body(Polygon.box(600, 20), position=(150, 40), kind="static")
     while len(world.pairs.free) or len(world.bodies) < 2:

@@ -1,4 +1,4 @@
-"""Questions about turned masks left numbers of rasters that were gone with them; tidying up stumbled on those."""
+"""Queries about rotated masks left ids of rasters that were freed with them; the clean-up failed on those."""
 
 from math import pi
 
@@ -13,7 +13,7 @@ def test_a_library_is_tidied_up_after_questions_about_turned_masks():
     turned = [world.add_body(masks[k], position=(40 * k, 50), angle=(k + 1) * pi / 7) for k in range(4)]
     assert world.overlap(Circle(90.0), (60.0, 50.0)) == turned
     library = world.library
-    for k in range(200):  # shapes that nobody uses any longer
+    for k in range(200):  # shapes that are no longer in use
         world.add_body(Polygon.box(3.0 + k, 4.0), position=(900, 0)).remove()
     world.add_body(Circle(3.0), position=(900, 0))
     assert world.library is not library

@@ -1,4 +1,4 @@
-"""A question after a removal remembered rows of before, where a body had broken: the next read beyond the table."""
+"""A query after a removal reused old rows, in which a body had been disabled: the next one read beyond the table."""
 
 import numpy as np
 

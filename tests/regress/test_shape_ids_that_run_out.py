@@ -1,4 +1,4 @@
-"""The ids of shapes after the 2^31st were told as negative numbers among the candidates, and nothing said so."""
+"""The ids of shapes after the 2^31st were negative numbers among the candidates, without an error."""
 
 import pytest
 

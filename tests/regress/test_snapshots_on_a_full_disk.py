@@ -1,4 +1,4 @@
-"""Snapshot.save wrote over the file that was there: on a full disk the old snapshot was lost with the new one."""
+"""Snapshot.save overwrote the existing file: on a full disk the old snapshot was lost with the new one."""
 
 import pytest
 

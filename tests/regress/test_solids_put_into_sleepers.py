@@ -1,4 +1,6 @@
-"""What is added, grown, made solid or let through into a sleeper wakes it; what does not touch it does not."""
+"""A body that is added, grown, made solid or accepted into a sleeping body wakes it; one that does not touch it does
+not.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A solver under which nothing sleeps, chosen after a removal: the broad phase went on pairing what was gone."""
+"""A solver without sleeping, chosen after a removal: the broad phase continued to pair removed shapes."""
 
 import pytest
 

@@ -70,7 +70,7 @@ def test_a_box_squeezes_as_long_as_it_shares_a_pixel(speed, hero):
 
 
 def test_it_is_told_once_more_after_it_left_between_two_moves():
-    """What crushed and went on since the last move is told by the next one, as before, and by no more."""
+    """A crusher that has moved on since the last move is reported by the next one, as before, and by no more."""
     world = World(EFFECTS["plain"])
     world.add_body(Polygon.box(200, 20), position=(0, 10), kind="static")
     hero = Character(world, HEROES["box"], (0, -10))

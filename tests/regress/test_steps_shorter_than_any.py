@@ -1,4 +1,6 @@
-"""world.step(5e-324) was a ZeroDivisionError: a share of it was 0. What no clock tells is a step of no time."""
+"""world.step(5e-324) raised ZeroDivisionError: a fraction of it was 0. A step shorter than any clock resolves counts as
+a step of no time.
+"""
 
 import pytest
 

@@ -1,5 +1,6 @@
-"""A short step between long ones blew piles up: what stopped a tremble in 1e-5 s was remembered as a force, and a step
-of 1/60 s gave 1,667 times as much of it. The top of five boxes was 25,000 px away after five seconds."""
+"""A short step between long ones blew piles up: the impulse that stopped a tremble in 1e-5 s was cached as a force, and
+a step of 1/60 s gave 1,667 times as much of it. The top of five boxes was 25,000 px away after five seconds.
+"""
 
 import pytest
 

@@ -1,5 +1,6 @@
-"""What a sweep finds depends on its pair alone, not on what another left in the workspace: a world that was restored or
-copied has another workspace, and must go on to the same bit."""
+"""The result of a sweep depends on its pair alone, not on the contents of the workspace: a restored or copied world has
+another workspace, and must continue to the same bit.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A body of several shapes, stopped on its way, stands at an angle nobody foresaw: its mask is drawn there too."""
+"""A body of several shapes, stopped at its time of impact, is at an unforeseen angle: its mask is drawn there, too."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""What happens in a scene has nothing to do with whether its contacts stay in their places or are copied each step."""
+"""The events of a scene do not depend on whether its contacts stay in their places or are copied each step."""
 
 import pytest
 

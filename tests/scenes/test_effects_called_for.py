@@ -35,9 +35,9 @@ LEDGER = {
         "rotation": REFUSED,
         "drag": DIFFERS,
         "wind": DIFFERS,
-        # Put in: what is pushed apart flies elsewhere and rubs, nothing falls, rests. A shot is longer than its way in
-        # a step and slips through nobody, see test_shooter.py. Swept it would hit a step sooner and by its outline: it
-        # would strike who is missed by all that is drawn.
+        # Put in: pushed bodies fly elsewhere and rub, nothing falls or rests. A shot is longer than its path in a step
+        # and tunnels through no body, see test_shooter.py. Swept it would hit a step sooner and by its outline: it
+        # would strike bodies that all drawn pixels miss.
         "response": DIFFERS,
         "gravity": NEUTRAL,
         "friction": DIFFERS,
@@ -62,7 +62,8 @@ LEDGER = {
         "one_way": DIFFERS,
         "conveyor": DIFFERS,
         "carving": REFUSED,
-        # Put in: no material bounces, the world has neither drag nor wind, nobody reads who goes on touching.
+        # Put in: no material bounces, the world has neither drag nor wind, and the scene does not read persisting
+        # contacts.
         "drag": NEUTRAL,
         "wind": NEUTRAL,
         "restitution": NEUTRAL,
@@ -82,7 +83,7 @@ LEDGER = {
         "sleeping": DIFFERS,
         "sensors": REFUSED,
         "carving": REFUSED,
-        # Put in: nobody reads who goes on touching, nothing is open from below or runs.
+        # Put in: the scene does not read persisting contacts, nothing is one-way or moves its surface.
         "persist": NEUTRAL,
         "one_way": NEUTRAL,
         "conveyor": NEUTRAL,

@@ -1,4 +1,4 @@
-"""What labs tell of costs: a dash until it was measured off the frame, over 300 steps of the lane's own world."""
+"""Costs that labs show: a dash until measured outside the frame, over 300 steps of the run's own world."""
 
 import re
 

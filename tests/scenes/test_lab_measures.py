@@ -1,4 +1,4 @@
-"""What the labs measure with: slow truths against values known by hand, and the hands that work lab/shapes."""
+"""Measuring tools of the labs: slow references against values known by hand, and the hands of lab/shapes."""
 
 from math import pi
 

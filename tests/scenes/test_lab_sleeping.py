@@ -77,7 +77,7 @@ def test_balls_come_where_is_clicked_and_the_oldest_goes():
     vx, vy = scene.world.body(scene.balls[0]).velocity
     (x, y), (to_x, to_y) = scene.world.body(scene.balls[0]).position, scene.camera.to_world(240, 100)
     assert vx > 0.0 and abs((to_y - y) / (to_x - x) - vy / vx) < 0.1
-    press(scene, pointer=(240, 260), down=True)  # below the yard: nobody is there
+    press(scene, pointer=(240, 260), down=True)  # below the yard, without a body
     assert len(scene.balls) == 1
     first = scene.balls[0]
     for _ in range(BALLS):

@@ -110,7 +110,7 @@ class Drop(Scene):
             world.step()
 
     def draw(self, canvas, alpha):
-        """Nothing to see."""
+        """Draw nothing."""
 
     def check(self):
         return [Goal("falls", 10, self.ball.position[1] > 0.0)]

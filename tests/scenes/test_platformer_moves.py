@@ -11,7 +11,7 @@ FLAT = ".................\n" * 8 + "#################\n"
 
 
 def apex(stage, keys, hold):
-    """How high a jump goes [px] with jump held for `hold` steps."""
+    """Return the height of a jump [px] with jump held for `hold` steps."""
     start = stage.hero.box[3]
     best = 0
     for step in range(60):

@@ -1,4 +1,4 @@
-"""What the platformer's hero meets: ladders, belts, crumbling stones, springs, lifts and the three that hurt."""
+"""Things and enemies of the platformer: ladders, belts, crumbling stones, springs, lifts and the three enemies."""
 
 import pytest
 

@@ -35,7 +35,7 @@ scene_class = REGISTRY.scene_class
 TURNED = 20  # the frame before which a setting is changed
 needs_speed = pytest.mark.skipif(FEW, reason="hundreds of frames; nothing here depends on who runs the kernels")
 
-# Thin lines and an upright box: whoever touches their bounds touches them; a sprite that is alone.
+# Thin lines and an upright box, whose bounds are exact; a sprite that is alone.
 SAME_WITHOUT_NARROW_PHASE = {"lab/sensors", "lab/ladder"}
 # What these change is no matter of a world: the rules, the picture, which other world goes on beside it.
 BESIDE_THE_WORLDS = {

@@ -1,4 +1,4 @@
-"""How a game ends: lives, the countdown, continues and what they cost, the bonuses, the result; and a restart."""
+"""The end of a game: lives, the countdown, continues and their cost, the bonuses, the result; and a restart."""
 
 import pytest
 

@@ -1,7 +1,7 @@
-"""Distance, depth and contacts of random pairs, held between bounds that need no distance algorithm (hard_cases C13).
+"""Distance, depth and contacts of random pairs, held between bounds that need no distance algorithm.
 
-Golden values tell that something has changed, certificates that it is wrong: a line that parts two shapes bounds their
-distance from below, a point on each from above, and two boxes an overlap's depth.
+Golden values show that a result has changed, certificates that it is wrong. A separating line bounds a distance from
+below, a point on each shape from above, and two boxes an overlap's depth.
 """
 
 from typing import NamedTuple

@@ -11,7 +11,9 @@ KEPT = "stability"
 
 
 def pytest_addoption(parser):
-    """Where to keep what is measured; given with the folder: pytest tests/stability --stability-json FILE."""
+    """Add the option for the file of measurements; given with the folder: pytest tests/stability --stability-json
+    FILE.
+    """
     parser.addoption("--stability-json", metavar="FILE", help="write what the rows of the stability suite measure")
 
 
@@ -32,7 +34,7 @@ def measured(request):
 
 
 def pytest_configure(config):
-    """Collect in the one process that hears of every test, whoever runs it."""
+    """Collect in the one process that receives the reports of every test."""
     path = config.getoption("--stability-json")
     if path and not hasattr(config, "workerinput"):
         from physics import JIT

@@ -36,7 +36,7 @@ FOUND = (
 
 
 def first_sentence(path: Path) -> str:
-    """What a test's docstring begins with, on one line."""
+    """Return the first sentence of a test's docstring, on one line."""
     told = " ".join((ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or "").split())
     return told.split(". ")[0].rstrip(".") + "."
 

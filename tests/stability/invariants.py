@@ -13,7 +13,7 @@ DYNAMIC = 2
 
 
 def deepest(world):
-    """How far the deepest contact overlaps [px], sensors aside."""
+    """Return the overlap of the deepest contact [px], without sensors."""
     contacts = world.contacts
     solid = contacts["separation"]
     return max(0.0, -float(solid.min())) if len(solid) else 0.0

@@ -9,14 +9,14 @@ from tests.stability.rows import SECTIONS
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 PAGE, KEPT = DOCS / "stability.md", DOCS / "stability.json"
-TITLE = """# What stays stable
+TITLE = """# Stability
 
-Every hard case that this engine is held to: cases that broke the best engines, from their test suites, samples, issues
-and papers. Limits are theirs where they name one. The tests are in [tests/stability](../tests/stability), a file per
-section, the row's id in the name of its test; what is measured below is the worst over all that the test tries. Margin:
-how many times further it could be before the limit; *exact*: one value is right, and it is the one.
+The hard cases of this engine's tests: cases that broke the best engines, from their test suites, samples, issues and
+papers. Limits are theirs if they name one. The tests are in [tests/stability](../tests/stability), a file per section,
+with the row's id in the name of the test; the measured value is the worst over all its variants. Margin: the factor by
+which it could grow before the limit; *exact*: one value is right, and it was measured.
 
-Lengths are in the scene's own unit, m unless it says px. This page is written, not edited:
+Lengths are in the scene's own unit, m unless it says px. This page is generated:
 
 ```sh
 python -m pytest tests/stability -m "not nightly" --stability-json docs/stability.json   # measures

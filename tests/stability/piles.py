@@ -15,7 +15,7 @@ SOLVERS = ("soft_step", "sequential_impulse")
 
 
 def pile_effects(**changes):
-    """What piles of bodies call for; they never sleep unless told."""
+    """Return the effects of piles of bodies; they never sleep unless a test asks for it."""
     return Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True).with_(
         **changes
     )

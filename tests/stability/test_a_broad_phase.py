@@ -210,7 +210,7 @@ def test_a6_a_fast_body_pairs_with_all_it_sweeps(measured, strategy, way):
 
 
 def beyond(shape, pose, box):
-    """How far [exact] a shape with whole or dyadic coordinates sticks out of a box."""
+    """Return how far [exact] a shape with whole or dyadic coordinates extends beyond a box."""
     x, y, angle = pose
     c, s, (x, y) = Fraction(math.cos(angle)), Fraction(math.sin(angle)), map(Fraction, (x, y))
     points = (shape.center,) if isinstance(shape, Circle) else shape.points
@@ -230,8 +230,9 @@ def beyond(shape, pose, box):
 
 @pytest.mark.parametrize("place", [0.0, 1e5, 1e7])
 def test_a7_boxes_hold_their_shapes_wherever_they_are(measured, place):
-    """What moves has a margin and is inside; boxes of what stands are closed and rounded to the nearest, not outward:
-    where an AABB is the verdict, boxes a rounding apart do not touch."""
+    """Boxes of moving shapes have a margin and contain them; boxes of static shapes are closed and rounded to the
+    nearest, not outward: where an AABB is the verdict, boxes a rounding apart do not touch.
+    """
     rng, worst = np.random.default_rng(7), {"static": Fraction(0), "dynamic": Fraction(0)}
     for kind in worst:
         world = metres(gravity=(0, 0))

@@ -83,7 +83,7 @@ def fill(world, rng, half_x, half_y):
 
 
 def outside(body, room, middle, halves):
-    """How far [px] a body's centre of mass is beyond the walls."""
+    """Return how far [px] a body's centre of mass is beyond the walls."""
     cosine, sine = math.cos(room.angle), math.sin(room.angle)
     x, y = body.center[0] - room.position[0], body.center[1] - room.position[1]
     u, v = cosine * x + sine * y - middle[0], cosine * y - sine * x - middle[1]
@@ -91,7 +91,7 @@ def outside(body, room, middle, halves):
 
 
 def lost_in(rng, kind, solver, moves, steps=STEPS):
-    """What of one random world is beyond its walls in the end."""
+    """Return the bodies of one random world that are beyond its walls in the end."""
     stacking = solver in STACKING
     effects = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, continuous=True)
     world = World(

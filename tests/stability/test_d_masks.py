@@ -26,7 +26,9 @@ def test_d2_single_pixels_meet_where_they_share_area(measured):
 
 
 def wrong_verdicts(turned):
-    """How many of random pairs of masks at exact poses, turned or not, meet otherwise than their squares."""
+    """Return how many of random pairs of masks at exact poses, rotated or not, differ in their verdict from their
+    squares.
+    """
     pytest.importorskip("shapely")
     from tests.oracles import outlines
 

@@ -251,7 +251,7 @@ def test_e7_tiles_of_other_sizes_and_bodies_stop_nobody(measured, ground, solver
 
 
 def spinner(bodies, segments, radius, steps):
-    """How many small bodies get out of a one-way circle in which an arm spins at 5 rad/s."""
+    """Return how many small bodies get out of a one-way circle in which an arm spins at 5 rad/s."""
     world = metres(effects=pile_effects(continuous=True))
     world.add_body(
         Chain(

@@ -1,5 +1,4 @@
-"""Friction that holds and lets go where it should, bounces that neither gain nor die (hard_cases F13 to F15,
-F20 to F28)."""
+"""Friction that holds and slides correctly, bounces that neither gain nor lose energy."""
 
 import math
 
@@ -144,7 +143,7 @@ def test_f20_wave_of_dominoes_scales_with_the_root_of_size_whatever_the_mass(mea
 
 
 def first_apex(solver, restitution, pixels_per_meter=1.0, dt=1 / 60, friction=0.6, substeps=4):
-    """How high a ball let go 2 m above the floor comes back."""
+    """Return the apex of a ball dropped from 2 m above the floor."""
     world = metres(solver, pixels_per_meter=pixels_per_meter, dt=dt, substeps=substeps)
     floor(world)
     ball = world.add_body(

@@ -277,7 +277,7 @@ def test_f17_house_of_cards_stands(measured, half_thickness, half_height):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_f25_discs_exactly_above_one_another_stay_so(measured, solver):
-    """Nothing in the scene has an x: none appears out of rounding."""
+    """No part of the scene has an x: none appears by rounding."""
     world = metres(solver)
     floor(world)
     for k in range(10):

@@ -103,7 +103,9 @@ def test_g5_disc_that_lies_on_the_floor_slides_freely(measured):
 
 
 def lowest_over(ground, shape, start):
-    """How far [m] a shape's centre of mass gets below a ground at y = 0, thrown down at 100 m/s at five angles."""
+    """Return how far [m] a shape's centre of mass gets below a ground at y = 0, thrown down at 100 m/s at five
+    angles.
+    """
     world = metres(effects=FAST)
     if ground == "bevelled":
         world.add_body(Chain([(-20, 0), (-1, 0), (-0.5, -0.5), (0.5, -0.5), (1, 0), (20, 0)]), kind="static")
@@ -309,7 +311,7 @@ def test_g18_ball_in_a_corner_does_not_freeze_the_step(measured):
 
 
 def shoot_rods(mode, count, solver="soft_step"):
-    """How many of so many turning thin rods end behind walls of 1 to 4 px."""
+    """Return how many of so many rotating thin rods end behind walls of 1 to 4 px."""
     rng = np.random.default_rng(21)
     world = World(STILL, solver=solver, gravity=(0, 0))
     rods = []

@@ -56,7 +56,7 @@ SETTERS = {  # name in the refusal: a call with a number
 
 
 def refusal(call):
-    """What a call says when it refuses, "" when it does not."""
+    """Return the message of a call's error, "" without one."""
     try:
         call()
     except (ValueError, TypeError) as error:

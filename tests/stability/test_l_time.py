@@ -188,7 +188,7 @@ def test_l3_jitter_of_a_ten_billionth_changes_no_statistics(measured):
 
 
 def sag(h, count):
-    """What a stack may sink: a slop per box, and more where substeps h are too long for contacts of 30 Hz."""
+    """Return the allowed sag of a stack: a slop per box, and more if substeps h are too long for contacts of 30 Hz."""
     return count * 0.005 * max(1.0, (30.0 * 8.0 * h) ** 2)
 
 

@@ -1,4 +1,4 @@
-"""Piles of pixel masks: they stand as boxes do, heaps come to rest, the wedged get out (hard_cases F3, F4, U6)."""
+"""Piles of pixel masks: they stand as boxes do, heaps come to rest, wedged masks get out (U6)."""
 
 import math
 
@@ -13,7 +13,7 @@ CRATE = PixelMask(np.ones((32, 32), bool))
 
 
 def column(shape, seconds, solver):
-    """How far [px] any of ten on each other swayed aside while they were kept awake."""
+    """Return the greatest sideways motion [px] of ten on each other while they were kept awake."""
     world = World(AWAKE, solver=solver)
     world.add_body(Polygon.box(800, 40), position=(0.0, 20.0), kind="static")
     bodies = [world.add_body(shape, position=(0.0, -16.0 - 32.0 * k)) for k in range(10)]

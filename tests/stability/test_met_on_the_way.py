@@ -1,5 +1,6 @@
-"""What meets within a step is found where it will touch: nothing is first seen when it overlaps, and nothing is turned
-aside by a surface that it was only near (hard_cases F21 to F23, G9, G19; seams: E1)."""
+"""Pairs that meet within a step get their contact at the point of touching: none is first seen in overlap, and none is
+deflected by a surface that it only passes.
+"""
 
 import math
 
@@ -144,7 +145,9 @@ def test_what_tumbles_in_a_turning_drum_overlaps_by_millimetres():
 
 
 def test_sweeps_and_their_absence_are_still_seen():
-    """What moves by more than half its size in a step is theirs: a wall stops it, or lets it through."""
+    """Bodies that move by more than half their size in a step are left to sweeps: a wall stops them, or lets them
+    through.
+    """
     for continuous, passes in ((False, True), (True, False)):
         effects = Effects(response=True, stacking=True, continuous=continuous)
         world = World(effects, pixels_per_meter=1.0)

@@ -1,4 +1,4 @@
-"""Islands that fall asleep, and everything that wakes them (hard_cases L9, L10, H6)."""
+"""Islands that fall asleep, and everything that wakes them."""
 
 import math
 

@@ -358,7 +358,7 @@ def test_what_is_taken_away_is_gone_in_every_engine(name):
 
 
 def played_as(script):
-    """What an engine plays that does as the script says."""
+    """Return an engine that plays a script."""
     return Played(lambda scene: Scripted(scene, script))
 
 

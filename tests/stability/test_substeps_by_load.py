@@ -77,7 +77,7 @@ def test_who_bears_little_takes_few_once_that_is_known():
 
 @needs_speed
 def test_a_column_takes_the_most_until_its_load_has_come_down():
-    """What lies beside it does not; and the column takes as few as its load asks for after that."""
+    """Bodies beside it do not; and after that the column takes as few as its load needs."""
     world = metres(substeps="auto")
     floor(world)
     column, box = heap(world, 8), heap(world, 1, x=10.0)

@@ -59,7 +59,7 @@ def thin_wall(kind, thickness):
     """A wall of pixels, 1 to 3 px thick, with its origin in its middle."""
     if kind == "ring":
         at = np.hypot(*np.indices((300, 300)) - 149.5)
-        # The 8-connected circle is closed to whoever meets its outline; a 1 px ring is 1.5 px where it is a staircase.
+        # The 8-connected circle is closed to bodies tested by outline; a 1 px ring is 1.5 px thick at its staircases.
         return PixelMask((at <= 149.0) & (at > 149.0 - max(1.5, thickness)))
     if kind == "stairs":
         rows, columns = np.indices((300, 300))
@@ -103,7 +103,7 @@ def throws(count, seed):
 
 
 def side_of(throw, x, y):
-    """How far [px] a point has come beyond the middle of a wall."""
+    """Return how far [px] a point is beyond the middle of a wall."""
     if throw.wall_kind == "ring":
         return math.hypot(x, y) - 148.0
     normal = -math.pi / 4 if throw.wall_kind == "stairs" else throw.wall_angle

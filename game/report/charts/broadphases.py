@@ -1,7 +1,7 @@
-"""Chart 8: what a broad phase costs over the number of bodies, and how many pairs it leaves.
+"""Chart 8: cost of the broad phases over the number of bodies, and the number of pairs they leave.
 
-Layouts and shares of movers as Broadmark (Serpa and Rodrigues 2020) varies them. `every pair` is the naive baseline:
-all n (n - 1) / 2 pairs in every step; what the strategies are compared with is never anything better than that.
+Layouts and shares of movers are those of Broadmark (Serpa and Rodrigues 2020). `every pair` is the naive baseline, all
+n (n - 1) / 2 pairs in every step; the strategies are compared with it only.
 """
 
 import math
@@ -22,7 +22,7 @@ SPACING, RADIUS, SPEED = 22.0, 6.0, 60.0  # [px], [px], [px/s]
 STEPS, RUNS = 60, 5  # 300 steps in all
 SIZES = (10, 100, 300, 1000, 10_000)
 FROM = 100  # bodies: below, the call costs more than the work
-NAIVE_LIMIT = 1000  # above, a step of every pair takes seconds in all
+NAIVE_LIMIT = 1000  # above, `every pair` takes seconds in all
 WAYS: dict[str, Callable[[], Any]] = {
     **BROADPHASES,
     "every pair": lambda: BruteForce(incremental=False),
@@ -34,30 +34,30 @@ Places = tuple[np.ndarray, np.ndarray]  # centres (n, 2) and radii (n,) [px]
 
 
 def even(rng: np.random.Generator, n: int) -> Places:
-    """One overlap per body or so."""
+    """Return discs spread evenly, with about one overlap per body."""
     return rng.uniform(0, SPACING * math.sqrt(n), (n, 2)), np.full(n, RADIUS)
 
 
 def line(rng: np.random.Generator, n: int) -> Places:
-    """Clustered along the ground: long and low."""
+    """Return discs clustered along the ground: long and low."""
     return np.column_stack([rng.uniform(0, 0.5 * SPACING * n, n), rng.exponential(20.0, n)]), np.full(n, RADIUS)
 
 
 def clusters(rng: np.random.Generator, n: int) -> Places:
-    """A hundredth as many crowds, each 60 px around its middle."""
+    """Return clusters, n / 100 of them, each 60 px around its middle."""
     middles = rng.uniform(0, SPACING * math.sqrt(n), (max(1, n // 100), 2))
     return middles[rng.integers(0, len(middles), n)] + rng.normal(0, 60.0, (n, 2)), np.full(n, RADIUS)
 
 
 def mixed(rng: np.random.Generator, n: int) -> Places:
-    """Sizes from 1 to 100 times the least, small ones more often, as dense as even ones."""
-    radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # few enough to be told apart
+    """Return sizes from 1 to 100 times the least, small ones more often, at the density of `even`."""
+    radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # few enough to be distinguished
     side = math.sqrt(float((math.pi * radii**2).sum()) * SPACING**2 / (math.pi * RADIUS**2))
     return rng.uniform(0, side, (n, 2)), radii
 
 
 def point(rng: np.random.Generator, n: int) -> Places:
-    """All at one place: every pair is one."""
+    """Return all discs at one point: every pair overlaps."""
     return rng.normal(0, 0.1, (n, 2)), np.full(n, RADIUS)
 
 
@@ -72,7 +72,7 @@ LAYOUTS = {"even": even, "line": line, "clusters": clusters, "mixed sizes": mixe
 
 
 def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -> World:
-    """Discs as boxes, of which a share moves, each at the same speed in a direction of its own."""
+    """Return a world of discs as boxes, of which a share moves, each at the same speed in a random direction."""
     rng = np.random.default_rng(seed)
     places, radii = LAYOUTS[layout](rng, n)
     world = World(Effects(narrowphase=False), strategy)
@@ -90,7 +90,7 @@ def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -
 
 
 def measure(layout: str, n: int, moving: str) -> list[Row]:
-    """A row per strategy: the cost of the broad phase in a step, and its pairs beside those that truly meet."""
+    """Return a row per strategy: the cost of the broad phase in a step, its pairs, and the pairs that truly touch."""
     makes = {name: make for name, make in WAYS.items() if n <= NAIVE_LIMIT or name in BROADPHASES or "tree" in name}
     if n > NAIVE_LIMIT:
         makes.pop("brute", None)
@@ -106,7 +106,7 @@ def measure(layout: str, n: int, moving: str) -> list[Row]:
     truth = len(worlds["hash"].contacts)  # of boxes
     for _ in range(RUNS):
         for name, world in worlds.items():
-            # Over STEPS, as what moves is looked for once in a few.
+            # Over STEPS, because moving bodies are searched for once in several steps.
             spent[name].append(seconds_of_stage(world, "broad_phase", STEPS))
     return [
         {
@@ -146,8 +146,9 @@ def _jobs(plan: Plan) -> list[Job]:
 
 
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
-    """(power of n by which a cost grows, its standard error), from FROM bodies on. None of fewer than three sizes: a
-    line through two leaves no error, so how sure it is cannot be told."""
+    """Return (power of n by which a cost grows, its standard error), from FROM bodies on. Return None for fewer than
+    three sizes, which give no standard error.
+    """
     mine = [row for row in rows if row["series"] == series and row["panel"] == panel and row["n"] >= FROM]
     points = [(row["n"], row["cost"]["seconds"][1]) for row in mine]
     return fit_power_law(points)[:2] if len(points) >= 3 else None
@@ -165,11 +166,11 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _of_papers(rows) -> Iterator[Claim]:
-    """What is said of strategies, at the largest size at which the naive one runs too."""
+    """Yield claims about the strategies, at the largest size at which the naive one runs, too."""
     known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
 
     def beside(first, second):
-        """How the cost of one row stands to that of another; None where either is not measured."""
+        """Return the ratio of the costs of two rows; None if either is not measured."""
         return ratio_of(known[first]["cost"], known[second]["cost"]) if first in known and second in known else None
 
     n, all_move, few = NAIVE_LIMIT, *list(MOVERS)[:: len(MOVERS) - 1]
@@ -230,8 +231,8 @@ CHART = Chart(
     8,
     "broadphases",
     "Broad phases over the number of bodies",
-    "What does it cost to find who may touch, and how many pairs are left that do not?",
-    "all pairs of boxes; no strategy may lose one, so what is left to compare is how many too many it keeps",
+    "How much time does a broad phase take, and how many false pairs does it leave?",
+    "all pairs of boxes; no strategy may lose one, so they are compared by their number of false pairs",
     (
         *(_panel(layout, moving) for layout in LAYOUTS for moving in MOVERS),
         Panel(

@@ -1,6 +1,6 @@
-"""Chart 11: how long a run can be foretold. A bullet strikes a pyramid, each time from a place some 1e-9 px aside.
+"""Chart 11: predictability of a run. A bullet strikes a pyramid, each time from a place about 1e-9 px aside.
 
-There is no reference: when runs part, and how far, is the finding (Chung and Pollard 2016 call it predictability).
+There is no reference: the result is when runs diverge, and how far (Chung and Pollard 2016 call it predictability).
 """
 
 from collections.abc import Sequence
@@ -15,7 +15,7 @@ from game.report.piles import BOX, EFFECTS, pyramid, world_of
 from physics import Circle
 
 NUDGE = 1e-9  # [px] between the bullets of two runs
-PARTED, STEPS = 1.0, 180  # [px] apart by what a player can see; steps of a run
+WITH_CHILD, STEPS = 1.0, 180  # [px] distance that a player can see; steps of a run
 WAYS = (("sequential_impulse", 4), ("soft_step", 2), ("soft_step", 4), ("soft_step", 8), ("soft_step", "auto"))
 SPEED = 40.0 * BOX  # [px/s]
 
@@ -30,12 +30,12 @@ def _world(solver, substeps, aside):
 
 
 def measure(seeds: int) -> list[Row]:
-    """A row per way: when runs part by a pixel, and how far they are apart at the end."""
+    """Return a row per setting: the time at which runs differ by a pixel, and their distance at the end."""
     rows, steps = {}, {}
     for solver, substeps in WAYS:
         ways = np.array([_way(_world(solver, substeps, NUDGE * seed)) for seed in range(seeds + 1)])
         gaps = np.sqrt(((ways[1:] - ways[0]) ** 2).sum(axis=3).mean(axis=2))  # (seeds, steps)
-        parted = np.where((gaps > PARTED).any(axis=1), (gaps > PARTED).argmax(axis=1), STEPS) / 60.0
+        parted = np.where((gaps > WITH_CHILD).any(axis=1), (gaps > WITH_CHILD).argmax(axis=1), STEPS) / 60.0
         label = f"{solver}, {substeps}"
         steps[label] = _world(solver, substeps, 0.0).step
         rows[label] = {
@@ -51,7 +51,7 @@ def measure(seeds: int) -> list[Row]:
 
 
 def _way(world):
-    """(STEPS, bodies, 2) centres."""
+    """Return (STEPS, bodies, 2) centres."""
     found = []
     for _ in range(STEPS):
         world.step()
@@ -85,8 +85,8 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 CHART = Chart(
     11,
     "chaos",
-    "How long a run can be foretold",
-    f"Runs that begin {NUDGE:g} px apart: when do they part by a pixel, and how far do they come apart?",
+    "Predictability of a run",
+    f"Runs that begin {NUDGE:g} px apart: when do they differ by a pixel, and how far do they diverge?",
     "none: chaos has no reference; bars reach from the 5th to the 95th percentile of the runs",
     (
         Panel(

@@ -1,7 +1,7 @@
-"""Chart 2: what a contact costs, and how far its normal and its depth are off.
+"""Chart 2: cost of a contact, and the errors of its normal and its depth.
 
-The truth is analytic: discs and upright squares, whose pixels the tiers are made from, met by a disc. The outline of
-pixels is never the truth of a normal: it has four directions.
+The truth is analytic: a disc against discs and upright squares, from whose pixels the tiers are made. The outline of
+pixels cannot be the truth of a normal, because it has four directions.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,31 +18,31 @@ from physics import TIERS, Circle, PixelMask, Polygon, fit
 
 RADIUS = 12.0  # [px] of the disc, half the width of the square
 POSES, POSES_QUICK = 4000, 1200
-DEEPEST = 0.2  # of the least extent: what lies deeper has no one way out
+DEEPEST = 0.2  # of the least extent: deeper overlaps have no unique direction of separation
 REPEATS = 10  # tests of a batch in a run: 40,000 pairs, 200,000 in all
 
 
 def disc_mask() -> PixelMask:
-    """The pixels whose centres lie in the disc."""
+    """Return the mask of the pixels whose centres lie in the disc."""
     side = int(2 * RADIUS)
     at = np.arange(side) + 0.5 - RADIUS
     return PixelMask(at[:, None] ** 2 + at[None, :] ** 2 <= RADIUS**2, origin=(RADIUS, RADIUS))
 
 
 def square_mask() -> PixelMask:
-    """All pixels."""
+    """Return a mask without clear pixels."""
     side = int(2 * RADIUS)
     return PixelMask(np.ones((side, side), bool), origin=(RADIUS, RADIUS))
 
 
 def of_disc(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(normals (n, 2) from a disc to another at offset, depths (n,))."""
+    """Return (normals (n, 2) from a disc to another at offset, depths (n,))."""
     length = np.hypot(*offset.T)
     return offset / length[:, None], 2.0 * RADIUS - length
 
 
 def of_square(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(normals from an upright square to a disc whose centre, beside it, is at offset, depths)."""
+    """Return (normals from an upright square to a disc at offset, depths); the disc's centre is outside the square."""
     nearest = np.clip(offset, -RADIUS, RADIUS)
     away = offset - nearest
     length = np.hypot(*away.T)
@@ -56,7 +56,7 @@ BODIES = {
 
 
 def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count: int) -> np.ndarray:
-    """(count, 2) offsets of shallow true contacts, evenly by place."""
+    """Return (count, 2) offsets of shallow true contacts, uniform in area."""
     chance, found = np.random.default_rng(4), np.zeros((0, 2))
     while len(found) < count:
         tried = chance.uniform(-2.0 * RADIUS, 2.0 * RADIUS, (4 * count, 2))
@@ -67,7 +67,7 @@ def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count:
 
 
 def measure(body: str, count: int) -> list[Row]:
-    """A row per tier of both sprites, and one of the shapes themselves."""
+    """Return a row per tier of both sprites, and one of the exact shapes."""
     make, shape, truth, turned = BODIES[body]
     first, second = make(), disc_mask()
     offset = offsets(truth, count)
@@ -88,13 +88,13 @@ def measure(body: str, count: int) -> list[Row]:
 
 
 def _row(body, name, batch, normals, depths):
-    """Errors of the deepest manifold of each pair."""
+    """Return the errors of the deepest manifold of each pair."""
     batch.test()
     pairs = batch.pair_of[batch.found["candidate"]]
     order = np.lexsort((batch.found["separation_1"], pairs))
     first = order[np.unique(pairs[order], return_index=True)[1]]
     told, which = batch.found[first], pairs[first]
-    normal = np.stack([told["normal_x"], told["normal_y"]], axis=1)  # from the first to the second, as its shapes are
+    normal = np.stack([told["normal_x"], told["normal_y"]], axis=1)  # from the first shape to the second
     cosine = np.clip((normal * normals[which]).sum(axis=1), -1.0, 1.0)
     degrees = np.degrees(np.arccos(cosine))
     deep = np.maximum(-np.minimum(told["separation_1"], np.where(told["count"] > 1, told["separation_2"], np.inf)), 0.0)
@@ -129,7 +129,7 @@ CHART = Chart(
     2,
     "contacts",
     "Contacts: normals and depths over their time",
-    "Which way, and how far, does a tier push what its sprite touches?",
+    "In which direction, and how far, does a tier push a touching body?",
     "closed forms of discs and squares; the bars reach from the 5th to the 95th percentile of the poses",
     tuple(
         Panel(

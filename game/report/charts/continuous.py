@@ -1,7 +1,7 @@
-"""Charts 6 and 7: fast discs at a thin plate: how many pass unseen, how late the rest are told, and what it costs.
+"""Charts 6 and 7: fast discs against a thin plate: the share that tunnels, the delay of the others, and the cost.
 
-The truth is a line: a disc that flies straight meets an upright plate exactly where its centre comes within a radius
-of it. Who is only looked at between steps misses max(0, 1 - (w + 2r) / (v dt)) of what flies at the plate's face.
+The truth is a line: a disc on a straight path meets an upright plate when its centre comes within a radius of it. A
+discrete test between steps misses max(0, 1 - (w + 2r) / (v dt)) of the discs that fly at the plate's face.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from physics import Circle, Effects, Polygon, World
 RADIUS, WIDTH, HALF = 5.0, 1.0, 11.0  # [px] of the disc, the plate's width, half its height
 APART = 80.0  # [px] between two lanes
 RUN_UP, STEPS, RUNS = 2, 60, 5  # steps before the plate; 300 timed steps
-RATIOS = (0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # of a disc's size, flown in a step
+RATIOS = (0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # disc diameters per step
 WAYS = (("off", 1), ("ray", 1), ("swept", 1), ("toi", 1), ("auto", 1), *(("off", k) for k in (2, 4, 8, 16, 32)))
 VISIBLE = 1.0  # [px]
 COUNTS = (1, 10, 100, 1000)  # discs
@@ -26,12 +26,14 @@ EFFECTS = Effects(response=True, continuous=True)
 
 
 def name_of(way: str, divided: int) -> str:
-    """A way in words."""
+    """Return the name of a method with its division of the step."""
     return way if divided == 1 else f"{divided} steps in one"
 
 
 def starts(lanes: int, step: float) -> np.ndarray:
-    """(lanes, 2) where discs start: anywhere within a step's way, at the plate's face, its ends or past it."""
+    """Return the (lanes, 2) starts of discs: anywhere within the path of a step, at the plate's face, its ends or past
+    it.
+    """
     chance = np.random.default_rng(8)
     x = -RUN_UP * step - RADIUS - WIDTH - step * (np.arange(lanes) + 0.5) / lanes
     aside = chance.uniform(-1.2, 1.2, lanes) * (HALF + RADIUS)
@@ -39,7 +41,9 @@ def starts(lanes: int, step: float) -> np.ndarray:
 
 
 def first_touch(aside: np.ndarray) -> np.ndarray:
-    """x [px] of a disc's centre where it first touches the plate, for centres so far aside; nan where it never does."""
+    """Return x [px] of a disc's centre at its first contact with the plate, for centres at these offsets; nan if it
+    never touches.
+    """
     beyond = np.maximum(np.abs(aside) - HALF, 0.0)
     reach = np.full(len(aside), np.nan)
     meets = beyond < RADIUS
@@ -48,7 +52,7 @@ def first_touch(aside: np.ndarray) -> np.ndarray:
 
 
 def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = True) -> World:
-    """Lanes with a disc and a plate each."""
+    """Return a world of lanes with a disc and a plate each."""
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
     if plates:
@@ -59,7 +63,7 @@ def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = Tr
 
 
 def measure(ratio: float, lanes: int) -> list[Row]:
-    """A row per way: misses, hits that are none, and how far behind the first touch a disc was told."""
+    """Return a row per method: misses, false hits, and the delay of the reported contact."""
     step = ratio * 2.0 * RADIUS
     begin = starts(lanes, step)
     touch = first_touch(begin[:, 1] - APART * np.arange(lanes))
@@ -101,7 +105,9 @@ def measure(ratio: float, lanes: int) -> list[Row]:
 
 
 def measure_times(count: int) -> list[Row]:
-    """A row per way: what a step of 1/60 s takes with so many discs, one in ten near a plate, at ten sizes a step."""
+    """Return a row per method: the time of a step of 1/60 s with so many discs, one in ten near a plate, at ten sizes a
+    step.
+    """
     ratio, spent = 10.0, {}  # sizes a step
     rates = {row["series"]: row for row in measure(ratio, 200)}
     with undisturbed():
@@ -111,7 +117,7 @@ def measure_times(count: int) -> list[Row]:
                 started = clock()
                 for _ in range(STEPS * divided):
                     world.step()
-                if turn:  # the first compiles what is missing
+                if turn:  # the first run compiles missing kernels
                     spent.setdefault((way, divided), []).append((clock() - started) / STEPS)
     return [
         {
@@ -129,7 +135,7 @@ def measure_times(count: int) -> list[Row]:
 
 
 def _traffic(way, divided, count, ratio):
-    """Discs that fly on for ever over a field of plates that most pass."""
+    """Return a world of discs that fly on over a field of plates, most of them without a hit."""
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
     chance = np.random.default_rng(9)
@@ -194,7 +200,7 @@ def _time_claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _expected(ratio):
-    """The share that is missed between steps, over all asides: what lies in the plate's reach is a chord long."""
+    """Return the expected share missed by a discrete test, over all offsets: the contact interval is a chord long."""
     step = ratio * 2.0 * RADIUS
     aside = np.abs(np.linspace(0.0, HALF + RADIUS, 20_001))[:-1]
     beyond = np.maximum(aside - HALF, 0.0)
@@ -206,9 +212,9 @@ _missed = Axis("missed hits [%]", percent("missed"), log=False)
 CHART = Chart(
     6,
     "continuous",
-    "Fast bodies: what passes unseen",
-    "How many hits are missed as bodies fly further in a step, and how late are the others told?",
-    "a straight way past an upright plate, in closed form",
+    "Fast bodies: missed hits",
+    "How many hits are missed as bodies move further in a step, and how late are the others reported?",
+    "a straight path past an upright plate, in closed form",
     (
         Panel("missed", Axis("v dt / size", value("ratio")), _missed, lambda r: r["panel"] == "miss", "series"),
         Panel(
@@ -232,8 +238,8 @@ CHART = Chart(
 TIME_CHART = Chart(
     7,
     "continuous-time",
-    "Fast bodies: what seeing them costs",
-    "What does a step take with discs at ten sizes a step, and how many does it miss?",
+    "Fast bodies: the cost of sweeps",
+    "How long is a step with discs at ten sizes a step, and how many hits does it miss?",
     "as chart 6",
     tuple(
         Panel(

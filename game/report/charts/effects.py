@@ -1,4 +1,4 @@
-"""Chart 10: the ledger. What each effect of a scene changes while its bot plays, and what it takes of a step."""
+"""Chart 10: the ledger: changes that each effect of a scene makes in its bot's run, and its time per step."""
 
 from collections.abc import Sequence
 
@@ -17,7 +17,7 @@ MICRO = 1e6
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """A row per effect. What a step takes more is a median of differences of steps made side by side."""
+    """Return a row per effect. Its time is the median difference of steps made side by side."""
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)
@@ -64,7 +64,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
         declared = [row for row in rows if row["scene"] == scene and row["declared"]]
         idle = [row["series"] for row in declared if not row["matters"]]
         figure = f"{len(declared) - len(idle)} of {len(declared)} were missed"
-        figure += f", not yet {', '.join(idle)}" if idle else ""  # in a longer run they may be
+        figure += f", not yet {', '.join(idle)}" if idle else ""  # they may act in a longer run
         found.append(Claim(f"{scene} declares only effects that it calls for", figure, TIE if idle else HOLDS))
     return found
 
@@ -72,9 +72,9 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 CHART = Chart(
     10,
     "effects",
-    "What each effect buys, and what it takes",
-    "How far does a run go astray without an effect, and how much time does that save? What would an idle one take?",
-    "the same scene, played by the same keys beside it; figures are of 2 s after the two part",
+    "Benefit and cost of each effect",
+    "How far does a run deviate without an effect, and how much time does that save? What would an idle one cost?",
+    "the same scene, played by the same keys beside it; figures are of 2 s after the two differ",
     (
         Panel(
             "declared: taken out",

@@ -1,4 +1,4 @@
-"""Chart 9: how far from the origin a pile still is the pile that it is at the origin."""
+"""Chart 9: the greatest distance from the origin at which a pile behaves as at the origin."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -17,21 +17,23 @@ METER = 32.0  # [px]
 DISTANCES = (0.0, 1e3, 1e4, 1e5, 5000.0 * METER, 1e6, 1e7, 1e8, 1e9)  # [px], both ways
 SOLVERS = ("sequential_impulse", "soft_step")
 STEPS, BOXES = 120, 10
-SIZE = 30.3  # [px] of a box: places in round numbers would stay where they are, on the grid of a coarse float
+SIZE = 30.3  # [px] of a box: round numbers would be exact on the grid of a coarse float
 VISIBLE = 1.0  # [px]
 ROUNDED = ("x", "y", "angle")
 
 
 def round_poses(world: World) -> None:
-    """As where poses are kept in float32, and all else is worked out in float64."""
+    """Round the poses to float32, as if they were stored in it; all else stays float64."""
     for name in ROUNDED:
         world.bodies[name] = world.bodies[name].astype(np.float32)
     world.touch(world.bodies["id"])
 
 
 def measure(solver: str) -> list[Row]:
-    """Two rows per distance: how far boxes are from where they are in the same run at the origin, and their overlap;
-    with poses as they are and rounded after every step. There is no solver in float32: only the first has a time."""
+    """Return two rows per distance: error of the boxes' positions against the run at the origin, and their overlap,
+    with poses as they are and rounded after every step. There is no solver in float32, so only the first row has a
+    time.
+    """
     steps, rows, near = {}, {}, None
     for single in (False, True):
         for away in DISTANCES:
@@ -89,8 +91,8 @@ CHART = Chart(
     9,
     "far",
     "Far from the origin",
-    "How far out do a pile's boxes lie where they lie at the origin?",
-    f"the same {BOXES} boxes at the origin, two seconds later; dots are what a float32, a float64 can tell apart",
+    "Up to what distance does a pile behave as it does at the origin?",
+    f"the same {BOXES} boxes at the origin, two seconds later; dots are the resolution of float32 and float64",
     (
         Panel(
             "boxes",

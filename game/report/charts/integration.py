@@ -1,7 +1,7 @@
-"""Chart 5: what a second of motion costs, and how far it ends from its closed form, over the length of a step.
+"""Chart 5: cost of a second of motion, and its error against the closed form, over the length of a step.
 
-Slopes are level ground under a gravity that leans. The length of a step is the setting; errors of the first order
-halve with it, of the second they are a quarter.
+Slopes are level ground under tilted gravity. The setting is the length of the step: errors of first order halve with
+it, those of second order fall to a quarter.
 """
 
 from collections.abc import Callable, Sequence
@@ -20,20 +20,21 @@ from physics import Circle, Effects, Material, Polygon, Vec2, World
 G, SECONDS, RUNS = 320.0, 1.0, 5
 RATES = (30, 60, 120, 240, 480)  # steps a second
 SLOPE, FRICTION, SIZE = radians(30.0), 0.3, 16.0
-COPIES = 32  # side by side: one body alone costs the call
+COPIES = 32  # side by side: with one body, the call would be most of the cost
 SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
 class Case(NamedTuple):
-    """How a body starts, and where it is after SECONDS in closed form. ends: (position, velocity) of a copy whose start
-    was at 0 to the error [px]."""
+    """The start of a body, and its pose after SECONDS in closed form. ends: (position, velocity) of a copy that started
+    at 0, to the error [px].
+    """
 
     effects: Effects
     solvers: tuple[str, ...]
     slope: float
     shape: Polygon | Circle
     material: Material
-    above: float  # [px] the ground
+    above: float  # [px] over the ground
     error: Callable[[Vec2, Vec2], float]
 
 
@@ -53,7 +54,9 @@ DROP = 40.0  # [px]
 
 
 def _bounce(position, velocity):
-    """A ball that loses nothing is as high, with its speed, as it was let go."""
+    """Return the error of a ball with restitution 1, whose potential and kinetic energy stay those of its start
+    [px].
+    """
     return abs(position.y - 0.5 * velocity.y**2 / G)
 
 
@@ -69,7 +72,7 @@ CASES = {
 
 
 def world_of(case: Case, solver: str, rate: int) -> World:
-    """COPIES bodies in a row, so far apart that none meets another, over ground or far above it."""
+    """Return a world of COPIES bodies in a row, too far apart to meet, on the ground or far above it."""
     gravity = (G * sin(case.slope), G * cos(case.slope))
     world = World(case.effects, solver=solver, gravity=gravity, dt=1.0 / rate, substeps=4)
     far = 40.0 * SIZE
@@ -80,7 +83,7 @@ def world_of(case: Case, solver: str, rate: int) -> World:
 
 
 def measure(case: str) -> list[Row]:
-    """A row per solver and step."""
+    """Return a row per solver and step."""
     made, rows, spent = CASES[case], {}, {}
     ways = [(solver, rate) for solver in made.solvers for rate in RATES]
     for solver, rate in ways:
@@ -108,8 +111,9 @@ def measure(case: str) -> list[Row]:
 
 
 def order_of(rows: Sequence[Row]) -> tuple[float, float] | None:
-    """(power of dt by which an error grows, its standard error) by least squares on logarithms; None where it is exact
-    but for rounding, or told by fewer than three steps."""
+    """Return (power of dt by which an error grows, its standard error) by least squares on logarithms. Return None for
+    an error of rounding only, or for fewer than three steps.
+    """
     points = [(row["dt"], row["error"]) for row in rows if row["error"] > 1e-9 * G]
     return fit_power_law(points)[:2] if len(points) >= 3 else None
 
@@ -145,7 +149,7 @@ CHART = Chart(
     5,
     "integration",
     "Lengths of a step",
-    "What does a second of motion cost, and how far does it end from where it should?",
+    "How much time does a second of motion take, and how large is its error at the end?",
     "closed forms of fall, sliding, rolling and bouncing",
     tuple(
         Panel(f"{case}: {word}", x, Axis("off after 1 s by [px]", value("error"), mark=1.0), panel_is(case), line)

@@ -1,6 +1,6 @@
-"""Chart 12: how long the steps of every scene take under its bot, the slowest too, and what they allocate.
+"""Chart 12: the time of the steps of every scene under its bot, including the slowest, and their memory.
 
-A step here is the whole scene's: bot, rules and physics, as `--headless` runs it, without drawing.
+A step is that of the whole scene: bot, rules and physics, as `--headless` runs it, without drawing.
 """
 
 import tracemalloc
@@ -21,16 +21,16 @@ from game.run.warmup import warm_up_scene
 from game.scene import Scene
 
 BUDGET, HALF_BUDGET = 1000.0 / 60.0, 1000.0 / 120.0  # [ms] of a frame at 60 and 120 Hz
-RUNS, TRACED = 3, 30  # runs of which each step's least time counts; steps whose memory is watched
+RUNS, TRACED = 3, 30  # runs of which each step's least time counts; steps whose memory is traced
 
 
 def scene_class(where: str) -> type[Scene]:
-    """The class that "module:Class" names."""
+    """Return the class that "module:Class" names."""
     return resolve_name(where)
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """A row: percentiles of what steps take. A step is the same in every run; its least time is what it takes."""
+    """Return one row: percentiles of the step times. A step is the same in every run; its least time counts."""
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)
@@ -61,7 +61,7 @@ def measure(scene: str, where: str, frames: int) -> list[Row]:
 
 
 def _peaks(made, frames):
-    """(frames,) bytes that a step holds at most beyond what it began with."""
+    """Return (frames,) bytes: the peak of each step over its start."""
     session, found = Session(made(0), BotSource()), []
     for _ in range(5):
         session.step()
@@ -95,7 +95,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
     found = []
     for row in rows:
         most = 1e3 * row["cost"]["seconds"][2]
-        near = abs(most - HALF_BUDGET) < SHARE * HALF_BUDGET  # one step decides: another run's slowest is another
+        near = abs(most - HALF_BUDGET) < SHARE * HALF_BUDGET  # one step decides: another run has another slowest step
         verdict = TIE if near else HOLDS if most < HALF_BUDGET else FAILS
         found.append(Claim(f"{row['label']}: every step within 8.3 ms", f"{most:.2f} ms at most", verdict))
     return found
@@ -105,7 +105,7 @@ CHART = Chart(
     12,
     "latency",
     "The slowest step of every scene",
-    "How long do steps take, the usual and the slowest, and how much do they allocate?",
+    "How long are the steps, typical and slowest, and how much memory do they allocate?",
     "the least of three runs of the same step; bars reach from the median to the slowest, dots are the 95th percentile",
     (
         Panel(

@@ -1,4 +1,4 @@
-"""Chart 15: what papers and manuals say that no other chart measures: corners, iterations, events that persist."""
+"""Chart 15: claims of papers and manuals that no other chart measures: corners, iterations, persisting events."""
 
 from collections.abc import Sequence
 from math import pi
@@ -19,7 +19,7 @@ SETTLE = 120
 
 
 def measure_corners() -> list[Row]:
-    """A row per number of corners, for pairs that meet and pairs whose boxes meet alone."""
+    """Return a row per number of corners, for pairs that touch and pairs of which only the boxes touch."""
     chance = np.random.default_rng(10)
     works, pieces = {}, {}
     for corners in CORNERS:
@@ -49,7 +49,7 @@ def measure_corners() -> list[Row]:
 
 
 def measure_iterations() -> list[Row]:
-    """A row per shape: how often GJK goes round in a time of impact, of discs and boxes that turn as they fly."""
+    """Return a row per shape: the GJK iterations of a time of impact, for discs and boxes that rotate in flight."""
     rows = []
     for corners in (4, 8, 16):
         angles = 2.0 * pi * np.arange(corners) / corners
@@ -81,7 +81,7 @@ def measure_iterations() -> list[Row]:
 
 
 def measure_events() -> list[Row]:
-    """A row each for a pyramid that tells what goes on touching, and one that does not."""
+    """Return a row each for a pyramid with and without reports of persisting contacts."""
     worlds = {}
     for name, effects in (("without", EFFECTS), ("with", EFFECTS.with_(persist=True))):
         world = world_of(pyramid(20), "soft_step", 4, effects)
@@ -131,8 +131,8 @@ CHART = Chart(
     15,
     "papers",
     "What papers claim",
-    "Do edges, iterations and events cost what is said of them?",
-    "counts and times: nothing here can be wrong, only slow",
+    "Do edges, iterations and events cost what papers claim?",
+    "counts and times, without errors",
     (
         Panel(
             "corners of two polygons",

@@ -1,6 +1,7 @@
-"""Chart 14: the same work done by what people use today: pygame's rectangles and masks, pymunk's solver.
+"""Chart 14: the same work in common libraries: pygame's rectangles and masks, pymunk's solver.
 
-pygame compares whole pixels, so places are whole here; the truth is which masks share a pixel, found for every pair.
+pygame compares whole pixels, so positions are integers here; the truth is the set of masks with a common pixel, found
+for every pair.
 """
 
 from collections.abc import Callable, Sequence
@@ -21,7 +22,7 @@ from game.report.pymunk_piles import overlap_in, space_of
 from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
 
 SPRITES = ("player", "saucer_0", "gunship_0")
-SPACING = 30.0  # [px] a sprite: about one overlap each
+SPACING = 30.0  # [px] per sprite: about one overlap each
 RUNS = 5
 ITERATIONS = (2, 5, 10, 20, 40)  # of pymunk's solver
 SUBSTEPS = (1, 2, 4, 8, "auto")
@@ -29,7 +30,7 @@ SETTLE = 120
 
 
 class Traffic:
-    """Sprites at whole places, as pygame has them and as a world of ours has."""
+    """Sprites at integer positions, in pygame and in a world of this project."""
 
     def __init__(self, count: int) -> None:
         atlas, chance = load_atlas("planes"), np.random.default_rng(6)
@@ -44,12 +45,12 @@ class Traffic:
         self.group = pygame.sprite.Group(*(_sprite(*each) for each in zip(self.masks, self.rects, strict=True)))
 
     def rects_only(self) -> set[tuple[int, int]]:
-        """Who overlaps as rectangles: what is written first."""
+        """Return the pairs that overlap as rectangles, the usual first version of a game."""
         rects = self.rects
         return {(k, j) for k, rect in enumerate(rects) for j in rect.collidelistall(rects) if j > k}
 
     def masks_after_rects(self) -> set[tuple[int, int]]:
-        """The fastest exact way in pygame alone."""
+        """Return the pairs of masks after a rectangle test: the fastest exact way in pygame alone."""
         rects, masks, found = self.rects, self.masks, set()
         for k, rect in enumerate(rects):
             for j in rect.collidelistall(rects):
@@ -58,13 +59,13 @@ class Traffic:
         return found
 
     def group_collide(self) -> set:
-        """What tutorials show."""
+        """Return the result of pygame.sprite.groupcollide, which tutorials use."""
         collide = pygame.sprite.collide_mask
-        # The stubs ask for a bool where pygame documents this very function, which returns a point or None.
+        # The stubs ask for a bool; pygame documents this very function, which returns a point or None.
         return set(pygame.sprite.groupcollide(self.group, self.group, False, False, collide))  # pyright: ignore
 
     def all_pairs(self) -> set[tuple[int, int]]:
-        """Every pair of masks, without a rectangle: slow, and beyond doubt."""
+        """Return all pairs of masks that overlap, without a rectangle test: slow, but certain."""
         return {
             (k, j)
             for k in range(len(self.masks))
@@ -73,7 +74,7 @@ class Traffic:
         }
 
     def world(self, strategy: Any, tier: str) -> World:
-        """All of them in a world, standing."""
+        """Return a world of all sprites, at rest."""
         world = World(Effects(), strategy)
         for k, (x, y) in zip(self.which, self.corners, strict=True):
             world.add_body(self.kinds[k], position=(x, y), kind="kinematic", tier=tier)
@@ -95,7 +96,7 @@ def _sprite(mask, rect):
 
 
 def measure_sprites(count: int) -> list[Row]:
-    """A row per way: what finding all hits takes once, and how many are none or are missed."""
+    """Return a row per method: the time to find all hits once, false hits and misses."""
     traffic = Traffic(count)
     truth = traffic.all_pairs()
     ways: dict[str, Callable[[], set]] = {
@@ -107,7 +108,7 @@ def measure_sprites(count: int) -> list[Row]:
         "pygame: Rect": traffic.rects_only(),
         "pygame: Rect, then Mask": traffic.masks_after_rects(),
     }
-    told["pygame: groupcollide"] = truth  # it tells sprites, not pairs: the same masks, asked one by one
+    told["pygame: groupcollide"] = truth  # it returns sprites, not pairs: the same masks, one by one
     works: dict[str, Callable[[], object]] = dict(ways)
     for name, make, tier in (
         ("ours: grid, boxes", SpatialHashGrid, "aabb"),
@@ -123,7 +124,7 @@ def measure_sprites(count: int) -> list[Row]:
             tuple(sorted((rows[a], rows[b])))
             for a, b in zip(hits["body_a"].tolist(), hits["body_b"].tolist(), strict=True)
         }
-        # All move, so that all boxes are made anew and nothing is found by memory; there and back again.
+        # All move, back and forth, so that all boxes are rebuilt and no cached result is used.
         speeds = np.random.default_rng(7).uniform(-60.0, 60.0, (count, 2))
         works[name] = partial(_step, world, speeds)
     costs = timed_in_turns(works, dict.fromkeys(works, 1), RUNS)
@@ -148,7 +149,9 @@ def _step(world, speeds):
 
 
 def measure_piles(rows: int) -> list[Row]:
-    """A row per engine and effort: a pyramid that stands since two seconds. ModuleNotFoundError: no pymunk."""
+    """Return a row per engine and effort: a pyramid that has stood for two seconds. Raises ModuleNotFoundError without
+    pymunk.
+    """
     made, found, steps = pyramid(rows), {}, {}
     for substeps in SUBSTEPS:
         world, label = world_of(made, "soft_step", substeps), f"ours: {substeps} substeps"
@@ -221,7 +224,7 @@ CHART = Chart(
     14,
     "peers",
     "Beside pygame and pymunk",
-    "What does the same work cost with the ways people use today, and is it as exact?",
+    "What does the same work cost with common libraries, and is it as exact?",
     "sprites: which masks share a pixel, asked for every pair; piles: no box overlaps another",
     _panels,
     _jobs,

@@ -1,4 +1,4 @@
-"""Chart 13: every setting of a scene, at a moment of its bot's run, as the plot in the game shows it live."""
+"""Chart 13: every setting of a scene, at a moment of its bot's run, as in the game's live plot."""
 
 from collections.abc import Sequence
 
@@ -22,7 +22,7 @@ FEW = ("shooter", "lab/pyramid")
 
 
 def measure(scene: str, where: str) -> list[Row]:
-    """A row per setting and kind of error."""
+    """Return a row per setting and kind of error."""
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)

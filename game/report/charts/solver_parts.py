@@ -1,8 +1,8 @@
-"""Chart 4, what a solver is made of: substeps times iterations, the memory of contacts, the relaxing pass.
+"""Chart 4, parts of a solver: substeps times iterations, warm starting, the relaxing pass.
 
-Settings of equal work, substeps times iterations, lie on one diagonal: its line tells whether a step is better cut into
-many substeps or solved many times (Macklin et al., Small Steps in Physics Simulation, SCA 2019). Sequential impulses
-take no substeps: the whole step is made in so many, contacts found anew in each.
+Settings of equal work, substeps times iterations, are joined by a line, which shows whether many substeps or many
+iterations are better (Macklin et al., Small Steps in Physics Simulation, SCA 2019). Sequential impulses have no
+substeps: the whole step is divided, and contacts are found again in each part.
 """
 
 from collections import Counter
@@ -24,11 +24,11 @@ from physics import World
 SOFT, SEQUENTIAL = "soft_step", "sequential_impulse"
 FEW, MANY = (1, 2, 4, 8), (1, 2, 4, 8, 16, 32)
 WORK = 8  # substeps times iterations, of the claims
-LEAST = 0.01  # [px] smaller errors are none: what is said of their ratio would be of rounding
+LEAST = 0.01  # [px] smaller errors are rounding errors, whose ratio has no meaning
 
 
 class Parts(NamedTuple):
-    """What a solver is put together from."""
+    """The parts of a solver."""
 
     solver: str
     substeps: int
@@ -38,7 +38,7 @@ class Parts(NamedTuple):
 
     @property
     def series(self) -> str:
-        """In words, but for the numbers."""
+        """Text of the parts, without numbers."""
         words = [self.solver, *(() if self.warm else ("cold",)), *(() if self.relaxed else ("not relaxed",))]
         return ", ".join(words)
 
@@ -53,17 +53,17 @@ WAYS = (
 
 
 class Studied:
-    """A world whose solver is put together otherwise."""
+    """A world with a solver of other parts."""
 
     def __init__(self, parts: Parts, world: World) -> None:
         self.world, self.divided, stage = world, 1, studied.soft_step(parts.iterations, parts.warm, parts.relaxed)
         if parts.solver == SEQUENTIAL:
             self.divided, stage = parts.substeps, studied.sequential_impulse(parts.iterations, parts.warm)
         self.stages = stages_of(world, stage)
-        self.failures: Counter[str] | None = None  # looked for where somebody asks
+        self.failures: Counter[str] | None = None  # counted only if the caller asks for it
 
     def step(self) -> None:
-        """As the world's own."""
+        """Step the world with this solver."""
         for _ in range(self.divided):
             advance(self.world, self.stages, self.world.dt / self.divided)
             if self.failures is not None:
@@ -71,7 +71,7 @@ class Studied:
 
 
 def measure(pile: str) -> list[Row]:
-    """A row per way."""
+    """Return a row per combination."""
     made = PILES[pile]()
     steps, rows = {}, {}
     for parts in WAYS:
@@ -96,7 +96,7 @@ def measure(pile: str) -> list[Row]:
 
 
 def jobs(plan: Plan) -> list[Job]:
-    """One per pile; none in a quick report."""
+    """Return one job per pile; none in a quick report."""
     return [
         Job(
             f"solvers/parts-{pile}".replace(" ", "-").replace(":", "-to-"),
@@ -109,7 +109,7 @@ def jobs(plan: Plan) -> list[Job]:
 
 
 def panels(pile: str) -> list[Panel]:
-    """All ways over their time; and each solver's diagonals of equal work."""
+    """Return the panels: all combinations over their time; and each solver's lines of equal work."""
     error = Axis("off or overlapping by at most [px]", value("error"), mark=VISIBLE)
     mine = f"{pile}: parts"
     return [
@@ -129,7 +129,7 @@ def panels(pile: str) -> list[Panel]:
 
 
 def claims(rows: Sequence[Row]) -> Iterator[Claim]:
-    """What papers say of substeps, and of the memory of contacts, pile by pile."""
+    """Yield the claims of papers about substeps and warm starting, pile by pile."""
     for pile in PILES:
         known = {Parts(*(row[name] for name in Parts._fields)): row for row in rows if row["panel"] == f"{pile}: parts"}
         if not known:
@@ -142,7 +142,9 @@ def claims(rows: Sequence[Row]) -> Iterator[Claim]:
 
 
 def beside(text: str, better: Row, worse: Row, source: str) -> Claim:
-    """That one way errs less than another, by more than a tenth; errors are facts, which every run finds alike."""
+    """Return the claim that one combination errs less than another, by more than a tenth; errors are facts, equal in
+    every run.
+    """
     a, b = better["error"], worse["error"]
     figure = ", ".join(f"{row['error']:.3g} px in {1e6 * row['cost']['seconds'][1]:.3g} us" for row in (better, worse))
     verdict = HOLDS if a < (1.0 - SHARE) * b else FAILS if b < (1.0 - SHARE) * a else TIE

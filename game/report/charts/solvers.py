@@ -1,7 +1,7 @@
-"""Chart 4: what a pile costs a step, and how well it stands, by solver and substeps, and by what a solver is made of.
+"""Chart 4: cost of a pile per step, and its accuracy, by solver and substeps, and by the parts of a solver.
 
-The truth is rest: boxes that were set upon one another stay where they are, so every pixel that the highest sinks or
-rises, and every pixel that two share, is an error. Small Steps (Macklin et al. 2019) is where the question comes from.
+The truth is rest: stacked boxes stay in place, so any rise or sag of the highest box, and any overlap, is an error. The
+question comes from Small Steps (Macklin et al. 2019).
 """
 
 from collections import Counter
@@ -24,7 +24,7 @@ WAYS = [
 
 
 def measure(pile: str, quick: bool) -> list[Row]:
-    """A row per setting that a world can have: two seconds of standing, then the cost of what stands, or lies."""
+    """Return a row per setting of a world: two seconds of simulation, then the cost of the pile, standing or fallen."""
     made = PILES[pile]()
     ways = [way for way in WAYS if not quick or way[1] not in (2, 16)]
     steps, rows = {}, {}
@@ -96,8 +96,8 @@ CHART = Chart(
     4,
     "solvers",
     "Solvers and substeps",
-    "What does it cost a step that a pile stands, and how deep do its boxes sink into each other?",
-    "rest: whoever was set upon another stays there; a pixel off, up or down, or of overlap, is one of error",
+    "How long is a step of a standing pile, and how deep do its boxes overlap?",
+    "rest: a stacked box stays in place, so each pixel off, up or down, or of overlap, is an error",
     tuple(panel for pile in PILES for panel in _panels_of(pile)),
     _jobs,
     _claims,

@@ -1,7 +1,8 @@
-"""Charts 1 and 3: what each tier of a sprite costs a pair, how often it is wrong, what it weighs and how well it fits.
+"""Charts 1 and 3: cost per pair, error rate, memory and fit of each tier of a sprite.
 
-Poses in three sets, as the share of hits and how near they are decide every rate: evenly around each other, half of
-them hits; within two pixels of touching, where tiers differ; and the shooter's own traffic (charts/traffic.py).
+Poses come in three sets, because the share of hits and their depth decide every rate. These are: evenly around each
+other, half of them hits; within two pixels of touching, where tiers differ; and the shooter's own traffic
+(charts/traffic.py).
 """
 
 from collections.abc import Sequence
@@ -19,12 +20,12 @@ from physics import PixelMask, distance, fit
 BAND = 2.0  # [px] apart or deep: where tiers differ
 VISIBLE = 1.0  # [px]
 TRIED, TRIED_QUICK = 2000, 500  # poses whose distance is measured, of which some lie within the band
-LEAST_EACH = 20  # hits, and misses, that a set must have
+LEAST_EACH = 20  # hits, and misses, that a set needs
 AROUND, NEAR = "poses all around", "within 2 px of touching"
 
 
 def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
-    """Poses whose exact distance is less than BAND. Raises ValueError for too few of either kind."""
+    """Return poses whose exact distance is less than BAND. Raises ValueError for too few of either kind."""
     poses = poses_around(first, second, tried, seed=1)
     a, b = fit(first, "mask")[0], fit(second, "mask")[0]
     gaps = np.array(
@@ -39,7 +40,7 @@ def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
 
 
 def measure(atlas: str, name: str, tried: int) -> list[Row]:
-    """Two rows per tier, one per set of poses, of a sprite against itself."""
+    """Return two rows per tier, one per set of poses, of a sprite against itself."""
     mask, rows = mask_of(atlas, name), []
     for panel, poses in ((AROUND, poses_around(mask, mask)), (NEAR, poses_near(mask, mask, tried))):
         measure_at(mask, mask, poses, lambda figures, panel=panel: rows.append(_row(name, panel, figures)))
@@ -104,7 +105,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _fit_claims(rows: Sequence[Row]) -> list[Claim]:
-    """Who fits within a pixel is a fact; of those the lightest, and the one that is made the fastest."""
+    """Return claims: the tiers that fit within a pixel (a fact); of those the smallest, and the fastest to build."""
     rows = [row for row in rows if row["panel"] == AROUND]
     fits = {}
     for row in rows:
@@ -140,13 +141,13 @@ def _rates(kind, wrong, word, panel):
     )
 
 
-_built = panel_is(AROUND)  # what a tier weighs has nothing to do with poses
+_built = panel_is(AROUND)  # memory and fit do not depend on the poses
 CHART = Chart(
     1,
     "tiers",
     "Tiers: wrong verdicts over the time of a pair",
-    "How often does a cheaper shape say hit where no pixels meet, and miss where they do, and what does it save?",
-    "the exact test of the sprites' pixel squares at their poses, turned and between pixels",
+    "How often does a cheaper shape report a false hit or miss a true one, and how much time does it save?",
+    "the exact test of the sprites' pixel squares at their poses, rotated and between pixels",
     tuple(
         _rates(kind, wrong, word, panel)
         for panel in (AROUND, NEAR)
@@ -158,8 +159,8 @@ CHART = Chart(
 FIT_CHART = Chart(
     3,
     "fit",
-    "Tiers: what they weigh, and how well they fit",
-    "How many bytes and how much time to make buy how close a shape?",
+    "Tiers: memory and fit",
+    "How close is a shape, for its bytes and its time to build?",
     "the union of the sprite's pixel squares; areas, centres, moments and distances by exact geometry",
     (
         Panel(

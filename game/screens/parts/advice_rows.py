@@ -1,4 +1,4 @@
-"""Two lines under the finding: what to set here, and the tuner that sets it by itself."""
+"""Two lines under the finding: the recommended setting, and the tuner that applies it by itself."""
 
 from collections.abc import Callable
 
@@ -16,18 +16,18 @@ ROW = 9  # [text px]
 
 
 class AdviceRows:
-    """now(): the setting that runs; apply(setting) puts one to work."""
+    """Advice and tuner. now(): the current setting; apply(setting) applies one."""
 
     def __init__(self, tuner: Tuner, now: Callable[[], Setting], apply: Callable[[Setting], None]) -> None:
         self.tuner, self.now, self.apply = tuner, now, apply
         self.rects = [pygame.Rect(0, 0, 0, 0), pygame.Rect(0, 0, 0, 0)]
 
     def stamp(self) -> tuple:
-        """Changes with what the lines say."""
+        """Return a value that changes with the text of the lines."""
         return self.tuner.on, len(self.tuner.decisions)
 
     def key(self, key: int) -> bool:
-        """Page up takes the advice, page down switches the tuner; True if it was one of these."""
+        """Process a key: page up takes the advice, page down switches the tuner. Return whether it was one of these."""
         if key == TAKE:
             self.take()
         elif key == TUNE:
@@ -35,20 +35,20 @@ class AdviceRows:
         return key in (TAKE, TUNE)
 
     def click(self, position: tuple[int, int]) -> bool:
-        """A click on one of the lines does what its key does."""
+        """Process a click: on one of the lines it does what the line's key does. Return whether it was on one."""
         for rect, key in zip(self.rects, (TAKE, TUNE), strict=True):
             if rect.collidepoint(position):
                 return self.key(key)
         return False
 
     def take(self) -> None:
-        """Put the advice to work, where there is one."""
+        """Apply the advice, if there is any."""
         best = advised(self.tuner.survey, self.now())
         if best is not None:
             self.apply(best)
 
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
-        """Returns the y below."""
+        """Draw the lines. Return the y below."""
         texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
         for row, (text, color) in enumerate(texts):
             self.rects[row] = rect = pygame.Rect(left, y + row * ROW * scale, width, (ROW - 1) * scale)

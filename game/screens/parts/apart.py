@@ -1,4 +1,4 @@
-"""One step, taken apart: the frozen scene stands still after each stage of its next step, and a card tells of it."""
+"""Step inspector: the frozen scene stops after each stage of its next step, and a card describes the stage."""
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -17,7 +17,7 @@ from game.run.taken_apart import Done, TakenApart, next_input
 from game.screens.parts.lab_card import least_covering
 
 WIDTH, ROW, EDGE = 200, 7, 4  # [text px] of the card
-BETWEEN = 2  # [text px] two paragraphs of it
+BETWEEN = 2  # [text px] between two paragraphs of it
 GAP = 5  # [text px] between two names in the strip
 KEYS_LINE = "\u2190 \u2192 a stage   Home End   E puts the step back"
 WORLDS_LINE = "   \u2191 \u2193 another world"
@@ -32,7 +32,7 @@ PAD_KEYS = {
 }
 PASSED_ON = (pygame.K_0, pygame.K_F11, pygame.K_F12, pygame.K_LSHIFT, pygame.K_RSHIFT, pygame.K_LCTRL, pygame.K_RCTRL)
 COLORS = {"changed": PAPER, "counted": PAPER, "reads": SKY, "may write": ORANGE}
-# The layers that show what a stage has found or moved.
+# The layers that show the results or motion of a stage.
 SHOWN = {
     "awake": ("islands",),
     "weigh": ("centers",),
@@ -56,30 +56,30 @@ SHOWN = {
 
 
 class Apart:
-    """enter() and leave(); feed() takes events in between, draw() shows strip and card.
+    """Inspector of a step: enter() and leave() it; feed() takes events in between, draw() shows strip and card.
 
-    rewind: knows the input of the next step where it was made before; None: nothing can be taken apart.
+    rewind: has the input of the next step if it was made before; None: steps cannot be inspected.
     """
 
     def __init__(self, session: Session, rewind: Rewind | None, overlays: Overlays) -> None:
         self.session, self.rewind, self.overlays = session, rewind, overlays
         self.step: TakenApart | None = None
-        self.world = 0  # which of worlds()
-        self.whose = ""  # the input
+        self.world = 0  # index in worlds()
+        self.whose = ""  # origin of the input
         self.names: list[tuple[pygame.Rect, int]] = []  # (place, number) of each stage in the last picture
-        self.corner: int | None = None  # where the card stands, chosen in the first picture
+        self.corner: int | None = None  # of the card, chosen in the first picture
 
     @property
     def open(self) -> bool:
-        """True while the scene stands within a step."""
+        """True while a step is inspected."""
         return self.step is not None
 
     def worlds(self) -> list[WatchedWorld]:
-        """The worlds that are seen, each once."""
+        """Return the visible worlds, each once."""
         return list({id(world): world for world, _ in self.session.scene.views()}.values())
 
     def enter(self, world: int = 0) -> str:
-        """Go to where the next step begins. Returns why that cannot be, "" where it can."""
+        """Go to the start of the next step. Return the reason if that is impossible, else ""."""
         self.leave()
         if self.rewind is None:
             return "a recording is only watched"
@@ -94,14 +94,16 @@ class Apart:
         return ""
 
     def leave(self) -> None:
-        """The scene is as it was before."""
+        """Restore the scene to its state before."""
         if self.step is not None:
             self.step.leave()
             self.step = None
             self.overlays.watch(self.session.scene)
 
     def feed(self, event: pygame.event.Event, button: str | None) -> bool:
-        """Take an event; True if it is used up. What is for none of this, nor for the overlays, ends it."""
+        """Process an event; return whether it was used. Events that neither this nor the overlays use end the
+        inspection.
+        """
         step = self.step
         if step is None:
             return False
@@ -125,7 +127,7 @@ class Apart:
         return True
 
     def _turn_world(self, way):
-        """The next world that is seen; over those that make no step now."""
+        """Change to the next visible world that makes a step."""
         here, count = self.world, len(self.worlds())
         for number in range(1, count + 1):
             if not self.enter(here + way * number):
@@ -133,7 +135,7 @@ class Apart:
 
     @contextmanager
     def showing(self) -> Iterator[None]:
-        """Meanwhile the layers are on, besides those that are, that show what the last stage did."""
+        """Turn on the layers that show the effects of the last stage, besides those that are on."""
         overlays, chosen = self.overlays, self.overlays.on
         if self.step is not None and self.step.done is not None:
             overlays.on = chosen | set(SHOWN.get(self.step.done.stage.stage, ()))
@@ -145,11 +147,11 @@ class Apart:
     # --- the picture ------------------------------------------------------------------------------------------------
 
     def reserve(self, frame: Frame) -> None:
-        """Keep other text away from the strip."""
+        """Reserve the strip's place."""
         frame.reserve(self._layout(frame)[0])
 
     def _layout(self, frame):
-        """(rect of the strip, [(text, rect, number)] of the stages in it), over the bottom of the picture."""
+        """Return (rect of the strip, [(text, rect, number)] of the stages in it), over the bottom of the picture."""
         assert self.step is not None
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
         several = len(self.step.starts) > 1
@@ -171,13 +173,13 @@ class Apart:
         ]
 
     def draw(self, frame: Frame) -> None:
-        """The strip of stages, and the card of the last one that has run."""
+        """Draw the strip of stages, and the card of the last stage made."""
         if self.step is None:
             return
         rect, names = self._layout(frame)
         scale, place = frame.text_scale, self.step.place
         frame.surface.fill(INK, rect)
-        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]  # covered now
+        frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]  # now hidden
         for text, box, number in names:
             if number == place:
                 frame.surface.fill(GOLD, box)
@@ -190,7 +192,7 @@ class Apart:
         self._draw_card(frame, rect.top)
 
     def _ring_view(self, frame):
-        """Of several worlds, whose step this is."""
+        """Draw a ring around the view of the inspected world, if there are several."""
         views = self.session.scene.views()
         if len(views) > 1 and self.step is not None:
             camera = next(camera for world, camera in views if world is self.step.world)
@@ -217,7 +219,7 @@ class Apart:
         frame.fix(rect)
 
     def _place(self, frame, area, size):
-        """In the corner on top where it covers least at first: it does not leap about from stage to stage."""
+        """Return the card's place: the top corner where it first covers least. It stays there from stage to stage."""
         corners = area.left, area.right - size[0]
         if self.corner is None:
             narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))
@@ -226,7 +228,7 @@ class Apart:
         return pygame.Rect(corners[self.corner], area.top, *size)
 
     def _told(self):
-        """(text, colour, font, height) of each paragraph of the card."""
+        """Return (text, colour, font, height) of each paragraph of the card."""
         step = self.step
         assert step is not None
         count, done = len(step.stages), step.done
@@ -254,7 +256,7 @@ class Apart:
 
 
 def described(done: Done) -> list[tuple[str, str]]:
-    """(head, text): what a stage changed and counted, and what it says that it touches."""
+    """Return (head, text) pairs: changes and counts of a stage, and its declared fields."""
     changes = [f"{name} {new}, were {old}" for name, old, new in done.rows]
     for name, rows, columns in done.changed:
         of = f" ({' '.join(columns)}) of" if columns else ""
@@ -269,7 +271,7 @@ def described(done: Done) -> list[tuple[str, str]]:
 
 
 def grouped(fields: Iterable[str]) -> str:
-    """Fields of a step, columns of one table together: "dt, library, bodies (x y)"."""
+    """Return the fields of a step, with the columns of a table in one group: "dt, library, bodies (x y)"."""
     whole: dict[str, list[str]] = {}
     for field in fields:
         name, _, column = field.partition(".")

@@ -1,4 +1,4 @@
-"""What lies behind a menu: the dusk of the title, or the game that waits, darkened. And the box that menus stand in."""
+"""Backgrounds of menus: the dusk of the title, or the waiting game, darkened. Also the box that menus stand in."""
 
 import pygame
 
@@ -9,29 +9,31 @@ from game.drawing.nine_slice import draw_box
 from game.scene import Scene
 
 DRIFT = 20.0  # [px/s] of the backdrop
-DIMMED = 72  # of 255 that is left of a waiting game's light
+DIMMED = 72  # of 255: light of a waiting game that remains
 MARGIN = 8  # [canvas px] between a page and the edge of the picture
 
 
 class DuskBackground:
-    """Mountains that drift."""
+    """Moving mountains."""
 
     def __init__(self) -> None:
         self.backdrop = Backdrop()
 
     def draw(self, canvas: Canvas, time: float) -> None:
-        """Draw it, `time` [s] after the start."""
+        """Draw the mountains at `time` [s] after the start."""
         self.backdrop.draw(canvas, time * DRIFT, dim=24)
 
 
 class SceneBackground:
-    """The scene as it stands, darkened; drawn anew each time, so that a changed setting is seen at once."""
+    """The scene in its current state, darkened; it is drawn again in each picture, so that a changed setting shows at
+    once.
+    """
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
 
     def draw(self, canvas: Canvas, time: float) -> None:
-        """Draw it. Its text is only scenery now: menus may cover it, and keep away from it."""
+        """Draw the scene. Menus may cover its text, which is reserved no longer."""
         self.scene.draw(canvas, 1.0)
         canvas.surface.fill((DIMMED,) * 3, special_flags=pygame.BLEND_RGB_MULT)
         canvas.boxes.clear()
@@ -42,7 +44,9 @@ Background = DuskBackground | SceneBackground
 
 
 def draw_page(canvas: Canvas, rect: Box, title: str, foot: str = "") -> pygame.Rect:
-    """A box with a title and a line under it; `foot`: what the keys do, in the box's last line. Returns the inside."""
+    """Draw a box with a title and a line under it; return the rect inside. foot: the keys' functions, in the last
+    line.
+    """
     rect = pygame.Rect(rect)
     draw_box(canvas, rect)
     canvas.text(title, rect.x + 16, rect.y + 9, GOLD, TEXT, 2)

@@ -1,4 +1,4 @@
-"""What accuracy costs in the running scene: every setting as a dot of error against time, beside the game."""
+"""Accuracy against cost in the running scene: every setting as a dot of error over time, beside the game."""
 
 from collections.abc import Callable
 
@@ -24,7 +24,8 @@ TITLES = {
     "overlap": "bodies in each other: the deepest place",
     "way": "bodies astray from a reference run",
 }
-# What is changed -> its name, colour and form: told apart without colour too. The first that differs is shown.
+# Changed part of a setting -> its name, colour and form, so that dots differ without colour, too. The first difference
+# counts.
 LOOKS: dict[str, tuple[str, Color, str]] = {
     "tier": ("tier", SKY, "square"),
     "broadphase": ("broad phase", GREEN, "diamond"),
@@ -32,7 +33,7 @@ LOOKS: dict[str, tuple[str, Color, str]] = {
     "substeps": ("substeps", ORANGE, "circle"),
     "narrowphase": ("narrow phase", RED, "cross"),
 }
-NEAR = 7  # [text px] from a dot that still names it
+NEAR = 7  # [text px] from a dot at which its name is shown
 FEET = (
     "click or Enter: play with it, Shift: race it   \u2191 \u2193 choose   \u2190 \u2192 other error   M closes",
     "click: play with it   Shift+click: race it   M closes",
@@ -40,14 +41,15 @@ FEET = (
     "click: play with it   M closes",
     "M closes",
 )
-LASTS = 15  # pictures that a painted panel is shown, whatever is found meanwhile
-TRAIL = 12  # settings that were tried, joined by a line
+LASTS = 15  # pictures that a painted panel lasts, whatever new results come
+TRAIL = 12  # settings tried last, joined by a line
 ROW = 8  # [text px]
 
 
 class CostPanel:
-    """now(): the setting that runs; apply(setting) puts one to work in the scene, or tells why it cannot; race(setting)
-    lets the scene run against itself under it; tuner: of that scene."""
+    """Panel of accuracy and cost. now(): the current setting; apply(setting) applies one to the scene, or returns why
+    it cannot; race(setting) starts a race of the scene against itself under it; tuner: the scene's.
+    """
 
     def __init__(
         self,
@@ -59,30 +61,30 @@ class CostPanel:
     ) -> None:
         self.surveyor, self.survey, self.now, self.apply, self.race = surveyor, surveyor.survey, now, apply, race
         self.advice = AdviceRows(tuner, now, apply)
-        self.kind: str | None = None  # of error; None: the first there is
+        self.kind: str | None = None  # of error; None: the first one
         self.trail: list[Setting] = []
-        self.places: list[tuple[tuple[float, float], Setting]] = []  # of the last picture's dots
+        self.places: list[tuple[tuple[float, float], Setting]] = []  # dots of the last picture
         self.rows: list[tuple[pygame.Rect, Setting]] = []
         self.hovered: Setting | None = None
         self.focused = True
-        self.sheet: pygame.Surface | None = None  # as it was painted last, …
-        self.texts: list[tuple[pygame.Rect, str]] = []  # … with what is written on it
+        self.sheet: pygame.Surface | None = None  # the panel as painted last, …
+        self.texts: list[tuple[pygame.Rect, str]] = []  # … with its texts
         self.asked: tuple = ()
         self.age = self.seen = 0
         self.rect = self.head = pygame.Rect(0, 0, 0, 0)
 
     def shown_kind(self) -> str:
-        """The error that is plotted, "" before anything is known."""
+        """Return the plotted error, "" before any result."""
         kinds = self.survey.kinds
         return self.kind if self.kind in kinds else kinds[0] if kinds else ""
 
     def ranking(self) -> list[Setting]:
-        """The settings with cost and error, the cheapest first."""
+        """Return the settings with cost and error, by rising cost."""
         known = self.survey.known(self.shown_kind())
         return sorted(known, key=lambda setting: known[setting][0].median)
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Take an event; True if it is used up."""
+        """Process an event; return whether it was used."""
         if event.type == pygame.KEYDOWN and self.focused:
             return self.key(event.key, bool(getattr(event, "mod", 0) & pygame.KMOD_SHIFT))
         if event.type == pygame.MOUSEMOTION:
@@ -100,7 +102,9 @@ class CostPanel:
         return False
 
     def key(self, key: int, shift: bool = False) -> bool:
-        """Up and down choose a setting, Enter applies it, with Shift races it; left and right turn to another error."""
+        """Process a key: up and down choose a setting, Enter applies it, with Shift races it; left and right change the
+        error.
+        """
         ranking = self.ranking()
         if key in (pygame.K_UP, pygame.K_DOWN) and ranking:
             way = 1 if key == pygame.K_DOWN else -1
@@ -114,7 +118,7 @@ class CostPanel:
         return True
 
     def turn_kind(self, way: int) -> None:
-        """Plot another error, where there are several."""
+        """Plot another error, if there are several."""
         kinds = self.survey.kinds
         if kinds:
             self.kind = following(kinds, self.shown_kind(), way)
@@ -129,7 +133,9 @@ class CostPanel:
         return setting if distance < reach else None
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Paint into a frame rect. What is new in the survey waits a moment: to paint all takes a tenth of a frame."""
+        """Draw the panel into a frame rect. New results are shown after a wait, because painting takes a tenth of a
+        frame.
+        """
         now = self.now()
         if not self.trail or self.trail[-1] != now:
             self.trail = [*self.trail, now][-TRAIL:]
@@ -146,7 +152,7 @@ class CostPanel:
         frame.fix(rect)
 
     def _paint(self, frame, rect, now):
-        """Heading, plot, what the forms stand for, the finding, the list."""
+        """Paint heading, plot, legend of forms, finding and list."""
         self.rect, scale = rect, frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.2), rect)
         pygame.draw.line(frame.surface, SLATE, rect.topleft, rect.bottomleft, scale)
@@ -217,7 +223,7 @@ class CostPanel:
             pygame.draw.circle(frame.surface, PAPER, place, 4 * scale, 1)
 
     def _draw_name(self, frame, rect, places, known, now, scale):
-        """The hovered dot's name at it, else that of the present setting."""
+        """Draw the name of the hovered dot at it, else that of the current setting."""
         setting = self.hovered if self.hovered in places else now if now in places else None
         if setting is None:
             return
@@ -233,7 +239,7 @@ class CostPanel:
         frame.text(text, round(left), round(top), GOLD if setting == now else PAPER, SMALL, scale)
 
     def _draw_forms(self, frame, left, y, width, known, now, scale):
-        """What the forms stand for, those that are there, in as many lines as they need."""
+        """Draw the legend of the forms in use, in as many lines as needed."""
         base = self.surveyor.here or now
         names = dict.fromkeys(kind_of(setting, base) for setting in known if setting != base)
         x = left
@@ -255,13 +261,13 @@ class CostPanel:
         return y + 2 * scale
 
     def _draw_list(self, frame, rect, known, now, scale):
-        """The settings by cost; those that do not fit are counted."""
+        """Draw the settings by cost, and the number of those that do not fit."""
         base, front = self.surveyor.here or now, set(self.survey.front(self.shown_kind()))
         ranking = self.ranking()
         frame.text("time of a step, noise, error", rect.right - 2 * scale, rect.y + scale, FOG, SMALL, scale, "right")
         rect = pygame.Rect(rect.x, rect.y + ROW * scale, rect.width, rect.height - ROW * scale)
         room = max(0, rect.height // (ROW * scale) - 1)
-        # What is looked at stays in sight.
+        # The selected setting stays visible.
         places = {setting: place for place, setting in enumerate(ranking)}
         here = self.hovered if self.focused and self.hovered is not None else now
         sought = places.get(here, places.get(now, 0))
@@ -288,20 +294,20 @@ class CostPanel:
 
 
 def kind_of(setting: Setting, base: Setting) -> str:
-    """What of a setting is other than in another one."""
+    """Return the part in which a setting differs from another."""
     differs = setting.differs(base)
     return next(name for name in LOOKS if name in differs)
 
 
 def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
-    """Colour and form of a dot; white for the setting in which the moment was taken."""
+    """Return colour and form of a dot; white for the setting in which the moment was taken."""
     return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)][1:]
 
 
 def draw_form(
     surface: pygame.Surface, form: str, place: tuple[float, float], size: float, color: Color, full: bool
 ) -> None:
-    """A small form; hollow where its value is only a bound."""
+    """Draw a small form; hollow if its value is only a bound."""
     x, y = place
     width = 0 if full else 1
     if form == "circle":
@@ -321,7 +327,7 @@ def draw_form(
 
 
 def _stairs(front):
-    """The border of what is beaten: right along each point's error, then down to the next."""
+    """Return the border of the dominated region: right along each point's error, then down to the next."""
     points = []
     for (x, y), (next_x, _) in zip(front, front[1:], strict=False):
         points += [(x, y), (next_x, y)]
@@ -333,5 +339,5 @@ def _short(cost: Cost) -> str:
 
 
 def _failed(error: Error) -> str:
-    """Failures, told beside the error and never in it."""
+    """Return the failures as text; they are shown beside the error and are no part of it."""
     return "".join(f", {count} {name.replace('_', ' ')}" for name, count in error.failures.items())

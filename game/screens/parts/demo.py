@@ -1,4 +1,4 @@
-"""A scene that its own bot plays on a screen: for the title's idle minutes and for the tour."""
+"""A scene played by its bot on a screen: for the title's demonstration and for the tour."""
 
 from collections.abc import Callable
 
@@ -13,7 +13,7 @@ from game.scene import Scene
 
 
 class Demo:
-    """A scene, its bot, its clock and its overlays; the panel may be shown beside it."""
+    """A scene, its bot, its clock and its overlays, with an optional panel."""
 
     def __init__(self, scene: Scene, accessibility: Accessibility) -> None:
         self.scene = scene
@@ -23,14 +23,14 @@ class Demo:
         self.overlays = Overlays(())
 
     def advance(self, now: float) -> int:
-        """Make the steps that are due at `now` [s]; how many these were."""
+        """Make the steps due at `now` [s]; return their number."""
         due = self.clock.advance(now)
         for _ in range(due):
             self.step()
         return due
 
     def step(self) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self.session.step()
         self.overlays.note(self.scene)
 

@@ -1,4 +1,4 @@
-"""The panel's table of all effects: which the scene declares, what each costs here, how many kernels it calls for."""
+"""The panel's table of all effects: declared or not, time per step in this scene, number of kernels."""
 
 from game.drawing.colors import GREEN
 from game.drawing.number_text import plain_name
@@ -12,7 +12,7 @@ UNKNOWN = "-"
 
 
 def effect_rows(measuring: Measuring) -> list[Row]:
-    """A head, a line per effect, and what there is to say of the measuring."""
+    """Return a head, a line per effect, and a line on the state of the measurement."""
     ledger = measuring.ledger
     rows = [Row(HEAD, "Effects", cells=("us a step", "kernels"))]
     for name in EFFECTS:
@@ -26,7 +26,7 @@ def effect_rows(measuring: Measuring) -> list[Row]:
 
 
 def price_text(known: EffectCost, busy: bool) -> str:
-    """Microseconds a step that it takes; what is no more than the runs scatter by counts as none."""
+    """Return the time per step in microseconds; a time within the scatter of the runs is shown as none."""
     price = known.price
     if price is None:
         return WAITS if busy else UNKNOWN
@@ -34,14 +34,14 @@ def price_text(known: EffectCost, busy: bool) -> str:
 
 
 def kernels_text(known: EffectCost, busy: bool) -> str:
-    """How many kernels are compiled for it."""
+    """Return the number of kernels compiled for it."""
     if known.kernels is None:
         return WAITS if busy else UNKNOWN
     return f"{known.kernels}"
 
 
 def hint_of(known: EffectCost) -> str:
-    """A few words about an effect."""
+    """Return a short description of an effect."""
     price, noise = known.price, known.noise
     if price is None:
         return "declared" if known.declared else "absent"
@@ -50,5 +50,5 @@ def hint_of(known: EffectCost) -> str:
 
 
 def digits(seconds: float) -> int:
-    """After the point of so many microseconds: none from ten on."""
+    """Return the decimals of a time in microseconds: none from ten on."""
     return 0 if abs(seconds) >= 1e-5 else 1

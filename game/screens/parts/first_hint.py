@@ -1,4 +1,4 @@
-"""The card of the first game: how to see what the physics sees."""
+"""The card of the first game: how to show the overlays."""
 
 import pygame
 
@@ -15,15 +15,15 @@ SIZE = (224, 74)  # [text px]
 
 
 class HintCard:
-    """Shown until it is put away by one of the keys it names, or by a click on it."""
+    """A card shown until one of its keys or a click on it closes it."""
 
-    keeps_keys = False  # they do what it says that they do
+    keeps_keys = False  # the keys on the card keep their function
 
     def __init__(self) -> None:
         self.rect = pygame.Rect(0, 0, 0, 0)
 
     def dismissed_by(self, event: pygame.event.Event, button: str | None) -> bool:
-        """True if this event puts the card away; `button`: the pad's button it presses, or None."""
+        """Return whether this event closes the card; `button`: the pad's button it presses, or None."""
         if event.type == pygame.KEYDOWN:
             return event.key in KEYS
         if event.type == pygame.MOUSEBUTTONDOWN:
@@ -31,11 +31,11 @@ class HintCard:
         return button in BUTTONS
 
     def remember(self, settings: Settings) -> None:
-        """It is not shown again."""
+        """Record that it was shown."""
         settings.hint_seen = True
 
     def draw(self, frame: Frame) -> None:
-        """Draw it where the picture is free, at window resolution."""
+        """Draw the card at a free place of the picture, at window resolution."""
         scale = frame.text_scale
         area = frame.area.clip(frame.rect)
         size = (SIZE[0] * scale, SIZE[1] * scale)

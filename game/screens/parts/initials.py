@@ -1,4 +1,4 @@
-"""Entering three initials: up and down turn a letter, left and right go, or type, or click."""
+"""Input of three initials: up and down change a letter, left and right move; typing and clicking work, too."""
 
 import pygame
 
@@ -14,7 +14,7 @@ GAP = 8
 
 
 class Initials:
-    """`text` is what stands there, `done` True once it was accepted. `at` 0..2 a letter, 3 the OK beside them."""
+    """Three letters. `done`: they were accepted. `at`: 0..2 a letter, 3 the OK beside them."""
 
     def __init__(self, text: str, x: int, y: int, cues: list[str]) -> None:
         self.letters = list(text)
@@ -31,7 +31,7 @@ class Initials:
         return "".join(self.letters)
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Take a typed letter; True if the event is used up."""
+        """Process a typed letter; return whether the event was used."""
         if event.type != pygame.KEYDOWN:
             return False
         if event.key == pygame.K_BACKSPACE:
@@ -48,7 +48,7 @@ class Initials:
         return True
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         turn, way = self.vertical.move(inputs, dt), self.sideways.move(inputs, dt)
         if turn and self.at < 3:
             self._turn(self.at, turn)
@@ -77,7 +77,7 @@ class Initials:
                     self._turn(number, -1 if pointer[1] < cell.centery else 1)
 
     def _turn(self, number, way):
-        """Up goes back in the alphabet as it does in every arcade: from A to Z is one down."""
+        """Change a letter. Up goes back in the alphabet, as usual in arcades: from A to Z is one step down."""
         index = (LETTERS.index(self.letters[number]) + way) % len(LETTERS)
         self.letters[number] = LETTERS[index]
         self.cues.append("blip")

@@ -1,4 +1,4 @@
-"""A lab's card: what is to be seen in it, why it matters, what to try, whose method it is, and what it has found."""
+"""A lab's card: observations, their importance, things to try, the source of the method, and the lab's findings."""
 
 import sys
 from collections.abc import Iterable
@@ -13,21 +13,22 @@ from game.files.settings import Settings
 from game.scene import Goal, Scene
 from game.screens.parts.first_hint import HintCard
 
-SECTIONS = ("What to see", "Why it matters", "To try", "Source")  # of the text at the head of a lab's source
-INKS = (PAPER, FOG, SKY, FOG)  # of them
+SECTIONS = ("What to see", "Why it matters", "To try", "Source")  # in the docstring at the head of a lab's source
+INKS = (PAPER, FOG, SKY, FOG)  # of the sections
 FOOT = "F1 or ?: this card   Enter or a click puts it away"
 KEYS = (pygame.K_F1, pygame.K_RETURN, pygame.K_KP_ENTER, pygame.K_ESCAPE)
 BUTTONS = ("a", "b", "start")
 WIDTH, EDGE, MARK = 236, 7, 3  # [text px] of the card, of its margin, and of a mark before a line
-GRID = 4  # places that are tried, less one, each way
-FOLLOWS = INK  # a line that goes on with the one above it
+GRID = 4  # places tried each way, less one
+FOLLOWS = INK  # a continuation of the line above
 GOALS = 84  # [text px] of goals at most
-EVERY = 30  # pictures between two looks at the goals
+EVERY = 30  # pictures between two checks of the goals
 
 
 class LabCard:
-    """Shown at the first visit, and whenever it is asked for, until it is put away. Raises ValueError for a scene whose
-    source does not say what to see."""
+    """Card shown at the first visit, and on demand, until it is closed. Raises ValueError for a scene whose source has
+    no "What to see:".
+    """
 
     keeps_keys = True
 
@@ -43,7 +44,7 @@ class LabCard:
         self.age = 0
 
     def dismissed_by(self, event: pygame.event.Event, button: str | None) -> bool:
-        """True if this event puts the card away; `button`: the pad's button it presses, or None."""
+        """Return whether this event closes the card; `button`: the pad's button it presses, or None."""
         if event.type == pygame.KEYDOWN:
             return event.key in KEYS or asks_for_card(event)
         if event.type == pygame.MOUSEBUTTONDOWN:
@@ -51,25 +52,25 @@ class LabCard:
         return button in BUTTONS
 
     def remember(self, settings: Settings) -> None:
-        """It is not opened by itself again."""
+        """Record that it was shown, so that it is not opened again by itself."""
         if self.scene.name not in settings.labs_seen:
             settings.labs_seen = [*settings.labs_seen, self.scene.name]
 
     def draw(self, frame: Frame) -> None:
-        """Draw it at window resolution, where it covers the least text; the game goes on behind it."""
+        """Draw the card at window resolution where it covers the least text; the game continues behind it."""
         if self.age % EVERY == 0:  # some goals take time to check
             self.goals, self.finding = self.scene.check(), self.scene.finding()
         self.age += 1
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
-        head = self.scene.head * frame.scale  # the line that says what is switched stays in sight
+        head = self.scene.head * frame.scale  # the line on switched settings stays visible
         area = pygame.Rect(area.x, area.y + head, area.width, area.height - head)
         width = min(WIDTH * scale, area.width)
         lines = self._lines(width - 2 * EDGE * scale, scale, area.height // scale - 2 * EDGE)
         size = (width, (height_of(lines) + 2 * EDGE) * scale)
-        if self.area != area:  # it stays where it is, as long as the picture does
+        if self.area != area:  # it stays in place as long as the picture has the same size
             self.area, self.place = area, least_covering(frame, area, size).topleft
         self.rect = pygame.Rect(self.place, size).clamp(area)
-        frame.boxes[:] = [each for each in frame.boxes if not self.rect.colliderect(each[0])]  # covered now
+        frame.boxes[:] = [each for each in frame.boxes if not self.rect.colliderect(each[0])]  # now hidden
         frame.surface.fill(INK, self.rect)
         pygame.draw.rect(frame.surface, SLATE, self.rect, scale)
         frame.surface.fill(GOLD, (self.rect.x, self.rect.y, 2 * scale, self.rect.height))
@@ -85,7 +86,7 @@ class LabCard:
         frame.fix(self.rect)
 
     def _lines(self, width, scale, room):
-        """What is written, from top to bottom: lines of so many frame pixels, `room` text pixels of them."""
+        """Return the card's lines from top to bottom. width: [frame px] of a line; room: [text px] for all of them."""
         lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
         for section, words, ink in zip(SECTIONS, self.text[1:], INKS, strict=True):
             words = words if section == SECTIONS[0] else f"{section}: {words}"
@@ -98,7 +99,7 @@ class LabCard:
         return [*lines, *end]
 
     def _goal_lines(self, width, scale, room):
-        """The goals, those first about which something is known; those for which there is no room are counted."""
+        """Return the goals, those with a result first; the others are counted if there is no room for them."""
         lines, left = [], sorted(self.goals, key=self._waits)
         while left:
             goal = left[0]
@@ -117,7 +118,7 @@ class LabCard:
 
 
 class CardText(NamedTuple):
-    """What a lab asks, and the text of each of SECTIONS."""
+    """The question of a lab, and the text of each of SECTIONS."""
 
     question: str
     see: str
@@ -127,7 +128,7 @@ class CardText(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the card. gap: [text px] above it; mark: the colour of the square before it, FOLLOWS: only its room."""
+    """A line of the card. gap: [text px] above it; mark: colour of the square before it, FOLLOWS: only its space."""
 
     text: str
     ink: Color
@@ -137,22 +138,22 @@ class Line(NamedTuple):
 
     @property
     def height(self) -> int:
-        """[text px]."""
+        """Height [text px]."""
         return 10 if self.font == TEXT else 7
 
 
 def paragraph(text: str, width: int, scale: int, ink: Color) -> list[Line]:
-    """A text in lines of so many frame pixels, a little below what stands above."""
+    """Return a text in lines of so many frame pixels, with a gap above."""
     return [Line(each, ink, gap=0 if number else 3) for number, each in enumerate(wrap(text, width, SMALL, scale))]
 
 
 def height_of(lines: Iterable[Line]) -> int:
-    """[text px]."""
+    """Return the height of lines [text px]."""
     return sum(line.gap + line.height for line in lines)
 
 
 def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> pygame.Rect:
-    """The place in an area, of a grid of them, at which a rect covers the least text."""
+    """Return the place of a rect in an area at which it covers the least text, out of a grid of places."""
     spare = area.width - size[0], area.height - size[1]
     places = [
         pygame.Rect(area.x + spare[0] * column // GRID, area.y + spare[1] * row // GRID, *size)
@@ -167,16 +168,17 @@ def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> py
 
 
 def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
-    """The card that a scene opens with: its own at the first visit; before the first of all games, the keys."""
+    """Return the card that a scene opens with: its own at the first visit; the keys before the very first game."""
     if what_to_see(type(scene)) is not None:
         return LabCard(scene) if scene.name not in settings.labs_seen else None
     return None if settings.hint_seen else HintCard()
 
 
 def what_to_see(scene_class: type[Scene]) -> CardText | None:
-    """What a lab asks, and the sections of it, as its source says at its head; None where it does not say what to see.
+    """Return a lab's question and sections from the docstring at the head of its source; None if it has no "What to
+    see:".
 
-    A section begins a paragraph with its name and a colon; one that is not there is "".
+    A section is a paragraph that begins with its name and a colon; a missing one is "".
     """
     question, *paragraphs = (sys.modules[scene_class.__module__].__doc__ or "").split("\n\n")
     found = dict.fromkeys(SECTIONS, "")
@@ -188,5 +190,5 @@ def what_to_see(scene_class: type[Scene]) -> CardText | None:
 
 
 def asks_for_card(event: pygame.event.Event) -> bool:
-    """Whether a key is the one that opens it."""
+    """Return whether a key opens the card."""
     return event.key == pygame.K_F1 or getattr(event, "unicode", "") == "?"

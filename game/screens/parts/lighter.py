@@ -1,4 +1,6 @@
-"""Less to compute until the physics is compiled, where plain kernels would show fewer than ten pictures a second."""
+"""Reduced load until physics is compiled, in scenes where plain kernels would allow fewer than ten pictures a
+second.
+"""
 
 from typing import Any
 
@@ -8,28 +10,27 @@ from physics.jit import tiers
 from physics.jit.store import store
 
 SLOW = 0.1  # [s] of a frame
-FRAMES = 2  # that are slow one after the other before there is less to compute
+FRAMES = 2  # slow frames in a row before the load is reduced
 
 
 class Lighter:
-    """Applies the changes of Scene.lighter, and undoes them once when all that was called runs compiled.
+    """Switch of the load: applies the changes of Scene.lighter, and undoes them once all called kernels run compiled.
 
-    They are applied before the first step where no kernel at all is on disk, else when frames are slow after what is on
-    disk was loaded. Both ways they go in as input of the next step, so that a recording holds them. What the player has
-    changed since stays as it is.
+    They are applied before the first step if no kernel is on disk, else once frames are slow after loading. They are
+    part of the next step's input, so that a recording contains them. Changes by the player stay.
     """
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
         self.scene, self.devices = scene, devices
-        self.slow = 0  # frames in a row
-        self.changed: dict[str, tuple[Any, Any]] = {}  # name of a change -> the value before, and the one applied
+        self.slow = 0  # slow frames in a row
+        self.changed: dict[str, tuple[Any, Any]] = {}  # name of a change -> (value before, applied value)
         self.begun = self.over = False
         if scene.lighter and tiers.background and store().empty:
             self._apply()
 
     @property
     def line(self) -> str:
-        """The line to be shown meanwhile: what there is less of; "" where nothing was changed."""
+        """The line to show meanwhile, on what is reduced; "" if nothing is changed."""
         if not self.changed:
             return ""
         less = [f"{self.scene.lighter[name]} {name}" for name in self.changed if name == "substeps"]
@@ -38,7 +39,7 @@ class Lighter:
         return f"{' and '.join(less)} until the physics is compiled"
 
     def note(self, busy: float) -> None:
-        """Take note of how long [s] a frame took."""
+        """Record the duration of a frame [s]."""
         if self.over or not self.scene.lighter:
             return
         if self.changed:
@@ -46,7 +47,7 @@ class Lighter:
             if not tiers.background or (self.begun and not tiers.wanted):
                 self._undo()
             return
-        loaded = tiers.load is not None  # until then kernels that are on disk run plain too
+        loaded = tiers.load is not None  # until then, kernels on disk run plain, too
         self.slow = self.slow + 1 if loaded and tiers.wanted and busy > SLOW else 0
         if self.slow >= FRAMES:
             self._apply()

@@ -1,4 +1,4 @@
-"""Joins a played scene to what measures it: which world, when a moment is taken, what a setting changes there."""
+"""Connection of a played scene to its measurements: the world, the moments, and the changes of a setting."""
 
 from collections.abc import Hashable, Sequence
 from operator import is_
@@ -16,43 +16,45 @@ from game.screens.parts.race_split import SplitScreen
 from game.wishes import Lanes, Sprites
 from physics import World
 
-LINGER = 0.5  # [s] that the panel is open before the effects are measured: who passes by starts no process
-EVERY = 8.0  # [s] a moment more, where the last is measured and time goes on
+LINGER = 0.5  # [s] for which the panel must be open before the effects are measured: a glance starts no process
+EVERY = 8.0  # [s] between moments, if the last one is measured and time goes on
 
 
 class Measuring:
-    """Of one scene that is played. It measures between open() and close()."""
+    """The measurements of one played scene. They run between open() and close()."""
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
         self.scene, self.devices = scene, devices
         self.surveyor = Surveyor()
         self.tuner = Tuner(self.surveyor.survey, self._try)
-        self.bench = Surveyor()  # of what the scene wants to know …
-        self.benched: Sprites | Sequence[Hashable] | None = None  # … which are these sprites, or lanes of these names
-        self.ledger = Surveyor()  # of the effects
-        self.opened_at: float | None = None  # [s] since when the panel shows them; None: it is closed
-        self.weighed = False  # whether they were asked for since then
+        self.bench = Surveyor()  # for the scene's measurement requests …
+        self.benched: Sprites | Sequence[Hashable] | None = None  # … which are these sprites, or runs of these names
+        self.ledger = Surveyor()  # for the effects
+        self.opened_at: float | None = None  # [s] opening time of the panel; None: it is closed
+        self.weighed = False  # whether the effects were requested since then
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
         self.race: Race | None = None  # against another setting
-        self.split: SplitScreen | None = None  # on which it is shown; None: laid over the scene
-        self.against = 0  # which of rivals() the panel offers
+        self.split: SplitScreen | None = None  # screen that shows it; None: drawn over the scene
+        self.against = 0  # index in rivals(), as chosen in the panel
 
     @property
     def world(self) -> World:
-        """The world that is measured: that of the first picture, which the overlays look into."""
+        """The measured world: that of the first picture, which the overlays show."""
         return self.scene.views()[0][0]
 
     def now(self) -> Setting:
-        """The setting that runs."""
+        """Return the current setting."""
         return here_of(self.world, self.scene.tier)
 
     def beside(self, now: float, panel_open: bool) -> None:
-        """Once per picture, at `now` [s]: measure what the scene, and the panel while it is open, want to know."""
+        """Measure the requests of the scene, and of the panel while it is open. Call it once per picture, at `now`
+        [s].
+        """
         self._measure_wish()
         self._measure_effects(now if panel_open else None)
 
     def _measure_effects(self, now):
-        """What each effect costs here, from a moment soon after the panel was opened; None: it is closed."""
+        """Measure the cost of each effect, from a moment soon after the panel was opened. now: None if it is closed."""
         if now is None:
             if self.opened_at is not None:
                 self.ledger.stop()
@@ -69,7 +71,7 @@ class Measuring:
                 self.ledger.stop()
 
     def _measure_wish(self) -> None:
-        """What the scene wants to know is measured, once."""
+        """Measure the scene's requests, once."""
         wish = self.scene.measured()
         if isinstance(wish, Sprites) and not (self.benched and all(map(is_, wish, self.benched))):
             self.bench.stop()
@@ -85,8 +87,11 @@ class Measuring:
         self.scene.figures = self.bench.figures
 
     def turn(self, now: float) -> str:
-        """Once per picture, at `now` [s]: take what was found; take a moment of the game when the last one is done.
-        Returns a line about what the tuner decided, "" for nothing."""
+        """Collect results, and take a new moment when the last one is done. Return a line on the tuner's decision, or
+        "".
+
+        Call it once per picture, at `now` [s].
+        """
         self.surveyor.turn()
         self._take_moment(now)
         decided = self.tuner.step(self.scene.frame, self.now())
@@ -96,7 +101,7 @@ class Measuring:
         return f"tuned: {told}" if not decided.refused else f"not tuned: {decided.refused}"
 
     def _try(self, setting):
-        """Put a setting to work; why not, "" where it was."""
+        """Apply a setting. Return the reason if it cannot be applied, else ""."""
         changes = self._changes(setting)
         if isinstance(changes, str):
             return changes
@@ -113,22 +118,23 @@ class Measuring:
         self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name)
 
     def close(self) -> None:
-        """End the process, unless the tuner goes on; what was measured stays, and more is added when it is opened
-        again."""
+        """End the process, unless the tuner continues. Results are kept, and extended when the panel is opened
+        again.
+        """
         if self.tuner.on:
             return
         self.surveyor.stop()
         self.taken_at = None
 
     def leave(self) -> None:
-        """End all that is being measured: the scene is left."""
+        """End all measurements: the scene is left."""
         self.tuner.on = False
         self.close()
         self.bench.stop()
         self.ledger.stop()
 
     def apply(self, setting: Setting) -> str:
-        """Put a setting to work in the scene, as input that a recording holds. Returns a line about it."""
+        """Apply a setting to the scene, as input that a recording contains. Return a line about it."""
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
@@ -137,7 +143,7 @@ class Measuring:
         return f"{setting.label(now)}, was {now.label(setting)}" if changes else "that is what runs"
 
     def start_race(self, setting: Setting) -> str:
-        """Let a rival run beside the scene, which is to restart with its next step. Returns a line about it."""
+        """Start a rival beside the scene, which must restart with its next step. Return a line about it."""
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
@@ -147,23 +153,23 @@ class Measuring:
         return f"the race: {now.label(setting)} against {setting.label(now)}"
 
     def end_race(self) -> None:
-        """The rival goes."""
+        """End the race."""
         self.race = self.split = None
 
     def toggle_split(self) -> str:
-        """Show the race on a split screen, or laid over the scene. Returns a line about it where there is none."""
+        """Show the race on a split screen, or drawn over the scene. Return a line about it if there is no race."""
         if self.race is None:
             return "no race: the panel starts one, or Shift and a click in the plot of costs"
         self.split = None if self.split is not None else SplitScreen(self.race)
         return ""
 
     def rivals(self) -> list[Setting]:
-        """The settings, one thing changed, that the scene can be raced against."""
+        """Return the settings with one change, which the scene can be raced against."""
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(self._changes(setting), str)]
 
     def _changes(self, setting):
-        """[(change, value)] that bring the scene to a setting, or a sentence about why it cannot be brought there."""
+        """Return [(change, value)] that bring the scene to a setting, or a sentence about why that is impossible."""
         changes = []
         for name in setting.differs(self.now()):
             change = self._change(self.scene, name, getattr(setting, name))
@@ -173,7 +179,7 @@ class Measuring:
         return changes
 
     def _change(self, scene, name, value):
-        """[(change, value)], or a sentence about why it cannot be made here."""
+        """Return [(change, value)], or a sentence about why the change is impossible here."""
         if value is None:
             return []
         if name == "broadphase" and not scene.switches_broadphase:

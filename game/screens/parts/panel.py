@@ -1,7 +1,7 @@
-"""The panel: rows built anew each picture, worked with the keyboard or the mouse.
+"""The panel: rows rebuilt in each picture, operated with keyboard or mouse.
 
-A Row says what it shows and what turning or pressing it does; the panel knows nothing of scenes. Up and
-down move the mark, left and right turn a value, Enter presses.
+A Row has a text and functions for turning and pressing; the panel is independent of scenes. Up and down move the mark,
+left and right turn a value, Enter presses.
 """
 
 from collections.abc import Callable
@@ -16,8 +16,8 @@ from game.drawing.presenter import Frame
 HEAD, CHECK, CHOICE, SLIDER, BUTTON, NOTE, LINE = "head", "check", "choice", "slider", "button", "note", "line"
 LIVE = (CHECK, CHOICE, SLIDER, BUTTON, LINE)
 ROW_HEIGHT = {HEAD: 15, CHECK: 11, CHOICE: 11, SLIDER: 17, BUTTON: 11, NOTE: 9, LINE: 9}  # [text px]
-CELL = 34  # [text px] that a column of a table is wide
-LABEL, ARROWS = 24, 20  # [text px] that a choice leaves to its label, and that stand beside what is chosen
+CELL = 34  # [text px] width of a column of a table
+LABEL, ARROWS = 24, 20  # [text px] room for the label of a choice, and for the arrows beside its value
 WHEEL_ROWS = 3
 
 
@@ -28,7 +28,7 @@ class Row:
     kind: str
     label: str
     value: str = ""
-    key: str = ""  # the key that does the same, shown at the right
+    key: str = ""  # the key with the same function, shown at the right
     color: tuple = PAPER
     on: bool = False
     share: float = 0.0  # of a slider's range
@@ -36,23 +36,23 @@ class Row:
     press: Callable | None = None
     put: Callable | None = None
     hint: str = ""  # one sentence, shown at the panel's foot while marked
-    cells: tuple[str, ...] = ()  # of a line in a table, or over its columns, at the right
+    cells: tuple[str, ...] = ()  # of a line of a table, or its column heads, at the right
 
 
 class Panel:
-    """`rows()` gives the present rows. `focused`: the keyboard works the panel, not the game."""
+    """A list of rows. `rows()` gives the current rows. `focused`: the keyboard operates the panel, not the game."""
 
     def __init__(self, rows: Callable[[], list[Row]]) -> None:
         self.rows = rows
         self.mark = 0
-        self.first = 0  # first row shown, when there are more than fit
+        self.first = 0  # first visible row, if not all fit
         self.focused = True
         self.places = []  # (rect, row number) of the last picture
         self.dragged = None  # row number of the slider being dragged
         self.rect = pygame.Rect(0, 0, 0, 0)
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Take an event; True if the panel used it."""
+        """Process an event; return whether the panel used it."""
         if event.type == pygame.KEYDOWN and self.focused:
             return self.key(event.key)
         if event.type == pygame.MOUSEBUTTONDOWN and event.button == 1:
@@ -69,7 +69,7 @@ class Panel:
         return False
 
     def key(self, key: int) -> bool:
-        """Take a key; True if the panel used it."""
+        """Process a key; return whether the panel used it."""
         rows = self.rows()
         row = rows[self.mark] if self.mark < len(rows) else None
         if key in (pygame.K_UP, pygame.K_DOWN):
@@ -121,7 +121,7 @@ class Panel:
         return self.rect.collidepoint(position)
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Paint the panel into a frame rect."""
+        """Draw the panel into a frame rect."""
         self.rect = rect
         scale = frame.text_scale
         surface = frame.surface
@@ -192,7 +192,7 @@ class Panel:
             surface.fill(PAPER, (bar.x + int(bar.width * row.share) - scale, bar.y - scale, 2 * scale, 4 * scale))
 
     def _draw_foot(self, frame, rect, rows, scale):
-        """The marked row's hint and how to leave; returns the top of the foot."""
+        """Draw the marked row's hint and how to leave. Return the top of the foot."""
         hint = rows[self.mark].hint if self.mark < len(rows) else ""
         way_out = "Tab closes, click the game to play on" if self.focused else "Tab closes, click here to change things"
         lines = ([hint] if hint else []) + [way_out]
@@ -205,7 +205,7 @@ class Panel:
 
 
 def _draw_line(frame, rect, row, scale):
-    """A line of a table: a filled square where it is on, its name, its cells."""
+    """Draw a line of a table: a square, filled if it is on, its name, its cells."""
     square = pygame.Rect(rect.x + 2 * scale, rect.y + 2 * scale, 5 * scale, 5 * scale)
     color = frame.tone(row.color) if row.on else FOG
     pygame.draw.rect(frame.surface, color, square, 0 if row.on else scale)
@@ -215,7 +215,7 @@ def _draw_line(frame, rect, row, scale):
 
 
 def _draw_cells(frame, rect, cells, y, color, scale):
-    """Columns at the right, the last one outermost; returns where they begin [frame px]."""
+    """Draw columns at the right, the last one outermost. Return their left edge [frame px]."""
     right = rect.right - 2 * scale
     for text in reversed(cells):
         if text:
@@ -234,17 +234,17 @@ def _draw_check(surface, x, rect, row, color, scale):
 
 
 def slider_bar(rect: pygame.Rect, scale: int) -> pygame.Rect:
-    """The bar of a slider row."""
+    """Return the bar of a slider row."""
     return pygame.Rect(rect.x + 2 * scale, rect.bottom - 5 * scale, rect.width - 4 * scale, 2 * scale)
 
 
 def _share(rect, position):
-    """Where in a row a click is, 0..1."""
+    """Return the position of a click in a row, 0..1."""
     return max(0.0, min(1.0, (position[0] - rect.x) / max(rect.width, 1)))
 
 
 def act(row: Row, direction: int = 0) -> None:
-    """Press or turn a row; a press on something that only turns turns it forward."""
+    """Press or turn a row; pressing a row that only turns turns it forward."""
     if direction and row.turn is not None:
         row.turn(direction)
     elif row.press is not None:

@@ -1,5 +1,6 @@
-"""Which rows the panel has while a scene is played. Everything that changes the simulation goes through
-devices.change, so that a recording holds it."""
+"""The panel's rows while a scene is played. Every change of the simulation goes through devices.change, so that a
+recording contains it.
+"""
 
 from game.drawing.number_text import plain_name
 from game.overlays.stack import Overlays
@@ -10,11 +11,11 @@ from game.screens.parts.effect_rows import effect_rows
 from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, SLIDER, Row
 from game.screens.parts.played import Played
 
-LEAP = 60  # steps that the row "Rewind" goes back
+LEAP = 60  # steps of the row "Rewind"
 
 
 def play_rows(play: Played) -> list[Row]:
-    """Rows for a Play screen; what belongs to this scene alone comes first, where no window is too small for it."""
+    """Return the rows for a Play screen. Those of this scene come first, so that they are visible in any window."""
     scene = play.scene
     return [
         Row(HEAD, scene.title),
@@ -114,13 +115,13 @@ def _switches(play, scene):
 
 
 def _solver_hint(scene):
-    """What the row is about, and which declared effects the solver ignores."""
+    """Return the hint of the row: its meaning, and the declared effects that the solver ignores."""
     ignored = ignored_effects(scene)
     return f"ignores {', '.join(map(plain_name, ignored))}" if ignored else "how overlaps are resolved"
 
 
 def layer_rows(overlays: Overlays) -> list[Row]:
-    """A check box per overlay layer."""
+    """Return a check box per overlay layer."""
     return [
         Row(
             CHECK,

@@ -1,10 +1,10 @@
-"""The keys and buttons of a scene that is played, besides those that play it."""
+"""Keys and buttons of a played scene, besides those of the game."""
 
 import pygame
 
 from game.screens.parts.played import Played
 
-KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move, whatever else it does
+KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move
 PANEL_BUTTONS = {
     "dpad up": pygame.K_UP,
     "dpad down": pygame.K_DOWN,
@@ -15,9 +15,9 @@ PANEL_BUTTONS = {
 
 
 def press(play: Played, key: int) -> bool:
-    """Do what a key is for besides playing; False: it is for nothing, or for the game."""
+    """Apply a key that is not for the game. Return False if it has no function, or belongs to the game."""
     if set(play.devices.keys.get(key, ())) - KEPT_ACTIONS:
-        return False  # the player gave it to a move, and a move it stays
+        return False  # the player bound it to a move, which it stays
     layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in play.overlays.layers}
     if key in layers:
         play.overlays.toggle(layers[key])
@@ -40,7 +40,7 @@ def press(play: Played, key: int) -> bool:
     elif key == pygame.K_r:
         play.wish_restart()
     elif key == pygame.K_p:
-        play.toggle_pause()  # not through the input of a step: a paused game makes none
+        play.toggle_pause()  # not through the input of a step: a paused game makes no steps
     elif key == pygame.K_o:
         play.single_step()
     elif key == pygame.K_e:
@@ -59,7 +59,7 @@ def press(play: Played, key: int) -> bool:
 
 
 def press_button(play: Played, button: str) -> bool:
-    """Do what a pad's button is for besides playing; False: it is for the game."""
+    """Apply a pad's button that is not for the game. Return False if it belongs to the game."""
     panel = play.open_panel
     if button == "start":
         play.stop()

@@ -1,4 +1,4 @@
-"""What the panel and the status line ask of the screen on which a scene is played."""
+"""Interface of the screen that plays a scene, for the panel and the status line."""
 
 from typing import Protocol
 
@@ -20,7 +20,7 @@ from game.screens.parts.switches import Switches
 
 
 class Played(Protocol):
-    """A scene with its clock and overlays; `since_result`: steps since the game has ended."""
+    """A scene with its clock and overlays; `since_result`: steps since the game ended."""
 
     scene: Scene
     session: Session
@@ -36,20 +36,20 @@ class Played(Protocol):
     person: bool
     since_result: int
     wants_screenshot: bool
-    helped_since: int  # the step from which the keys are shown
+    helped_since: int  # the step from which the help line is shown
 
     @property
     def open_panel(self) -> Panel | CostPanel | None:
-        """The panel that is open, else None."""
+        """The open panel, else None."""
         ...
 
     @property
     def news(self) -> str:
-        """What was just switched, or ""."""
+        """Line about the last switch, or ""."""
         ...
 
     def toggle_pause(self) -> None:
-        """Stop or go on."""
+        """Pause or continue."""
         ...
 
     def single_step(self) -> None:
@@ -57,29 +57,29 @@ class Played(Protocol):
         ...
 
     def take_apart(self) -> None:
-        """Go into the next step, or out of it."""
+        """Start or end the inspection of the next step."""
         ...
 
     def start_race(self, setting: Setting) -> None:
-        """From the start, against the same scene under another setting."""
+        """Restart, in a race against the same scene under another setting."""
         ...
 
     def wish_restart(self) -> None:
-        """Restart, if nothing is lost by it."""
+        """Restart, unless that would lose a result."""
         ...
 
     def toggle_costs(self) -> None:
-        """Open or close the plot of what accuracy costs."""
+        """Open or close the plot of accuracy and cost."""
         ...
 
     def toggle_panel(self) -> None:
-        """Open the panel, or close what is open."""
+        """Open the panel, or close the open one."""
         ...
 
     def switch_solver(self, way: int) -> None:
-        """The next solver, or the one before."""
+        """Change to the next solver, or the previous one."""
         ...
 
     def stop(self) -> None:
-        """To the pause menu, or to where a run ends."""
+        """Go to the pause menu, or to the end of a run."""
         ...

@@ -1,4 +1,4 @@
-"""The race: the scene that is played and a rival under another setting, from one seed, by one input."""
+"""The race: the played scene and a rival under another setting, with the same seed and input."""
 
 from collections import deque
 from dataclasses import replace
@@ -22,15 +22,15 @@ from game.scene import Scene
 from physics import debug
 from physics.tables.shape import MASK
 
-# What the two are set to by themselves; all else that a player does goes to both.
+# Settings of each of the two; all other input goes to both.
 OWN = ("broadphase", "solver", "substeps", "tier", "narrowphase", "slider:solver", "slider:substeps")
-MOST = 400  # outlines in a picture; the line below says how many bodies are apart
-KEPT = 600  # steps of which is known how far the two were apart
+MOST = 400  # outlines in a picture; the line below counts the bodies that differ
+KEPT = 600  # steps for which the distance is kept
 
 
 class Race:
-    """step(session) after each of its steps. changes: what the rival has otherwise, as Scene.change takes it, which
-    raises ValueError for what it cannot take. Whoever starts a race restarts the scene with its next input.
+    """A race; call step(session) after each step of the session. changes: differences of the rival, as Scene.change
+    takes them. Raises ValueError for an invalid change. The caller restarts the scene with its next input.
     """
 
     def __init__(self, scene: Scene, changes: list[tuple[str, object]]) -> None:
@@ -42,12 +42,12 @@ class Race:
         self.inputs = InputState()
         self.times = Typical(), Typical()  # [s] of a step: of the scene, of the rival
         self.steps = 0
-        self.same = np.zeros(0, np.int64)  # ids of bodies that are the same in both: they came at once, to one place
-        self.seen = np.zeros(0, np.int64)  # ids of all that were in either
-        self.apart: deque[float] = deque(maxlen=KEPT)  # [px] RMS over the bodies that both have, of the last steps
+        self.same = np.zeros(0, np.int64)  # ids of bodies created in the same step at the same place in both
+        self.seen = np.zeros(0, np.int64)  # ids of all bodies that either had
+        self.apart: deque[float] = deque(maxlen=KEPT)  # [px] RMS distance over the common bodies, of the last steps
 
     def step(self, session: Session) -> None:
-        """The rival makes the step that the session has just made."""
+        """Make the session's last step with the rival."""
         frame = session.inputs.now
         self.inputs.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in OWN)))
         started = perf_counter()
@@ -61,7 +61,7 @@ class Race:
         self.apart.append(float(np.sqrt((gaps * gaps).mean())) if len(gaps) else 0.0)
 
     def _pair(self, frame):
-        """Ids are numbers in the order of coming: once the two are apart, one number may stand for two things."""
+        """Match bodies by id. Ids follow the order of creation: once the runs differ, one id may denote two bodies."""
         if any(name == "restart" for name, _ in frame.changes):
             self.same = self.seen = np.zeros(0, np.int64)
         ours, theirs = (each.world.bodies for each in (self.scene, self.rival))
@@ -72,19 +72,19 @@ class Race:
         self.seen = np.union1d(self.seen, np.union1d(ours["id"], theirs["id"]))
 
     def gaps(self) -> tuple[np.ndarray, np.ndarray]:
-        """((n, 2), (n, 2)) places of the bodies that both have, in the scene and in the rival [px]."""
+        """Return ((n, 2), (n, 2)) positions of the common bodies, in the scene and in the rival [px]."""
         ours, theirs = self.scene.world.bodies, self.rival.world.bodies
         mine, other = (np.flatnonzero(np.isin(rows["id"], self.same)) for rows in (ours, theirs))
         mine, other = mine[np.argsort(ours["id"][mine])], other[np.argsort(theirs["id"][other])]
         return np.column_stack([ours["x"], ours["y"]])[mine], np.column_stack([theirs["x"], theirs["y"]])[other]
 
     def distances(self) -> np.ndarray:
-        """(n,) how far these are from each other [px]."""
+        """Return (n,) distances of the common bodies between scene and rival [px]."""
         ours, theirs = self.gaps()
         return np.hypot(*(ours - theirs).T)
 
     def told(self) -> list[str]:
-        """Three lines: the scene's setting and time, the rival's, how far apart they are."""
+        """Return three lines: the scene's setting and time, the rival's, and their distance."""
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
         apart = self.distances()
         rms = self.apart[-1] if self.apart else 0.0
@@ -98,7 +98,7 @@ class Race:
         ]
 
     def draw(self, frame: Frame) -> None:
-        """The rival's outlines over the scene, a line to each body that is elsewhere, and the figures."""
+        """Draw the rival's outlines over the scene, a line to each body that differs, and the figures."""
         world, camera = self.scene.views()[0]
         lens = frame.lens(camera)
         frame.surface.set_clip(lens.clip)
@@ -108,7 +108,7 @@ class Race:
         self._draw_figures(frame)
 
     def draw_gaps(self, frame: Frame, scene: Scene) -> None:
-        """In the picture of one of the two, a line from where each body is here to where it is there."""
+        """Draw a line in the picture of one of the two, from each body here to its place in the other."""
         world, camera = scene.views()[0]
         if world is scene.world:
             lens = frame.lens(camera)
@@ -121,7 +121,7 @@ class Race:
         frame.surface.set_clip(None)
 
     def _draw_rival(self, frame, lens):
-        """Its outlines; of masks their boxes."""
+        """Draw the rival's outlines; boxes for masks."""
         color, world = frame.tone(SKY), self.rival.world
         seen = np.flatnonzero(lens.seen(debug.bounds(world)))[:MOST]
         for outline in debug.outlines(world, seen):
@@ -152,5 +152,5 @@ class Race:
 
 
 def distance_text(pixels: float) -> str:
-    """A distance in two figures, or whole pixels where it has more."""
+    """Return a distance with two figures, or in whole pixels if it has more."""
     return f"{pixels:,.0f} px" if pixels >= 100.0 else f"{pixels:.2g} px"

@@ -1,4 +1,6 @@
-"""The race on a split screen: the scene left, its rival right, under each its setting and time, below how far apart."""
+"""The race on a split screen: the scene at the left, its rival at the right, with setting and time, and their distance
+below.
+"""
 
 from collections import deque
 from math import log10
@@ -14,21 +16,23 @@ from game.run.picture import Picture
 from game.screens.parts.race import Race
 from game.screens.parts.scrub import BAR_HEIGHT
 
-LEAST, MOST = 1e-3, 1e3  # [px] apart that the plot reaches from and to
+LEAST, MOST = 1e-3, 1e3  # [px] range of the plot
 LINE = 9  # [text px]
-NOT_HERE = {"invariants", "disagreement"}  # layers that count steps, which nobody tells them of for the rival
+NOT_HERE = {"invariants", "disagreement"}  # layers that count steps, which the rival does not report
 
 
 class SplitScreen:
-    """draw() paints the two halves of a race over the game's part of a frame."""
+    """Split screen: the two halves of a race, drawn over the game's part of a frame."""
 
     def __init__(self, race: Race) -> None:
         self.race = race
-        self.overlays = Overlays()  # over the rival
+        self.overlays = Overlays()  # of the rival
         self.pictures: list[Picture] = []  # of the two
 
     def draw(self, frame: Frame, overlays: Overlays, alpha: float) -> None:
-        """Both halves as they stand, under these layers; alpha: between the step before and the last."""
+        """Draw both halves in their current state, with these layers. alpha: interpolation between the last two
+        steps.
+        """
         area = frame.area.clip(frame.rect)
         size = area.width // 2, area.width // 2 * CANVAS_SIZE[1] // CANVAS_SIZE[0]
         race = self.race
@@ -48,7 +52,7 @@ class SplitScreen:
         self._draw_below(frame, pygame.Rect(area.x, area.y + size[1], area.width, area.height - size[1]))
 
     def _make_pictures(self, width):
-        """At a whole scale, no smaller than what is shown."""
+        """Make the pictures of both halves, at a whole scale no smaller than their visible part."""
         scale = -(-width // CANVAS_SIZE[0])
         wanted = CANVAS_SIZE[0] * scale, CANVAS_SIZE[1] * scale
         if not self.pictures or self.pictures[0].presenter.frame.surface.get_size() != wanted:
@@ -78,7 +82,7 @@ class SplitScreen:
             self._draw_plot(frame, pygame.Rect(rect.x + 4 * scale, y + 2 * scale, rect.width - 8 * scale, high), scale)
 
     def _draw_plot(self, frame, rect, scale):
-        """How far apart they were in the last ten seconds, from right to left, on a logarithmic scale."""
+        """Draw their distance over the last ten seconds, newest at the right, on a logarithmic scale."""
         surface, apart = frame.surface, self.race.apart
         surface.fill(NIGHT, rect)
         for value in (0.01, 0.1, VISIBLE, 10.0, 100.0):
@@ -98,13 +102,13 @@ class SplitScreen:
 
 
 def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
-    """The places of these distances [px], the last one on the right."""
+    """Return the points of a curve of distances [px], the last one on the right."""
     width = rect.width / (apart.maxlen or len(apart))
     first = rect.right - width * len(apart)
     return [(first + width * number, _height(value, rect)) for number, value in enumerate(apart)]
 
 
 def _height(value, rect):
-    """Frame y of a distance [px]; none lies on the floor."""
+    """Return the frame y of a distance [px]; 0 lies on the bottom."""
     share = log10(min(max(value, LEAST), MOST) / LEAST) / log10(MOST / LEAST)
     return rect.bottom - 2 - share * (rect.height - 4)

@@ -1,7 +1,7 @@
-"""The list that every menu is made of: rows with a focus mark, values to turn, bars to drag, scrolling.
+"""The list of every menu: rows with a focus mark, values to turn, bars to drag, scrolling.
 
-Works the same by keyboard, controller and mouse. A Row says what it shows and what pressing, turning or dragging it
-does; the list knows nothing of screens. All measures are canvas pixels on one grid of 8.
+Keyboard, controller and mouse work alike. A Row has a text and functions for pressing, turning and dragging; the list
+is independent of screens. All measures are canvas pixels on one grid of 8.
 """
 
 from collections.abc import Callable
@@ -16,13 +16,13 @@ from game.input.inputs import InputState
 FIRST_WAIT, NEXT_WAIT = 0.4, 0.1  # [s] before a held direction repeats, and between repeats
 GRID = 8
 LINE = 16  # from one row to the next
-VALUE_WIDTH = 112  # at the right of a row: where a value stands and a click turns it
+VALUE_WIDTH = 112  # at the right of a row: width of the value, in which a click turns it
 BAR_WIDTH = 64  # of a slider
 
 
 @dataclass(frozen=True)
 class Row:
-    """One line. `turn(-1 or 1)`, `press()`, `put(share 0..1)`; `head`: a heading, which is never marked."""
+    """One line. `turn(-1 or 1)`, `press()`, `put(share 0..1)`; `head`: a heading, which cannot be marked."""
 
     label: str
     value: str = ""
@@ -31,19 +31,19 @@ class Row:
     put: Callable | None = None
     share: float = 0.0
     head: bool = False
-    hint: str = ""  # one sentence about it, shown by the screen while it is marked
+    hint: str = ""  # one sentence, shown by the screen while it is marked
     color: tuple = PAPER
 
 
 class Repeat:
-    """Turns a held direction into single moves."""
+    """Conversion of a held direction into single moves."""
 
     def __init__(self, names: tuple[str, str]) -> None:
         self.names = names  # (action for -1, action for +1)
         self.wait = 0.0
 
     def move(self, inputs: InputState, dt: float) -> int:
-        """-1, 0 or +1 in this step."""
+        """Return the move of this step: -1, 0 or +1."""
         back, forth = self.names
         for action, way in ((back, -1), (forth, 1)):
             if inputs.pressed(action):
@@ -60,16 +60,16 @@ class Repeat:
 
 
 def confirmed(inputs: InputState) -> bool:
-    """True in the step in which a person says yes: Enter, Space or the pad's A."""
+    """Return whether the player confirms in this step: Enter, Space or the pad's A."""
     return inputs.pressed("confirm") or inputs.pressed("fire")
 
 
 class RowList:
-    """`rows()` gives the present rows, `rect` is where they go; `cues` is a list that takes the sounds of the menu."""
+    """A list of rows. `rows()` gives the current rows, `rect` is their place; `cues`: a list for the menu's sounds."""
 
     def __init__(self, rows: Callable[[], list[Row]], rect: Box, cues: list[str], mark: int = 0) -> None:
         self.rows, self.rect, self.cues = rows, pygame.Rect(rect), cues
-        self.first = 0  # first row shown, when there are more than fit
+        self.first = 0  # first visible row, if not all fit
         self.dragged: int | None = None  # row number of the bar being dragged
         self.pointer: tuple[int, int] | None = None
         self.vertical, self.sideways = Repeat(("up", "down")), Repeat(("left", "right"))
@@ -78,7 +78,7 @@ class RowList:
 
     @property
     def room(self) -> int:
-        """How many rows fit."""
+        """Number of rows that fit."""
         return max(1, self.rect.height // LINE)
 
     @property
@@ -88,13 +88,13 @@ class RowList:
         return rows[self.mark] if self.mark < len(rows) else None
 
     def place(self, number: int) -> pygame.Rect | None:
-        """Where a row is now, or None while it is scrolled out of sight."""
+        """Return the rect of a row, or None if it is scrolled out of view."""
         if not self.first <= number < self.first + self.room:
             return None
         return pygame.Rect(self.rect.x, self.rect.y + (number - self.first) * LINE, self.rect.width, LINE - 2)
 
     def show_marked(self) -> None:
-        """Have the mark on a row that can be marked, and scroll as little as brings it and its heading into sight."""
+        """Move the mark to a row that can be marked, and scroll as little as shows it with its heading."""
         rows = self.rows()
         live = [number for number, row in enumerate(rows) if not row.head]
         if live and self.mark not in live:
@@ -104,13 +104,13 @@ class RowList:
         self.first = max(0, min(self.first, len(rows) - self.room))
 
     def step(self, inputs: InputState, dt: float) -> None:
-        """One fixed step."""
+        """Make one fixed step."""
         self._step_mark(self.vertical.move(inputs, dt))
         rows = self.rows()
         self.first = max(0, min(self.first - inputs.wheel, len(rows) - self.room))
         under = self._row_at(inputs.pointer)
         if inputs.pointer != self.pointer and under is not None and self.dragged is None:
-            self.mark = under  # only a pointer that moves takes the mark from the keys
+            self.mark = under  # only a moving pointer takes the mark from the keys
         self.pointer = inputs.pointer
         row = self.marked
         if row is None:
@@ -177,17 +177,17 @@ class RowList:
             self.cues.append("blip")
 
     def value_place(self, place: pygame.Rect) -> pygame.Rect:
-        """The part of a row that shows its value."""
+        """Return the part of a row that shows its value."""
         wide = min(VALUE_WIDTH, place.width // 2)
         return pygame.Rect(place.right - wide, place.y, wide, place.height)
 
     def bar_place(self, place: pygame.Rect) -> pygame.Rect:
-        """The bar of a slider's row."""
+        """Return the bar of a slider's row."""
         value = self.value_place(place)
         return pygame.Rect(value.x, value.centery - 2, BAR_WIDTH, 4)
 
     def draw(self, canvas: Canvas, focused: bool = True) -> None:
-        """Draw what is in sight; `focused`: the keys work this list and not another one beside it."""
+        """Draw the visible rows. focused: the keys operate this list."""
         rows = self.rows()
         for number in range(self.first, min(len(rows), self.first + self.room)):
             self._draw_row(canvas, rows[number], self.place(number), number == self.mark, focused)
@@ -220,7 +220,7 @@ class RowList:
         canvas.text(row.value, place.right - GRID // 2, place.y + 3, SKY, TEXT, 1, "right")
 
     def _draw_scroll_bar(self, surface, count):
-        """How much of the list is in sight, and which part."""
+        """Draw the scroll bar: the visible part of the list."""
         if count > self.room:
             track = pygame.Rect(self.rect.right + 2, self.rect.y, 2, self.room * LINE - 2)
             surface.fill(DUSK, track)

@@ -1,4 +1,6 @@
-"""The way back: Backspace held runs back, and while the game is frozen a bar shows and takes the last ten seconds."""
+"""Rewind control: holding Backspace runs back, and while the game is frozen a bar shows the last ten seconds as a
+timeline.
+"""
 
 from collections.abc import Callable
 
@@ -10,12 +12,12 @@ from game.drawing.presenter import Frame
 from game.input.devices import DeviceSource
 from game.run.rewind import STEPS, Rewind
 
-SPEEDS = ((1.0, 1.0), (2.5, 2.0), (60.0, 4.0))  # (held for less than [s], times as fast as it was played)
-REPEAT = 0.35  # [s] an arrow is held until it goes on by itself
+SPEEDS = ((1.0, 1.0), (2.5, 2.0), (60.0, 4.0))  # (held for less than [s], multiple of the playing speed)
+REPEAT = 0.35  # [s] before a held arrow repeats
 MANY = 10  # steps with Shift
 LEAST_WIDTH = 360  # [text px] that the bar needs
 BAR_HEIGHT = 24  # [text px]
-MOST_CUT = 12  # [text px] of a line of text above the bar that goes with what the bar covers of it
+MOST_CUT = 12  # [text px] height of text lines above the bar that are hidden if the bar covers a part of them
 KEYS_LINE = "\u2190 \u2192 a step   Shift ten   Backspace runs back   P plays on from here"
 BACK_KEY = pygame.K_BACKSPACE
 WAYS = {pygame.K_LEFT: -1, pygame.K_RIGHT: 1}
@@ -24,27 +26,27 @@ PAD_RUNS = {"left shoulder": -1, "right shoulder": 1}
 
 
 class Scrub:
-    """Takes a Rewind where a player wants it: feed() takes events, turn() goes there. went: called after each move."""
+    """Control of a Rewind: feed() takes events, turn() goes to the step. went: called after each move."""
 
     def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
         self.rewind, self.went = rewind, went
-        self.control: object = None  # the key or button that is held
+        self.control: object = None  # the held key or button
         self.way, self.pace, self.since, self.before, self.owed = 0, 0.0, 0.0, 0.0, 0.0
-        self.asked: int | None = None  # a step, by mouse or tap
+        self.asked: int | None = None  # a step chosen by mouse or tap
         self.dragging = False
         self.bar = pygame.Rect(0, 0, 0, 0)  # of the last picture
 
     @property
     def runs(self) -> bool:
-        """True while a key is held to run back: time stands still for the game."""
+        """True while a key is held to run back; the game makes no steps then."""
         return self.control == BACK_KEY
 
     def let_go(self) -> None:
-        """Nothing is held any more."""
+        """Release all held keys."""
         self.control, self.dragging, self.asked = None, False, None
 
     def feed(self, event: pygame.event.Event, devices: DeviceSource, frozen: bool, now: float) -> bool:
-        """Take an event; True if it is used up. devices: know a pad's buttons; now: of the last turn [s]."""
+        """Process an event; return whether it was used. devices: name a pad's buttons; now: of the last turn [s]."""
         button = devices.button_of(event)
         if event.type == pygame.KEYUP:
             return self._release(event.key)
@@ -99,14 +101,14 @@ class Scrub:
         self.asked = self.rewind.end - round((1.0 - max(0.0, min(1.0, share))) * STEPS)
 
     def go(self, steps: int) -> None:
-        """Go so many steps on, or back."""
+        """Go so many steps forward, or back if negative."""
         before = self.rewind.position
         self.rewind.seek(before + steps)
         if self.rewind.position != before:
             self.went()
 
     def turn(self, now: float, frozen: bool) -> bool:
-        """Go where was asked for at `now` [s]. True while a key runs back: the game makes no steps then."""
+        """Go to the chosen step at `now` [s]. Return whether a key runs back: the game makes no steps then."""
         if not frozen and not self.runs:
             self.let_go()
         goal = self._goal(now)
@@ -128,7 +130,7 @@ class Scrub:
         return goal
 
     def reserve(self, frame: Frame) -> None:
-        """Keep other text away from the bar."""
+        """Reserve the bar's place."""
         frame.reserve(self._rect(frame))
 
     def _rect(self, frame):
@@ -137,11 +139,11 @@ class Scrub:
         return pygame.Rect(area.x, area.bottom - high, area.width, high)
 
     def draw(self, frame: Frame) -> None:
-        """Ten seconds from left to right: what can be gone back to, where the key frames lie, and where we are."""
+        """Draw ten seconds from left to right: the reachable part, the key frames, and the current step."""
         scale, rect, rewind = frame.scale_for(LEAST_WIDTH), self._rect(frame), self.rewind
         covered = [box for box, _ in frame.boxes if rect.colliderect(box)]
         top = min([rect.y, *(box.y - scale for box in covered if rect.y - box.y < MOST_CUT * scale)])
-        frame.surface.fill(INK, (rect.x, top, rect.width, rect.bottom - top))  # a line of text goes as a whole
+        frame.surface.fill(INK, (rect.x, top, rect.width, rect.bottom - top))  # a line of text is hidden as a whole
         frame.boxes[:] = [each for each in frame.boxes if not rect.colliderect(each[0])]
         y = rect.y + 4 * scale
         earliest = frame.text(f"-{STEPS / 60:.0f} s", rect.x + 4 * scale, y, FOG, TEXT, scale)

@@ -1,4 +1,4 @@
-"""The pages of the settings: which rows each has, and what turning one does to the Settings."""
+"""The pages of the settings: the rows of each, and their effect on the Settings."""
 
 from collections.abc import Callable
 from functools import partial
@@ -24,7 +24,9 @@ PALETTE_HINTS = {
 def rows_of(
     page: str, settings: Settings, changed: Callable[[], None], wait_for: Callable[[str, str], None]
 ) -> list[Row]:
-    """Rows of a page. changed() is called after each change; wait_for(device, action) asks for a key or button."""
+    """Return the rows of a page. changed() is called after each change; wait_for(device, action) waits for a key or
+    button.
+    """
     if page in ("Keyboard", "Controller"):
         return _binding_rows("keys" if page == "Keyboard" else "buttons", settings, changed, wait_for)
     return {"Sound": _sound_rows, "Picture": _picture_rows, "Comfort": _accessibility_rows}[page](settings, changed)

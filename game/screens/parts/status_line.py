@@ -1,4 +1,4 @@
-"""The line over a played scene: paused, slow, over, or which keys there are."""
+"""The status line over a played scene: paused, slow, ended, or the keys."""
 
 import pygame
 
@@ -8,8 +8,8 @@ from game.drawing.presenter import Frame
 from game.input.bindings import help_pairs
 from game.screens.parts.played import Played
 
-HELP_SECONDS = 6.0  # how long the keys stay after the start
-RESULT_WAIT = 60  # steps after the end before a key leads on: nobody skips it by holding fire
+HELP_SECONDS = 6.0  # time for which the keys are shown after the start
+RESULT_WAIT = 60  # steps after the end before a key continues, so that holding fire does not skip it
 GAP = "   "  # between the parts of a line
 LINE = 7  # [text px] from one row to the next
 HEAD_TITLE = 16  # [canvas px] a title begins this far from the left edge at most
@@ -17,14 +17,14 @@ SHADE = (20, 16, 32, 225)
 
 
 def draw_status(frame: Frame, play: Played) -> None:
-    """Draw what there is to say of a Play."""
+    """Draw the status of a Play."""
     text, color = status_of(play)
     if text:
         draw_line(frame, text, color, play.scene.head if play.measuring.split is None else 0)
 
 
 def status_of(play: Played) -> tuple[str, Color]:
-    """(text, color) of the line; "" where nothing is to be said."""
+    """Return (text, color) of the line; "" if there is nothing to show."""
     scene, clock = play.scene, play.clock
     if play.news:
         return play.news, GOLD
@@ -47,7 +47,7 @@ def status_of(play: Played) -> tuple[str, Color]:
 
 
 def draw_in_a_corner(frame: Frame, text: str) -> None:
-    """Draw a small line in the first corner that is free; nowhere if none is."""
+    """Draw a small line in the first free corner; draw nothing if there is none."""
     scale = frame.text_scale
     width, height = frame.measure(text, SMALL, scale)
     area = frame.area.clip(frame.rect)
@@ -64,7 +64,9 @@ def draw_in_a_corner(frame: Frame, text: str) -> None:
 
 
 def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
-    """Beside the title, in the line of `head` canvas px on top; without one near the bottom, or wherever it is free."""
+    """Draw a line beside the title, in the top line of `head` canvas px; without one near the bottom, or at any free
+    place.
+    """
     if head and _draw_in_head(frame, text, color, head):
         return
     scale = frame.text_scale
@@ -82,7 +84,7 @@ def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
 
 
 def _draw_in_head(frame, text, color, head):
-    """In one row or two, as large as fits; what else stands in that line gives way. False where nothing fits."""
+    """Draw a line in one row or two, as large as fits, in place of other text there. Return whether it fits."""
     band = frame.from_canvas((0, 0, frame.area.width // frame.scale, head)).clip(frame.rect)
     titles = [box for box, _ in frame.boxes if band.contains(box) and box.left < band.left + HEAD_TITLE * frame.scale]
     left = max((box.right for box in titles), default=band.left) + 6 * frame.scale
@@ -102,7 +104,7 @@ def _draw_in_head(frame, text, color, head):
 
 
 def _rows(frame, text, width, scale):
-    """The parts of a line in as few rows as hold them; none where a part is wider than a row."""
+    """Return the parts of a line in as few rows as hold them; none if a part is wider than a row."""
     rows = []
     for part in text.split(GAP):
         longer = f"{rows[-1]}{GAP}{part}" if rows else part

@@ -1,4 +1,4 @@
-"""What a layer of the overlays is about: where in a scene there is such a thing now, the best example first."""
+"""Subjects of overlay layers: where a scene shows an example of a layer now, the best one first."""
 
 from collections.abc import Callable, Iterable
 
@@ -10,12 +10,12 @@ from game.scene import Scene
 from physics import World, debug
 
 POINT_REACH = 8.0  # [px] around a contact point
-BORDER = 10  # [canvas px] that a subject keeps from the border of its view: a ring goes there
-LARGEST = (220, 84)  # [canvas px]: under or over what is higher there is no room for a card
+BORDER = 10  # [canvas px] between a subject and the border of its view, for a ring
+LARGEST = (220, 84)  # [canvas px]: above or below a taller one there is no room for a card
 
 
 def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
-    """Where on the canvas there is something that a layer is about, whole and in sight; None: nowhere in this step."""
+    """Return the place on the canvas of a layer's subject, whole and visible; None if there is none in this step."""
     for world, camera in scene.views():
         for rect in _on_canvas(SUBJECTS[layer](world), camera):
             return rect
@@ -23,7 +23,7 @@ def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
 
 
 def _on_canvas(rows: np.ndarray, camera: Camera) -> Iterable[pygame.Rect]:
-    """Those of (n, 4) world boxes that can be ringed in a view, as canvas rects."""
+    """Return those of (n, 4) world boxes that fit in a view with a ring, as canvas rects."""
     inside = camera.viewport.inflate(-2 * BORDER, -2 * BORDER)
     left, top = camera.to_canvas(rows[:, 0], rows[:, 1])
     right, bottom = camera.to_canvas(rows[:, 2], rows[:, 3])
@@ -35,9 +35,9 @@ def _on_canvas(rows: np.ndarray, camera: Camera) -> Iterable[pygame.Rect]:
 
 
 def _around(boxes, ids, pairs):
-    """One box around both of each pair of shape ids; boxes: in the order of ids."""
+    """Return one box around both of each pair of shape ids; boxes: in the order of ids."""
     rows = np.minimum(np.searchsorted(ids, pairs), len(ids) - 1)
-    there = (ids[rows] == pairs).all(axis=1)  # what is gone since the step has no row
+    there = (ids[rows] == pairs).all(axis=1)  # a shape removed since the step has no row
     a, b = boxes[rows[there, 0]], boxes[rows[there, 1]]
     return np.concatenate([np.minimum(a, b)[:, :2], np.maximum(a, b)[:, 2:]], axis=1)
 
@@ -49,24 +49,24 @@ def _of_pairs(world, pairs):
 
 
 def touching(world: World) -> np.ndarray:
-    """(n, 4) boxes around two shapes that touch."""
+    """Return (n, 4) boxes around two touching shapes."""
     told = world.reported_rows()
-    return _of_pairs(world, np.stack([told["owner_a"], told["owner_b"]], axis=1))
+    return _of_pairs(world, np.stack([told["parent_a"], told["parent_b"]], axis=1))
 
 
 def candidates(world: World) -> np.ndarray:
-    """(n, 4) boxes around two shapes that the broad phase hands on."""
+    """Return (n, 4) boxes around the candidate pairs of the broad phase."""
     return _of_pairs(world, world.candidates)
 
 
 def moving(world: World) -> np.ndarray:
-    """(n, 4) motion rectangles, the largest first."""
+    """Return (n, 4) swept AABBs, the largest first."""
     rows = debug.motion(world)
     return rows[np.argsort(-(rows[:, 2] - rows[:, 0]) * (rows[:, 3] - rows[:, 1]), kind="stable")]
 
 
 def kept(world: World) -> np.ndarray:
-    """(n, 4) cells or boxes that the broad phase keeps, those with the most shapes in them first."""
+    """Return (n, 4) cells or boxes of the broad phase, those with the most shapes first."""
     rows, boxes = debug.structure(world).rects, debug.bounds(world)
     x, y = (boxes[:, 0] + boxes[:, 2]) / 2, (boxes[:, 1] + boxes[:, 3]) / 2
     inside = (rows[:, :1] <= x) & (x <= rows[:, 2:3]) & (rows[:, 1:2] <= y) & (y <= rows[:, 3:])
@@ -76,14 +76,14 @@ def kept(world: World) -> np.ndarray:
 
 
 def shared_pixels(world: World) -> np.ndarray:
-    """(n, 4) boxes around the pixels that two masks share, the most first."""
+    """Return (n, 4) boxes around the pixels that two masks share, the most first."""
     hits = sorted(debug.mask_hits(world), key=lambda hit: -int(hit[2].sum()))
     rows = [(left, top, left + solid.shape[1], top + solid.shape[0]) for left, top, solid in hits]
     return np.array(rows, float).reshape(-1, 4)
 
 
 def piled_up(world: World) -> np.ndarray:
-    """(n, 4) boxes around the bodies of an island, those of the most bodies first."""
+    """Return (n, 4) boxes around the bodies of an island, those of the most bodies first."""
     islands, boxes = debug.islands(world)[world.shapes["body_row"]], debug.bounds(world)
     names, counts = np.unique(islands[islands >= 0], return_counts=True)
     several = names[np.argsort(-counts, kind="stable")][: int((counts > 1).sum())]
@@ -92,7 +92,7 @@ def piled_up(world: World) -> np.ndarray:
 
 
 def contacts(world: World) -> np.ndarray:
-    """(n, 4) boxes around contact points that act, those that push hardest first."""
+    """Return (n, 4) boxes around active contact points, those with the greatest impulse first."""
     points = debug.contact_points(world)
     points = points[np.isin(points["state"], (debug.NEW, debug.PERSISTED, debug.ASLEEP))]
     points = points[np.argsort(-points["normal_impulse"], kind="stable")]
@@ -101,13 +101,13 @@ def contacts(world: World) -> np.ndarray:
 
 
 def shapes_that_move(world: World) -> np.ndarray:
-    """(n, 4) boxes of shapes that are pushed about, the largest first."""
+    """Return (n, 4) boxes of the shapes of bodies that are not static, the largest first."""
     boxes = debug.bounds(world)[debug.shape_rows(world)["kind"] != 0]
     return boxes[np.argsort(-(boxes[:, 2] - boxes[:, 0]) * (boxes[:, 3] - boxes[:, 1]), kind="stable")]
 
 
 def stopped_on_their_way(world: World) -> np.ndarray:
-    """(n, 4) boxes around where a body was stopped in the step and where it was going."""
+    """Return (n, 4) boxes around the point where a body was stopped in the step and the point it was heading for."""
     ghosts = debug.impact_ghosts(world)
     rows = world.rows(ghosts["body"]) if len(ghosts) else np.zeros(0, int)
     x, y = world.bodies["x"][rows], world.bodies["y"][rows]

@@ -1,4 +1,4 @@
-"""What a player may switch in a running scene, by key or panel, and the line that tells what was switched."""
+"""Switches of a running scene, by key or panel, and the line about the last switch."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -9,11 +9,11 @@ from game.run.outcome import solver_name
 from game.scene import SUBSTEPS, Scene
 from physics import BROADPHASES
 
-TOLD_SECONDS = 2.5  # how long a line stays about what was switched
+TOLD_SECONDS = 2.5  # duration of the line about a switch
 
 
 class Switches:
-    """Every switch goes in as input of the next step, so that a recording holds it.
+    """Switches that are input of the next step, so that a recording contains them.
 
     way: 1 the next, -1 the one before.
     """
@@ -21,10 +21,10 @@ class Switches:
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
         self.scene, self.devices = scene, devices
         self.now = 0.0  # [s]
-        self.told: tuple[str, float] = ("", 0.0)  # what was switched, and when it is no longer told [s]
+        self.told: tuple[str, float] = ("", 0.0)  # last switch, and the end of its line [s]
 
     def solver(self, way: int) -> None:
-        """How overlaps are resolved."""
+        """Change the solver."""
         choices = self.scene.solver_choices()
         if choices:
             name = following(choices, solver_name(self.scene), way)
@@ -35,7 +35,7 @@ class Switches:
             self.tell("nothing is pushed here: there is no solver to switch")
 
     def broadphase(self, way: int) -> None:
-        """How pairs that may touch are found."""
+        """Change the broad phase."""
         if self.scene.switches_broadphase:
             name = following(tuple(BROADPHASES), self.scene.broadphase, way)
             self._switch("broadphase", "broad phase", name, self.scene.broadphase)
@@ -43,19 +43,19 @@ class Switches:
             self.tell("each world here has a broad phase of its own")
 
     def substeps(self, way: int) -> None:
-        """How often a step looks at its contacts."""
+        """Change the number of substeps."""
         now = self.scene.worlds[0].substeps
         self._switch("substeps", "substeps", following(SUBSTEPS, now, way), now)
 
     def tier(self, way: int) -> None:
-        """The shape that sprites are tested as."""
+        """Change the tier of the sprites' shapes."""
         if self.scene.tiers:
             self._switch("tier", "tested as", following(self.scene.tiers, self.scene.tier, way), self.scene.tier)
         else:
             self.tell("no sprites here that could be tested as another shape")
 
     def narrowphase(self) -> None:
-        """Stop at boxes, or do not."""
+        """Stop at boxes, or go on to the narrow phase."""
         on = not self.scene.narrowphase
         self.devices.change("narrowphase", on)
         self.tell("narrow phase: on, was off" if on else "narrow phase: off, was on: boxes that meet are a hit")
@@ -70,10 +70,10 @@ class Switches:
 
     @property
     def news(self) -> str:
-        """One line about what was just switched, "" when that is long ago."""
+        """Line about the last switch, "" once it is old."""
         return self.told[0] if self.now < self.told[1] else ""
 
 
 def following(names: Sequence[Any], name: Any, way: int) -> Any:
-    """The name `way` places on, around the end; the first one where none is chosen yet."""
+    """Return the name `way` places further, cyclically; the first one if none is chosen."""
     return names[(names.index(name) + way) % len(names)] if name in names else names[0]

@@ -1,4 +1,4 @@
-"""Why? A click on a contact while the scene is frozen: the way of that pair through the step, on a card beside it."""
+"""Contact inspector: a click on a contact of the frozen scene opens a card with that pair's path through the step."""
 
 import pygame
 
@@ -10,12 +10,12 @@ from game.scene import Scene
 from game.screens.parts.lab_card import least_covering
 from physics import World
 
-REACH = 5.0  # [canvas px] around a contact that a click takes for it
+REACH = 5.0  # [canvas px] around a contact in which a click selects it
 WIDTH, ROW, EDGE = 150, 7, 4  # [text px] of the card
 
 
 class Why:
-    """feed() takes clicks, draw() shows the card; it goes when time goes on."""
+    """Card of a contact: feed() takes clicks, draw() shows it; it closes when time goes on."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -25,7 +25,9 @@ class Why:
         self.reach = REACH  # [frame px]
 
     def feed(self, event: pygame.event.Event, frozen: bool) -> bool:
-        """A click next to a contact opens its card, another one closes it; True if the click is used up."""
+        """Process a click: next to a contact it opens its card, elsewhere it closes it. Return whether the click was
+        used.
+        """
         if not frozen or event.type != pygame.MOUSEBUTTONDOWN or event.button != 1:
             return False
         was_open, self.chosen = self.chosen is not None, None
@@ -45,7 +47,7 @@ class Why:
         self.chosen = world, touch
 
     def draw(self, frame: Frame, frozen: bool) -> None:
-        """The ring and the card."""
+        """Draw the ring and the card."""
         self.lenses = [(world, frame.lens(camera)) for world, camera in self.scene.views()]
         self.reach = REACH * frame.scale
         if self.chosen is None:
@@ -73,7 +75,7 @@ class Why:
         size = width, (sum(height for *_, height in lines) + 2 * EDGE) * scale
         ring = pygame.Rect(0, 0, 12 * scale, 12 * scale)
         ring.center = round(place[0]), round(place[1])
-        frame.boxes.append((ring, ""))  # the card keeps off what it is about
+        frame.boxes.append((ring, ""))  # the card keeps clear of its contact
         rect = least_covering(frame, frame.area, size)
         frame.boxes.pop()
         frame.surface.fill(faded(NIGHT, 0.1), rect)

@@ -1,26 +1,26 @@
-"""From one screen to the next: the old picture leaves in strips, or fades where flashing is reduced."""
+"""Transition between screens: the old picture leaves in strips, or fades if flashing is reduced."""
 
 import pygame
 
 SECONDS = 0.3
 STRIPS = 12
-SPREAD = 0.5  # of the time, by which the last strip goes later than the first
+SPREAD = 0.5  # of the time: delay of the last strip after the first
 
 
 class Wipe:
-    """Holds the last picture of the screen that was left, for as long as some of it is seen."""
+    """The last picture of the previous screen, while a part of it is visible."""
 
     def __init__(self) -> None:
         self.old = None
         self.started = 0.0
 
     def begin(self, surface: pygame.Surface, now: float) -> None:
-        """Keep what is on the surface, to be wiped away from now [s] on."""
+        """Store the surface, for a transition from now [s] on."""
         self.old = surface.copy()
         self.started = now
 
     def draw(self, surface: pygame.Surface, now: float, fades: bool = False) -> None:
-        """Draw what is left of the old picture over the new one."""
+        """Draw the rest of the old picture over the new one."""
         if self.old is None:
             return
         share = (now - self.started) / SECONDS
@@ -33,7 +33,7 @@ class Wipe:
             self._draw_strips(surface, share)
 
     def _draw_strips(self, surface, share):
-        """Each strip narrows towards its left edge, the left ones first."""
+        """Draw the strips, which narrow towards their left edges, the left ones first."""
         width, height = surface.get_size()
         for number in range(STRIPS):
             late = SPREAD * number / (STRIPS - 1)

@@ -1,4 +1,4 @@
-"""Pages of what is too much: all at one point, too many for their room, far away, told a wrong scale; and of sleep."""
+"""Pages of extremes: all at one point, too many for their room, far away, a wrong scale; and sleep."""
 
 import numpy as np
 
@@ -7,47 +7,47 @@ from scenes.lab.gallery.page import LAST, METER, MM, PUSHED, Larger, Page, Way, 
 from scenes.lab.gallery.piles import CRATE, PILE
 
 POINT = Effects(response=True, rotation=True, stacking=True)
-LIVE, THOUSAND = 60, 1000  # bodies at the point: for which a frame has time, and beside the game
+LIVE, THOUSAND = 60, 1000  # bodies at the point: in a frame, and beside the game
 FAR = 1e7  # [px]
 ROWS = 8
-CROWD, ROOM = 25, 0.79  # a side of the crowd; the share of it that their room has
+CROWD, ROOM = 25, 0.79  # side of the crowd; its room, as a share of its area
 WALL = 2.0 * METER
 PILES, HIGH = 12, 10
-APEX = 0.8**2 * 2.0  # [m] a ball that falls two metres comes back to
+APEX = 0.8**2 * 2.0  # [m] first apex of a ball after a fall of two metres
 
 
 def build_point(side):
-    """Boxes, all at (0, 0)."""
+    """Build boxes, all at (0, 0)."""
     fill_point(side.world, LIVE)
 
 
 def fill_point(world, count):
-    """So many boxes, all at (0, 0)."""
+    """Add so many boxes, all at (0, 0)."""
     world.add_bodies(Polygon.box(8.0, 8.0), np.zeros((count, 2)))
 
 
 def snapshot_of_thousand(settings):
-    """The same with a thousand; settings: of the world."""
+    """Return a snapshot of a thousand such boxes; settings: of the world."""
     world = World(POINT, **settings)
     fill_point(world, THOUSAND)
     return world.snapshot()
 
 
 def fastest_move(side):
-    """The farthest that a body came in the step, as a speed [m/s]."""
+    """Return the greatest motion of a body in the step, as a speed [m/s]."""
     b = dynamic(side.world)
     way = np.hypot(b["x"] - b["previous_x"], b["y"] - b["previous_y"])
     return float(way.max()) / side.world.dt / METER
 
 
 def farthest_move(figures):
-    """The same of what was stepped beside the game."""
-    assert figures.farthest is not None  # it was judged
+    """Return the same for the run beside the game."""
+    assert figures.farthest is not None  # set, because it was judged
     return figures.farthest * 60.0 / METER
 
 
 def build_crowd(side):
-    """625 discs of a metre in a room with place for 496 if they were water."""
+    """Build 625 discs of a metre in a room with space for 496 if they were liquid."""
     wide = CROWD * ROOM * METER
     for x, y, width, height in (
         (0.0, 0.5 * (wide + WALL), wide + 2.0 * WALL, WALL),
@@ -63,13 +63,13 @@ def build_crowd(side):
 
 
 def unrest(side):
-    """Root mean square of all speeds [m/s]."""
+    """Return the root mean square of all speeds [m/s]."""
     b = dynamic(side.world)
     return float(np.sqrt((b["vx"] ** 2 + b["vy"] ** 2).mean())) / METER
 
 
 def build_pyramid(side, origin):
-    """Eight rows of crates about a point this far right and down."""
+    """Build eight rows of crates about a point this far right and down."""
     floor_at = (origin, origin + 2.0 * METER)
     side.world.add_body(Polygon.box(100.0 * METER, 4.0 * METER), position=floor_at, kind="static")
     places = [
@@ -82,14 +82,14 @@ def build_pyramid(side, origin):
 
 
 def apart(side):
-    """The greatest difference of a body's place to that of the same body on the other side [mm]."""
+    """Return the greatest distance between the places of a body on both sides [mm]."""
     b, other = dynamic(side.world), dynamic(side.other.world)
     shift = side.kept["origin"] - side.other.kept["origin"]
     return MM * max(float(np.abs(b[axis] - other[axis] - shift).max()) for axis in ("x", "y"))
 
 
 def build_metres(side):
-    """A world in metres: a ball of half a metre two metres above the floor."""
+    """Build a world in metres: a ball of half a metre two metres above the floor."""
     material = Material(restitution=0.8)
     shape = Polygon.box(40.0, 4.0)
     side.world.add_body(shape, position=(0.0, 2.0), kind="static", material=material)
@@ -98,7 +98,7 @@ def build_metres(side):
 
 
 def low(side):
-    """How much of its first apex a ball that has bounced lacks [%]."""
+    """Return the shortfall of a ball's first apex after a bounce [%]."""
     ball, kept = side.kept["ball"], side.kept
     kept["fell"] |= ball.velocity[1] <= 0.0 and side.steps > 5
     if not kept["fell"]:
@@ -109,7 +109,7 @@ def low(side):
 
 
 def build_piles(side):
-    """Twelve columns of ten crates, built as they stand."""
+    """Build twelve columns of ten crates, at rest."""
     floor(side.world)
     places = [
         ((column - (PILES - 1) / 2) * 2.0 * METER, -(row + 0.5) * METER)
@@ -120,7 +120,7 @@ def build_piles(side):
 
 
 def moved(side):
-    """Bodies that the step had to move."""
+    """Return the number of bodies that the step moved."""
     return float(side.world.profile.counters["bodies_integrated"])
 
 

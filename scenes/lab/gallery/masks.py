@@ -8,7 +8,7 @@ from physics import Effects, PixelMask, fit
 from scenes.lab.gallery.page import LAST, Page, Way
 
 OUTER, INNER, BALL = 20.0, 16.0, 10.0  # [px] radii
-CLEAR = 1.5  # [px] touches this close are counted for neither side: pixels are not circles
+CLEAR = 1.5  # [px] contacts this close are not counted: pixels are not circles
 RINGS = tuple((-84.0 + 56.0 * column, -30.0 + 60.0 * row) for row in range(2) for column in range(4))
 SIZE = 32
 SQUARES = tuple((-150.0 + 100.0 * column, -100.0 + 100.0 * row) for row in range(3) for column in range(4))
@@ -16,7 +16,7 @@ SEEN = Effects()
 
 
 def disc(radius, hole=0.0):
-    """The pixels of a disc, or a ring, whose origin is its middle."""
+    """Return the pixels of a disc, or a ring, whose origin is its middle."""
     side = int(2 * radius)
     y, x = np.mgrid[0:side, 0:side] + 0.5 - radius
     far = np.hypot(x, y)
@@ -24,7 +24,7 @@ def disc(radius, hole=0.0):
 
 
 def build_rings(side, tier):
-    """Rings, and a ball for each."""
+    """Build rings, and a ball for each."""
     ring, ball = (disc(OUTER, INNER), disc(BALL))
     if tier != "mask":
         (ring,), (ball,) = fit(ring, tier), fit(ball, tier)
@@ -35,7 +35,7 @@ def build_rings(side, tier):
 
 
 def swing(side):
-    """Each ball through its ring's hole, over its rim and back."""
+    """Move each ball through its ring's hole, over its rim and back."""
     for number, ((x, y), (_, ball)) in enumerate(zip(RINGS, side.kept["balls"], strict=True)):
         at = 0.031 * side.steps + 0.7 * number
         far = 17.0 + 17.0 * sin(1.7 * at)
@@ -43,7 +43,9 @@ def swing(side):
 
 
 def wrong(side):
-    """Verdicts that geometry refutes, of all that are clear so far [%]: they touch from 6 to 30 px between middles."""
+    """Return the verdicts refuted by geometry, of all clear ones so far [%]: they touch from 6 to 30 px between
+    middles.
+    """
     met = {frozenset(pair) for pair in side.world.contacts[["body_a", "body_b"]].tolist()}
     for ring, ball in side.kept["balls"]:
         far = hypot(ball.position[0] - ring.position[0], ball.position[1] - ring.position[1])
@@ -55,7 +57,7 @@ def wrong(side):
 
 
 def build_squares(side, snap):
-    """Pairs of full squares of 32 px."""
+    """Build pairs of full squares of 32 px."""
     square = PixelMask.from_array(np.ones((SIZE, SIZE), bool), snap=snap)
     side.kept.update(judged=0, missed=0, chance=np.random.default_rng(7), pairs=[])
     for place in SQUARES:
@@ -64,14 +66,14 @@ def build_squares(side, snap):
 
 
 def scatter(side):
-    """Each second square anywhere where it overlaps the first, between pixels too."""
+    """Move each second square to a random overlap with the first, between pixels, too."""
     offsets = side.kept["chance"].uniform(-SIZE, SIZE, (len(SQUARES), 2))
     for (x, y), (_, other), (dx, dy) in zip(SQUARES, side.kept["pairs"], offsets.tolist(), strict=True):
         other.move_to((x + dx, y + dy), 0.0)
 
 
 def missed(side):
-    """Overlaps that were not told, of all so far [%]."""
+    """Return the overlaps not reported, of all so far [%]."""
     side.kept["judged"] += len(SQUARES)
     side.kept["missed"] += len(SQUARES) - len(side.world.contacts)
     return 100.0 * side.kept["missed"] / side.kept["judged"]

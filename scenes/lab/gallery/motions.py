@@ -1,4 +1,4 @@
-"""Pages of motions whose end is known: bounces, glancing blows, a slope, seams."""
+"""Pages of motions with a known end: bounces, glancing blows, a slope, seams."""
 
 from math import cos, hypot, radians, sin, sqrt, tan
 
@@ -15,11 +15,11 @@ SLOPE = radians(30.0)
 TILE, TILES = 0.5 * METER, 28
 SLIDERS = ((Circle(7.0), 7.0), (Capsule((-7.0, 0.0), (7.0, 0.0), 5.0), 5.0))  # shape, height of the middle
 SLIDING = 5.5 * METER  # [px/s]
-SETTLED = 60  # steps after which a box has found its hold
+SETTLED = 60  # steps after which a box has settled
 
 
 def build_ball(side):
-    """A ball over a floor, neither of which takes any of its speed."""
+    """Build a ball over a floor, both without loss of speed."""
     elastic = Material(restitution=1.0)
     floor(side.world, material=elastic)
     side.kept["ball"] = side.world.add_body(Circle(BALL), position=(0.0, -BALL - DROP), material=elastic)
@@ -27,9 +27,10 @@ def build_ball(side):
 
 
 def apex(side):
-    """The worst of the first seventeen apexes against the height it fell from [%]: of the parabola through three steps.
+    """Return the greatest error of the first seventeen apexes against the height of the fall [%], of the parabola
+    through three steps.
 
-    Where the bounces end early, all that is missing.
+    If the bounces end early, missing apexes count in full.
     """
     kept, found = side.kept, 0.0
     kept["heights"] = [*kept["heights"][-2:], -BALL - side.kept["ball"].position[1]]
@@ -44,13 +45,13 @@ def apex(side):
 
 
 def blows():
-    """(offset in diameters, speed [px/s], how far further away [px]) of 24 glancing blows."""
+    """Return (offset in diameters, speed [px/s], additional distance [px]) of 24 glancing blows."""
     chance = np.random.default_rng(5)
     return [(0.1 + 0.8 * k / 7, v, float(chance.uniform()) * v / 60) for v in SPEEDS for k in range(8)]
 
 
 def build_discs(side):
-    """Each disc flies past the middle of another that rests, without friction."""
+    """Build discs that each fly past the middle of another one at rest, without friction."""
     side.kept["pairs"] = []
     for number, (offset, speed, further) in enumerate(blows()):
         x, y = 5.0 * METER * (number % 8), 4.0 * METER * (number // 8)
@@ -62,7 +63,9 @@ def build_discs(side):
 
 
 def glance(side):
-    """The worst difference of a disc's velocity after the blow to what the line of centres says, in its speed [%]."""
+    """Return the greatest error of a disc's velocity after the blow, against the line of centres, as a share of its
+    speed [%].
+    """
     worst = 0.0
     for disc, offset, speed in side.kept["pairs"]:
         nx, ny = sqrt(1.0 - offset * offset), offset
@@ -73,7 +76,7 @@ def glance(side):
 
 
 def build_slope(side, share):
-    """A box on a slope of 30 degrees whose friction is this share of what holds it."""
+    """Build a box on a slope of 30 degrees, with this share of the friction that holds it."""
     material = Material(friction=share * tan(SLOPE))
     c, s = cos(SLOPE), sin(SLOPE)
     plank = Polygon.box(40.0 * METER, 2.0 * METER)
@@ -84,7 +87,7 @@ def build_slope(side, share):
 
 
 def creep(side):
-    """How far the box comes down the slope after the first second [mm]."""
+    """Return the motion of the box down the slope after the first second [mm]."""
     x, y = side.kept["box"].position
     if side.steps == SETTLED:
         side.kept["at"] = x, y
@@ -94,7 +97,7 @@ def creep(side):
 
 
 def build_seams(side, ground):
-    """A disc and a capsule on a long floor: of single boxes, or one chain."""
+    """Build a disc and a capsule on a long floor: of single boxes, or one chain."""
     below = Filter(1)
     smooth = Material(friction=0.0)
     if ground == "boxes":
@@ -116,7 +119,7 @@ def build_seams(side, ground):
 
 
 def slowed(side):
-    """The most that a slider's speed differs from what it set out with [%]."""
+    """Return the greatest change of a slider's speed [%]."""
     return max(100.0 * abs(each.velocity[0] - SLIDING) / SLIDING for each in side.kept["sliders"])
 
 

@@ -1,7 +1,7 @@
-"""What a page of the gallery is: a hard case as data, with small functions that set it up, move it and read its error.
+"""Pages of the gallery: a hard case as data, with functions that set it up, move it and read its error.
 
-A way is how one of the two worlds is made; a side is that world while it runs. Lengths in the worlds are in pixels, 32
-to the metre, as the physics has them by itself; errors carry the unit that the page names.
+A way is the setup of one of the two worlds; a side is that world while it runs. Lengths in the worlds are in pixels, 32
+to the metre, the default of physics; errors have the unit that the page names.
 """
 
 from collections.abc import Callable, Mapping
@@ -14,13 +14,13 @@ from physics import Effects, Polygon, World
 METER = 32.0  # [px]
 MM = 1000.0 / METER  # [mm/px]
 FLOOR_DEPTH = 32.0 * METER
-MARKED = 60  # steps that a mark is seen
-WORST, LAST = "worst", "last"  # which of a run's errors is held against the limit
+MARKED = 60  # steps for which a mark is visible
+WORST, LAST = "worst", "last"  # error of a run that is compared with the limit
 
 
 @dataclass(frozen=True)
 class Way:
-    """One of a page's two ways. world: what its World is given; bodies: what its build() asks for; without: effects."""
+    """One of a page's two ways. world: arguments of its World; bodies: arguments of its build(); without: effects."""
 
     name: str
     world: Mapping[str, Any] = field(default_factory=dict)
@@ -29,7 +29,9 @@ class Way:
 
 
 def auto(accuracy):
-    """As many substeps as keep contacts from sinking by more than this [mm]: no cap is hit where 32 of them reach."""
+    """Return the setting that takes enough substeps to limit the sag of contacts to this [mm]; no cap is hit while 32
+    suffice.
+    """
     name = f'substeps="auto", to {accuracy} mm'
     return Way(name, {"substeps": "auto", "accuracy": accuracy / MM})
 
@@ -41,9 +43,10 @@ PUSHED = Way("projection", {"solver": "projection"})
 
 @dataclass(frozen=True)
 class Larger:
-    """The same case at a size that no frame has time for: it is stepped beside the game.
+    """The same case at a size too large for a frame: it is stepped beside the game.
 
-    maker: "module:function" of a snapshot; it is given a way's `world`. steps: that are judged, the first ones.
+    maker: "module:function" of a snapshot, with a way's `world` as its argument. steps: number of judged steps, from
+    the start.
     """
 
     name: str  # "1,000 boxes"
@@ -54,32 +57,32 @@ class Larger:
 
 @dataclass(frozen=True)
 class Page:
-    """A hard case. The naive way is expected above the limit and ours within it; where they are alike, both within."""
+    """A hard case. The naive way must exceed the limit and the other keep it; if they are alike, both must keep it."""
 
     name: str
     title: str
-    seen: str  # one line: what is seen
-    why: str  # one line: why
+    seen: str  # one line: what is visible
+    why: str  # one line: the reason
     naive: Way
     ours: Way
     effects: Effects
-    build: Callable[["Side"], None]  # puts the bodies into side.world
+    build: Callable[["Side"], None]  # adds the bodies to side.world
     error: Callable[["Side"], float]  # after each step
     unit: str  # of the error
     limit: float
-    steps: int  # after which it is judged, and the bot goes on
-    frame: tuple[float, float, float]  # x and y of the middle, and width [px] of what is shown
+    steps: int  # after which it is judged, and the bot continues
+    frame: tuple[float, float, float]  # x and y of the middle, and width [px] of the view
     act: Callable[["Side"], None] | None = None  # before each step
     judged: str = WORST
     alike: bool = False
-    glance: int = 28  # frames that the bot looks into it at first
+    glance: int = 28  # frames of the bot's first look
     larger: Larger | None = None
 
 
 class Side:
     """A world of a page while it runs.
 
-    kept: whatever build, act and error remember between steps; marks: (x, y [px], good or bad, step) to be seen there.
+    kept: data of build, act and error between steps; marks: (x, y [px], good or bad, step) to be drawn there.
     """
 
     def __init__(self, page: Page, way: Way, world: World):
@@ -91,19 +94,19 @@ class Side:
         self.now = self.worst = 0.0
 
     def begin(self, other: "Side"):
-        """Put the bodies in; other: the side next to this one."""
+        """Add the bodies; other: the other side."""
         self.other = other
         self.page.build(self)
 
     def step(self):
-        """One step, without its error: the sides are measured when both have moved."""
+        """Make one step, without its error: the sides are measured after both have moved."""
         if self.page.act is not None:
             self.page.act(self)
         self.world.step()
         self.steps += 1
 
     def mark(self, place, good):
-        """Leave a mark where something ended well or did not; old ones go."""
+        """Mark the place of a good or bad end; old marks are removed."""
         self.marks = [each for each in self.marks if self.steps - each[3] < MARKED]
         self.marks.append((*place, good, self.steps))
 
@@ -114,7 +117,7 @@ class Side:
 
     @property
     def error(self):
-        """What is held against the limit."""
+        """Error that is compared with the limit."""
         return self.worst if self.page.judged == WORST else self.now
 
     @property
@@ -124,12 +127,12 @@ class Side:
 
 
 def dynamic(world):
-    """The rows of what can be pushed."""
+    """Return the rows of dynamic bodies."""
     bodies = world.bodies
     return bodies[bodies["inverse_mass"] > 0.0]
 
 
 def floor(world, half=100.0 * METER, **options):
-    """A thick floor whose surface is at y = 0."""
+    """Return a thick floor whose surface is at y = 0."""
     shape = Polygon.box(2.0 * half, FLOOR_DEPTH)
     return world.add_body(shape, position=(0.0, FLOOR_DEPTH / 2), kind="static", **options)

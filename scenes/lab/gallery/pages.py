@@ -1,4 +1,4 @@
-"""All pages of the gallery, in the order in which they are turned."""
+"""All pages of the gallery, in their order."""
 
 from scenes.lab.gallery import extremes, masks, motions, piles, sweeps
 

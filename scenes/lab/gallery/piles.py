@@ -1,4 +1,4 @@
-"""Pages of what bears: columns askew, mass ratios, cards, a load that is taken away."""
+"""Pages of loads: crooked columns, mass ratios, cards, a load that is removed."""
 
 from math import cos, radians, sin
 
@@ -9,7 +9,7 @@ from scenes.lab.gallery.page import KEPT, LAST, METER, MM, SOFT, Page, Way, auto
 from scenes.lab.piles import deepest
 
 PILE = Effects(response=True, gravity=True, rotation=True, friction=True, stacking=True)
-ALIGNED = PILE.with_(friction=False)  # one above the other: nothing slides
+ALIGNED = PILE.with_(friction=False)  # one above the other, without sliding
 FOUR = Way("four substeps", {"substeps": 4})
 AUTO = Way('substeps="auto"', {"substeps": "auto"})
 FORCES_KEPT = Way("forces kept", auto(5).world)
@@ -18,13 +18,13 @@ CRATE = Polygon.box(METER, METER)
 CRATES, ASKEW = 80, 0.02 * METER
 HUGE = 16.0 * METER
 TINY = 0.5 * METER
-GONE = 180  # the step before which the load is taken away
+GONE = 180  # step before which the load is removed
 LEAN = radians(25.0)
 CARD = (0.02 * METER, 1.0 * METER)  # half thickness and half height
 
 
 def build_column(side):
-    """Crates on top of each other, each off by up to 2 cm."""
+    """Build crates on top of each other, each off by up to 2 cm."""
     floor(side.world)
     aside = np.random.default_rng(1).uniform(-ASKEW, ASKEW, CRATES)
     side.world.add_bodies(CRATE, np.column_stack([aside, -(np.arange(CRATES) + 0.5) * METER]))
@@ -32,19 +32,19 @@ def build_column(side):
 
 
 def sway(side):
-    """The farthest that a body is sideways of its start [mm]."""
+    """Return the greatest sideways distance of a body from its start [mm]."""
     return MM * float(np.abs(dynamic(side.world)["x"] - side.kept["x"]).max())
 
 
 def build_heavy(side):
-    """A thousand times its mass on one crate."""
+    """Build a thousand times its mass on one crate."""
     floor(side.world)
     side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
     side.world.add_body(CRATE, position=(0.0, -1.5 * METER), material=Material(density=1000.0))
 
 
 def build_huge(side):
-    """A crate of 16 m on two of half a metre, and one of those on top."""
+    """Build a crate of 16 m on two of half a metre, and one of those on top."""
     floor(side.world)
     tiny, top = Polygon.box(TINY, TINY), -TINY - HUGE
     for x in (-0.4 * HUGE, 0.4 * HUGE):
@@ -55,17 +55,17 @@ def build_huge(side):
 
 
 def sunk(side):
-    """How far the load stands from where it would on crates that do not give [mm]."""
+    """Return the distance of the load from its place on rigid crates [mm]."""
     return MM * abs(side.kept["load"].position[1] - side.kept["y"])
 
 
 def overlap(side):
-    """The deepest overlap of two that touch [mm]."""
+    """Return the deepest overlap of two touching bodies [mm]."""
     return MM * deepest(side.world)
 
 
 def build_leaning(side):
-    """Ten crates, each 8 cm further to the right than the one below: at 10 cm such a tower falls."""
+    """Build ten crates, each 8 cm further to the right than the one below: with 10 cm such a tower falls."""
     floor(side.world)
     rows = np.arange(10)
     side.world.add_bodies(CRATE, np.column_stack([0.08 * METER * rows, -(rows + 0.5) * METER]))
@@ -73,7 +73,7 @@ def build_leaning(side):
 
 
 def build_struck(side):
-    """A pyramid of ten rows that lacks its top, and a crate of 300 times the mass that falls three metres on it."""
+    """Build a pyramid of ten rows without its top, and a crate of 300 times the mass that falls three metres on it."""
     floor(side.world)
     places = [
         ((column - (9 - row) / 2) * 1.01 * METER, -(row + 0.5) * METER)
@@ -85,7 +85,7 @@ def build_struck(side):
 
 
 def build_load(side):
-    """Two crates, and one of a thousand times their mass on them."""
+    """Build two crates, and one of a thousand times their mass on them."""
     floor(side.world)
     side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
     side.kept["top"] = side.world.add_body(CRATE, position=(0.0, -1.5 * METER))
@@ -93,7 +93,7 @@ def build_load(side):
 
 
 def take_away(side):
-    """The load is gone after three seconds; where forces are kept, it is elsewhere before anybody is told."""
+    """Remove the load after three seconds; with FORCES_KEPT, move it away by writing its column x."""
     if side.steps != GONE:
         return
     load = side.kept["load"]
@@ -105,12 +105,14 @@ def take_away(side):
 
 
 def rise(side):
-    """How far the upper crate comes above its place once the load is gone [mm]."""
+    """Return the rise of the upper crate over its place after the load is gone [mm]."""
     return MM * max(0.0, -1.5 * METER - side.kept["top"].position[1]) if side.steps > GONE else 0.0
 
 
 def build_cards(side):
-    """Four storeys of cards of 4 cm x 2 m that lean on each other at 25 degrees, one lying on each two pairs."""
+    """Build four storeys of cards of 4 cm x 2 m that lean on each other at 25 degrees, with one lying on every two
+    pairs.
+    """
     floor(side.world, material=Material(friction=0.7))
     thick, high = CARD
     reach, up = thick * cos(LEAN) + high * sin(LEAN), high * cos(LEAN) + thick * sin(LEAN)

@@ -1,9 +1,9 @@
 """Hard cases, a page each: the naive way and ours side by side, with the error and the time of both.
 
-What to see: two worlds with the same bodies. Left they are stepped as one would at first: tested where they stand,
-solved with a given number of substeps, without sleep, as hulls. Right they are stepped as they should be. Under each
-its error now, against the limit that the page is judged by, and what a step takes. Some pages ask whether both sides
-are alike: a thousand bodies at one point, ten million pixels from the origin.
+What to see: two worlds with the same bodies. The left one takes the simple way: tested at its poses only, solved with a
+given number of substeps, without sleep, as hulls. The right one takes the full way. Under each its error now, against
+the limit of the page, and the time of a step. Some pages ask whether both sides are alike: a thousand bodies at one
+point, ten million pixels from the origin.
 
 Why it matters: An engine is chosen for its worst case, not for its demo; here both ways are shown at each.
 
@@ -35,17 +35,17 @@ from scenes.lab.yard import HEAD, draw_head
 NAMES = tuple(page.name for page in PAGES)
 VIEWS = ((4, 18, 234, 160), (242, 18, 234, 160))
 COLORS = (ORANGE, GREEN)
-PLOT = (116, 192, 118, 40)  # of the left side; the other's is as far to the right as its view
+PLOT = (116, 192, 118, 40)  # of the left side; the other's is offset like its view
 HISTORY = 240  # steps in a plot
-BELOW, ABOVE = 2.0, 3.0  # decades of a plot under the limit and over it
+BELOW, ABOVE = 2.0, 3.0  # decades of a plot below the limit and above it
 GLANCES = {sum(page.glance for page in PAGES[:number]): number for number in range(len(PAGES))}  # frame -> page
-TOURED = sum(page.glance for page in PAGES)  # frames after which the bot has looked into each
-STEPS_OF_LARGER = 2  # in a run, where a step takes seconds
-DUE = TOURED + sum(page.steps for page in PAGES) + 2400  # frames by which the bot has judged all
+TOURED = sum(page.glance for page in PAGES)  # frames after which the bot has looked at each
+STEPS_OF_LARGER = 2  # in a run with steps of seconds
+DUE = TOURED + sum(page.steps for page in PAGES) + 2400  # frames after which the bot has judged all
 
 
 class Gallery(Scene):
-    """The page that is open: two sides, stepped in the same frame."""
+    """The open page: two sides, stepped in the same frame."""
 
     name = "lab/gallery"
     title = "Gallery"
@@ -76,13 +76,13 @@ class Gallery(Scene):
     legend_at = (6, 20)
 
     def build(self):
-        """The sky; then the page."""
+        """Build the sky, then the page."""
         self.sky = load_backdrop("sky_dusk")
-        self.verdicts = {}  # page name -> (error of the naive way, of ours), when it was judged
+        self.verdicts = {}  # page name -> (error of the naive way, of the other) when it was judged
         self.open()
 
     def open(self):
-        """The page from its start."""
+        """Open the page from its start."""
         page = self.page
         self.worlds, self.sides = [], []
         for way in (page.naive, page.ours):
@@ -108,16 +108,16 @@ class Gallery(Scene):
 
     @property
     def page(self):
-        """The page that is open."""
+        """The open page."""
         return PAGES[int(self.values["page"])]
 
     def change_slider(self, name, value):
-        """Another page, from its start."""
+        """Open another page from its start."""
         super().change_slider(name, value)
         self.open()
 
     def update(self, inputs):
-        """Keys, a step of both worlds, their errors."""
+        """Process keys, step both worlds, and read their errors."""
         turn = inputs.pressed("right") - inputs.pressed("left")
         if turn:
             self.change_slider("page", (self.values["page"] + turn) % len(PAGES))
@@ -132,12 +132,12 @@ class Gallery(Scene):
             self.verdicts[self.page.name] = tuple(side.error for side in self.sides)
 
     def observe(self):
-        """Note what the steps took."""
+        """Record the times of the steps."""
         for cost, side in zip(self.costs, self.sides, strict=True):
             cost.note(step_seconds(side.world) * 1e6)
 
     def measured(self):
-        """The page at its full size, where that is more than a frame has time for."""
+        """Return the runs to measure: the page at its full size, if that is too large for a frame."""
         if self.page.larger is None:
             return None
         return Lanes([self._lane(side) for side in self.sides], self._make)
@@ -152,18 +152,18 @@ class Gallery(Scene):
         return Lane([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
 
     def larger(self, side):
-        """(error, LaneFigures) of a side at the page's full size; None before it was stepped."""
+        """Return (error, LaneFigures) of a side at the page's full size; None before it was stepped."""
         figures = self.figures.get(self._lane(side))
         if self.page.larger is None or figures is None:
             return None
         return self.page.larger.read(figures), figures
 
     def views(self):
-        """One picture per side."""
+        """Return one picture per side."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
-        """Both worlds, a plate under each, and what is to be seen."""
+        """Draw both worlds, a plate under each, and the page's line."""
         canvas.surface.fill(NIGHT)
         number = int(self.values["page"]) + 1
         draw_head(canvas, "GALLERY", f"{number} of {len(PAGES)}")
@@ -194,14 +194,14 @@ class Gallery(Scene):
             canvas.text(f"{page.larger.name}: {told}", x + 2, 229, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
-        """What is tiny, and the errors against their limit."""
+        """Draw tiny shapes, and the errors against their limit."""
         for index, look in enumerate(self.looks):
             look.draw_on_frame(frame)
             self._draw_marks(frame, index)
             self._draw_errors(frame, index)
 
     def _draw_marks(self, frame, index):
-        """Where something ended well, or did not."""
+        """Draw the marks of good and bad ends."""
         side, lens = self.sides[index], frame.lens(self.cameras[index])
         frame.surface.set_clip(lens.clip)
         for x, y, good, step in side.marks:
@@ -210,7 +210,7 @@ class Gallery(Scene):
         frame.surface.set_clip(None)
 
     def _draw_errors(self, frame, index):
-        """A curve on a logarithmic scale, the limit across it."""
+        """Draw a curve on a logarithmic scale, with the limit across it."""
         left, top, width, height = PLOT
         rect = frame.from_canvas((left + VIEWS[index][0], top, width, height))
         surface, scale, limit = frame.surface, frame.scale, self.page.limit
@@ -234,7 +234,9 @@ class Gallery(Scene):
         frame.fix(rect)
 
     def check(self):
-        """On each page that was judged the naive way leaves the limit and ours keeps it; or both are alike."""
+        """Return the goals: on each judged page the naive way exceeds the limit and the other keeps it; or both are
+        alike.
+        """
         return [
             Goal(
                 page.title,
@@ -252,7 +254,7 @@ class Gallery(Scene):
         return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
 
     def finding(self):
-        """The errors of both ways on this page so far, and how many pages have shown what they are there for."""
+        """Return the errors of both ways on this page so far, and the number of pages with the expected result."""
         naive, ours = self.sides
         if not naive.steps:
             return "not yet: the page has to be stepped"
@@ -267,7 +269,7 @@ class Gallery(Scene):
         return f"{told}, limit {amount(page.limit)}{judged}"
 
     def bot(self):
-        """A glance into each page; then each until it is judged."""
+        """Return the bot: a short look at each page; then each until it is judged."""
         if self.frame < TOURED:
             number = GLANCES.get(self.frame)
             return InputFrame(changes=() if number is None else (("slider:page", number),))
@@ -277,19 +279,19 @@ class Gallery(Scene):
         return InputFrame()
 
     def state(self):
-        """The page, its errors, and all verdicts; the worlds hold the rest."""
+        """Return the page, its errors, and all verdicts; the worlds hold the rest."""
         sides = (value for side in self.sides for value in (side.steps, side.now, side.worst))
         verdicts = (value for pair in self.verdicts.values() for value in pair)
         return (self.frame, self.values["page"], *sides, *self.verdicts, *verdicts)
 
 
 def is_met(page, naive, ours):
-    """Whether a page shows what it is there for."""
+    """Return whether a page has the expected result."""
     return ours <= page.limit and (naive <= page.limit) == page.alike
 
 
 def amount(value):
-    """An error as short text: 0, 0.002, 18.2, 50,314."""
+    """Return an error as short text: 0, 0.002, 18.2, 50,314."""
     if value == 0.0:
         return "0"
     if abs(value) < 0.001:

@@ -1,4 +1,4 @@
-"""Pages of what is fast: a thin wall, a spinning rod, bullets that meet, a sensor of one pixel."""
+"""Pages of fast bodies: a thin wall, a spinning rod, bullets that meet, a sensor of one pixel."""
 
 import numpy as np
 
@@ -6,12 +6,12 @@ from physics import Capsule, Circle, Effects, Polygon
 from scenes.lab.gallery.page import LAST, Page, Way
 
 EVERY = 2  # steps between shots
-REACH = 200.0  # [px] that a shot flies from its start on
+REACH = 200.0  # [px] range of a shot
 LANES = 9
 LANE = 14.0  # [px]
 RADIUS, WALL = 3.0, 2.0  # [px]
 FAST = 3600.0  # [px/s]: 60 px a step
-ROD, SPIN = 26.0, 44.0  # [px] half its length; [rad/s]: 0.7 of a turn's radian per step
+ROD, SPIN = 26.0, 44.0  # [px] half its length; [rad/s]: 0.7 rad per step
 PEG = 2.0  # [px] radius
 TURN = 6  # steps within which a rod must have met its peg
 SEEN = Effects(narrowphase=False, sensors=True, continuous=True)  # sensors test shapes by themselves
@@ -19,19 +19,19 @@ PUSHED = Effects(response=True, stacking=True, continuous=True)
 
 
 def chance(side):
-    """The same numbers on both sides."""
+    """Return the same random numbers on both sides."""
     return side.kept.setdefault("chance", np.random.default_rng(3))
 
 
 def build_wall(side):
-    """One thin wall, as high as all lanes."""
+    """Build one thin wall, as high as all lanes."""
     side.kept.update(fired=0, through=0, flying={})
     height = LANES * LANE + 20.0
     side.world.add_body(Polygon.box(WALL, height), position=(0.0, 0.0), kind="static")
 
 
 def shoot(side):
-    """A ball at the wall every few steps, its start anywhere within a step's way; what has ended is counted."""
+    """Shoot a ball at the wall every few steps, from anywhere within the path of a step; count the finished ones."""
     for identity in list(side.kept["flying"]):
         body = side.world.body(identity)
         x, _ = body.position
@@ -50,19 +50,19 @@ def shoot(side):
 
 
 def count(side, place, missed):
-    """One that is over: whether what must be met was missed."""
+    """Count a finished shot, and whether it missed a body that it had to meet."""
     side.kept["fired"] += 1
     side.kept["through"] += missed
     side.mark(place, not missed)
 
 
 def through(side):
-    """Shots that came through, of those that are over [%]."""
+    """Return the shots that came through, of the finished ones [%]."""
     return 100.0 * side.kept["through"] / max(1, side.kept["fired"])
 
 
 def build_rods(side):
-    """Pegs, each near the end of a rod to come."""
+    """Build pegs, each near the end of a future rod."""
     side.kept.update(fired=0, through=0, flying={}, met=set())
     for lane in range(6):
         x, y = rod_place(lane)
@@ -70,12 +70,12 @@ def build_rods(side):
 
 
 def rod_place(lane):
-    """The middle of a rod [px]."""
+    """Return the middle of a rod [px]."""
     return (lane % 3 - 1) * 64.0, (lane // 3 - 0.5) * 64.0
 
 
 def spin(side):
-    """Rods that turn on the spot, at any angle, until they have met their peg or gone past it."""
+    """Add rods that rotate in place, at any angle, until they have met their peg or passed it."""
     side.kept["met"] |= {int(row[name]) for row in side.world.events.begin for name in ("body_a", "body_b")}
     if side.steps % TURN == 0:
         for identity in list(side.kept["flying"]):
@@ -96,12 +96,12 @@ def spin(side):
 
 
 def build_bullets(side):
-    """Nobody yet."""
+    """Build nothing: the bullets come with time."""
     side.kept.update(fired=0, through=0, flying={})
 
 
 def duel(side):
-    """Two bullets at each other in a lane every few steps."""
+    """Shoot two bullets at each other in a lane every few steps."""
     for one, other in list(side.kept["flying"].items()):
         a, b = side.world.body(one), side.world.body(other)
         met = a.velocity[0] < 0.5 * FAST
@@ -122,14 +122,14 @@ def duel(side):
 
 
 def build_beam(side):
-    """A sensor one pixel wide."""
+    """Build a sensor one pixel wide."""
     side.kept.update(fired=0, through=0, flying={}, met=set())
     height = LANES * LANE + 20.0
     side.world.add_body(Polygon.box(1.0, height), kind="static", sensor=True, continuous=side.way.bodies["continuous"])
 
 
 def cross(side):
-    """A ball through the beam every few steps: does it tell of it?"""
+    """Shoot a ball through the beam every few steps; check for its report."""
     side.kept["met"] |= {int(row[name]) for row in side.world.events.sensor_begin for name in ("body_a", "body_b")}
     for identity in list(side.kept["flying"]):
         x, y = side.world.body(identity).position

@@ -1,4 +1,4 @@
-"""What effects cost at a moment: both sides of each, counted kernels, and the table in the panel."""
+"""Costs of effects at a moment: both sides of each, counted kernels, and the table in the panel."""
 
 import json
 import subprocess

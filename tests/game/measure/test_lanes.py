@@ -1,4 +1,4 @@
-"""What a scene wants to know is measured off its frame: five runs of each lane, once, remembered by name."""
+"""A scene's measurement requests run outside its frame: five runs of each, once, cached by name."""
 
 import json
 

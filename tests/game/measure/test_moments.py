@@ -1,4 +1,4 @@
-"""What is measured of a world: settings, ways, errors; told through a process and without one."""
+"""Measurements of a world: settings, ways, errors; reported through a process and without one."""
 
 import gc
 import json

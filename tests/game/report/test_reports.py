@@ -44,7 +44,7 @@ def report(*arguments):
 
 
 class Reader(HTMLParser):
-    """What of a page refers to elsewhere, and its ids."""
+    """References of a page to other files, and its ids."""
 
     def __init__(self):
         super().__init__()

@@ -19,7 +19,7 @@ def fall(bodies: int):
 
 
 def fail():
-    """What goes wrong in a job is told."""
+    """The failure of a job is reported."""
     raise ValueError("nothing can be measured here")
 
 

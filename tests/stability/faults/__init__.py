@@ -1,1 +1,1 @@
-"""What goes wrong on purpose, and what it gets: see table.py."""
+"""Deliberate faults and their results: see table.py."""

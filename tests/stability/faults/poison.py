@@ -39,7 +39,7 @@ WRITTEN_ANEW = {
     "contact_rows": set(floats_of(CONTACT)),  # found anew; forces that are none are forgotten
 }
 # Large, and yet of use: a mass that is told has its inverse beside it.
-QUIETLY = {("bodies", name, "1e308") for name in ("mass", "inertia", "smallest_half", "thin_half", "fraction")}
+QUIETLY = {("bodies", name, "1e308") for name in ("mass", "inertia", "min_half_extent", "inradius", "fraction")}
 MASK = PixelMask(np.ones((8, 10), bool))
 
 
@@ -142,7 +142,7 @@ def fields_of(world, table):
 
 
 def same(found, wanted, rows):
-    """Whether bodies of these rows are at the same places with the same velocities, to the bit."""
+    """Return whether bodies of these rows are at the same places with the same velocities, to the bit."""
     names = ("x", "y", "angle", "vx", "vy", "angular_velocity")
     return all(np.array_equal(found[name][rows], wanted[name][rows]) for name in names)
 

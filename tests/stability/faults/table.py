@@ -6,8 +6,8 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[3]
 HERE = "tests/stability/faults"
 INTRODUCTION = """\
-Each of these was done on purpose. *Put aside*: the body is taken out of the simulation at its last finite pose, at
-rest, told by id and reason in `world.events.quarantined`, until `body.restore()`; its neighbours go on to the bit as
+Each fault is deliberate. *Disabled*: the body is taken out of the simulation at its last finite pose, at rest, and
+reported by id and reason in `world.events.quarantined`, until `body.restore()`; its neighbours continue to the bit as
 if it had been removed. *Refused*: ValueError or TypeError with the argument, its value and what is allowed; nothing has
 changed.
 """
@@ -26,22 +26,22 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
         Fault("NaN, infinity or a wrong kind for any argument", "refused", "tests/physics/test_bad_input.py"),
         Fault(
             "NaN, ±inf, 1e308 into any column of `world.bodies` or `world.shapes` that a step reads",
-            "that body alone is put aside, in the same step",
+            "that body alone is disabled, in the same step",
             f"{HERE}/test_poison.py::test_the_poisoned_body_alone_is_put_aside",
         ),
         Fault(
-            "into a column that is told or worked out anew: previous, settled and still poses, boxes, timers",
-            "written over",
+            "into a column that is reported or recomputed: previous, settled and still poses, boxes, timers",
+            "overwritten",
             f"{HERE}/test_poison.py::test_the_poisoned_body_alone_is_put_aside",
         ),
         Fault(
             "into a character's row",
-            "the character stays where it is, `move` gives (0, 0), and the next step puts it aside",
+            "the character stays where it is, `move` gives (0, 0), and the next step disables it",
             f"{HERE}/test_poison.py::test_the_poisoned_body_alone_is_put_aside",
         ),
         Fault(
-            "into what contacts remember (manifolds, anchors) or the broad phase knows (rectangles)",
-            "found anew; forces that are no numbers, or beyond 1e100, are forgotten",
+            "into the contact cache (manifolds, anchors) or the broad phase (swept AABBs)",
+            "recomputed; forces that are not finite, or beyond 1e100, are dropped",
             f"{HERE}/test_poison.py::test_the_poisoned_body_alone_is_put_aside",
         ),
         Fault(
@@ -50,22 +50,22 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
             f"{HERE}/test_poison.py::test_what_stages_share_is_written_before_it_is_read",
         ),
         Fault(
-            "a question (ray, overlap, closest, `move`) between that and the next step",
-            "passes over what has no pose",
+            "a query (ray, overlap, closest, `move`) between that and the next step",
+            "skips bodies without a pose",
             f"{HERE}/test_poison.py::test_questions_before_the_next_step_pass_over_it",
         ),
         Fault(
             "a mass of 1e308 or 1e-308, friction, restitution or rolling of 1e308, given to a constructor",
-            "taken, and put aside in the first step: products of two would be no doubles",
+            "accepted, and disabled in the first step: products of two would overflow",
             f"{HERE}/test_poison.py::test_numbers_that_are_finite_and_of_no_use_reach_nobody",
         ),
         Fault(
             "faster than 1e9 m/s, also by its spin, or beyond 2^52 px",
-            "put aside; a position given is refused",
+            "disabled; such a position as an argument is refused",
             f"{HERE}/test_full_tables.py::test_positions_and_speeds_that_a_double_does_not_resolve",
         ),
         Fault(
-            "a TileGrid that is turned by its column", "put aside, upright", "tests/regress/test_grids_do_not_turn.py"
+            "a TileGrid that is rotated by its column", "disabled, upright", "tests/regress/test_grids_do_not_turn.py"
         ),
     ),
     "Teleports": (
@@ -76,7 +76,7 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
         ),
         Fault(
             "into the middle of solid tiles",
-            "stays inside or leaves; calm, finite",
+            "stays inside or leaves; slow, finite",
             f"{HERE}/test_teleports.py::test_in_the_middle_of_solid_tiles_it_stays_or_leaves_and_is_finite",
         ),
         Fault(
@@ -102,7 +102,7 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
             "tests/regress/test_steps_shorter_than_any.py::test_nothing_moves_and_forces_wait",
         ),
         Fault(
-            "dt negative, NaN, infinite or no number",
+            "dt negative, NaN, infinite or not a number",
             "refused",
             f"{HERE}/test_time_steps.py::test_what_is_no_length_is_refused_and_changes_nothing",
         ),
@@ -112,8 +112,8 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
             f"{HERE}/test_time_steps.py::test_a_pile_stands_however_the_steps_change",
         ),
         Fault(
-            "dt of 1/30 and 1/240 by turns; of 1/60 and 1e-5 or 1e-9 s by turns",
-            "five boxes stand, and nobody gets faster than 5 px/s",
+            "dt of 1/30 and 1/240 in turn; of 1/60 and 1e-5 or 1e-9 s in turn",
+            "five boxes stand, and none gets faster than 5 px/s",
             f"{HERE}/test_time_steps.py::test_a_pile_stands_where_long_and_short_steps_alternate",
         ),
         Fault(
@@ -149,7 +149,7 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
             "tests/regress/test_shape_ids_that_run_out.py::test_the_last_id_is_given_and_no_further_one",
         ),
         Fault(
-            "impacts that stop one another for more than 64 rounds",
+            "impacts that stop one another for more than 64 iterations",
             "counted in `cap_hits`; none gets through",
             f"{HERE}/test_full_tables.py::test_impacts_that_go_on_and_on_are_counted",
         ),
@@ -160,7 +160,7 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
         ),
         Fault(
             "a grid of 300 cells, a chain of 300 links, a mask of 1,200 px",
-            "the last row is met as the first",
+            "the last row collides like the first",
             f"{HERE}/test_full_tables.py::test_the_last_row_of_a_large_shape_is_met",
         ),
     ),
@@ -171,13 +171,13 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
             "tests/game/test_sound.py::test_no_device_is_silence_with_a_reason",
         ),
         Fault(
-            "the sound device goes away while it plays",
+            "the sound device is removed while it plays",
             'one line, "the sound device is gone (…); the game goes on in silence"',
             f"{HERE}/test_devices.py::test_a_sound_device_that_goes_away_is_silence_and_one_line",
         ),
         Fault(
             "a window of 1 x 1 px",
-            "drawn into; as large as before, all is there again",
+            "drawn; at its old size the picture is complete again",
             f"{HERE}/test_devices.py::test_a_window_of_a_few_pixels_is_drawn_into",
         ),
         Fault(
@@ -186,16 +186,16 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
             f"{HERE}/test_devices.py::test_a_window_that_cannot_be_changed_stays_as_it_is",
         ),
         Fault(
-            "the display goes away",
+            "the display is removed",
             '"the display is gone (…); what was played and chosen is kept", exit 2',
             f"{HERE}/test_devices.py::test_a_display_that_goes_away_ends_with_one_line_and_keeps_the_run",
         ),
-        Fault("the controller goes away", "the game pauses", "tests/game/test_app.py::test_focus_and_pad_lost_pause"),
+        Fault("the controller is removed", "the game pauses", "tests/game/test_app.py::test_focus_and_pad_lost_pause"),
     ),
     "Files": (
         Fault(
             "a full disk while settings, records, a ghost or a level are saved",
-            "OSError; the old file is whole, no other is left",
+            "OSError; the old file is whole, no partial file is left",
             f"{HERE}/test_full_disk.py::test_what_was_kept_before_stays_whole",
         ),
         Fault(
@@ -205,7 +205,7 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
         ),
         Fault(
             "a full disk under `--record` or `--screenshot`",
-            "one line, exit 2; yesterday's file is whole",
+            "one line, exit 2; the old file is whole",
             f"{HERE}/test_full_disk.py::test_an_output_that_does_not_fit_is_one_line_and_exit_2",
         ),
         Fault(
@@ -220,7 +220,7 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
         ),
         Fault(
             "a kernel cache with wrong bytes",
-            "one warning; compiled anew",
+            "one warning; compiled again",
             "tests/regress/test_kernel_caches_with_wrong_bytes.py::test_wrong_bytes_are_compiled_anew",
         ),
         Fault(
@@ -239,12 +239,12 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
             f"{HERE}/test_spoilt_replays.py::test_every_length_is_refused_but_the_whole",
         ),
         Fault(
-            "a replay with a turned bit",
-            "refused, or diverges at a named frame, or the bit was none of the run's",
+            "a replay with a flipped bit",
+            "refused, or diverges at a named frame, or the bit has no effect on the run",
             f"{HERE}/test_spoilt_replays.py::test_a_turned_bit_is_refused_diverges_or_says_nothing_of_the_run",
         ),
         Fault(
-            "a snapshot cut off or with a turned bit",
+            "a snapshot cut off or with a flipped bit",
             "refused or whole",
             "tests/physics/test_snapshot.py::test_cut_and_flipped_files_are_refused_or_whole",
         ),
@@ -266,17 +266,17 @@ FAULTS: dict[str, tuple[Fault, ...]] = {
         ),
         Fault(
             "a byte order mark before any JSON file",
-            "read over",
+            "ignored",
             "tests/regress/test_byte_order_marks.py::test_a_file_with_a_mark_says_the_same",
         ),
         Fault(
-            "a file name that the system does not take, or thousands of letters in a file",
+            "a file name that the system does not allow, or thousands of letters in a file",
             "one line of at most 300 letters",
             "tests/regress/test_names_that_are_too_long.py::test_a_file_to_read",
         ),
         Fault(
             "a program killed while it saves",
-            "the old file is whole; what was half-written is removed by a start an hour later",
+            "the old file is whole; the partial file is removed by a start an hour later",
             "tests/regress/test_leftovers.py::test_an_old_one_of_ours_is_removed",
         ),
     ),
@@ -287,7 +287,7 @@ def section() -> str:
     """The Markdown of the section: a table for each kind of fault, with a link to each test from docs/."""
     lines = ["## Faults", "", INTRODUCTION]
     for kind, faults in FAULTS.items():
-        lines += [f"### {kind}", "", "| fault | what it gets | test |", "|---|---|---|"]
+        lines += [f"### {kind}", "", "| fault | result | test |", "|---|---|---|"]
         for each in faults:
             path, _, function = each.test.partition("::")
             name = function or Path(path).stem

@@ -80,7 +80,7 @@ def test_a_game_goes_on_when_its_sound_is_lost(drive, capsys):
 @pytest.mark.parametrize("size", [(1, 1), (2, 700), (700, 2), (33, 21)])
 @pytest.mark.parametrize("overlays", ["", "all"])
 def test_a_window_of_a_few_pixels_is_drawn_into(drive, size, overlays):
-    """Nothing is seen in it, and nothing breaks; as large as before, all is there again."""
+    """It shows nothing, and nothing breaks; at the old size, everything is drawn again."""
     arguments = ("--overlay", overlays) if overlays else ()
     d = drive("--scene", "race", *arguments, settings=Settings(hint_seen=True))
     d.turns(3)

@@ -101,7 +101,7 @@ def test_polygons_have_as_many_corners_as_their_row(corners):
 @needs_speed
 @pytest.mark.parametrize("count", [COLORS - 1, COLORS, COLORS + 1, 2 * COLORS + 1])
 def test_a_plank_on_more_boxes_than_there_are_colors_lies(count):
-    """What fits into no colour is solved first, in order: the plank lies as on fewer."""
+    """Contacts without a colour are solved first, in order: the plank rests as on fewer."""
     world = metres(effects=Effects.rigid_bodies().with_(sleeping=False), gravity=(0, 10))
     floor(world, width=4.0 * count)
     world.add_bodies(Polygon.box(0.5, 0.5), [(1.0 * (k - count / 2), -0.25) for k in range(count)])

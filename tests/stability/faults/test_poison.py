@@ -1,6 +1,6 @@
-"""NaN, infinity and 1e308 in any number of any table that a step reads, between two steps (hard_cases A5, K1).
+"""NaN, infinity and 1e308 in any number of any table that a step reads, between two steps.
 
-The fields come from the dtypes: a new one is expected to be looked at, or has to be named in poison.WRITTEN_ANEW.
+The fields come from the dtypes: a new one must be covered, or named in poison.WRITTEN_ANEW.
 """
 
 import copy
@@ -85,7 +85,7 @@ def test_the_poisoned_body_alone_is_put_aside(scenes, kind, table):
 @needs_speed
 @pytest.mark.parametrize("kind", KINDS)
 def test_neighbours_of_the_poisoned_go_on_as_if_it_had_been_removed(scenes, kind):
-    """Every number that puts a body aside does so before anybody has felt it."""
+    """Every number that disables a body does so before it affects any other."""
     removed, _ = scenes(kind)
     removed.world.remove_body(removed.sick)
     removed.steps(STEPS)
@@ -128,7 +128,7 @@ def test_what_stages_share_is_written_before_it_is_read(scenes, kind):
 
 @pytest.mark.parametrize("kind", KINDS if JIT else ["projection"])
 def test_questions_before_the_next_step_pass_over_it(scenes, kind):
-    """Between the write and the step that tells: nobody meets what has no pose."""
+    """Between the write and the step that reports it, queries skip bodies without a pose."""
     for name in ("x", "y", "angle"):
         for value in (np.nan, np.inf):
             scene, _ = scenes(kind)
@@ -157,7 +157,9 @@ def test_questions_before_the_next_step_pass_over_it(scenes, kind):
 )
 @pytest.mark.parametrize("solver", ["soft_step", "sequential_impulse"] if JIT else ["soft_step"])
 def test_numbers_that_are_finite_and_of_no_use_reach_nobody(solver, given):
-    """What a constructor takes may still overflow in a product: it is put aside before, and what it lies on stays."""
+    """A value that a constructor accepts may still overflow in a product: the body is disabled first, and the body
+    under it stays.
+    """
     world = World(Effects.rigid_bodies(), solver=solver)
     world.add_body(Polygon.box(400, 20), position=(0, 10), kind="static")
     below = world.add_body(Polygon.box(10, 10), position=(0, -5))

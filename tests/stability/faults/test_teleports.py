@@ -1,4 +1,4 @@
-"""A body put into another between two steps: out again, no faster than overlaps are let out (hard_cases F9, F27)."""
+"""A body put into another between two steps: out again, no faster than the push-out speed."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Steps of a length that nobody meant: 0, negative, NaN, 1 s, and another one every time (hard_cases K5)."""
+"""Steps of unintended lengths: 0, negative, NaN, 1 s, and another one every time."""
 
 import math
 
@@ -37,7 +37,7 @@ def pile(solver, **options):
 
 
 def stands(world, boxes):
-    """Whether the pile is where it was: each box within a tenth of its size, at rest, upright."""
+    """Return whether the pile is unchanged: each box within a tenth of its size, at rest, upright."""
     places = [abs(box.position.y + SIZE * (k + 0.5)) + abs(box.position.x) for k, box in enumerate(boxes)]
     return max(places) < 0.1 * SIZE and max(abs(box.angle) for box in boxes) < 0.01
 
@@ -69,9 +69,9 @@ def test_a_pile_stands_where_long_and_short_steps_alternate(solver, dts):
 
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_steps_of_a_second_are_finite_and_stay_above_the_floor(solver):
-    """Nobody promises a pile: it sinks into itself, cap_hits says so, and what lies on the floor lies on it.
+    """Piles are not guaranteed: a pile sinks into itself, cap_hits counts it, and bodies on the floor stay on it.
 
-    Projection sweeps boxes against boxes: one that rattles between two others in such a step is counted too.
+    Projection sweeps boxes against boxes: one that rattles between two others in such a step is counted, too.
     """
     world, boxes = pile(solver)
     watch, capped = Watch(world, capped=True, without=("U5", "U6")), 0

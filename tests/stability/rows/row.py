@@ -16,7 +16,7 @@ class Limit:
     unit: str = ""
 
     def met(self, measured):
-        """Whether a measured value is within the limit; nan never is."""
+        """Return whether a measured value is within the limit; nan never is."""
         if self.sense == "<=":
             return measured <= self.value
         return measured >= self.value if self.sense == ">=" else measured == self.value
@@ -30,7 +30,7 @@ class Limit:
         return max(one, two) if self.sense == "<=" else min(one, two)
 
     def margin(self, measured):
-        """How many times further it could be before the limit; nothing where only one value is right."""
+        """Return the factor by which the value could grow before the limit; None if only one value is right."""
         if self.sense == "==" or self.value == 0.0:
             return "exact" if measured == self.value else "–" if self.met(measured) else "outside"
         if not self.met(measured):

@@ -124,7 +124,7 @@ class Pymunk:
 
 
 def takes_auto():
-    """Whether a world chooses its substeps itself."""
+    """Return whether a world chooses its substeps itself."""
     try:
         World(substeps="auto")
     except (TypeError, ValueError):

@@ -162,7 +162,7 @@ def hop(run):
 
 
 def out_of_room(run):
-    """How many bodies are outside the tumbler at the end."""
+    """Return how many bodies are outside the tumbler at the end."""
     (x, y, angle), others = run.poses[-1, 0, :3], run.moving[-1]
     dx, dy = others[:, 0] - x, others[:, 1] - y
     across = np.abs(dx * math.cos(angle) + dy * math.sin(angle))

@@ -1,9 +1,9 @@
-"""How deep the bodies of a scene overlap, by the separating-axis theorem on their poses: the same for every engine.
+"""Overlap of the bodies of a scene, by the separating-axis theorem on their poses: the same for every engine.
 
-Axes are the normals of both polygons' edges and, where a disc is one of the two, the line from its centre to the
-nearest corner of the other. For polygons the greatest separation over the edges' normals is minus the least move that
-parts them when they overlap (Gottschalk 1996; Ericson 2005, section 5.2.1), with a disc's centre outside or inside it
-is too. Imports no engine.
+Axes are the normals of both polygons' edges and, if one of the two is a disc, the line from its centre to the nearest
+corner of the other. For polygons, the greatest separation over the edges' normals is minus the least move that
+separates them when they overlap (Gottschalk 1996; Ericson 2005, section 5.2.1), and likewise with a disc whose centre
+is outside or inside. It imports no engine.
 """
 
 import numpy as np

@@ -9,7 +9,7 @@ from tests.stability.study.scene import STEP, Scene
 
 @dataclass(frozen=True)
 class Run:
-    """What became of a scene. Row 0 is its start, row k what it was after k steps."""
+    """States of a run. Row 0 is its start, row k the state after k steps."""
 
     scene: Scene
     poses: np.ndarray  # (steps + 1, bodies, 6): x, y, angle, vx, vy, spin
@@ -24,7 +24,7 @@ class Run:
 
 
 class Watch:
-    """Whether any of a scene's dynamic bodies has fallen since its start (bodies, 6)."""
+    """Check whether any of a scene's dynamic bodies has fallen since its start (bodies, 6)."""
 
     def __init__(self, scene, start):
         self.fall, self.rows, self.start = scene.fall, scene.dynamic, start[scene.dynamic]

@@ -40,7 +40,7 @@ class Row:
     low: float | None = None  # and at least this; None: its size is at most the limit
 
     def met(self, value):
-        """Whether a figure is within the limits; nan is not."""
+        """Return whether a figure is within the limits; nan is not."""
         if self.limit is None:
             return True
         return (-self.limit if self.low is None else self.low) <= value <= self.limit

@@ -1,4 +1,4 @@
-"""What a scene of the study is: values that no engine knows. Metres, seconds, radians; x right, y down."""
+"""Scene of the study: values independent of any engine. Metres, seconds, radians; x right, y down."""
 
 import math
 from dataclasses import dataclass

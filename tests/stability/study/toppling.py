@@ -27,7 +27,7 @@ def overhangs(places, size=1.0):
 
 
 def stands(places):
-    """Whether every upper part has its centre of mass over what carries it."""
+    """Return whether every upper part has its centre of mass over its support."""
     return all(beyond <= 0.0 for _, beyond, _ in overhangs(places))
 
 

@@ -1,4 +1,4 @@
-"""What an engine makes of a row: its scenes played, the worst of their figures, and whether that is within the limit.
+"""Verdict on an engine for a row: its scenes played, the worst of their figures, and whether that is within the limit.
 
 A test that holds an engine to a row of the table reads
 
