@@ -108,8 +108,7 @@ def make_write_point(second: bool) -> Callable:
 
     @inlined
     def write_point(contact, p, q, sticking, h, lane, c_out):
-        """Write point, separation and the cached impulses for a substep of h [s]. p, q: BODY rows of the sides.
-        """
+        """Write point, separation and the cached impulses for a substep of h [s]. p, q: BODY rows of the sides."""
         m = contact
         c = c_out
         nx = c[at.NX + lane]
@@ -229,7 +228,9 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             if speed > 0.0:
                 if row_a == 0 or row_b == 0:
                     speed += max(a.squeeze_static, b.squeeze_static)
-                most = speed * max(c[at.MASS_1 + lane], c[at.MASS_2 + lane]) + context.h * max(a.squeeze_force, b.squeeze_force)
+                most = speed * max(c[at.MASS_1 + lane], c[at.MASS_2 + lane]) + context.h * max(
+                    a.squeeze_force, b.squeeze_force
+                )
                 c[at.NORMAL_1 + lane] = min(c[at.NORMAL_1 + lane], most)
                 c[at.NORMAL_2 + lane] = min(c[at.NORMAL_2 + lane], most)
             c[at.MOST + lane] = most

@@ -12,7 +12,6 @@ from physics.jit import kernel, subkernel
 from physics.solver import lanes as at
 from physics.solver.lanes import SIZE, lanes_of
 
-
 RESERVE_TIME = 10.0  # [s] in which an island forgets the energy that it has lost
 SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 

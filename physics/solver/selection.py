@@ -311,9 +311,7 @@ def list_and_color(
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
     color_edges(plan_out.edges, count, lists.has_finite_mass, taken, degrees, plan_out.colors)
-    find_squeezed(
-        plan_out.edges, count, lists, limits.push_speed, limits.deep, plan_out.parents[:nodes], motions
-    )
+    find_squeezed(plan_out.edges, count, lists, limits.push_speed, limits.deep, plan_out.parents[:nodes], motions)
     return count
 
 

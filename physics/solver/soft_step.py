@@ -451,15 +451,7 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
         if by_load:
             estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count)
         contacts.store(state, motions, count, context)
-        limit_energy(
-            blocks,
-            count,
-            group,
-            motions.lists.links_islands,
-            context,
-            contacts.selection.plan,
-            motions.used,
-        )
+        limit_energy(blocks, count, group, motions.lists.links_islands, context, contacts.selection.plan, motions.used)
     return h
 
 

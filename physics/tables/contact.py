@@ -179,7 +179,10 @@ MOTION = in_lines(
         ("energy_scale", np.float64),
         ("island_mass", np.float64),
         ("reserve", np.float64),  # energy that it has lost and may take back
-        ("squeeze_speed", np.float64),  # [px/s] bound of the impulses per effective mass of a body without room; 0: none …
+        (
+            "squeeze_speed",
+            np.float64,
+        ),  # [px/s] bound of the impulses per effective mass of a body without room; 0: none …
         ("squeeze_static", np.float64),
         ("squeeze_depth", np.float64),
         ("squeeze_nx", np.float64),
