@@ -17,7 +17,7 @@ from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 # ---- owners ----------------------------------------------------------------------------------------------------------
 # Manifolds as reported: they name the shapes that touch, not their parts.
 
-SIDES = ("body_", "shape_", "owner_", "body_row_", "row_")
+SIDES = ("body_", "shape_", "parent_", "body_row_", "row_")
 
 
 @kernel
