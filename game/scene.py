@@ -24,8 +24,8 @@ from game.input.drag import Drag
 from game.input.inputs import CHANGES, InputFrame, InputState
 from game.invariants.lights import Lights
 from game.invariants.watch import WatchedWorld
+from game.measurement_requests import MeasurementRequest
 from game.places import OUTLINES
-from game.wishes import Lanes, Sprites
 from physics import BROADPHASES, SOLVERS, Effects
 from physics.outline import kept
 
@@ -370,7 +370,7 @@ class Scene:
         """
         return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
 
-    def measured(self) -> Sprites | Lanes | None:
+    def measured(self) -> MeasurementRequest | None:
         """Return the measurement request whose results go to `figures`; None: none. It runs beside the game."""
         return None
 

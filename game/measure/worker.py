@@ -1,4 +1,4 @@
-"""`python -m game.measure.worker`: measures moments, sprites, lanes and effects in a separate process.
+"""`python -m game.measure.worker`: measures moments, sprites, runs and effects in a separate process.
 
 Each line of JSON on standard input is an order that replaces the one before. Lines of JSON on standard output are
 results. The process ends when its standard input closes, so it never outlives the program that started it.
@@ -19,12 +19,12 @@ import numpy as np
 
 from game.measure.effect_costs import measure_effects
 from game.measure.errors import References
-from game.measure.lanes import measure_lanes
+from game.measure.measured_runs import measure_runs
 from game.measure.moment import Moment
 from game.measure.setting import settings_around
 from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
-from game.wishes import STEPS, Act, Lane, Recipe
+from game.measurement_requests import STEPS, Act, MeasuredRun, Recipe
 from physics import PixelMask, Snapshot
 from physics.jit.workers import end_all, start_module
 
@@ -93,26 +93,26 @@ def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> Non
     tell(json.dumps({"moment": order["moment"], "done": True}))
 
 
-def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure lanes, each a dict with file names in place of its snapshots; recipes and acts are lists."""
-    loaded = cache(Snapshot.load)  # a snapshot that several lanes share is read once
+def measure_stored_runs(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
+    """Measure runs, each a dict with file names in place of its snapshots; recipes and acts are lists."""
+    loaded = cache(Snapshot.load)  # a snapshot that several runs share is read once
 
     def begun(given):
         return loaded(given) if isinstance(given, str) else Recipe(*given)
 
-    def lane_of(stored):
+    def run_of(stored):
         act = stored["act"] and Act(*stored["act"])
-        return Lane(**{**stored, "act": act, "snapshots": [begun(each) for each in stored["snapshots"]]})
+        return MeasuredRun(**{**stored, "act": act, "snapshots": [begun(each) for each in stored["snapshots"]]})
 
-    lanes = [lane_of(each) for each in order["lanes"]]
+    measured_runs = [run_of(each) for each in order["runs"]]
 
     def say(**found):
         tell(json.dumps({"moment": order["moment"], **found}))
 
     def told(number, spent, overlap, farthest):
-        say(lane=number, spent=spent, overlap=overlap, farthest=farthest)
+        say(run=number, spent=spent, overlap=overlap, farthest=farthest)
 
-    measure_lanes(lanes, told, goes_on)
+    measure_runs(measured_runs, told, goes_on)
     if goes_on():
         say(done=True)
 
@@ -174,8 +174,8 @@ def main() -> None:
             tell, goes_on = partial(print, flush=True), partial(orders.holds, order)
             if "sprites" in order:
                 measure_sprites(order, tell)
-            elif "lanes" in order:
-                measure_stored_lanes(order, tell, goes_on)
+            elif "runs" in order:
+                measure_stored_runs(order, tell, goes_on)
             elif "pieces" in order:
                 measure_costs(order, tell, goes_on)
             else:

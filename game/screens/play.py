@@ -250,7 +250,7 @@ class Play(SceneScreen):
         self.since_result = 0
         self.devices.change("restart", True)
 
-    def wish_restart(self) -> None:
+    def request_restart(self) -> None:
         """Restart; in an ended game open its result first, so that a hasty key loses no score."""
         if self.person and self.scene.result is not None:
             self.outcome = ("result",)

@@ -21,8 +21,8 @@ from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Circle, Effects, Material, Polygon
 from scenes.lab.costs import cost_text
 from scenes.lab.piles import SOLVERS, kinetic_energy
@@ -138,9 +138,9 @@ class Cradle(Scene):
         chain of collisions.
         """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
-        return Lanes(
+        return RunRequest(
             [(*self.chosen, name) for name in SOLVERS],
-            lambda name: Lane([worlds[name[-1]].snapshot()], self.broadphase, PERIOD),
+            lambda name: MeasuredRun([worlds[name[-1]].snapshot()], self.broadphase, PERIOD),
         )
 
     def struck(self, index):

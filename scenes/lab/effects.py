@@ -23,8 +23,8 @@ from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, PAPER, SKY, 
 from game.drawing.number_text import plain_name
 from game.input.inputs import InputFrame
 from game.measure.errors import VISIBLE
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Effects
 from scenes.lab.busy_picture import BusyPicture, draw_ghost
 from scenes.lab.busy_yard import DRAG, WIND, BusyYard, apart, rms
@@ -172,16 +172,16 @@ class EffectsLab(Scene):
         """Return the runs to measure: a step of the yard at the first look at an effect, all awake, with the effect and
         without it.
         """
-        return Lanes([self._lane(name, on) for name in self.looked for on in (True, False)], self._make)
+        return RunRequest([self._run_name(name, on) for name in self.looked for on in (True, False)], self._make)
 
-    def _lane(self, name, on):
+    def _run_name(self, name, on):
         return name, on, self.broadphase, self.substeps, self.narrowphase
 
-    def _make(self, lane):
-        name, on, *_ = lane
+    def _make(self, run_name):
+        name, on, *_ = run_name
         effects = self.real.world.effects
         made = with_effects(self.real.world, effects if on else effects.without(name))
-        return Lane([made], self.broadphase, WINDOW)
+        return MeasuredRun([made], self.broadphase, WINDOW)
 
     def stages(self):
         """Return (stages that only the marked effect needs, those that replace them without it)."""
@@ -190,7 +190,7 @@ class EffectsLab(Scene):
 
     def price(self, name):
         """Return the time per step of an effect [us]; below 0: a saving. None before it was measured."""
-        real, other = (cost_of(self, self._lane(name, on)) for on in (True, False))
+        real, other = (cost_of(self, self._run_name(name, on)) for on in (True, False))
         return None if real is None or other is None else 1e6 * (real - other)
 
     def finding(self):

@@ -24,9 +24,9 @@ from game.drawing.sprites import load_atlas
 from game.errors import FileError
 from game.files.pictures import png_size
 from game.input.inputs import InputFrame
+from game.measurement_requests import SpriteRequest
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
-from game.wishes import Sprites
 from physics import TIERS, Effects, PixelMask, debug, fit
 from scenes.lab.coverage import covered
 from scenes.lab.yard import HEAD
@@ -144,7 +144,7 @@ class Ladder(Scene):
 
     def measured(self):
         """Return the poses to measure: the sprite against itself."""
-        return Sprites(self.mask, self.mask)
+        return SpriteRequest(self.mask, self.mask)
 
     def update(self, inputs):
         """Change the sprite by left, right and the wheel."""

@@ -22,10 +22,10 @@ from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY, YELLO
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_lines, draw_outline
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Effects, PixelMask, Polygon, debug, fit, measure
 from physics.settings import SMOOTH
 from physics.tables.shape import PART, WHOLE
@@ -198,12 +198,14 @@ class MaskStack(Scene):
         if self.since < WARM:
             return None
         worlds = dict(zip(WAYS, self.worlds, strict=True))
-        return Lanes(
-            [self._lane(way) for way in WAYS],
-            lambda name: Lane([with_effects(worlds[name[-1]], self.effects.without("sleeping"))], self.broadphase),
+        return RunRequest(
+            [self._run_name(way) for way in WAYS],
+            lambda name: MeasuredRun(
+                [with_effects(worlds[name[-1]], self.effects.without("sleeping"))], self.broadphase
+            ),
         )
 
-    def _lane(self, way):
+    def _run_name(self, way):
         return *self.chosen, way
 
     def stands_now(self, way):
@@ -247,7 +249,7 @@ class MaskStack(Scene):
             ("missed", f"{whole(missed)} px"),
             ("sinks", f"{self.sinks[way]:z.2f} px"),
             ("sways", f"{self.sways[way]:.2f} px"),
-            ("step, awake", cost_text(self, self._lane(way))),
+            ("step, awake", cost_text(self, self._run_name(way))),
         )
         for row, (word, value) in enumerate(rows):
             canvas.text(word, box.x + 3, box.y + 16 + row * 8, FOG, SMALL)

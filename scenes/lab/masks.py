@@ -22,9 +22,9 @@ from game.drawing.colors import BLUE, FOG, GOLD, GREEN, INK, ORANGE, PAPER, PINK
 from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.measure.tiers import POSES
+from game.measurement_requests import SpriteRequest
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
-from game.wishes import Sprites
 from physics import TIERS, Effects, World, collide, debug
 from scenes.lab.hands import Hands
 from scenes.lab.yard import HEAD
@@ -94,7 +94,7 @@ class Masks(Scene):
 
     def measured(self):
         """Return the poses to measure: those of the two planes."""
-        return Sprites(self.masks[0], self.masks[1])
+        return SpriteRequest(self.masks[0], self.masks[1])
 
     def _world(self, tier):
         world = self.add_world()

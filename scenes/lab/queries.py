@@ -24,10 +24,10 @@ from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, SLAT
 from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
+from game.measurement_requests import Act, MeasuredRun, RunRequest
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene, Slider
-from game.wishes import Act, Lane, Lanes
 from physics import Capsule, Circle, Effects, PixelMask, Polygon, debug
 from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
@@ -202,11 +202,11 @@ class Queries(Scene):
                 made.append(self.worlds[0].snapshot())
             query, size, _, strategy = name
             act = Act(f"{__package__}.questions:asking", (query, ORIGIN, (WIDTH, HEIGHT), size))
-            return Lane(made, strategy, PLACES, act=act)
+            return MeasuredRun(made, strategy, PLACES, act=act)
 
-        return Lanes([self._lane(strategy) for strategy in STRATEGIES], make)
+        return RunRequest([self._run_name(strategy) for strategy in STRATEGIES], make)
 
-    def _lane(self, strategy):
+    def _run_name(self, strategy):
         return self.query, float(self.values["size"]), int(self.values["bodies"]), strategy
 
     def views(self):
@@ -230,7 +230,7 @@ class Queries(Scene):
                 pygame.draw.rect(canvas.surface, faded(color, 0.3), (SIDE_X - 2, y - 2, 122, 36), 1)
                 canvas.surface.fill(color, (SIDE_X - 2, y - 2, 2, 36))
             canvas.text(name, SIDE_X + 3, y, color)
-            canvas.text(cost_text(self, self._lane(name)), 473, y + 1, color, SMALL, align="right")
+            canvas.text(cost_text(self, self._run_name(name)), 473, y + 1, color, SMALL, align="right")
             nodes, boxes = self.work[name]
             for row, (word, value) in enumerate(((PARTS[name], nodes), ("boxes compared", boxes))):
                 canvas.text(word, SIDE_X + 3, y + 12 + 10 * row, FOG, SMALL)

@@ -22,8 +22,8 @@ from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Effects, Material, Polygon
 from scenes.lab.costs import cost_text
 from scenes.lab.piles import SOLVERS, deepest
@@ -129,9 +129,9 @@ class Stacks(Scene):
         if self.since < SETTLED:
             return None
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
-        return Lanes(
+        return RunRequest(
             [(*self.chosen, name) for name in SOLVERS],
-            lambda name: Lane([worlds[name[-1]].snapshot()], self.broadphase),
+            lambda name: MeasuredRun([worlds[name[-1]].snapshot()], self.broadphase),
         )
 
     def stands(self, name):

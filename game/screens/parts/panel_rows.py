@@ -150,7 +150,7 @@ def _time(play):
             hint=f"down to {SPEEDS[-1]:.0%}",
         ),
         *_rewind(play),
-        Row(BUTTON, "Restart", key="R", press=play.wish_restart),
+        Row(BUTTON, "Restart", key="R", press=play.request_restart),
     ]
 
 

@@ -38,7 +38,7 @@ def press(play: Played, key: int) -> bool:
     elif key == pygame.K_n:
         play.switches.narrowphase()
     elif key == pygame.K_r:
-        play.wish_restart()
+        play.request_restart()
     elif key == pygame.K_p:
         play.toggle_pause()  # not through the input of a step: a paused game makes no steps
     elif key == pygame.K_o:

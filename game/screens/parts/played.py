@@ -64,7 +64,7 @@ class Played(Protocol):
         """Restart, in a race against the same scene under another setting."""
         ...
 
-    def wish_restart(self) -> None:
+    def request_restart(self) -> None:
         """Restart, unless that would lose a result."""
         ...
 

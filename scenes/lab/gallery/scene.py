@@ -23,8 +23,8 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED
 from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, Recipe, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes, Recipe
 from physics import Effects
 from scenes.lab.gallery.page import MARKED, Side
 from scenes.lab.gallery.pages import PAGES
@@ -140,20 +140,20 @@ class Gallery(Scene):
         """Return the runs to measure: the page at its full size, if that is too large for a frame."""
         if self.page.larger is None:
             return None
-        return Lanes([self._lane(side) for side in self.sides], self._make)
+        return RunRequest([self._run_name(side) for side in self.sides], self._make)
 
-    def _lane(self, side):
+    def _run_name(self, side):
         return side.page.name, side.way.name, self.broadphase
 
     def _make(self, name):
-        larger, way = self.page.larger, next(side.way for side in self.sides if self._lane(side) == name)
+        larger, way = self.page.larger, next(side.way for side in self.sides if self._run_name(side) == name)
         assert larger is not None
         made = Recipe(larger.maker, (dict(way.world),))
-        return Lane([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
+        return MeasuredRun([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
 
     def larger(self, side):
-        """Return (error, LaneFigures) of a side at the page's full size; None before it was stepped."""
-        figures = self.figures.get(self._lane(side))
+        """Return (error, RunFigures) of a side at the page's full size; None before it was stepped."""
+        figures = self.figures.get(self._run_name(side))
         if self.page.larger is None or figures is None:
             return None
         return self.page.larger.read(figures), figures
