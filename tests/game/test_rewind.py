@@ -405,12 +405,12 @@ def test_invariants_are_watched_as_they_are_now(play):
     key(play, K.K_u)
     play.step()
     play.scrub.go(-30)
-    assert play.scene.lights is not None, "though nobody watched then"
-    assert any(light.state == "green" for light in play.scene.lights.lights)
+    assert play.scene.monitor is not None, "though nobody watched then"
+    assert any(status.state == "green" for status in play.scene.monitor.statuses)
     key(play, K.K_u)
     play.step()
     play.scrub.go(-1)
-    assert play.scene.lights is None
+    assert play.scene.monitor is None
 
 
 def test_what_is_set_from_outside_stays(play):
