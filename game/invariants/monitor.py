@@ -1,4 +1,4 @@
-"""Invariant monitor of a scene: the state of each invariant over all its worlds, green, red or grey. No state latches."""
+"""Invariant monitor of a scene: the state of each invariant over all its worlds. No state latches."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -13,8 +13,9 @@ NO_STEP = "no step was made yet"
 
 @dataclass
 class InvariantStatus:
-    """State of one invariant. `reason`: why it is grey; `breaks`: frames with a break since the scene began; `last`: the
-    last break.
+    """State of one invariant.
+
+    `reason`: why it is grey; `breaks`: frames with a break since the scene began; `last`: the last break.
     """
 
     id: str
@@ -40,7 +41,9 @@ class InvariantStatus:
 
 
 class InvariantMonitor:
-    """Monitor of the invariants of a scene. Call take(world) for each of its worlds, and note() after each of its frames.
+    """Monitor of the invariants of a scene.
+
+    Call take(world) for each of its worlds, and note() after each of its frames.
 
     strict: the caller ends the run at `first`, and pairs of concave shapes are checked, too.
     """

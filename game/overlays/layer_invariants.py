@@ -1,4 +1,4 @@
-"""Invariants: eleven lights, U1 to U11, green, red or grey, and the message of the last broken one."""
+"""Invariants: eleven indicators, U1 to U11, green, red or grey, and the message of the last broken one."""
 
 from collections.abc import Iterator
 
@@ -14,14 +14,14 @@ from game.overlays.layer import Layer, LegendLine
 
 COLORS = {states.GREEN: GREEN, states.RED: RED, states.GREY: FOG}
 ROWS = (1, 2, 3, 4, 6, 11)  # row counts of the strip, the widest first
-LINE, LAMP, GAP, MARGIN = 8, 5, 5, 3  # [text px] of a row, a lamp, between two lights, inside the frame
+LINE, LAMP, GAP, MARGIN = 8, 5, 5, 3  # [text px] of a row, a lamp, between two indicators, inside the frame
 COUNTED = 999  # greatest number of breaks that is written
 
 
 class Invariants(Layer):
-    """Strip of lights, each with its id, its word and its number of breaks.
+    """Strip of indicators, each with its id, its word and its number of breaks.
 
-    Below them is the message of the light under the pointer, or of the last broken one.
+    Below them is the message of the indicator under the pointer, or of the last broken one.
     """
 
     name, title, key, color = "invariants", "Invariants", "u", GREEN
@@ -44,7 +44,7 @@ class Invariants(Layer):
             yield columns * self._width(frame) + 2 * MARGIN * scale, ((rows + 1) * LINE + 2 * MARGIN) * scale
 
     def _width(self, frame):
-        """Return the width [frame px] of a light with its gap, the same for all: that of the widest."""
+        """Return the width [frame px] of an indicator with its gap, the same for all: that of the widest."""
         scale = frame.text_scale
         widest = max(frame.measure(label_of(status), SMALL, scale)[0] for status in self.monitor.statuses)
         return widest + (LAMP + 2 + GAP) * scale
@@ -79,7 +79,7 @@ class Invariants(Layer):
         frame.text(label_of(status), lamp.right + 2 * scale, top, tone, SMALL, scale)
 
     def message_at(self, pointer: tuple[int, int]) -> tuple[Color, str]:
-        """Return colour and text of the line below: of the light under the pointer, else the last broken one, else a
+        """Return colour and text of the line below: of the indicator under the pointer, else the last broken one, else a
         summary.
         """
         for place, status in self.places:
@@ -112,5 +112,5 @@ class Invariants(Layer):
 
 
 def label_of(status: InvariantStatus) -> str:
-    """Return id and word of a light, and how often it was broken."""
+    """Return id and word of an indicator, and how often it was broken."""
     return f"{status.id} {status.word}" + (f" {min(status.breaks, COUNTED)}" if status.breaks else "")

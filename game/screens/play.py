@@ -20,7 +20,7 @@ from game.run.rewind import Rewind
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.scene import Scene
-from game.screens.parts.apart import Apart
+from game.screens.parts.contact_inspector_view import ContactInspectorView
 from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what_to_see
 from game.screens.parts.lighter import Lighter
@@ -31,8 +31,8 @@ from game.screens.parts.play_keys import press, press_button
 from game.screens.parts.rumble import rumble
 from game.screens.parts.scrub import Scrub
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
+from game.screens.parts.step_inspector_view import StepInspectorView
 from game.screens.parts.switches import Switches
-from game.screens.parts.why import Why
 from game.screens.screen import SceneScreen
 
 RECORDED_ON = 120  # steps recorded after the end, so that a replay shows it
@@ -72,7 +72,7 @@ class Play(SceneScreen):
         self.scrub: Scrub | None = None  # a recording is rewound by Watch only
         if recording is None:
             self.scrub = Scrub(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
-        self.apart = Apart(self.session, self.scrub and self.scrub.rewind, self.overlays)
+        self.step_inspector = StepInspectorView(self.session, self.scrub and self.scrub.rewind, self.overlays)
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
@@ -80,7 +80,7 @@ class Play(SceneScreen):
         measuring = self.measuring
         self.costs = CostPanel(measuring.surveyor, measuring.now, self.try_setting, self.start_race, measuring.tuner)
         self.costs_open = False
-        self.why = Why(scene)
+        self.contact_inspector = ContactInspectorView(scene)
         self.lighter = Lighter(scene, devices) if self.person else None
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
@@ -156,10 +156,10 @@ class Play(SceneScreen):
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
             return
-        if self.apart.open and not self.devices.changes:
+        if self.step_inspector.open and not self.devices.changes:
             self.clock.rest()
             return
-        self.apart.leave()
+        self.step_inspector.leave()
         if self.scrub is not None and self.scrub.turn(now, self.clock.paused):
             self.clock.rest()
             return
@@ -185,7 +185,7 @@ class Play(SceneScreen):
 
     def drop_future(self) -> None:
         """Continue the game and its recording from a step of the past, with the settings made since."""
-        self.apart.leave()
+        self.step_inspector.leave()
         if self.scrub is not None and not self.scrub.rewind.live:
             self.apply_settings()
         if self.scrub is not None:
@@ -239,7 +239,7 @@ class Play(SceneScreen):
 
         Its first input contains the choices made before, so that the recording is independent of earlier runs.
         """
-        self.apart.leave()
+        self.step_inspector.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)
         if self.renews:
             self.end_run()
@@ -275,14 +275,14 @@ class Play(SceneScreen):
         self.clock.paused = True
         self.clock.request_step()
 
-    def take_apart(self) -> None:
+    def toggle_step_inspector(self) -> None:
         """Freeze, and inspect the next step stage by stage; if a step is inspected, leave it."""
-        if self.apart.open:
-            self.apart.leave()
+        if self.step_inspector.open:
+            self.step_inspector.leave()
         else:
             self.clock.paused, self.panel_open = True, False
             self.close_costs()
-            self.switches.tell(self.apart.enter())
+            self.switches.tell(self.step_inspector.enter())
 
     def feed(self, event: pygame.event.Event) -> bool:
         """Process an event before the game does; return whether it was used."""
@@ -295,7 +295,7 @@ class Play(SceneScreen):
             if hint.keeps_keys or event.type == pygame.MOUSEBUTTONDOWN:
                 return True
         button = self.devices.pressed_button(event)
-        if self.apart.feed(event, button):
+        if self.step_inspector.feed(event, button):
             return True
         if button is not None and press_button(self, button):
             return True
@@ -307,7 +307,7 @@ class Play(SceneScreen):
             return True
         if self.measuring.split is not None and event.type == pygame.MOUSEBUTTONDOWN:
             return True  # clicks on the halves of a split screen have no effect
-        if self.why.feed(event, self.clock.paused):
+        if self.contact_inspector.feed(event, self.clock.paused):
             return True
         if event.type == pygame.KEYDOWN and asks_for_card(event) and what_to_see(type(self.scene)):
             self.close_costs()
@@ -356,7 +356,7 @@ class Play(SceneScreen):
     def close(self) -> None:
         """Clean up when the screen is left for good."""
         super().close()
-        self.apart.leave()
+        self.step_inspector.leave()
         self.close_costs()
         self.measuring.leave()
 
@@ -365,32 +365,32 @@ class Play(SceneScreen):
         if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
             self.switches.tell(news)
 
-    def _below(self) -> Apart | Scrub | None:
+    def _below(self) -> StepInspectorView | Scrub | None:
         """Return the element over the bottom of the picture while the game is paused."""
-        if self.apart.open:
-            return self.apart
+        if self.step_inspector.open:
+            return self.step_inspector
         return self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
 
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and the elements over it; return the frame."""
         started = perf_counter()
-        if not self.apart.open:  # a part of a step is no moment to measure from
+        if not self.step_inspector.open:  # a part of a step is no moment to measure from
             self._measure()
         below = self._below()
         reserve = None if below is None else below.reserve
-        alpha, split = self.clock.alpha, None if self.apart.open else self.measuring.split
+        alpha, split = self.clock.alpha, None if self.step_inspector.open else self.measuring.split
         if split is not None:
             draw = partial(split.draw, overlays=self.overlays, alpha=alpha)
             frame = picture.draw_without(draw, self.overlays, self.open_panel)
         else:
-            with self.apart.showing():
+            with self.step_inspector.showing():
                 frame = picture.draw_scene(self.scene, self.overlays, alpha, self.open_panel, reserve)
         if below is not None:
             below.draw(frame)
         if self.measuring.race is not None and split is None:
             self.measuring.race.draw(frame)
         draw_status(frame, self)
-        self.why.draw(frame, self.clock.paused)
+        self.contact_inspector.draw(frame, self.clock.paused)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
         self.session.report.note_drawing(perf_counter() - started)

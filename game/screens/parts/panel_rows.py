@@ -140,7 +140,13 @@ def _time(play):
     return [
         Row(CHECK, "Freeze", key="P", on=clock.paused, press=play.toggle_pause),
         Row(BUTTON, "Single step", key="O", press=play.single_step, hint="one sixtieth of a second"),
-        Row(BUTTON, "One step, taken apart", key="E", press=play.take_apart, hint="stage by stage, forwards and back"),
+        Row(
+            BUTTON,
+            "Step inspector",
+            key="E",
+            press=play.toggle_step_inspector,
+            hint="stage by stage, forwards and back",
+        ),
         Row(
             CHOICE,
             "Speed",

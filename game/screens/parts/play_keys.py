@@ -44,7 +44,7 @@ def press(play: Played, key: int) -> bool:
     elif key == pygame.K_o:
         play.single_step()
     elif key == pygame.K_e:
-        play.take_apart()
+        play.toggle_step_inspector()
     elif key == pygame.K_k:
         play.switches.tell(play.measuring.toggle_split())
     elif key == pygame.K_MINUS:

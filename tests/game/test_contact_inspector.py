@@ -4,7 +4,7 @@ import numpy as np
 import pygame
 import pytest
 
-from game.measure.why import Touch, cost_of, explain, nearest, still_there
+from game.measure.contact_inspector import Touch, cost_of, explain, nearest, still_there
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.screens.play import Play
@@ -107,7 +107,7 @@ def words(driver):
 
 
 def place_of_a_contact(play):
-    world, lens = play.why.lenses[0]
+    world, lens = play.contact_inspector.lenses[0]
     contact = world.contacts[len(world.contacts) // 2]
     x, y = lens.points(float(contact["point_x"]), float(contact["point_y"]))
     return round(x), round(y)
@@ -129,10 +129,10 @@ def test_it_goes_when_time_goes_on(frozen):
     driver, play = frozen
     driver.post(pygame.MOUSEBUTTONDOWN, pos=place_of_a_contact(play), button=1)
     driver.turns(2)
-    assert play.why.chosen is not None
+    assert play.contact_inspector.chosen is not None
     driver.key(pygame.K_p)
     driver.turns(2)
-    assert play.why.chosen is None and "touch?" not in words(driver)
+    assert play.contact_inspector.chosen is None and "touch?" not in words(driver)
 
 
 def test_a_running_scene_is_not_asked(frozen):
@@ -141,7 +141,7 @@ def test_a_running_scene_is_not_asked(frozen):
     driver.turns(2)
     driver.post(pygame.MOUSEBUTTONDOWN, pos=place_of_a_contact(play), button=1)
     driver.turns(2)
-    assert play.why.chosen is None
+    assert play.contact_inspector.chosen is None
 
 
 def test_a_mask_that_rests_by_its_parts_is_explained():
