@@ -9,8 +9,8 @@ from random import Random
 from typing import NamedTuple
 
 from game.measure.errors import VISIBLE, References
-from game.measure.front import cheaper
 from game.measure.moment import STEPS, Moment
+from game.measure.pareto_front import cheaper
 from game.measure.setting import Setting, settings_around
 from game.measure.survey import Survey, is_sound, told
 from game.measure.timing import RUNS

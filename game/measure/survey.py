@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from game.measure.errors import VISIBLE, Error
-from game.measure.front import TIE, cheaper, pareto
+from game.measure.pareto_front import TIE, cheaper, pareto_front
 from game.measure.rates import Rate
 from game.measure.setting import Setting
 from game.measure.timing import RUNS, Cost
@@ -110,11 +110,11 @@ class Survey:
                 found[setting] = cost, error
         return found
 
-    def front(self, kind: str) -> list[Setting]:
+    def pareto_front(self, kind: str) -> list[Setting]:
         """Return the Pareto front of the settings by cost and error, the cheapest first. Errors below their floor count
         as 0.
         """
-        return pareto({s: (cost.median, told(error)) for s, (cost, error) in self.known(kind).items()})
+        return pareto_front({s: (cost.median, told(error)) for s, (cost, error) in self.known(kind).items()})
 
     def finding(self, kind: str, here: Setting) -> str:
         """Return one sentence about the present setting from the measurements; "" if there are too few."""

@@ -79,8 +79,8 @@ class Invariants(Layer):
         frame.text(label_of(status), lamp.right + 2 * scale, top, tone, SMALL, scale)
 
     def message_at(self, pointer: tuple[int, int]) -> tuple[Color, str]:
-        """Return colour and text of the line below: of the indicator under the pointer, else the last broken one, else a
-        summary.
+        """Return colour and text of the line below: of the indicator under the pointer, else the last broken one, else
+        a summary.
         """
         for place, status in self.places:
             if place.collidepoint(pointer):

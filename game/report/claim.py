@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from game.measure.front import cheaper
+from game.measure.pareto_front import cheaper
 
 HOLDS, FAILS, TIE = "holds", "does not hold", "a tie"
 

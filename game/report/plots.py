@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from game import startup
 from game.drawing.number_text import plain_name
 from game.errors import UsageError
-from game.measure.front import pareto
+from game.measure.pareto_front import pareto_front
 from game.report.chart import Axis, Interval, Panel
 from game.report.job import Row
 
@@ -86,7 +86,9 @@ def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
         points = {str(k): (dot.x[1], dot.y[1]) for k, dot in enumerate(dots)}
         if panel.line == "medians":
             points = {name: _middle([dot for _, dot in members]) for name, members in _series(dots, panel)}
-        axes.plot(*zip(*(points[each] for each in pareto(points)), strict=True), color=INK, linewidth=1.0, zorder=2)
+        axes.plot(
+            *zip(*(points[each] for each in pareto_front(points)), strict=True), color=INK, linewidth=1.0, zorder=2
+        )
     _scale(axes, "x", panel.x, [dot.x for dot in dots])
     _curves(axes, panel, dots)
     _scale(axes, "y", panel.y, [dot.y for dot in dots])

@@ -29,10 +29,10 @@ from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
 from game.screens.parts.play_keys import press, press_button
 from game.screens.parts.rumble import rumble
-from game.screens.parts.scrub import Scrub
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
 from game.screens.parts.step_inspector_view import StepInspectorView
 from game.screens.parts.switches import Switches
+from game.screens.parts.timeline import Timeline
 from game.screens.screen import SceneScreen
 
 RECORDED_ON = 120  # steps recorded after the end, so that a replay shows it
@@ -69,10 +69,10 @@ class Play(SceneScreen):
         self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
         self.session = Session(scene, source, self.recorder, recording, strict)
         self.overlays = Overlays(scene.overlays if overlays is None else overlays)
-        self.scrub: Scrub | None = None  # a recording is rewound by Watch only
+        self.timeline: Timeline | None = None  # a recording is rewound by Watch only
         if recording is None:
-            self.scrub = Scrub(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
-        self.step_inspector = StepInspectorView(self.session, self.scrub and self.scrub.rewind, self.overlays)
+            self.timeline = Timeline(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
+        self.step_inspector = StepInspectorView(self.session, self.timeline and self.timeline.rewind, self.overlays)
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
@@ -136,8 +136,8 @@ class Play(SceneScreen):
         """Update when the screen is shown again."""
         self.clock.rest()
         self.apply_settings()
-        if self.scrub is not None:
-            self.scrub.let_go()
+        if self.timeline is not None:
+            self.timeline.let_go()
 
     @property
     def finished(self) -> bool:
@@ -160,7 +160,7 @@ class Play(SceneScreen):
             self.clock.rest()
             return
         self.step_inspector.leave()
-        if self.scrub is not None and self.scrub.turn(now, self.clock.paused):
+        if self.timeline is not None and self.timeline.turn(now, self.clock.paused):
             self.clock.rest()
             return
         if self.session.replay is not None:
@@ -176,27 +176,27 @@ class Play(SceneScreen):
 
     def _went(self):
         """Update after the scene moved to another step of its past."""
-        assert self.scrub is not None
+        assert self.timeline is not None
         self.assisted = True
         self.measuring.end_race()
-        self.since_result = self.scrub.rewind.since_result
+        self.since_result = self.timeline.rewind.since_result
         if self.settings is not None:
             self.scene.set_accessibility(self.settings.accessibility())
 
     def drop_future(self) -> None:
         """Continue the game and its recording from a step of the past, with the settings made since."""
         self.step_inspector.leave()
-        if self.scrub is not None and not self.scrub.rewind.live:
+        if self.timeline is not None and not self.timeline.rewind.live:
             self.apply_settings()
-        if self.scrub is not None:
-            self.scrub.rewind.drop_future()
+        if self.timeline is not None:
+            self.timeline.rewind.drop_future()
 
     def step(self) -> None:
         """Make one fixed step, with its sounds and measurements."""
         self.drop_future()
         self.session.step()
-        if self.scrub is not None:
-            self.scrub.rewind.note()
+        if self.timeline is not None:
+            self.timeline.rewind.note()
         if self.measuring.race is not None:
             self.measuring.race.step(self.session)
         self.overlays.note(self.scene)
@@ -303,7 +303,7 @@ class Play(SceneScreen):
         if panel is not None and panel.feed(event):
             self.devices.release_all()
             return True
-        if self.scrub is not None and self.scrub.feed(event, self.devices, self.clock.paused, self.now):
+        if self.timeline is not None and self.timeline.feed(event, self.devices, self.clock.paused, self.now):
             return True
         if self.measuring.split is not None and event.type == pygame.MOUSEBUTTONDOWN:
             return True  # clicks on the halves of a split screen have no effect
@@ -365,11 +365,11 @@ class Play(SceneScreen):
         if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
             self.switches.tell(news)
 
-    def _below(self) -> StepInspectorView | Scrub | None:
+    def _below(self) -> StepInspectorView | Timeline | None:
         """Return the element over the bottom of the picture while the game is paused."""
         if self.step_inspector.open:
             return self.step_inspector
-        return self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
+        return self.timeline if self.timeline is not None and (self.clock.paused or self.timeline.runs) else None
 
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and the elements over it; return the frame."""

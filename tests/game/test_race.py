@@ -167,7 +167,7 @@ def test_rewinding_ends_it(played):
     play = played("lab/cradle")
     race_of(play, broadphase="brute")
     steps(play, 20)
-    play.scrub.go(-5)
+    play.timeline.go(-5)
     assert play.measuring.race is None
 
 

@@ -267,16 +267,16 @@ def test_of_several_worlds_each_in_turn():
 def test_in_the_past_it_is_the_step_that_was_recorded():
     frames = [InputFrame(frozenset({"right"} if number % 7 < 3 else ())) for number in range(60)]
     play = screen(Arena(seed=3), ScriptSource(frames), 60)
-    recorded = play.scrub.rewind
+    recorded = play.timeline.rewind
     play.clock.paused = True
-    play.scrub.go(-25)
+    play.timeline.go(-25)
     key(play, K.K_e)
     assert play.step_inspector.whose.endswith("recorded")
     key(play, K.K_END)
     shown = play.scene.disc.position
     key(play, K.K_e)
     assert recorded.position == 35 and recorded.end == 60
-    play.scrub.go(1)
+    play.timeline.go(1)
     assert play.scene.disc.position == shown
     play.close()
 

@@ -9,7 +9,7 @@ from pkgutil import resolve_name
 
 import numpy as np
 
-from game.measure.front import TIE as SHARE
+from game.measure.pareto_front import TIE as SHARE
 from game.measure.timing import clock, undisturbed
 from game.report.chart import Axis, Chart, Panel, time, value
 from game.report.claim import FAILS, HOLDS, TIE, Claim

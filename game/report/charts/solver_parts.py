@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from game.measure import studied_solvers as studied
-from game.measure.front import TIE as SHARE
 from game.measure.moment import failures_of
+from game.measure.pareto_front import TIE as SHARE
 from game.measure.staged import advance, stages_of
 from game.measure.timing import timed_steps
 from game.report.chart import Axis, Panel, time, value

@@ -161,9 +161,9 @@ def _time(play):
 
 
 def _rewind(play):
-    if play.scrub is None:
+    if play.timeline is None:
         return []
-    rewind = play.scrub.rewind
+    rewind = play.timeline.rewind
     back = "" if rewind.live else f"   {(rewind.end - rewind.position) / 60.0:.1f} s back"
     hint = "a second back, frozen; hold the key to run back"
     return [Row(BUTTON, "Rewind" + back, key="Backspace", press=lambda: _leap(play), hint=hint)]
@@ -171,7 +171,7 @@ def _rewind(play):
 
 def _leap(play):
     play.clock.paused = True
-    play.scrub.go(-LEAP)
+    play.timeline.go(-LEAP)
 
 
 def _slider(play, scene, slider):

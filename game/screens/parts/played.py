@@ -14,9 +14,9 @@ from game.screens.parts.first_hint import HintCard
 from game.screens.parts.lab_card import LabCard
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
-from game.screens.parts.scrub import Scrub
 from game.screens.parts.step_inspector_view import StepInspectorView
 from game.screens.parts.switches import Switches
+from game.screens.parts.timeline import Timeline
 
 
 class Played(Protocol):
@@ -30,7 +30,7 @@ class Played(Protocol):
     measuring: Measuring
     switches: Switches
     settings: Settings | None
-    scrub: Scrub | None
+    timeline: Timeline | None
     step_inspector: StepInspectorView
     hint: HintCard | LabCard | None
     person: bool

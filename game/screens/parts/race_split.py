@@ -14,7 +14,7 @@ from game.measure.errors import VISIBLE
 from game.overlays.stack import Overlays
 from game.run.picture import Picture
 from game.screens.parts.race import Race
-from game.screens.parts.scrub import BAR_HEIGHT
+from game.screens.parts.timeline import BAR_HEIGHT
 
 LEAST, MOST = 1e-3, 1e3  # [px] range of the plot
 LINE = 9  # [text px]

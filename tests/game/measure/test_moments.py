@@ -153,9 +153,9 @@ def test_a_worker_tells_every_setting_five_times(tmp_path):
     survey = surveyor.survey
     assert surveyor.here == moment.here and set(survey.dots) == set(settings) and not surveyor.busy
     assert all(dot.sure and dot.cost.runs == 5 and dot.cost.least > 0.0 for dot in survey.dots.values())
-    front = survey.front("verdict")
+    pareto_front = survey.pareto_front("verdict")
     errors = {s: told(e) for s, (_, e) in survey.known("verdict").items()}
-    assert min(errors.values()) == 0.0 and errors[front[-1]] == 0.0
+    assert min(errors.values()) == 0.0 and errors[pareto_front[-1]] == 0.0
     assert survey.finding("verdict", moment.here)
 
 
@@ -185,7 +185,9 @@ def test_a_survey_without_runs_says_nothing():
     survey = Survey()
     here = Setting("hash", True)
     survey.dot(here)
-    assert survey.known("verdict") == {} and survey.finding("verdict", here) == "" and survey.front("verdict") == []
+    assert (
+        survey.known("verdict") == {} and survey.finding("verdict", here) == "" and survey.pareto_front("verdict") == []
+    )
 
 
 def test_a_surveyor_that_is_forgotten_leaves_no_process():

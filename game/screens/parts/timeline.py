@@ -25,7 +25,7 @@ PAD_WAYS = {"dpad left": -1, "dpad right": 1}
 PAD_RUNS = {"left shoulder": -1, "right shoulder": 1}
 
 
-class Scrub:
+class Timeline:
     """Control of a Rewind: feed() takes events, turn() goes to the step. went: called after each move."""
 
     def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
