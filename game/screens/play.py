@@ -126,7 +126,7 @@ class Play(SceneScreen):
         self.scene.set_accessibility(self.settings.accessibility())
         if not self.person:
             return
-        self.clock.pace = self.settings.speed
+        self.clock.game_speed = self.settings.speed
         pending = dict(self.devices.changes)
         for name, value in self.settings.assists().items():
             if name in self.scene.assist and pending.get(f"assist:{name}", self.scene.assist[name]) != value:
@@ -208,7 +208,7 @@ class Play(SceneScreen):
 
     def _note_help(self):
         """Record the changes that make a score an assisted one."""
-        slow = self.clock.speed < 1.0 or self.clock.pace < 1.0 or self.clock.paused
+        slow = self.clock.speed < 1.0 or self.clock.game_speed < 1.0 or self.clock.paused
         changed = any(name.startswith(EASIER) for name, _ in self.session.inputs.now.changes)
         if slow or changed or self.scene.assist.get("invincible") or self.scene.drag.holds:
             self.assisted = True

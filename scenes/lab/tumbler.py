@@ -167,14 +167,14 @@ class Tumbler(Scene):
             ("contacts", f"{len(self.world.contacts)}"),
             ("overlap", f"{deepest(self.world):.2f} px"),
             ("on average", f"{self.pressed:.2f} px"),
-            ("speed", f"{self._pace():.0f} px/s"),
+            ("speed", f"{self._rms_speed():.0f} px/s"),
             *((word, cost_text(self, name)) for word, name in self.ways().items()),
         )
         for number, (word, value) in enumerate(rows):
             canvas.text(word, 10, 40 + number * 10, FOG, SMALL)
             canvas.text(value, 110, 40 + number * 10, GOLD if word == "turns" else PAPER, SMALL, align="right")
 
-    def _pace(self):
+    def _rms_speed(self):
         """Return the root mean square speed of the load [px/s]."""
         mass = float(self.world.bodies["mass"][1:].sum())
         return (2.0 * self.energy / mass) ** 0.5 if mass else 0.0

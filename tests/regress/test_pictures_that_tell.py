@@ -39,7 +39,7 @@ def screen(name, frames=30, layers=(), person=True, hint=False):
     play = Play(scene, DeviceSource(), Sounds(silent=True), not person, overlays=layers, settings=settings)
     for _ in range(frames):
         play.step()
-    play.clock.left_over = play.clock.step / 2
+    play.clock.accumulator = play.clock.step / 2
     return play
 
 
@@ -51,7 +51,7 @@ def pixels(surface, rect):
 def test_words_and_bars_lie_over_all_overlays(name):
     play = screen(name, 12 if name == "lab/broadphases" else 45, person=False)
     play.session.report.steps = 10_000  # no line of keys
-    play.clock.left_over = play.clock.step  # at the last step's poses, as with overlays
+    play.clock.accumulator = play.clock.step  # at the last step's poses, as with overlays
     for window in WINDOWS:
         words_and_bars_lie_over_all_overlays(play, window)
 

@@ -13,7 +13,7 @@ from game.measure.pair_batch import PairBatch
 from game.measure.timing import timed_in_turns
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, ordering, pair
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from physics import TIERS, Circle, PixelMask, Polygon, fit
 
 RADIUS = 12.0  # [px] of the disc, half the width of the square
@@ -110,8 +110,8 @@ def _row(body, name, batch, normals, depths):
     }
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    count = POSES_QUICK if plan.quick else POSES
+def _jobs(scope: ReportScope) -> list[Job]:
+    count = POSES_QUICK if scope.quick else POSES
     return [
         Job(f"contacts/{body}".replace(" ", "-"), f"{__name__}:measure", {"body": body, "count": count}, 2.0)
         for body in BODIES

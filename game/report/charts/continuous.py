@@ -12,7 +12,7 @@ from game.measure.rates import Rate
 from game.measure.timing import Cost, clock, undisturbed
 from game.report.chart import Axis, Chart, Panel, percent, time, value
 from game.report.claim import FAILS, HOLDS, Claim, at_least, at_most, ordering, pair, ratio_of
-from game.report.job import Job, Plan, Row, counted, spread
+from game.report.job import Job, ReportScope, Row, counted, spread
 from physics import Circle, Effects, Polygon, World
 
 RADIUS, WIDTH, HALF = 5.0, 1.0, 11.0  # [px] of the disc, the plate's width, half its height
@@ -152,10 +152,10 @@ def _traffic(way, divided, count, ratio):
     return world
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    lanes = 200 if plan.quick else 1000
-    ratios = RATIOS[::2] if plan.quick else RATIOS
-    counts = COUNTS[1:3] if plan.quick else COUNTS
+def _jobs(scope: ReportScope) -> list[Job]:
+    lanes = 200 if scope.quick else 1000
+    ratios = RATIOS[::2] if scope.quick else RATIOS
+    counts = COUNTS[1:3] if scope.quick else COUNTS
     work = __name__
     return [
         *(Job(f"continuous/miss-{r:g}", f"{work}:measure", {"ratio": r, "lanes": lanes}, lanes / 200) for r in ratios),
@@ -250,7 +250,7 @@ TIME_CHART = Chart(
         )
         for count in COUNTS
     ),
-    lambda plan: [],
+    lambda scope: [],
     _time_claims,
     of="continuous",
 )

@@ -9,7 +9,7 @@ from game.measure.pair_batch import PairBatch
 from game.measure.timing import timed_in_turns, timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, at_least, at_most, ratio_of
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import EFFECTS, pyramid, world_of
 from physics import Effects, Polygon, World
 
@@ -100,7 +100,7 @@ def measure_events() -> list[Row]:
     ]
 
 
-def _jobs(plan: Plan) -> list[Job]:
+def _jobs(scope: ReportScope) -> list[Job]:
     work = __name__
     return [
         Job(f"papers/{name}", f"{work}:measure_{name}", {}, seconds)

@@ -16,7 +16,7 @@ from game.measure.rates import Rate
 from game.measure.timing import timed_in_turns, timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
 from game.report.claim import Claim, at_most, ordering, pair, ratio_of
-from game.report.job import Job, Plan, Row, counted, spread
+from game.report.job import Job, ReportScope, Row, counted, spread
 from game.report.piles import overlap, pyramid, world_of
 from game.report.pymunk_piles import overlap_in, space_of
 from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
@@ -176,9 +176,9 @@ def measure_piles(rows: int) -> list[Row]:
     ]
 
 
-def _jobs(plan: Plan) -> list[Job]:
+def _jobs(scope: ReportScope) -> list[Job]:
     work = __name__
-    counts, rows = ((300,), (10,)) if plan.quick else ((100, 500, 1500), (10, 20, 45))
+    counts, rows = ((300,), (10,)) if scope.quick else ((100, 500, 1500), (10, 20, 45))
     return [
         *(Job(f"peers/sprites-{n}", f"{work}:measure_sprites", {"count": n}, n / 150) for n in counts),
         *(Job(f"peers/pyramid-{n}", f"{work}:measure_piles", {"rows": n}, n * n / 50) for n in rows),

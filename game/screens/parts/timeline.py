@@ -31,7 +31,7 @@ class Timeline:
     def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
         self.rewind, self.went = rewind, went
         self.control: object = None  # the held key or button
-        self.way, self.pace, self.since, self.before, self.owed = 0, 0.0, 0.0, 0.0, 0.0
+        self.way, self.since, self.before, self.owed = 0, 0.0, 0.0, 0.0
         self.asked: int | None = None  # a step chosen by mouse or tap
         self.dragging = False
         self.bar = pygame.Rect(0, 0, 0, 0)  # of the last picture

@@ -14,7 +14,7 @@ from game.measure.timing import Cost
 from game.registry import Registry
 from game.report.chart import Axis, Chart, Panel, time, value
 from game.report.claim import FAILS, HOLDS, TIE, at_least, at_most, ordering
-from game.report.job import Job, Plan, spread
+from game.report.job import Job, ReportScope, spread
 from game.report.page import as_csv
 from game.report.store import Store
 from scenes import SCENES
@@ -27,7 +27,7 @@ REGISTRY = Registry(SCENES)
 def small(jobs):
     """A report of one chart."""
     panel = Panel("of all", Axis("n", value("n")), Axis("us", time("cost")))
-    return (Chart(1, "fall", "Falling <b>", "How long?", "none & all", (panel,), lambda plan: list(jobs)),)
+    return (Chart(1, "fall", "Falling <b>", "How long?", "none & all", (panel,), lambda scope: list(jobs)),)
 
 
 @pytest.fixture
@@ -230,11 +230,11 @@ def test_every_job_of_every_chart_can_be_handed_to_another_process():
     from game.report.charts import CHARTS
 
     for quick in (True, False):
-        plan = Plan(quick, REGISTRY.listing)
-        names = [job.name for chart in CHARTS for job in chart.jobs(plan)]
+        scope = ReportScope(quick, REGISTRY.listing)
+        names = [job.name for chart in CHARTS for job in chart.jobs(scope)]
         assert len(set(names)) == len(names) and len({name.replace("/", "--") for name in names}) == len(names)
         for chart in CHARTS:
-            for job in chart.jobs(plan):
+            for job in chart.jobs(scope):
                 assert job.name.startswith(f"{chart.key}/") and not re.search(r"[\s:]", job.name)
                 assert json.loads(json.dumps(job._asdict())) == job._asdict()
     keys = [chart.key for chart in CHARTS]
