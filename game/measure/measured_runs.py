@@ -33,7 +33,7 @@ class RunFigures(NamedTuple):
 
 def measure_runs(
     measured_runs: Sequence[MeasuredRun],
-    tell: Callable[[int, float, float | None, float | None], object],
+    report: Callable[[int, float, float | None, float | None], object],
     goes_on: Callable[[], bool],
 ) -> None:
     """Measure run by run while goes_on(): tell(number, seconds per step, overlap, farthest) is called after each run.
@@ -59,7 +59,7 @@ def measure_runs(
             spent = sum(
                 moment.time_run(moment.here, measured_run.steps, measured_run.stage, measured_run.act) for moment in own
             ) / len(own)
-            tell(number, spent, *seen[number])
+            report(number, spent, *seen[number])
         chance.shuffle(order)
 
 

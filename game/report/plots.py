@@ -183,14 +183,14 @@ def _page_colors(figure) -> str:
 
 def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
     """Return the texts of a dot under the pointer: both figures with their intervals, then the row's other values."""
-    told = {
+    reported = {
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]
     }
     for axis, (low, middle, high) in ((panel.x, dot.x), (panel.y, dot.y)):
-        told[axis.label] = f"{middle:.4g}" + (f" ({low:.4g} to {high:.4g})" if high > low else "")
+        reported[axis.label] = f"{middle:.4g}" + (f" ({low:.4g} to {high:.4g})" if high > low else "")
     failures = {key: count for key, count in dot.row.get("failures", {}).items() if count}
     if failures:
-        told["failures"] = ", ".join(f"{key} {count}" for key, count in failures.items())
+        reported["failures"] = ", ".join(f"{key} {count}" for key, count in failures.items())
     if dot.row.get("ignored_effects"):
-        told["effects that the solver ignores"] = ", ".join(map(plain_name, dot.row["ignored_effects"]))
-    return told
+        reported["effects that the solver ignores"] = ", ".join(map(plain_name, dot.row["ignored_effects"]))
+    return reported

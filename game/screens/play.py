@@ -282,7 +282,7 @@ class Play(SceneScreen):
         else:
             self.clock.paused, self.panel_open = True, False
             self.close_costs()
-            self.switches.tell(self.step_inspector.enter())
+            self.switches.report(self.step_inspector.enter())
 
     def feed(self, event: pygame.event.Event) -> bool:
         """Process an event before the game does; return whether it was used."""
@@ -345,11 +345,11 @@ class Play(SceneScreen):
 
     def try_setting(self, setting: Setting) -> None:
         """Apply a measured setting."""
-        self.switches.tell(self.measuring.apply(setting))
+        self.switches.report(self.measuring.apply(setting))
 
     def start_race(self, setting: Setting) -> None:
         """Restart, in a race against the same scene under a measured setting."""
-        self.switches.tell(self.measuring.start_race(setting))
+        self.switches.report(self.measuring.start_race(setting))
         if self.measuring.race is not None:
             self.restart()
 
@@ -363,7 +363,7 @@ class Play(SceneScreen):
     def _measure(self):
         self.measuring.beside(self.now, self.panel_open)
         if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
-            self.switches.tell(news)
+            self.switches.report(news)
 
     def _below(self) -> StepInspectorView | Timeline | None:
         """Return the element over the bottom of the picture while the game is paused."""

@@ -266,13 +266,13 @@ class Cradle(Scene):
 
     def finding(self):
         """Return the error of each row before its first ball reached the wall, and the time of a step."""
-        strikers, told = int(self.values["strikers"]), []
+        strikers, parts = int(self.values["strikers"]), []
         for name in SOLVERS:
             found = self.results.get((name, strikers, int(self.values["gap"])))
             if found is None:
                 return "not yet: each row has to be struck, and not dragged"
-            told.append(f"{plain_name(name)} {found[0]:.0e} ({cost_text(self, (*self.chosen, name))})")
-        return f"{strikers} in, {strikers} out; speeds are off by {', '.join(told)}"
+            parts.append(f"{plain_name(name)} {found[0]:.0e} ({cost_text(self, (*self.chosen, name))})")
+        return f"{strikers} in, {strikers} out; speeds are off by {', '.join(parts)}"
 
     def bot(self):
         """Return the bot: one striker, then two."""

@@ -50,7 +50,7 @@ class Disagreement(Shooter):
     features = (
         "nine tiers asked about the same moments of a real game",
         "wrong and missed hits apart, with the interval they lie in",
-        "what the chosen tier told wrongly is lit",
+        "the wrong verdicts of the chosen tier are lit",
     )
     actions = (("arrows", "fly"), ("Space", "fire"), ("wheel", "which tier is lit"))
     tiers = ("pixels",)
@@ -104,7 +104,7 @@ class Disagreement(Shooter):
             canvas.fix(rect)
         canvas.surface.fill(SLATE, (SIDE.x, SIDE.y, 1, SIDE.height))
         canvas.text("DISAGREEMENT", 4, 4, GOLD)
-        canvas.text("hits told wrong", BARS, TOP - 12, FOG, SMALL)
+        canvas.text("hits reported wrong", BARS, TOP - 12, FOG, SMALL)
         canvas.text("missed", SIDE.right - 4, TOP - 12, FOG, SMALL, align="right")
         for row, tier in enumerate(self.reference.tiers):
             self._draw_row(canvas, tier, TOP + row * ROW)
@@ -154,8 +154,8 @@ class Disagreement(Shooter):
         clip = frame.from_canvas(pygame.Rect(0, 0, SIDE.x, SIDE.height))
         frame.surface.set_clip(clip)
         width = max(1, frame.scale - 1)
-        for told, outlines in self.reference.seen:
-            color = RED if told else BLUE
+        for false_hit, outlines in self.reference.seen:
+            color = RED if false_hit else BLUE
             for outline in outlines:
                 if outline[0] not in ("mask", "tiles"):
                     draw_outline(frame.surface, lens, outline, color, width, frame.scale)
@@ -169,7 +169,7 @@ class Disagreement(Shooter):
         holding = [tier for tier in HOLDING if missed[tier].count]
         return [
             Goal("true hits were seen", 1200, missed[FIRST].total > 0, f"{missed[FIRST].total}"),
-            Goal("circle, box and turned box told hits that are none", 1200, all_caught, ", ".join(caught)),
+            Goal("circle, box and turned box reported hits that are none", 1200, all_caught, ", ".join(caught)),
             Goal("what holds all pixels misses no hit", 1, not holding, ", ".join(holding)),
         ]
 
@@ -178,10 +178,10 @@ class Disagreement(Shooter):
         lit = self.reference.lit
         wrong, missed = self.reference.wrong[lit], self.reference.missed[lit]
         if not wrong.total:
-            return f"not yet: the {NAMES.get(lit, lit)} has to tell a hit"
+            return f"not yet: the {NAMES.get(lit, lit)} has to report a hit"
         low, high = (100 * share for share in wrong.interval)
-        told = f"{100 * wrong.share:.0f} % of {wrong.total:,} hits that the {NAMES.get(lit, lit)} told are none"
-        return f"{told} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
+        sentence = f"{100 * wrong.share:.0f} % of {wrong.total:,} hits that the {NAMES.get(lit, lit)} reported are none"
+        return f"{sentence} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
 
     def bot(self):
         """Return the shooter's own pilot."""

@@ -59,7 +59,7 @@ class EffectsLab(Scene):
     """The yard. `worlds` holds the visible world: with the marked effect, or without it."""
 
     name = "lab/effects"
-    keeps = {"substeps": "by load, as a World has them by itself: what each effect costs is told of such a world"}
+    keeps = {"substeps": "by load, as a World has them by itself: the cost of each effect is that in such a world"}
     title = "Effects"
     about = "A busy yard, with and without each of sixteen effects: what would be missed, and what does it cost?"
     effects = ALL
@@ -111,7 +111,7 @@ class EffectsLab(Scene):
         self.real.world.set_effects(world.effects)  # all wake in both
         world.set_effects(world.effects.without(self.marked))
         self.other = self.real.beside(world)
-        self.began = self.real.told.copy(), self.real.worked
+        self.began = self.real.reported.copy(), self.real.worked
         self.since = 0
         if self.marked not in self.looked:
             self.looked.append(self.marked)
@@ -161,8 +161,8 @@ class EffectsLab(Scene):
             self.play("coin", 80.0, 0.3)
 
     def _outcome(self):
-        told, worked = self.began
-        more = self.real.told - told - self.other.told
+        reported, worked = self.began
+        more = self.real.reported - reported - self.other.reported
         _, gaps = apart(self.real, self.other)
         return Outcome(
             rms(gaps), int(more.sum()), int(np.count_nonzero(more)), self.real.worked - worked - self.other.worked
@@ -282,8 +282,8 @@ class EffectsLab(Scene):
         """Return both clocks, the other world, and the results."""
         hidden = (self.other if self.is_on else self.real).world
         found = (value for name in NAMES if name in self.found for value in self.found[name])
-        told = (*self.real.told.tolist(), *self.other.told.tolist())
-        return (self.frame, self.clock, self.since, *self.values.values(), hidden.digest(), *told, *found)
+        reported = (*self.real.reported.tolist(), *self.other.reported.tolist())
+        return (self.frame, self.clock, self.since, *self.values.values(), hidden.digest(), *reported, *found)
 
 
 def short(outcome, name):

@@ -293,12 +293,12 @@ class GhostBumps(Scene):
         """Return the greatest loss of speed on each floor, and the time of a step."""
         if self.run == 0:
             return "not yet: the sliders have to come over some tiles"
-        told = (
+        parts = (
             f"{TITLES[floor]} {amount(max(self.slowed[floor, kind] for kind in KINDS))}"
             f" ({cost_text(self, (*self.chosen, floor))})"
             for floor in FLOORS
         )
-        return f"of the speed was lost after {self.run} tiles: {', '.join(told)}"
+        return f"of the speed was lost after {self.run} tiles: {', '.join(parts)}"
 
     def bot(self):
         """Return the bot: watch."""

@@ -35,7 +35,7 @@ from scenes.lab.yard import HEAD, Yard, plate
 
 WAYS = ("box", "hull", "parts", "outline", "exact")
 COLORS = {"box": RED, "hull": ORANGE, "parts": YELLOW, "outline": GREEN, "exact": SKY}
-TOLD = ("box", "outline", "exact")  # in the finding
+IN_FINDING = ("box", "outline", "exact")  # in the finding
 PUSHED_AS_MASKS = ("outline", "exact")
 SPRITES = {
     "crates": ("lab", "crate_24_0"),
@@ -297,12 +297,12 @@ class MaskStack(Scene):
             return "not yet: the piles have to settle for half a second"
         if any(isnan(corners) for corners, _, _ in map(self.share, WAYS)):
             return "not yet: how well the shapes fit is being measured"
-        told = []
-        for way in TOLD:
+        parts = []
+        for way in IN_FINDING:
             corners, air, _ = self.share(way)
             stands = f"sinks {self.sinks[way]:z.2f} px" if self.stands_now(way) else "fell"
-            told.append(f"{way} {whole(air)} px of air, {whole(corners)} corners, {stands}")
-        return "; ".join(told)
+            parts.append(f"{way} {whole(air)} px of air, {whole(corners)} corners, {stands}")
+        return "; ".join(parts)
 
     def bot(self):
         """Return the bot: watch them come to rest, nudge once, watch again."""

@@ -171,13 +171,13 @@ class Pyramid(Scene):
         if self.run_name not in dots:
             return "not yet: this pyramid has to be stepped beside the game"
         mine = dots[self.run_name]
-        told = f"a step takes {mine.cost:,.0f} us and crates overlap by {mine.error:.2g} thousandths"
+        sentence = f"a step takes {mine.cost:,.0f} us and crates overlap by {mine.error:.2g} thousandths"
         as_good = [name for name, dot in dots.items() if dot.error <= mine.error]
         best = min(as_good, key=lambda name: dots[name].cost)
         if len(dots) < len(self.measured().names) or best == self.run_name:
-            return told
+            return sentence
         substeps = "" if best[2] is None else f", {best[2]} substeps"
-        return f"{told}; {plain_name(best[1])}{substeps}: no more for {dots[best].cost:,.0f} us"
+        return f"{sentence}; {plain_name(best[1])}{substeps}: no more for {dots[best].cost:,.0f} us"
 
     def _energy(self):
         """Return the energy of the crates [mass px2/s2]."""

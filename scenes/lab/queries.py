@@ -32,7 +32,7 @@ from physics import Capsule, Circle, Effects, PixelMask, Polygon, debug
 from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
 from scenes.lab.looks import Looks
-from scenes.lab.questions import angle_of, ask, told
+from scenes.lab.query_calls import angle_of, ask, rows_of
 from scenes.lab.yard import HEAD, darken, draw_head
 
 STRATEGIES = ("tree", "hash", "sweep", "brute")
@@ -177,7 +177,7 @@ class Queries(Scene):
         for strategy, world in zip(STRATEGIES, self.worlds, strict=True):
             bounce(world)
             world.step()
-            answers.append(told(ask(world, self.query, self.origin, self.target, float(self.values["size"]))))
+            answers.append(rows_of(ask(world, self.query, self.origin, self.target, float(self.values["size"]))))
             counters = world.queries.counters
             self.work[strategy] = counters["nodes_visited"], counters["pairs_tested"]
             self.looked[strategy] += sum(self.work[strategy])
@@ -201,7 +201,7 @@ class Queries(Scene):
             if not made:
                 made.append(self.worlds[0].snapshot())
             query, size, _, strategy = name
-            act = Act(f"{__package__}.questions:asking", (query, ORIGIN, (WIDTH, HEIGHT), size))
+            act = Act(f"{__package__}.query_calls:asking", (query, ORIGIN, (WIDTH, HEIGHT), size))
             return MeasuredRun(made, strategy, PLACES, act=act)
 
         return RunRequest([self._run_name(strategy) for strategy in STRATEGIES], make)
@@ -352,8 +352,8 @@ class Queries(Scene):
             return "not yet: something has to be asked"
         looks = ", ".join(f"the {name} at {self.usual[name].value:,.0f}" for name in STRATEGIES[:-1])
         among = f"{self.query} among {self.values['bodies']:,} shapes: {looks}, brute force at"
-        told = f"{among} {self.usual['brute'].value:,.0f} boxes and nodes"
-        return f"{told}; {self.disagreements} of {self.asked:,} answers differed"
+        sentence = f"{among} {self.usual['brute'].value:,.0f} boxes and nodes"
+        return f"{sentence}; {self.disagreements} of {self.asked:,} answers differed"
 
     def bot(self):
         """Return the bot: point along a slow curve; change the query now and then, the strategy more often."""

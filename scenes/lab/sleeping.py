@@ -317,16 +317,16 @@ class Sleeping(Scene):
 
     def finding(self):
         """Return the cost of sleeping against that of being awake, and the number of islands that a knock woke."""
-        told = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
+        parts = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
         awake, asleep = (cost_of(self, self._run_name(how)) for how in SLEPT)
         if awake is not None and asleep is not None:
-            told.append(f"a step takes {microseconds(asleep)} asleep, {awake / asleep:,.1f} x that without sleep")
+            parts.append(f"a step takes {microseconds(asleep)} asleep, {awake / asleep:,.1f} x that without sleep")
         elif self.slept_at < 0 and not self.waves:
             return "not yet: all have to fall asleep"
         if self.waves:
             woken = sum(count for _, count in self.waves)
-            told.append(f"balls woke {count_text(woken, 'island')}, {self.first_woken} at first")
-        return "; ".join(told)
+            parts.append(f"balls woke {count_text(woken, 'island')}, {self.first_woken} at first")
+        return "; ".join(parts)
 
     def bot(self):
         """Return the bot: wait until all sleep, then throw a ball at the top of the first column."""

@@ -243,12 +243,12 @@ class Stacks(Scene):
         """Return the sag and sway of each column, and the time of a step."""
         if self.since <= SETTLED:
             return "not yet: the columns have to settle for two seconds"
-        told = []
+        parts = []
         for index, name in enumerate(SOLVERS):
             sinks, sways = self.sag[name] / (self.values["crates"] * SIZE), self.sway[name] / SIZE
             how = f"sinks {100 * sinks:.1f} %, sways {100 * sways:.1f} %" if self.stands_now(index) else "fell"
-            told.append(f"{plain_name(name)} {how} ({cost_text(self, (*self.chosen, name))})")
-        return "; ".join(told)
+            parts.append(f"{plain_name(name)} {how} ({cost_text(self, (*self.chosen, name))})")
+        return "; ".join(parts)
 
     def bot(self):
         """Return the bot: watch, and nudge once."""

@@ -211,13 +211,13 @@ class Tumbler(Scene):
         if self.since < SETTLED + 60:
             return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)
-        told = f"{self.escaped} of {len(self.world.bodies) - 1} shapes got out in {turns:.2f} turns"
+        sentence = f"{self.escaped} of {len(self.world.bodies) - 1} shapes got out in {turns:.2f} turns"
         deep = f"{self.pressed:.2f} px, {self.pressed / THINNEST:.0%} of the thinnest"
-        told = f"{told}; the deepest overlap is {deep}, on average over {(self.since - SETTLED) / 60:.0f} s"
+        sentence = f"{sentence}; the deepest overlap is {deep}, on average over {(self.since - SETTLED) / 60:.0f} s"
         costs = {word: cost_of(self, name) for word, name in self.ways().items()}
         if None in costs.values():
-            return told
-        return f"{told}; a step takes {', '.join(f'{microseconds(cost)} ({word})' for word, cost in costs.items())}"
+            return sentence
+        return f"{sentence}; a step takes {', '.join(f'{microseconds(cost)} ({word})' for word, cost in costs.items())}"
 
     def bot(self):
         """Return the bot: watch."""

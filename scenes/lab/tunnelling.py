@@ -341,11 +341,11 @@ class Tunnelling(Scene):
         ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}
         if not all(ended.values()):
             return f"not yet: {kind} have to come to each wall"
-        told = []
+        parts = []
         for lane in LANES:
             missed = self.missed[kind, lane]
-            told.append(f"{lane} missed {missed} of {ended[lane]} ({cost_text(self, (*self.chosen, lane))})")
-        return f"{kind}: {', '.join(told)}"
+            parts.append(f"{lane} missed {missed} of {ended[lane]} ({cost_text(self, (*self.chosen, lane))})")
+        return f"{kind}: {', '.join(parts)}"
 
     def bot(self):
         """Return the bot: watch balls, rods and bullets; make it faster once."""

@@ -222,7 +222,7 @@ def test_u7_u8_u10_ask_physics_about_pairs(monkeypatch):
         assert invariant in found
 
 
-def test_u10_a_contact_that_is_not_told():
+def test_u10_a_contact_that_is_not_reported():
     def forget(world):
         world.report_contacts(world.reported_rows()[:0])
 

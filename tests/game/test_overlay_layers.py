@@ -83,7 +83,7 @@ def test_contacts_are_counted_by_state():
     assert any("persisted" in text for _, text in layer.notes())
 
 
-def test_what_sleeps_is_told_apart():
+def test_what_sleeps_is_distinguished():
     scene = stepped(400)
     assert layer_after(scene, "islands").asleep > 0
     awake = stepped(20)

@@ -222,11 +222,11 @@ def test_the_strip_names_all_stages_and_a_click_goes_there(play):
     key(play, K.K_e)
     play.step_inspector.step.go(4)
     frame = play.draw(picture)
-    told = words(frame)
-    assert all(stage.replace("_", " ") in told for stage in play.scene.world.stages)
-    assert "4 of 8: narrow phase" in told and "us, the least of" in told and "narrow tests +" in told
-    assert "contact rows" in told and "FROZEN" not in told and "-10 s" not in told
-    assert "contacts" not in play.overlays.on and "contacts 321 of 321" in told, "the layer of the stage is shown"
+    reported = words(frame)
+    assert all(stage.replace("_", " ") in reported for stage in play.scene.world.stages)
+    assert "4 of 8: narrow phase" in reported and "us, the least of" in reported and "narrow tests +" in reported
+    assert "contact rows" in reported and "FROZEN" not in reported and "-10 s" not in reported
+    assert "contacts" not in play.overlays.on and "contacts 321 of 321" in reported, "the layer of the stage is shown"
     rect, number = play.step_inspector.names[1]
     assert play.feed(K.event.Event(K.MOUSEBUTTONDOWN, button=1, pos=rect.center))
     assert play.step_inspector.step.place == number == 2
@@ -241,8 +241,8 @@ def test_nothing_is_cut_at_any_size(name, size):
     for place in range(len(play.step_inspector.step.stages) + 1):
         play.step_inspector.step.go(place)
         frame = play.draw(Picture(K.Surface(size)))
-        inside, told = frame.area.clip(frame.rect), words(frame)
-        assert "the input is the bot's" in told and "E puts the step back" in told
+        inside, reported = frame.area.clip(frame.rect), words(frame)
+        assert "the input is the bot's" in reported and "E puts the step back" in reported
         card = [rect for rect, text in frame.boxes if "reads" in text or "may write" in text or "the input" in text]
         assert all(inside.contains(rect) for rect in card)
         assert all(rect.bottom <= play.step_inspector.names[0][0].top for rect in card)

@@ -157,6 +157,6 @@ def test_a_carve_is_timed_on_solid_ground():
 
 
 def test_microseconds_as_text():
-    told = {1.26e-6: "1.3 us", 9.99e-5: "99.9 us", 9.996e-5: "100 us", 1.5e-2: "15,000 us"}
-    assert {seconds: microseconds(seconds) for seconds in told} == told
+    reported = {1.26e-6: "1.3 us", 9.99e-5: "99.9 us", 9.996e-5: "100 us", 1.5e-2: "15,000 us"}
+    assert {seconds: microseconds(seconds) for seconds in reported} == reported
     assert cost_text(played("lab/cradle", 1), "of no such name") == "-"

@@ -128,7 +128,7 @@ def test_keys_turn_the_pages_and_begin_them_again():
     assert scene.page is PAGES[1] and scene.sides[0].steps == 0
 
 
-def test_the_thousand_is_stepped_beside_the_game_and_told_on_its_page():
+def test_the_thousand_is_stepped_beside_the_game_and_reported_on_its_page():
     scene = opened("point")
     request = scene.measured()
     for name, side in zip(request.names, scene.sides, strict=True):

@@ -84,10 +84,10 @@ def measure(ratio: float, lanes: int) -> list[Row]:
                 lane = discs[identity]
                 if np.isnan(late[lane]):
                     late[lane] = abs(float(world.body(identity).position.x) - touch[lane]) if meets[lane] else 0.0
-        told = ~np.isnan(late)
-        missed = Rate(int((meets & ~told).sum()), int(meets.sum()))
-        ghost = Rate(int((told & ~meets).sum()), int(told.sum()))
-        found = late[meets & told]
+        reported = ~np.isnan(late)
+        missed = Rate(int((meets & ~reported).sum()), int(meets.sum()))
+        ghost = Rate(int((reported & ~meets).sum()), int(reported.sum()))
+        found = late[meets & reported]
         rows.append(
             {
                 "series": name_of(way, divided),
@@ -96,7 +96,7 @@ def measure(ratio: float, lanes: int) -> list[Row]:
                 "ratio": ratio,
                 "missed": counted(missed),
                 "ghost": counted(ghost),
-                "deepest_missed": float(depth[meets & ~told].max(initial=0.0)),
+                "deepest_missed": float(depth[meets & ~reported].max(initial=0.0)),
                 "late": [float(each) for each in np.percentile(found, (5, 50, 95))] if len(found) else None,
                 "failures": {"cap_hits": failures},
             }
@@ -225,7 +225,7 @@ CHART = Chart(
             "series",
         ),
         Panel(
-            "told how far from the first touch",
+            "reported how far from the first touch",
             Axis("v dt / size", value("ratio")),
             Axis("off by [px]", value("late"), mark=1.0),
             lambda r: r["panel"] == "miss",

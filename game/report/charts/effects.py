@@ -35,7 +35,7 @@ def _row(scene: str, found: Entry) -> Row:
         "refused": found.refused,
         "matters": found.matters,
         "moved": found.moved,
-        "told": found.told,
+        "told": found.reported,
         "ruled": found.ruled,
         "parted": found.parted,
         "apart": None if found.refused else found.apart,

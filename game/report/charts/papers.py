@@ -120,10 +120,10 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
         most = (min(rounds), max(rounds), max(rounds))
         text = "GJK needs few iterations, however many corners: ten in a whole time of impact"
         found.append(at_most(text, most, 10.0, "Gilbert, Johnson, Keerthi 1988", "iterations at most"))
-    without, told = by.get(("persist", "without", None)), by.get(("persist", "with", None))
-    if without and told:
+    without, reported = by.get(("persist", "without", None)), by.get(("persist", "with", None))
+    if without and reported:
         text = "events of what goes on touching cost a tenth of a step, and more"
-        found.append(at_least(text, ratio_of(told["cost"], without["cost"]), 1.1, "manuals, where they are off"))
+        found.append(at_least(text, ratio_of(reported["cost"], without["cost"]), 1.1, "manuals, where they are off"))
     return found
 
 

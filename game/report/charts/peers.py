@@ -104,11 +104,11 @@ def measure_sprites(count: int) -> list[Row]:
         "pygame: Rect, then Mask": traffic.masks_after_rects,
         "pygame: groupcollide": traffic.group_collide,
     }
-    told: dict[str, set] = {
+    reported: dict[str, set] = {
         "pygame: Rect": traffic.rects_only(),
         "pygame: Rect, then Mask": traffic.masks_after_rects(),
     }
-    told["pygame: groupcollide"] = truth  # it returns sprites, not pairs: the same masks, one by one
+    reported["pygame: groupcollide"] = truth  # it returns sprites, not pairs: the same masks, one by one
     works: dict[str, Callable[[], object]] = dict(ways)
     for name, make, tier in (
         ("ours: grid, boxes", SpatialHashGrid, "aabb"),
@@ -120,7 +120,7 @@ def measure_sprites(count: int) -> list[Row]:
         rows = {int(identity): k for k, identity in enumerate(world.bodies["id"])}
         found = world.contacts
         hits = found[found["separation"] <= 0.0]
-        told[name] = {
+        reported[name] = {
             tuple(sorted((rows[a], rows[b])))
             for a, b in zip(hits["body_a"].tolist(), hits["body_b"].tolist(), strict=True)
         }
@@ -134,8 +134,8 @@ def measure_sprites(count: int) -> list[Row]:
             "label": name,
             "panel": "sprites",
             "n": count,
-            "wrong": counted(Rate(len(told[name] - truth), len(told[name]))),
-            "missed": counted(Rate(len(truth - told[name]), len(truth))),
+            "wrong": counted(Rate(len(reported[name] - truth), len(reported[name]))),
+            "missed": counted(Rate(len(truth - reported[name]), len(truth))),
             "cost": spread(costs[name]),
         }
         for name in works

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from game.measure.advice import measure_settings
 from game.measure.moment import Moment
 from game.measure.setting import settings_around
-from game.measure.survey import Survey, told
+from game.measure.survey import Survey, reported_error
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.charts.latency import scene_class
 from game.report.claim import Claim, ordering, pair
@@ -42,7 +42,7 @@ def measure(scene: str, where: str) -> list[Row]:
                     "panel": f"{scene}, {kind}",
                     "setting": setting._asdict(),
                     "ignored_effects": list(ignored_effects(moment.effects, setting.solver or world.solver)),
-                    "error": [max(0.0, error.value - error.floor), told(error), error.value + error.floor],
+                    "error": [max(0.0, error.value - error.floor), reported_error(error), error.value + error.floor],
                     "floor": error.floor,
                     "wrong": None if error.wrong is None else counted(error.wrong),
                     "missed": None if error.missed is None else counted(error.missed),

@@ -12,7 +12,7 @@ from game.drawing.presenter import Frame
 from game.measure.errors import VISIBLE, Error
 from game.measure.moment import STEPS
 from game.measure.setting import Setting
-from game.measure.survey import shown, told
+from game.measure.survey import reported_error, shown
 from game.measure.surveyor import Surveyor
 from game.measure.timing import RUNS, Cost
 from game.measure.tuner import Tuner
@@ -20,7 +20,7 @@ from game.screens.parts.advice_rows import AdviceRows
 from game.screens.parts.switches import following
 
 TITLES = {
-    "verdict": "hits told wrong: by how much, on average",
+    "verdict": "hits reported wrong: by how much, on average",
     "overlap": "bodies in each other: the deepest place",
     "way": "bodies astray from a reference run",
 }
@@ -194,11 +194,11 @@ class CostPanel:
 
     def _draw_plot(self, frame, rect, known, now, scale):
         x = Axis([1e6 * value for cost, _ in known.values() for value in (cost.least, cost.upper)])
-        errors = [told(error) for _, error in known.values()]
+        errors = [reported_error(error) for _, error in known.values()]
         plot = LogPlot(rect, x, Axis([*errors, VISIBLE]), any(error <= 0.0 for error in errors), scale)
         plot.draw_ground(frame)
         plot.draw_level(frame, VISIBLE, PAPER, "a pixel: seen above")
-        places = {s: plot.place(1e6 * cost.median, told(error)) for s, (cost, error) in known.items()}
+        places = {s: plot.place(1e6 * cost.median, reported_error(error)) for s, (cost, error) in known.items()}
         pareto_front = [places[setting] for setting in self.survey.pareto_front(self.shown_kind())]
         if len(pareto_front) > 1:
             pygame.draw.lines(frame.surface, faded(GOLD, 0.25), False, _stairs(pareto_front), scale)
@@ -216,7 +216,7 @@ class CostPanel:
         low, high = (plot.place(1e6 * value, 1.0)[0] for value in (cost.least, cost.upper))
         if high - low > 2:
             pygame.draw.line(frame.surface, faded(color, 0.4), (low, place[1]), (high, place[1]), 1)
-        draw_form(frame.surface, form, place, 2.2 * scale, color, error.told or not error.floor)
+        draw_form(frame.surface, form, place, 2.2 * scale, color, error.above_floor or not error.floor)
         if setting == now:
             pygame.draw.circle(frame.surface, GOLD, place, 5 * scale, max(1, scale // 2))
         if setting == self.hovered:

@@ -99,8 +99,8 @@ class Measuring:
         decided = self.tuner.step(self.scene.frame, self.now())
         if decided is None:
             return ""
-        told = f"{decided.after.label(decided.before)}, {decided.share:.2f} x the time"
-        return f"tuned: {told}" if not decided.refused else f"not tuned: {decided.refused}"
+        reported = f"{decided.after.label(decided.before)}, {decided.share:.2f} x the time"
+        return f"tuned: {reported}" if not decided.refused else f"not tuned: {decided.refused}"
 
     def _try(self, setting):
         """Apply a setting. Return the reason if it cannot be applied, else ""."""

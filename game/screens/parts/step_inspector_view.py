@@ -202,7 +202,7 @@ class StepInspectorView:
         scale = frame.text_scale
         room = WIDTH * scale
         lines: list[tuple[str, Color, str, int]] = []
-        for text, ink, font, height in self._told():
+        for text, ink, font, height in self._paragraphs():
             wrapped = wrap(text, room - 2 * EDGE * scale, font, scale)
             lines += [("", ink, font, BETWEEN)] * bool(lines) + [(each, ink, font, height) for each in wrapped]
         area = frame.area.clip(frame.rect)
@@ -227,7 +227,7 @@ class StepInspectorView:
             self.corner = int(best.centerx > area.centerx)
         return pygame.Rect(corners[self.corner], area.top, *size)
 
-    def _told(self):
+    def _paragraphs(self):
         """Return (text, colour, font, height) of each paragraph of the card."""
         step = self.step
         assert step is not None

@@ -188,10 +188,10 @@ class Gallery(Scene):
         canvas.text(f"{spent:,.0f} us a step", x + 2, 221, GOLD, SMALL)
         if page.larger is not None:
             found = self.larger(side)
-            told = "being stepped" if found is None else amount(found[0])
+            sentence = "being stepped" if found is None else amount(found[0])
             if found is not None and found[1].sure:
-                told += f", {found[1].cost.median:.1f} s"
-            canvas.text(f"{page.larger.name}: {told}", x + 2, 229, PAPER, SMALL)
+                sentence += f", {found[1].cost.median:.1f} s"
+            canvas.text(f"{page.larger.name}: {sentence}", x + 2, 229, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
         """Draw tiny shapes, and the errors against their limit."""
@@ -242,12 +242,12 @@ class Gallery(Scene):
                 page.title,
                 DUE,
                 page.name in self.verdicts and is_met(page, *self.verdicts[page.name]),
-                self._told(page),
+                self._result(page),
             )
             for page in PAGES
         ]
 
-    def _told(self, page):
+    def _result(self, page):
         if page.name not in self.verdicts:
             return "not judged yet"
         naive, ours = self.verdicts[page.name]
@@ -260,13 +260,13 @@ class Gallery(Scene):
             return "not yet: the page has to be stepped"
         page = self.page
         errors = ", ".join(f"{side.way.name} {amount(side.error)}" for side in (naive, ours))
-        told = f"{page.title}, step {naive.steps}: {errors} {page.unit}"
+        sentence = f"{page.title}, step {naive.steps}: {errors} {page.unit}"
         met = sum(is_met(page, *self.verdicts[page.name]) for page in PAGES if page.name in self.verdicts)
         judged = f"; {met} of {len(self.verdicts)} judged pages came out as expected" if self.verdicts else ""
         full = [found for side in self.sides if (found := self.larger(side)) is not None]
         if len(full) == len(self.sides) and page.larger is not None:
-            told += f"; {page.larger.name} {' and '.join(amount(error) for error, _ in full)}"
-        return f"{told}, limit {amount(page.limit)}{judged}"
+            sentence += f"; {page.larger.name} {' and '.join(amount(error) for error, _ in full)}"
+        return f"{sentence}, limit {amount(page.limit)}{judged}"
 
     def bot(self):
         """Return the bot: a short look at each page; then each until it is judged."""

@@ -45,19 +45,19 @@ class Requesting(Arena):
 
 
 def test_every_measured_run_is_made_five_times_in_turns():
-    told = []
-    measure_runs([run_of(1), run_of(12)], lambda *found: told.append(found), lambda: True)
-    assert [number for number, *_ in told[:2]] == [0, 1]
-    assert sorted(number for number, *_ in told) == [0] * RUNS + [1] * RUNS
-    least = {which: min(spent for number, spent, *_ in told if number == which) for which in (0, 1)}
+    reported = []
+    measure_runs([run_of(1), run_of(12)], lambda *found: reported.append(found), lambda: True)
+    assert [number for number, *_ in reported[:2]] == [0, 1]
+    assert sorted(number for number, *_ in reported) == [0] * RUNS + [1] * RUNS
+    least = {which: min(spent for number, spent, *_ in reported if number == which) for which in (0, 1)}
     assert 0.0 < least[0] < least[1], "twelve boxes cost more than one"
 
 
 def test_a_stage_costs_less_than_the_step_and_an_unknown_one_nothing():
-    told = {}
+    reported = {}
     measured_runs = [run_of(8), run_of(8, stage="broad_phase"), run_of(8, stage="none of this name")]
-    measure_runs(measured_runs, lambda number, spent, *_: told.setdefault(number, []).append(spent), lambda: True)
-    assert min(told[0]) > min(told[1]) > 0.0 and max(told[2]) == 0.0
+    measure_runs(measured_runs, lambda number, spent, *_: reported.setdefault(number, []).append(spent), lambda: True)
+    assert min(reported[0]) > min(reported[1]) > 0.0 and max(reported[2]) == 0.0
 
 
 def counting(world, record):
@@ -70,15 +70,15 @@ ACTS = []
 
 def test_an_act_is_done_in_place_of_steps_in_a_world_that_was_stepped_once():
     ACTS.clear()
-    told, act = [], Act("tests.game.measure.test_measured_runs:counting", ("kept",))
-    measure_runs([run_of(2, steps=7, act=act)], lambda *found: told.append(found), lambda: True)
-    assert len(told) == RUNS and all(spent > 0.0 for _, spent, *_ in told)
+    reported, act = [], Act("tests.game.measure.test_measured_runs:counting", ("kept",))
+    measure_runs([run_of(2, steps=7, act=act)], lambda *found: reported.append(found), lambda: True)
+    assert len(reported) == RUNS and all(spent > 0.0 for _, spent, *_ in reported)
     assert ACTS == [("kept", 1)] * (WARM_STEPS + 1 + RUNS * 8), "one call of each run comes first"
 
 
 def test_an_overlap_and_a_way_are_those_of_the_steps_that_are_judged():
-    told, snapshot = [], pile(5)
-    measure_runs([MeasuredRun([snapshot], "hash", judged=(3, 7))], lambda *found: told.append(found), lambda: True)
+    reported, snapshot = [], pile(5)
+    measure_runs([MeasuredRun([snapshot], "hash", judged=(3, 7))], lambda *found: reported.append(found), lambda: True)
     world, deepest, farthest = World(PILE), [], []
     world.restore(snapshot)
     for _ in range(7):
@@ -87,14 +87,16 @@ def test_an_overlap_and_a_way_are_those_of_the_steps_that_are_judged():
         deepest.append(max(0.0, -float(world.contacts["separation"].min())))
         ways = [world.bodies[name] - before[name] for name in ("center_x", "center_y")]
         farthest.append(float(np.hypot(*ways).max()))
-    assert {overlap for _, _, overlap, _ in told} == {max(deepest[2:])} and deepest[0] > max(deepest[2:]) > 0.0
-    assert [far for *_, far in told] == pytest.approx([max(farthest[2:])] * RUNS) and farthest[0] > max(farthest[2:])
+    assert {overlap for _, _, overlap, _ in reported} == {max(deepest[2:])} and deepest[0] > max(deepest[2:]) > 0.0
+    assert [far for *_, far in reported] == pytest.approx([max(farthest[2:])] * RUNS) and farthest[0] > max(
+        farthest[2:]
+    )
 
 
 def test_who_is_asked_for_something_else_stops():
-    told = []
-    measure_runs([run_of(1)] * 3, lambda *found: told.append(found), lambda: len(told) < 2)
-    assert len(told) == 2
+    reported = []
+    measure_runs([run_of(1)] * 3, lambda *found: reported.append(found), lambda: len(reported) < 2)
+    assert len(reported) == 2
 
 
 def test_a_process_measures_runs_and_remembers_them_by_name():
@@ -124,9 +126,9 @@ def test_what_a_worker_reports_is_what_the_measured_runs_are_made_of(tmp_path):
     ACTS.clear()
     lines = []
     measure_stored_runs({"moment": "runs 0", "runs": [stored]}, lines.append, lambda: True)
-    told = [json.loads(line) for line in lines]
-    assert [each.get("run") for each in told] == [0] * RUNS + [None]
-    assert told[-1] == {"moment": "runs 0", "done": True} and ("far", 1) in ACTS
+    reported = [json.loads(line) for line in lines]
+    assert [each.get("run") for each in reported] == [0] * RUNS + [None]
+    assert reported[-1] == {"moment": "runs 0", "done": True} and ("far", 1) in ACTS
     (tmp_path / "pile.npz").write_bytes(b"nothing")
     with pytest.raises(ValueError, match="no snapshot of this program"):
         measure_stored_runs({"moment": "runs 1", "runs": [stored]}, print, lambda: True)

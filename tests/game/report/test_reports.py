@@ -96,10 +96,10 @@ def test_interrupted_it_keeps_what_is_done_and_goes_on(charts, tmp_path, monkeyp
     charts([Job(f"fall/{k}", f"{WORK}:wait", {"path": str(mark)}) for k, mark in enumerate(marks)])
     from game.report.run import Progress
 
-    told = Progress.__call__
+    reported = Progress.__call__
 
     def interrupt(self, found):
-        told(self, found)
+        reported(self, found)
         if self.count == 2:
             raise KeyboardInterrupt
 
@@ -110,12 +110,12 @@ def test_interrupted_it_keeps_what_is_done_and_goes_on(charts, tmp_path, monkeyp
     assert "2 jobs are not done yet" in (tmp_path / "r" / "index.html").read_text()
     for mark in marks:
         mark.unlink(missing_ok=True)
-    monkeypatch.setattr(Progress, "__call__", told)
+    monkeypatch.setattr(Progress, "__call__", reported)
     assert report(tmp_path / "r") == 0
     assert [mark.exists() for mark in marks] == [False, False, True, True]
 
 
-def test_a_job_that_fails_is_told_and_done_again(charts, tmp_path, capsys):
+def test_a_job_that_fails_is_reported_and_done_again(charts, tmp_path, capsys):
     charts([Job("fall/1", f"{WORK}:fall", {"bodies": 1}), Job("fall/bad", f"{WORK}:fail", {})])
     assert report(tmp_path / "r") == 1
     assert "1 failed" in capsys.readouterr().out
