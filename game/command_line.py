@@ -15,7 +15,7 @@ from game import VERSION, startup
 from game.errors import ReplayDiverged, StrictFailure, UsageError, brief, unknown_name
 from game.files.data_folder import is_there
 from game.files.own_levels import level_digest
-from game.overlays.layer import LAYER_NAMES
+from game.overlays.stack import layer_names
 from game.registry import Registry
 from game.run.options import DEFAULT_FRAMES, Options
 from game.run.replay import LARGEST_SEED
@@ -80,7 +80,7 @@ def make_parser() -> Parser:
     add("--bot", action="store_true", help="the scene's own player plays; its goals are checked at the end")
     add("--record", metavar="FILE", help="write inputs, seed and digests")
     add("--replay", metavar="FILE", help="play a recording; a divergence names the frame")
-    add("--overlay", metavar="LAYERS", help=f"comma-separated: {', '.join(LAYER_NAMES)}, all, none")
+    add("--overlay", metavar="LAYERS", help=f"comma-separated: {', '.join(layer_names())}, all, none")
     add("--broadphase", metavar="NAME", help="brute, sweep, hash or tree")
     add("--solver", metavar="NAME", help="how overlaps are resolved")
     add("--tier", metavar="NAME", help="the shape that sprites are tested with")
@@ -197,11 +197,11 @@ def read_layers(text: str | None) -> tuple[str, ...] | None:
         return None
     names = [name.strip() for name in text.split(",") if name.strip()]
     if names == ["all"]:
-        return LAYER_NAMES
+        return layer_names()
     if names == ["none"]:
         return ()
     for name in names:
-        _known(name, "overlay", (*LAYER_NAMES, "all", "none"))
+        _known(name, "overlay", (*layer_names(), "all", "none"))
         if name in ("all", "none"):
             raise UsageError(f"--overlay: {name} stands alone (got {text})")
     return tuple(names)

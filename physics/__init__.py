@@ -17,9 +17,11 @@ from physics.math2d import Vec2
 from physics.queries.casts import RayHit
 from physics.queries.pairs import Distance, Manifold, TimeOfImpact, collide, distance, time_of_impact
 from physics.shapes.approximate import TIERS, Fit, decompose, fit, hull, measure
-from physics.shapes.kinds import mass_of
-from physics.shapes.mask import Bounds, PixelMask
-from physics.shapes.values import Capsule, Chain, Circle, Filter, Mass, Material, Polygon, Segment, TileGrid
+from physics.shapes.kinds import Bounds, mass_of
+from physics.shapes.mask import PixelMask
+from physics.shapes.mass import Mass
+from physics.shapes.shape import Filter, Material
+from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, TileGrid
 from physics.snapshot import PHYSICS_VERSION, Snapshot
 from physics.step import SOLVERS
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC

@@ -13,8 +13,7 @@ from physics.collision.manifold import contacts_of
 from physics.islands import sleep
 from physics.math2d import Vec2, turned
 from physics.queries.casts import bounds_of
-from physics.shapes.kinds import Shape
-from physics.shapes.values import Filter, Material
+from physics.shapes.shape import Filter, Material, Shape
 from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, STATIC
 from physics.world_state import Handle
 

@@ -1,7 +1,6 @@
 """Carving: pixels of a body's masks are removed, and pieces that come loose become bodies."""
 
 import math
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -10,14 +9,13 @@ from physics import checks, edit
 from physics.edit import exchange_mask
 from physics.math2d import turned
 from physics.raster.pixel_tiles import Cut, Loose, Tool, cut, find_in_hull, find_in_pixels
-from physics.shapes.kinds import mass_of
+from physics.shapes.kinds import mass_of, with_area
 from physics.shapes.library import weigh
 from physics.shapes.mask import PixelMask
-from physics.shapes.values import Capsule, Circle, Polygon
+from physics.shapes.shape import rectangle
 from physics.tables.body import CONTINUOUS, DYNAMIC
+from physics.tables.shape import MASK
 from physics.world_state import WorldState
-
-TOOLS = (Circle, Capsule, Polygon, PixelMask)
 
 
 class Carved(NamedTuple):
@@ -35,12 +33,12 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
     """
     world._unlocked()
     world._needs("carving", "carve", True)
-    if not isinstance(shape, TOOLS):
-        names = ", ".join(each.__name__ for each in TOOLS)
+    if not isinstance(shape, tools := with_area()):
+        names = ", ".join(each.__name__ for each in tools)
         raise TypeError(f"shape must be one of {names} to carve with (got {checks.shown(shape)})")
     pose, crumb = checks.pose("pose", pose), checks.whole("crumb", crumb, 0, 2**31)
     shapes = world._shapes_of[identity]
-    if not any(isinstance(each, PixelMask) for each in shapes):
+    if not any(each._kind == MASK for each in shapes):
         raise ValueError(f"body {identity} must have a PixelMask to be carved (got {checks.shown(shapes)})")
     row = world._body_row(identity)
     stays_in_pieces = row["kind"] != DYNAMIC
@@ -68,35 +66,23 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
 
 def _tool_in(mask, frame, shape, pose):
     """Return (the function that finds the pixels of a tile inside the tool, its box [px] in the mask's raster)."""
-    corners, radius = _outline_of(shape)
+    corners = shape.points if shape._is_convex else rectangle(*(shape.bounds or (0.0, 0.0, 0.0, 0.0)))
+    radius = shape.radius if shape._is_convex else 0.0
     x, y, angle = pose
     cosine, sine = math.cos(angle), math.sin(angle)
     seen = [_in_raster(mask, frame, x + u, y + v) for u, v in (turned(*corner, cosine, sine) for corner in corners)]
     across, down = zip(*seen, strict=True)
     box = min(across) - radius, min(down) - radius, max(across) + radius, max(down) + radius
-    if isinstance(shape, PixelMask):
+    if not shape._is_convex:
         return _mask_tool(mask, frame, shape, pose), box
-    return partial(_find_in_hull, np.array(seen, np.float64), radius), box
-
-
-def _outline_of(shape):
-    """Return (corners in its own space, rounding radius) of a tool; of a mask the corners of its box."""
-    if isinstance(shape, PixelMask):
-        left, top, right, bottom = shape.bounds or (0.0, 0.0, 0.0, 0.0)
-        return [(left, top), (right, top), (right, bottom), (left, bottom)], 0.0
-    if isinstance(shape, Circle):
-        return [shape.center], shape.radius
-    return list(shape.points), shape.radius
+    points = np.array(seen, np.float64)
+    return lambda words, left, top, found: find_in_hull(words, left, top, points, radius, found), box
 
 
 def _in_raster(mask, frame, x, y):
     """Return a world point in the raster of a body's mask [px]."""
     u, v = turned(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
     return u + mask.origin[0], v + mask.origin[1]
-
-
-def _find_in_hull(points, radius, words, left, top, found):
-    return find_in_hull(words, left, top, points, radius, found)
 
 
 def _mask_tool(mask, frame, shape, pose) -> Tool:

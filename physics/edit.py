@@ -13,23 +13,14 @@ from physics.contacts.matching import KeptImpulses
 from physics.dynamics.integrate import refresh_centers
 from physics.islands import sleep
 from physics.shapes.approximate import fit
-from physics.shapes.kinds import Shape
-from physics.shapes.library import check_shapes, find_equal, is_snapped, rounding_of, rows_in_tiles, set_mass, weigh
+from physics.shapes.kinds import check_shapes
+from physics.shapes.library import find_equal, rounding_of, rows_in_tiles, set_mass, weigh
 from physics.shapes.mask import PixelMask
-from physics.shapes.outline import (
-    OutlinePart,
-    Stretch,
-    is_tiled,
-    keep_tiles,
-    outline_by_tile,
-    polygons,
-    surfaces_of,
-    tiled_parts,
-)
-from physics.shapes.values import Capsule, Chain, Circle, Filter, Material, Polygon, TileGrid
+from physics.shapes.outline import is_tiled, keep_tiles, polygons, tiled_parts
+from physics.shapes.shape import Filter, Material, Shape
 from physics.solver.substeps import forget_loads
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, OFF, STATIC
-from physics.tables.shape import PART, PIXELS, WHOLE, WHOLE_MASK
+from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
 from physics.tables.table import rows_of
 from physics.world_state import WorldState
 
@@ -80,7 +71,7 @@ def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
         each["role"], each["inner"], each["tile"] = role, inner, tile
         each["kind"], each["geometry"], each["wrapped"] = world.library.add(shape)
         each["radius"], each["local_x"], each["local_y"] = rounding_of(shape)
-        each["snap"] = is_snapped(shape)
+        each["snap"] = shape.snap
         say(each, given[i::k], shape)
     _enter(world, rows)
     return rows
@@ -91,7 +82,7 @@ class NewParts(NamedTuple):
 
     tiles: ArrayLike  # (n,) int64, as `tile` in SHAPE
     inner: ArrayLike  # (n,) int64, as in SHAPE
-    shapes: Sequence[Circle | Capsule | Polygon | Chain]  # in body space
+    shapes: Sequence[Shape]  # in body space
 
 
 NONE = NewParts((), (), ())
@@ -151,29 +142,14 @@ def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
     """Return the pieces of a body's shapes: one each, and with `response` the parts of each mask's outline."""
     found: list[Piece] = []
     for shape in shapes:
-        masked = pushed and isinstance(shape, PixelMask)
-        owner = len(found)
-        found.append(Piece(shape, PIXELS if masked else WHOLE, 0, owner, WHOLE_MASK))
-        if masked:
-            found += _parts(shape, owner)
+        tiles, owner = shape._response_parts() if pushed else (), len(found)
+        found.append(Piece(shape, PIXELS if tiles else WHOLE, 0, owner, WHOLE_MASK))
+        found += [
+            Piece(part.shape.with_(shape.material, shape.filter, shape.sensor), PART, part.inner, owner, tile)
+            for tile, parts in tiles
+            for part in parts
+        ]
     return found
-
-
-def _parts(mask, owner) -> list[Piece]:
-    """Return the parts of a mask's outline."""
-    return [
-        Piece(part.shape.with_(mask.material, mask.filter, mask.sensor), PART, part.inner, owner, tile)
-        for tile, parts in pushed_parts(mask)
-        for part in parts
-    ]
-
-
-def pushed_parts(mask: PixelMask) -> Sequence[tuple[int, Sequence[OutlinePart | Stretch]]]:
-    """Return (number of the tile, its parts) of a mask's outline, see outline_by_tile.
-
-    The upper side of a one-way mask is one part.
-    """
-    return [(WHOLE_MASK, surfaces_of(mask))] if mask.one_way else outline_by_tile(mask)
 
 
 # ---- mask exchange ---------------------------------------------------------------------------------------------------
@@ -230,7 +206,7 @@ def _differences(world, shape_id, before, mask, changed):
     parts = np.flatnonzero((shapes["owner"] == shape_id) & (shapes["role"] == PART))
     known = {world.library.shape_of(shapes[row]): row for row in parts.tolist()}
     fresh = []
-    for tile, each in pushed_parts(mask):
+    for tile, each in mask._response_parts():
         for part in each:
             row = known.pop(part.shape, -1)
             if row < 0:
@@ -264,7 +240,7 @@ def _say_again(world, at, shape_id, mask):
     some = shapes[rows]
     say(some, world._given.rows[at], mask)
     shapes[rows] = some
-    shapes["snap"][rows] = is_snapped(mask) & (some["role"] != PART)
+    shapes["snap"][rows] = mask.snap & (some["role"] != PART)
     pairs.set_filter(some["proxy"], Filter(*(some[name][0].item() for name in ("membership", "mask"))))
     pairs.set_sensor(shapes, rows)
 
@@ -289,8 +265,11 @@ def _rejoin(world, at, touched):
 
 def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular_velocity") -> None:
     """Raise ValueError for a TileGrid whose body is rotated or rotates."""
-    if turn != 0.0 and any(isinstance(shape, TileGrid) for shape in shapes):
-        raise ValueError(f"{what} must be 0 for a body with a TileGrid, which cannot turn (got {turn})")
+    for shape in shapes if turn != 0.0 else ():
+        if not shape._may_turn:
+            raise ValueError(
+                f"{what} must be 0 for a body with a {type(shape).__name__}, which cannot turn (got {turn})"
+            )
 
 
 def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
@@ -336,7 +315,7 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
     check_ids(world, 1, shapes)
     sleep.disturb(world, [identity])
     masks = [each for each in shapes if isinstance(each, PixelMask)]
-    if len(before) == len(shapes) == len(masks) and all(isinstance(each, PixelMask) for each in before):
+    if len(before) == len(shapes) == len(masks) and all(each._kind == MASK for each in before):
         for place, (shape_id, mask) in enumerate(zip(ids, masks, strict=True)):
             exchange_mask(world, identity, place, shape_id, mask)
     else:
@@ -376,7 +355,7 @@ def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
 
 def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
     """Raise ValueError if the mass of a dynamic body comes only from masks without a pixel."""
-    empty = [each for each in shapes if isinstance(each, PixelMask) and not each.area]
+    empty = [each for each in shapes if each._kind == MASK and each.bounds is None]
     if world.effects.response and kind == DYNAMIC and empty and len(empty) == len(shapes) and mass == 0.0:
         raise ValueError(
             f"shapes of a dynamic body must have a solid pixel, or it a mass (got {checks.shown(empty[0])})"
@@ -418,7 +397,7 @@ def rebuild_masks(world: WorldState) -> None:
     Bodies keep their tiers; their shapes get new ids.
     """
     for identity, shapes in [*world._shapes_of.items()]:
-        if any(isinstance(shape, PixelMask) for shape in shapes):
+        if any(shape._kind == MASK for shape in shapes):
             tier, source = world._tiers.get(identity), world._sources.get(identity)
             sleep.disturb(world, [identity])
             world._drop_shapes(world.shapes["body"] != identity)

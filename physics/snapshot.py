@@ -22,10 +22,11 @@ from physics import checks
 from physics.edit import MATERIAL
 from physics.islands.awake import Awake
 from physics.islands.sleep import Island, Sleepers
-from physics.shapes.kinds import Shape
+from physics.shapes.kinds import SHAPES
 from physics.shapes.library import Geometries, Library
 from physics.shapes.mask import PixelMask
-from physics.shapes.values import Capsule, Chain, Filter, Material, Polygon, Segment, TileGrid
+from physics.shapes.shape import Filter, Material, Shape
+from physics.shapes.values import Chain, Convex, TileGrid
 from physics.step import PUSHING, SOLVERS
 from physics.tables.body import BODY, GIVEN
 from physics.tables.character import CHARACTER
@@ -36,12 +37,6 @@ from physics.world_state import WorldState, checked_substeps
 
 # ---- stored shapes ---------------------------------------------------------------------------------------------------
 # The shapes of a world as arrays and facts, for a file, and back.
-
-HULLS = {
-    "Polygon": lambda points, radius: Polygon(points, radius),
-    "Capsule": lambda points, radius: Capsule(*points, radius=radius),
-    "Segment": lambda points, radius: Segment(*points),
-}
 
 
 def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
@@ -57,7 +52,7 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
     for number, shape in enumerate(geometry.masks):
         arrays[f"mask_{number}"] = shape.solid
     facts = {
-        "hulls": [[type(shape).__name__, getattr(shape, "radius", 0.0)] for shape in geometry.outlines],
+        "hulls": [[type(shape).__name__, shape._facts()] for shape in geometry.outlines],
         "chains": [
             [shape.loop, shape.ghosts, shape.materials and [astuple(each) for each in shape.materials]]
             for shape in geometry.chains
@@ -71,9 +66,10 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
 def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
     """Return shapes from arrays and facts. Raises KeyError, TypeError, ValueError."""
     outlines, masks = [], []
-    for number, (name, radius) in enumerate(facts["hulls"]):
+    types = {each.__name__: each for each in SHAPES if issubclass(each, Convex)}
+    for number, (name, given) in enumerate(facts["hulls"]):
         points = tuple(map(tuple, arrays[f"hull_{number}"].tolist()))
-        outlines.append(HULLS[name](points, radius))
+        outlines.append(types[name]._load(points, given))
     chains = [
         Chain(arrays[f"chain_{number}"], loop, ghosts, materials and tuple(Material(*each) for each in materials))
         for number, (loop, ghosts, materials) in enumerate(facts["chains"])
@@ -91,7 +87,7 @@ def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geo
 # ---- snapshot --------------------------------------------------------------------------------------------------------
 # Snapshots of a world, in memory and as `.npz` files without pickle.
 
-VERSION = 12
+VERSION = 13
 ABANDONED = 3600.0  # [s] without a write after which a file counts as abandoned
 SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # settings that a snapshot restores
 DAMAGE = (
@@ -420,15 +416,12 @@ def digest(world: WorldState) -> str:
     exact = world.shapes["id"][(world.shapes["kind"] == MASK) & ~world.shapes["snap"]]
     if len(exact):
         found.update(b"exact" + exact.tobytes())
-    open_ones = [
-        shape.one_way for masks in world._shapes_of.values() for shape in masks if isinstance(shape, PixelMask)
-    ]
-    if any(open_ones):
-        found.update(b"one way" + bytes(open_ones))
-    for masks in world._shapes_of.values() if world.effects.carving else ():
-        for mask in masks:
-            if isinstance(mask, PixelMask) and mask.carved:
-                found.update(b"carved" + mask.fingerprint)
+    masks = [shape for shapes in world._shapes_of.values() for shape in shapes if isinstance(shape, PixelMask)]
+    if any(mask.one_way for mask in masks):
+        found.update(b"one way" + bytes([mask.one_way for mask in masks]))
+    for mask in masks if world.effects.carving else ():
+        if mask.carved:
+            found.update(b"carved" + mask.fingerprint)
     if world.stacks and world.span not in (0.0, world.dt):
         found.update(b"span" + np.float64(world.span).tobytes())
     # State that only the next step reads; an empty one adds nothing.

@@ -15,7 +15,8 @@ from physics.collision.manifold import contacts_of
 from physics.effects import Effects
 from physics.jit import tiers
 from physics.settings import LARGE_MASK, MASK_TILE, SLEEP_TIME
-from physics.shapes.mask import Bounds, PixelMask
+from physics.shapes.kinds import Bounds
+from physics.shapes.mask import PixelMask
 from physics.shapes.outline import outline_of
 from physics.shapes.values import Capsule, Chain, Circle, Polygon, TileGrid
 from physics.tables.table import rows_of
@@ -137,7 +138,7 @@ def _runs(effects, broadphase, solver, pieces):
 
 def _kind_of(shape):
     """Return dynamic, or kinematic for a shape that cannot be dynamic."""
-    return "kinematic" if isinstance(shape, (TileGrid, Chain)) or shape is OPEN else "dynamic"
+    return "kinematic" if shape._is_ground or shape is OPEN else "dynamic"
 
 
 def _small_world(effects, solver, strategy, pair):

@@ -26,9 +26,8 @@ from physics.queries import casts as queries
 from physics.queries.casts import RayHit
 from physics.queries.index import QueryIndex
 from physics.settings import ACCURACY, PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
-from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
-from physics.shapes.values import Filter, Material
+from physics.shapes.shape import Filter, Material, Shape
 from physics.snapshot import Snapshot, digest
 from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, plans, step_length
 from physics.tables.body import BODY, DYNAMIC, GIVEN

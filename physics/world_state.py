@@ -19,8 +19,8 @@ from physics.islands.sleep import Sleepers
 from physics.math2d import Vec2
 from physics.queries.index import QueryIndex
 from physics.settings import Tolerances
-from physics.shapes.kinds import Shape
 from physics.shapes.library import Library
+from physics.shapes.shape import Shape
 from physics.solver.substeps import forget_loads
 from physics.tables.body import STATIC
 from physics.tables.step_state import COUNTERS

@@ -16,8 +16,7 @@ from itertools import cycle
 from pathlib import Path
 
 from game.input.inputs import InputFrame
-from game.overlays.layer import LAYER_NAMES
-from game.overlays.stack import Overlays
+from game.overlays.stack import Overlays, layer_names
 from game.registry import Registry
 from game.run.digest import scene_digest
 from game.run.headless import start_dummy_display
@@ -68,7 +67,7 @@ class DrawnRun(Run):
 
     def __init__(self, label, scene, source=None, replay=None):
         super().__init__(label, scene, source, replay=replay)
-        self.picture, self.overlays = Picture(), Overlays(LAYER_NAMES)
+        self.picture, self.overlays = Picture(), Overlays(layer_names())
 
     def step(self):
         """Make one step, and draw after it."""

@@ -5,6 +5,7 @@ import re
 
 import pytest
 
+from physics.shapes.kinds import SHAPES
 from tests.architecture import (
     PHYSICS,
     ROOT,
@@ -130,3 +131,19 @@ def test_nothing_unfinished_and_no_error_swallowed():
 def test_only_the_command_line_prints():
     for path in sources("physics"):
         assert not re.search(r"^\s*print\(", path.read_text(), re.M), f"{path.relative_to(ROOT)} prints"
+
+
+def names_in(node):
+    """The names of a type or of a tuple or union of types."""
+    return {each.id for each in ast.walk(node) if isinstance(each, ast.Name)}
+
+
+@pytest.mark.parametrize("top", ["physics", "game", "scenes"])
+def test_no_list_of_types_stands_in_for_what_a_shape_says(top):
+    """A new shape would be missing in it: a caller asks the shape, or SHAPES of physics/shapes/kinds.py."""
+    types = {each.__name__ for each in SHAPES}
+    for path in sources(top):
+        for node in ast.walk(ast.parse(path.read_text())):
+            if isinstance(node, ast.Call) and names_in(node.func) & {"isinstance", "issubclass"}:
+                found = names_in(node.args[1]) & types
+                assert len(found) < 2, f"{path.relative_to(ROOT)}:{node.lineno} asks for {sorted(found)}"

@@ -6,10 +6,10 @@ from typing import NamedTuple
 import numpy as np
 
 from game.invariants.step import Step
-from physics import Capsule, Circle, PixelMask, Polygon, Segment, TileGrid, World
-from physics.shapes.kinds import Shape
+from physics import PixelMask, TileGrid, World
+from physics.shapes.shape import Shape
+from physics.shapes.values import Convex
 
-CONVEX = (Circle, Capsule, Polygon, Segment)
 PAIRS = 2  # checked in a step; a concave one counts for two: it takes ten times as long or more
 TRIES = 8  # candidates examined to find them
 LARGEST = 1 << 16  # pixels or tiles of a shape that is checked: a moon of 4096 x 1024 px takes a second
@@ -38,7 +38,7 @@ class Pair(NamedTuple):
     @property
     def hulls(self) -> bool:
         """True if both are convex, and rotate."""
-        return isinstance(self.shape_a, CONVEX) and isinstance(self.shape_b, CONVEX)
+        return isinstance(self.shape_a, Convex) and isinstance(self.shape_b, Convex)
 
     @property
     def small(self) -> bool:

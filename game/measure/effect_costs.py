@@ -88,7 +88,7 @@ def measure_effects(
 ) -> None:
     """Time every effect, in shuffled turns.
 
-    tell(effect, cost with it, cost without it) is called after each round. Nothing is reported for an effect that the
+    report(effect, cost with it, cost without it) is called after each round. Nothing is reported for an effect that the
     world cannot be without (characters need response). Ends early when goes_on() is False.
     """
     sides = {

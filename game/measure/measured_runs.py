@@ -36,7 +36,7 @@ def measure_runs(
     report: Callable[[int, float, float | None, float | None], object],
     goes_on: Callable[[], bool],
 ) -> None:
-    """Measure run by run while goes_on(): tell(number, seconds per step, overlap, farthest) is called after each run.
+    """Measure run by run while goes_on(): report(number, seconds per step, overlap, farthest) is called after each run.
 
     The first turn keeps the given order. Overlaps and distances are measured before the first run, outside the timed
     part.

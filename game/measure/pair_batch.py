@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.collision.narrow_phase import narrow_phase_for_queries, no_work
-from physics.shapes.kinds import SHAPES, Shape
+from physics.shapes.kinds import checked_shapes
 from physics.shapes.library import Library, describe
 from physics.shapes.placement import refresh_aabbs
+from physics.shapes.shape import Shape
 from physics.tables.body import BODY
 from physics.tables.contact import CONTACT
 from physics.tables.shape import SHAPE
@@ -35,8 +36,8 @@ class PairBatch:
         seed: int = 0,
     ) -> None:
         sides = [
-            (_shapes("shapes_a", shapes_a), checks.columns("poses_a", poses_a, width=3)),
-            (_shapes("shapes_b", shapes_b), checks.columns("poses_b", poses_b, width=3)),
+            (checked_shapes("shapes_a", shapes_a), checks.columns("poses_a", poses_a, width=3)),
+            (checked_shapes("shapes_b", shapes_b), checks.columns("poses_b", poses_b, width=3)),
         ]
         self.count = len(sides[0][1])
         if len(sides[1][1]) != self.count:
@@ -94,11 +95,3 @@ class PairBatch:
         if len(self.found):
             met[self.pair_of[self.found["candidate"]]] = True
         return met
-
-
-def _shapes(name, shapes):
-    shapes = tuple(shapes)
-    for shape in shapes:
-        if not isinstance(shape, SHAPES):
-            raise TypeError(f"{name} must be shapes such as Circle(8) (got {checks.shown(shape)})")
-    return shapes

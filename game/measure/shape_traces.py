@@ -27,13 +27,10 @@ from physics.distance.gjk import (
     write_depth,
     write_nearest,
 )
-from physics.queries.pairs import checked, parts_of_pair
-from physics.shapes.kinds import Shape
-from physics.shapes.library import Library, rounding_of
-from physics.shapes.mask import Bounds, PixelMask
-from physics.shapes.placement import write_hull
-from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, TileGrid
-from physics.tables.shape import SHAPE
+from physics.queries.pairs import parts_of_pair
+from physics.shapes.kinds import SHAPES, Bounds, checked_pose
+from physics.shapes.shape import Shape
+from physics.shapes.values import Convex, Polygon
 
 # ---- pair axes -------------------------------------------------------------------------------------------------------
 # The axes that the separating axis test tries for two convex shapes, for drawing.
@@ -47,7 +44,6 @@ AXIS = np.dtype(
         ("edge", np.int64),
     ]
 )  # edge: its first corner; -1: no edge, the direction between the nearest corners
-HULLS = (Circle, Capsule, Segment, Polygon, Bounds)
 
 
 def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.ndarray:
@@ -85,16 +81,13 @@ def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.n
 
 def _core(name, shape, pose_name, pose):
     """Return (world corners (n, 2), radius) of a convex shape at a pose [px]."""
-    if not isinstance(shape, HULLS) or (isinstance(shape, Bounds) and not isinstance(shape.shape, HULLS)):
-        raise TypeError(
-            f"{name} must be a Circle, Capsule, Segment, Polygon or Bounds of one (got {checks.shown(shape)})"
-        )
-    x, y, angle = checks.pose(pose_name, pose)
-    library, rows, corners = Library(), np.zeros(1, SHAPE), np.zeros((16, 2))
-    rows["kind"], rows["geometry"], rows["wrapped"] = library.add(shape)
-    rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
-    count, radius = write_hull(library.tables, rows, 0, x, y, angle, corners)
-    return corners[:count], radius
+    if not isinstance(shape.shape if isinstance(shape, Bounds) else shape, Convex):
+        hulls = sorted((each for each in SHAPES if issubclass(each, Convex)), key=lambda each: each is Polygon)
+        names = ", ".join(each.__name__ for each in hulls)
+        raise TypeError(f"{name} must be a {names} or Bounds of one (got {checks.shown(shape)})")
+    pose = checked_pose(name, shape, pose_name, pose)
+    parts = parts_of_pair(shape, pose, shape, pose, 0.0, 0.0)[0]
+    return parts.corners[0, : parts.counts[0]], float(parts.radii[0])
 
 
 # ---- trace -----------------------------------------------------------------------------------------------------------
@@ -106,10 +99,11 @@ def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> lis
 
     Points are relative to the origin of A. Raises TypeError for shapes that are not convex, ValueError.
     """
+    pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
+    pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
     for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
-        if isinstance(shape, (TileGrid, PixelMask, Chain)):
+        if not isinstance(shape, (Convex, Bounds)):
             raise TypeError(f"{name} must be a convex shape (got {checks.shown(shape)})")
-    pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
     parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     return steps_of(parts_a.corners[0, : parts_a.counts[0]], parts_b.corners[0, : parts_b.counts[0]])
 

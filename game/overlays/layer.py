@@ -1,4 +1,4 @@
-"""Base class of the overlay layers. Layers only read; each decides where and when it is drawn."""
+"""Base class of the overlay layers. Layers only read; each decides where it is drawn. LAYERS in stack.py lists them."""
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
@@ -7,27 +7,6 @@ from game.drawing.presenter import Frame, Lens
 from physics import World
 
 LegendLine = tuple[Color, str]
-
-# Valid names of --overlay, in the order of the panel: keys 1 to 9, then letters.
-LAYER_NAMES = (
-    "bounds",
-    "motion",
-    "structure",
-    "pairs",
-    "masks",
-    "contacts",
-    "filters",
-    "times",
-    "impulses",
-    "features",
-    "islands",
-    "colors",
-    "centers",
-    "ghosts",
-    "outlines",
-    "invariants",
-    "disagreement",
-)
 
 
 class Layer:

@@ -11,7 +11,7 @@ from game.drawing.presenter import Frame, Lens
 from game.overlays.layer import Layer, LegendLine
 from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_lines, draw_outline
-from physics import TileGrid, World, debug
+from physics import World, debug
 from physics.tables.shape import CHAIN, MASK, PART
 
 OUTLINE_BUDGET = 900  # shapes per picture; the note says how many there are
@@ -74,11 +74,8 @@ class Outlines(Layer):
         row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
         body = world.body(int(row["body"]))
         number = int(np.count_nonzero(world.shapes["id"][world.shapes["body"] == row["body"]] < shape_id))
-        grid = body.shapes[number]
-        if not isinstance(grid, TileGrid):
-            return
         (x, y), from_below = body.position, frame.tone(ORANGE)
-        for start, end, one_way in edges_of(grid, lens, x, y):
+        for start, end, one_way in edges_of(body.shapes[number], lens, x, y):
             pygame.draw.line(frame.surface, from_below if one_way else color, start, end, width)
 
     def notes(self) -> list[LegendLine]:

@@ -1,6 +1,7 @@
 """Stack of overlay layers over one scene: the active layers, their drawing and their legend."""
 
 from collections.abc import Iterable, Sequence
+from typing import TypeVar
 
 import pygame
 
@@ -27,37 +28,49 @@ from game.overlays.layer_structure import Structure
 from game.overlays.layer_times import Times
 from game.scene import Scene
 
+# A new layer is one line here. The order is the panel's: keys 1 to 9, then letters.
+LAYERS: list[type[Layer]] = [
+    Bounds,
+    Motion,
+    Structure,
+    Pairs,
+    Masks,
+    Contacts,
+    Filters,
+    Times,
+    Impulses,
+    Features,
+    Islands,
+    Colors,
+    Centers,
+    Ghosts,
+    Outlines,
+    Invariants,
+    Disagreement,
+]  # fmt: skip
+Kind = TypeVar("Kind", bound=Layer)
 SHORTER = (24, 16, 10, 5)  # line counts of a legend that does not fit in full
+
+
+def layer_names() -> tuple[str, ...]:
+    """Return the valid names of --overlay, in the order of the panel."""
+    return tuple(each.name for each in LAYERS)
 
 
 class Overlays:
     """Overlay layers of a scene. `on` is the set of names of the active layers."""
 
     def __init__(self, on: Iterable[str] = ()) -> None:
-        self.times = Times()  # keeps a history: needs every step
-        self.filters = Filters()  # needs the scene's names of its kinds
-        self.invariants = Invariants()  # needs the monitor of the scene
-        self.disagreement = Disagreement()  # counts the steps during which it is on
-        self.layers: tuple[Layer, ...] = (
-            Bounds(),
-            Motion(),
-            Structure(),
-            Pairs(),
-            Masks(),
-            Contacts(),
-            self.filters,
-            self.times,
-            Impulses(),
-            Features(),
-            Islands(),
-            Colors(),
-            Centers(),
-            Ghosts(),
-            Outlines(),
-            self.invariants,
-            self.disagreement,
-        )
+        self.layers: tuple[Layer, ...] = tuple(each() for each in LAYERS)
+        self.times = self._only(Times)  # keeps a history: needs every step
+        self.filters = self._only(Filters)  # needs the scene's names of its kinds
+        self.invariants = self._only(Invariants)  # needs the monitor of the scene
+        self.disagreement = self._only(Disagreement)  # counts the steps during which it is on
         self.on = set(on)
+
+    def _only(self, kind: type[Kind]) -> Kind:
+        """Return the layer of a class."""
+        return next(each for each in self.layers if isinstance(each, kind))
 
     def toggle(self, name: str) -> None:
         """Switch a layer on or off."""

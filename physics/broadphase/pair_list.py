@@ -12,7 +12,7 @@ from physics.broadphase.proxies import (
     tell_rows,
     write_states,
 )
-from physics.shapes.values import Filter
+from physics.shapes.shape import Filter
 from physics.tables.shape import PART, PROXY
 from physics.tables.step_state import CANDIDATES, COUNTERS, StepState, stage
 

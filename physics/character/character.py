@@ -12,9 +12,9 @@ from physics.character.solids import STEEPEST_CLIMB, can_walk, find_own_rows, wa
 from physics.character.walk import is_stopped, lead_out, walk
 from physics.checks import Pair
 from physics.islands.sleep import disturb
-from physics.shapes.kinds import Shape
-from physics.shapes.mask import Bounds, PixelMask
-from physics.shapes.values import Capsule, Circle, Filter, Polygon
+from physics.shapes.kinds import names_of, with_area
+from physics.shapes.shape import Filter, Shape
+from physics.shapes.values import Convex, Polygon
 
 LONGEST = 1e6  # [px] greatest move, which is walked pixel by pixel
 PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it pushes ten times its own mass over ground with friction 0.6
@@ -242,33 +242,21 @@ def _checked_move(dx, dy):
 
 def _is_upright_box(shape):
     return (
-        isinstance(shape, Polygon)
-        and shape.radius == 0.0
+        shape.radius == 0.0
         and len(shape.points) == 4
         and all(len(set(each)) == 2 for each in zip(*shape.points, strict=True))
     )
 
 
-def _extent(shape):
-    """Return (left, top, right, bottom) [px] of a shape at its origin, or None for a shape without area."""
-    if isinstance(shape, PixelMask):
-        return shape.bounds
-    points = (shape.center,) if isinstance(shape, Circle) else shape.points
-    xs, ys = zip(*points, strict=True)
-    radius = shape.radius
-    return min(xs) - radius, min(ys) - radius, max(xs) + radius, max(ys) + radius
-
-
 def _outline(shape):
     """Return (the shape of a character's body, its left, top, right, bottom [px] at the origin)."""
-    wrapped = isinstance(shape, Bounds)
-    inner = shape.shape if wrapped else shape
-    if not isinstance(inner, (Polygon, Circle, Capsule)) and not (wrapped and isinstance(inner, PixelMask)):
+    inner, wrapped = getattr(shape, "_inner", shape), shape is not getattr(shape, "_inner", shape)
+    hulls = sorted((each for each in with_area() if issubclass(each, Convex)), key=lambda each: each is not Polygon)
+    if not (wrapped or isinstance(inner, tuple(hulls))):
         raise TypeError(
-            "shape must be a Polygon, Circle or Capsule, or Bounds of one of them or of a sprite's PixelMask "
-            f"(got {shape!r})"
+            f"shape must be a {names_of(hulls)}, or Bounds of one of them or of a sprite's PixelMask (got {shape!r})"
         )
-    extent = _extent(inner)
+    extent = inner.bounds
     if extent is None:
         raise ValueError(f"shape must have solid pixels (got {shape!r})")
     left, top, right, bottom = map(float, extent)

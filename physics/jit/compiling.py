@@ -50,7 +50,7 @@ class PartLibrary(codegen.JITCodeLibrary):
         self._finalized = True
 
     def bitcode(self) -> bytes:
-        """The LLVM bitcode, as the store keeps it."""
+        """Return the LLVM bitcode, as the store keeps it."""
         return self._get_module_for_linking().as_bitcode()
 
     @classmethod

@@ -36,12 +36,10 @@ from physics.math2d import Vec2
 from physics.queries.index import AskedWorld, IndexedWorld
 from physics.queries.rays import cast_on_disc, cast_on_hull, cast_on_shape
 from physics.settings import DRAWN, MASK_ANGLE_BUCKETS, POSITION_LIMIT
-from physics.shapes.kinds import SHAPES, Shape
+from physics.shapes.kinds import checked_pose
 from physics.shapes.library import draw_masks, place
-from physics.shapes.mask import Bounds, PixelMask
-from physics.shapes.parts import Parts, parts_near, parts_of, swept_parts
 from physics.shapes.placement import hull_at, is_hull, refresh_aabbs, rounding
-from physics.shapes.values import Capsule, Circle, Filter, Polygon, Segment, TileGrid
+from physics.shapes.shape import Filter, Parts, Placed, Shape, parts_near, parts_of
 from physics.tables.body import BODY
 from physics.tables.shape import BOUNDS, CHAIN, MASK, PART, PIXELS, SHAPE, TILES
 from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, NARROW_TESTS, TOI_CALLS
@@ -366,7 +364,7 @@ def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
     """Return (row, fraction, normal) of the masks that a ray hits, each by the parts of its outline near the ray."""
     hits, corners = [], np.zeros((16, 2))
     for row in rows.tolist():
-        parts = swept_parts(world.library, world.bodies, world.shapes, row, x, y, math.inf)
+        parts = _swept_parts(world, row, x, y, math.inf)
         parts = parts_near(parts, min(0.0, dx), min(0.0, dy), max(0.0, dx), max(0.0, dy))
         hit = np.zeros((1, 4))
         hit[0, 0] = row
@@ -384,7 +382,7 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
     the exact pose, and a grazing contact is no hit. A Chain is hit from its front, a one-way tile or mask from above.
     Raises TypeError, ValueError.
     """
-    pose, filter = _placeable(shape, pose), _checked(filter)
+    pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
     dx, dy = checks.vector("translation", translation)
     index = world.queries
     index.begin(world)
@@ -404,7 +402,7 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
         )
         if dx == 0.0 and dy == 0.0:
             return _first_contact(world, bodies, shapes, rows)
-        probe = swept_parts(world.library, bodies, shapes, 0, pose[0], pose[1], -math.inf)
+        probe = shape._parts_at(Placed(world.library.tables, bodies, shapes, 0, *pose[:2], -math.inf, True))
         hits = _sweep(world, shape, probe, rows, (*pose[:2], dx, dy), box[3])
         if not len(hits):
             return None
@@ -424,7 +422,7 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
     s = world.shapes[rows]
     of_masks = (s["kind"] == MASK) | ((s["role"] == PART) & (s["kind"] != CHAIN))
-    alone = ~of_masks if isinstance(shape, (Circle, Capsule, Polygon, Segment, Bounds)) else np.zeros(len(rows), bool)
+    alone = ~of_masks if shape._is_convex else np.zeros(len(rows), bool)
     if alone.any():
         found = cast_hull_at_rows(
             world.library.tables,
@@ -443,7 +441,7 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
             work,
         )
     moving, still = np.array([0.0, 0.0, 0.0, dx, dy, 0.0]), np.zeros(6)
-    sweep_by = sweep_unions if isinstance(shape, PixelMask) else advance_parts
+    sweep_by = sweep_unions if shape._kind == MASK else advance_parts
     for owner in np.unique(s["owner"][~alone]).tolist():
         same = rows[~alone & (s["owner"] == owner)]
         impact, totals = np.zeros(3), np.zeros(2)
@@ -461,13 +459,19 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
 
 def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
     """Return the parts, seen from (x, y), of the rows of one shape that a probe may hit on its way [px]."""
-    every = [swept_parts(world.library, world.bodies, world.shapes, row, x, y, feet) for row in rows.tolist()]
+    every = [_swept_parts(world, row, x, y, feet) for row in rows.tolist()]
     parts = Parts(*(np.concatenate(columns) for columns in zip(*every, strict=True)))
     if not len(probe.counts):
         return parts
     (left, top), (right, bottom) = probe.boxes[:, :2].min(axis=0), probe.boxes[:, 2:].max(axis=0)
     dx, dy = way
     return parts_near(parts, left + min(0.0, dx), top + min(0.0, dy), right + max(0.0, dx), bottom + max(0.0, dy))
+
+
+def _swept_parts(world, row, x, y, feet) -> Parts:
+    """Return the parts of a SHAPE row for casts, seen from (x, y) [px]."""
+    placed = Placed(world.library.tables, world.bodies, world.shapes, row, x, y, feet, True)
+    return world.library.shape_of(world.shapes[row])._parts_at(placed)
 
 
 def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, float] | None:
@@ -508,7 +512,7 @@ def _nearest(world, rows, x, y):
     alone = parts_of([[(0.0, 0.0)]])
     for row in rows.tolist():
         if not is_hull(int(world.shapes["kind"][row])):
-            parts: Parts = swept_parts(world.library, world.bodies, world.shapes, row, x, y, y)
+            parts = _swept_parts(world, row, x, y, y)
             gap = separate_parts(alone, parts, point, corners, workspace, np.zeros(2))
             if math.isfinite(gap):
                 found.append(
@@ -533,7 +537,7 @@ def query_point(world: AskedWorld, point: Pair) -> list:
 
 def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list:
     """Return the bodies that a shape at a pose overlaps, sensors included. Raises TypeError, ValueError."""
-    pose, filter = _placeable(shape, pose), _checked(filter)
+    pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
     world.queries.begin(world)
     with world.library.visited():
         bodies, shapes = _probe(world, shape, pose)
@@ -576,15 +580,6 @@ def _probe(world, shape, pose):
     place(world.library, shape, bodies, shapes, 0, pose)
     refresh_aabbs(np.arange(1), world.library.tables, bodies, shapes)
     return bodies, shapes
-
-
-def _placeable(shape, pose):
-    if not isinstance(shape, SHAPES):
-        raise TypeError(f"shape must be a shape such as Circle(8) (got {checks.shown(shape)})")
-    pose = checks.pose("pose", pose)
-    if isinstance(shape, TileGrid) and pose[2] != 0.0:
-        raise ValueError(f"pose must have angle 0 for a TileGrid (got {pose[2]})")
-    return pose
 
 
 def _checked(filter):

@@ -212,7 +212,7 @@ class QueryIndex:
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Whether a query searches the broad phase, which holds some shape."""
+        """Return whether a query searches the broad phase, which holds some shape."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:

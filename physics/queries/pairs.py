@@ -1,9 +1,10 @@
 """Two shapes without a world: collide, distance and time_of_impact."""
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from struct import Struct
-from typing import Any, NamedTuple
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,26 +18,14 @@ from physics.collision.narrow_phase import exact_narrow_phase, kind_of_pair, no_
 from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate, separate_parts
 from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
-from physics.shapes.kinds import SHAPES, Shape
-from physics.shapes.library import KIND_OF, Library, place, rounding_of
-from physics.shapes.mask import Bounds, PixelMask
-from physics.shapes.parts import (
-    Parts,
-    chain_outlines,
-    mask_outlines,
-    outline_parts,
-    parts_of,
-    placed_parts,
-    rectangle,
-    tile_outlines,
-    turned_parts,
-)
+from physics.shapes.kinds import checked_pose, rank_of
+from physics.shapes.library import Library, place, rounding_of
 from physics.shapes.placement import hull_at, refresh_aabbs, rounding
-from physics.shapes.values import Capsule, Chain, Circle, Polygon, Segment, TileGrid
+from physics.shapes.shape import Parts, Placed, Shape, turned_parts
 from physics.tables.body import BODY
 from physics.tables.contact import CONTACT
 from physics.tables.geometry import CORNER, SPAN, Geometry
-from physics.tables.shape import CIRCLE, SHAPE
+from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, SHAPE
 
 # ---- pair rows -------------------------------------------------------------------------------------------------------
 # Two shapes at two poses as the rows that kernels read, without a world.
@@ -44,7 +33,8 @@ from physics.tables.shape import CIRCLE, SHAPE
 # Data that follow from a shape alone are cached with the shape, which is immutable. Convex shapes need little more than
 # their corners; a concave shape gets a library of its own.
 
-Placed = tuple[float, float, float]
+At = tuple[float, float, float]  # x, y, angle
+Kept = TypeVar("Kept")
 
 
 class PairRows(NamedTuple):
@@ -64,58 +54,43 @@ class HullRow(NamedTuple):
     count: int  # of them
 
 
-def _kept(shape, name, make) -> Any:
-    """Return the result of `make` for a shape, cached with the shape."""
-    kept = vars(shape.bare)
-    if name not in kept:
-        kept[name] = make(shape.bare)
-    return kept[name]
+def kept_with_shape(make: Callable[[Shape], Kept]) -> Callable[[Shape], Kept]:
+    """Return a function of a shape whose result is cached with the shape, one for all that differ in own values."""
+
+    def find(shape: Shape) -> Kept:
+        kept = vars(shape.bare)
+        if make.__name__ not in kept:
+            kept[make.__name__] = make(shape.bare)
+        return kept[make.__name__]
+
+    return find
 
 
+@kept_with_shape
 def hull_row(shape: Shape) -> HullRow | None:
     """Return the row of a convex shape without its pose; None for a mask, tiles, a chain, and a Bounds."""
-    return _kept(shape, "_hull_row", _make_hull_row)
-
-
-def _make_hull_row(shape) -> HullRow | None:
-    if not isinstance(shape, (Circle, Capsule, Polygon, Segment)):
+    if not shape._is_convex or shape._kind == BOUNDS:
         return None
     rows = np.zeros(2, SHAPE)
     rows["id"] = rows["body"] = rows["body_row"] = 0, 1
-    kind = CIRCLE if isinstance(shape, Circle) else KIND_OF[type(shape)]
-    rows["kind"], rows["wrapped"] = kind, -1
-    rows["geometry"] = (-1, -1) if kind == CIRCLE else (0, 1)
+    rows["kind"], rows["wrapped"] = shape._kind, -1
+    rows["geometry"] = (-1, -1) if shape._kind == CIRCLE else (0, 1)
     rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
-    points = np.array([] if isinstance(shape, Circle) else list(shape.points), CORNER)
+    points = np.array([] if shape._kind == CIRCLE else list(shape.points), CORNER)
     return HullRow(rows[:1].tobytes(), rows[1:].tobytes(), points.tobytes(), len(points))
 
 
+@kept_with_shape
 def order_of(shape: Shape) -> tuple:
     """Return a sort key of a shape. The order of two shapes then changes only the signs of a result."""
-    return _kept(shape, "_order", _make_order)
+    inside = () if shape._inner is shape else (rank_of(shape._inner),)
+    return (rank_of(shape), *inside, *shape._inner._key)
 
 
-def _make_order(shape) -> tuple:
-    kind = next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
-    if isinstance(shape, Bounds):
-        return (kind, *_make_order(shape.shape))
-    if isinstance(shape, TileGrid):
-        pixels = (shape.solid.tobytes(), shape.slopes.tobytes(), shape.one_way.tobytes())
-        return (kind, *shape.solid.shape, shape.tile_size, *pixels)
-    if isinstance(shape, PixelMask):
-        return (kind, *shape.size, *shape.origin, shape.snap, shape.solid.tobytes())
-    points = (shape.center,) if isinstance(shape, Circle) else shape.points
-    return (kind, getattr(shape, "radius", 0.0), len(points), *(each for point in points for each in point))
-
-
+@kept_with_shape
 def name_of(shape: Shape) -> tuple:
     """Return another sort key, from the constructor of a shape."""
-    return _kept(shape, "_name", _make_name)
-
-
-def _make_name(shape) -> tuple:
-    pixels = shape.solid.tobytes() if isinstance(shape, (PixelMask, TileGrid)) else b""
-    return SHAPES.index(type(shape)), repr(shape), pixels
+    return rank_of(shape), repr(shape), order_of(shape)
 
 
 NOTHING = Library().tables  # empty tables that a pair of hulls does not use
@@ -126,7 +101,7 @@ POSE = Struct("3d")  # x, y, angle, which are adjacent in BODY
 FIRST_POSE = int(BODIES["x"].__array_interface__["data"][0] - BODIES.__array_interface__["data"][0])  # [bytes]
 
 
-def hull_pair(a: HullRow, pose_a: Placed, b: HullRow, pose_b: Placed) -> PairRows:
+def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
     """Return the rows of two hulls at two poses; their boxes are not written."""
     spans = np.frombuffer(bytearray(SPANS.pack(0, a.count, a.count, b.count)), SPAN)
     corners = np.frombuffer(bytearray(a.corners + b.corners), CORNER) if a.count + b.count else NOTHING.corners
@@ -137,7 +112,7 @@ def hull_pair(a: HullRow, pose_a: Placed, b: HullRow, pose_b: Placed) -> PairRow
     return PairRows(Geometry(spans, corners, *NOTHING[2:]), np.frombuffer(bodies, BODY), shapes)
 
 
-def any_pair(shape_a: Shape, pose_a: Placed, shape_b: Shape, pose_b: Placed) -> tuple[Library, PairRows]:
+def any_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At) -> tuple[Library, PairRows]:
     """Return two shapes at two poses as rows, and the library of their geometry."""
     library, bodies, shapes = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE)
     for row, (shape, pose) in enumerate(((shape_a, pose_a), (shape_b, pose_b))):
@@ -186,15 +161,8 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
     or a Chain the points of all tiles or links are listed, with the normal of the deepest one; two of these never
     collide. Raises TypeError, ValueError.
     """
-    for name, shape in (("shape_a", shape_a), ("shape_b", shape_b)):
-        if not isinstance(shape, SHAPES):
-            raise TypeError(f"{name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
+    poses = [checked_pose("shape_a", shape_a, "pose_a", pose_a), checked_pose("shape_b", shape_b, "pose_b", pose_b)]
     margin = checks.number("margin", margin, low=0.0)
-    poses = []
-    for name, shape, pose in (("pose_a", shape_a, pose_a), ("pose_b", shape_b, pose_b)):
-        poses.append(checks.pose(name, pose))
-        if isinstance(shape, TileGrid) and poses[-1][2] != 0.0:
-            raise ValueError(f"{name} must have angle 0 for a TileGrid (got {poses[-1][2]})")
     key_a, key_b = name_of(shape_a), name_of(shape_b)
     swapped = (*key_b[:2], poses[1], key_b[2]) < (*key_a[:2], poses[0], key_a[2])
     row_a, row_b = hull_row(shape_a), hull_row(shape_b)
@@ -235,7 +203,7 @@ def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
     deepest = contacts[np.argmin(contacts["separation"])]
     sign = -1.0 if swapped else 1.0
     features = contacts["feature"].copy()
-    if swapped and isinstance(shape_a, PixelMask) and isinstance(shape_b, PixelMask):
+    if swapped and shape_a._kind == shape_b._kind == MASK:
         features = points_of(False)["feature"].copy()  # a pixel of the first mask
     return Manifold(
         Vec2(sign * float(deepest["normal_x"]) + 0.0, sign * float(deepest["normal_y"]) + 0.0),
@@ -285,7 +253,8 @@ def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Dist
     measured by its pixels, a snapped one as it is drawn on the pixel grid. To an empty shape the distance is infinite,
     with the normal (1, 0). Raises TypeError, ValueError.
     """
-    pose_a, pose_b = checked("shape_a", shape_a, "pose_a", pose_a), checked("shape_b", shape_b, "pose_b", pose_b)
+    pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
+    pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
     if (*order_of(shape_b), *pose_b) < (*order_of(shape_a), *pose_a):
         found = _measure(shape_b, pose_b, shape_a, pose_a)
         return Distance(
@@ -302,8 +271,7 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     # Relative to A, so that precision does not depend on the distance from the origin.
     x, y = pose_a[0], pose_a[1]
     workspace, row_a, row_b = new_gap_workspace(), hull_row(shape_a), hull_row(shape_b)
-    boxes = isinstance(shape_a, Bounds) or isinstance(shape_b, Bounds)  # at their poses in the world
-    if row_a is not None and row_b is not None and not boxes:
+    if row_a is not None and row_b is not None:
         rows = hull_pair(row_a, pose_a, row_b, pose_b)
         found, size, rounds = separate_hulls(*rows, x, y, np.zeros((16, 2)), np.zeros((16, 2)), workspace)
     else:
@@ -311,14 +279,15 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     if math.isinf(found):
         return Distance(math.inf, Vec2(*pose_a[:2]), Vec2(*pose_b[:2]), Vec2(1.0, 0.0), 0)
     nx, ny, ax, ay = (float(workspace.gap[k]) for k in (NX, NY, AX, AY))
-    convex = not any(isinstance(each, (TileGrid, PixelMask, Chain)) for each in (shape_a, shape_b))
+    convex, kinds = shape_a._is_convex and shape_b._is_convex, (shape_a._kind, shape_b._kind)
     band = ROUNDING_BAND * size + 4.0 * math.ulp(max(map(abs, (*pose_a[:2], *pose_b[:2]))))
-    if any(isinstance(each, Chain) for each in (shape_a, shape_b)):
+    if CHAIN in kinds:
         band = size  # a shape that was pressed through a link may lie wholly behind it and still be pushed out
     if found <= band and not (convex and found < -band):
         contact = collide(shape_a, pose_a, shape_b, pose_b)
         if not len(contact):
-            found = max(found, 0.0 if _are_open(shape_a, shape_b) else NEXT_TO_NOTHING)
+            # Masks are open: touching, they have distance 0 and share no area.
+            found = max(found, 0.0 if MASK in kinds and CHAIN not in kinds else NEXT_TO_NOTHING)
         elif convex:
             found = min(found, 0.0)
         else:
@@ -329,12 +298,6 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     nx, ny = nx + 0.0, ny + 0.0
     point_b = Vec2(point_a[0] + found * nx, point_a[1] + found * ny)
     return Distance(float(found), point_a, point_b, Vec2(nx, ny), int(rounds))
-
-
-def _are_open(shape_a, shape_b) -> bool:
-    """Return whether one shape is a mask and the other no chain: touching, they have distance 0 and share no area."""
-    pair = (shape_a, shape_b)
-    return any(isinstance(each, PixelMask) for each in pair) and not any(isinstance(each, Chain) for each in pair)
 
 
 @kernel
@@ -380,22 +343,13 @@ def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
     return found, float(size), totals[0]
 
 
-def parts_of_pair(
-    shape_a: Shape, pose_a: Placed, shape_b: Shape, pose_b: Placed, x: float, y: float
-) -> tuple[Parts, ...]:
+def parts_of_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At, x: float, y: float) -> tuple[Parts, ...]:
     """Return the convex parts of both shapes, seen from (x, y)."""
-    library, (_, bodies, shapes) = any_pair(shape_a, pose_a, shape_b, pose_b)
-    return tuple(placed_parts(library, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])) for row in (0, 1))
-
-
-def checked(shape_name: str, shape: Any, pose_name: str, pose: Any) -> tuple[float, float, float]:
-    """Return the pose as numbers. Raises TypeError or ValueError that names the argument."""
-    if not isinstance(shape, SHAPES):
-        raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
-    pose = checks.pose(pose_name, pose)
-    if isinstance(shape, TileGrid) and pose[2] != 0.0:
-        raise ValueError(f"{pose_name} must have angle 0 for a TileGrid (got {pose[2]})")
-    return pose
+    geometry, bodies, shapes = any_pair(shape_a, pose_a, shape_b, pose_b)[1]
+    return tuple(
+        shape._parts_at(Placed(geometry, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])))
+        for row, shape in enumerate((shape_a, shape_b))
+    )
 
 
 # ---- pair impact -----------------------------------------------------------------------------------------------------
@@ -433,10 +387,10 @@ def time_of_impact(
     collide with each other. Raises TypeError, ValueError.
     """
     moves = [
-        [checked(f"shape_{side}", shape, f"{when}_{side}", pose) for when, pose in (("start", start), ("end", end))]
+        [checked_pose(f"shape_{side}", shape, f"{when}_{side}", at) for when, at in (("start", start), ("end", end))]
         for side, shape, start, end in (("a", shape_a, start_a, end_a), ("b", shape_b, start_b, end_b))
     ]
-    ground = [isinstance(each, (TileGrid, Chain)) for each in (shape_a, shape_b)]
+    ground = [each._is_ground for each in (shape_a, shape_b)]
     if all(ground):
         return NO_IMPACT
     swap = ground[0] or (not ground[1] and (*order_of(shape_b), *moves[1]) < (*order_of(shape_a), *moves[0]))
@@ -452,24 +406,24 @@ def time_of_impact(
 
 
 def _first(a, move_a, b, move_b):
-    if any(isinstance(each, Bounds) and _turns(move) for each, move in ((a, move_a), (b, move_b))):
+    if any(each._kind == BOUNDS and _turns(move) for each, move in ((a, move_a), (b, move_b))):
         return _advance_boxes(a, move_a, b, move_b)
-    if isinstance(a, Circle) and isinstance(b, Circle) and not (_swings(a, move_a) or _swings(b, move_b)):
-        (ax, ay), (bx, by) = (_turned_point(each.center, move[0][2]) for each, move in ((a, move_a), (b, move_b)))
+    if a._kind == b._kind == CIRCLE and not (_swings(a, move_a) or _swings(b, move_b)):
+        (ax, ay), (bx, by) = (_turned_point(each.points[0], move[0][2]) for each, move in ((a, move_a), (b, move_b)))
         x, y = (move_b[0][0] - move_a[0][0]) + (bx - ax), (move_b[0][1] - move_a[0][1]) + (by - ay)
         dx, dy = ((move_b[1][k] - move_b[0][k]) - (move_a[1][k] - move_a[0][k]) for k in (0, 1))
         return sweep_circles(x, y, dx, dy, a.radius + b.radius)
     workspace, found, totals = new_rotational_workspace(), np.zeros(3), np.zeros(2)
     parts_a, motion_a = _local(a, move_a)
-    if isinstance(b, (TileGrid, Chain)):
+    if b._is_ground:
         library = Library()
         row = library.add(b)[1]
         advance_on_ground(
-            library.tables, row, int(isinstance(b, Chain)), parts_a, motion_a, _motion(move_b), workspace, found, totals
+            library.tables, row, int(b._kind == CHAIN), parts_a, motion_a, _motion(move_b), workspace, found, totals
         )
     else:
         parts_b, motion_b = _local(b, move_b)
-        sweep = sweep_unions if isinstance(a, PixelMask) or isinstance(b, PixelMask) else advance_parts
+        sweep = sweep_unions if MASK in (a._kind, b._kind) else advance_parts
         sweep(parts_a, parts_b, motion_a, motion_b, workspace, found, totals)
     return found.tolist()
 
@@ -479,7 +433,7 @@ def _turns(move) -> bool:
 
 
 def _swings(circle, move) -> bool:
-    return _turns(move) and circle.center != (0.0, 0.0)
+    return _turns(move) and circle.points[0] != (0.0, 0.0)
 
 
 def _turned_point(point, angle):
@@ -495,44 +449,10 @@ def _motion(move):
 def _local(shape, move) -> tuple[Parts, np.ndarray]:
     """Return the parts in body space and their motion; a Bounds that does not rotate is its box at that angle."""
     motion = _motion(move)
-    if not isinstance(shape, Bounds):
-        return _body_parts(shape), motion
+    if shape._kind != BOUNDS:
+        return shape._parts, motion
     angle, motion[2] = move[0][2], 0.0
-    return _box_at(shape.shape, angle), motion
-
-
-def _body_parts(shape) -> Parts:
-    """Return the parts in body space, of a mask those of its outline."""
-    if isinstance(shape, PixelMask):
-        return outline_parts(shape)
-    if isinstance(shape, TileGrid):
-        return parts_of(tile_outlines(shape, 0.0, 0.0, -math.inf))
-    if isinstance(shape, Chain):
-        return parts_of(chain_outlines(shape))
-    if isinstance(shape, Circle):
-        return parts_of([[shape.center]], shape.radius)
-    return parts_of([shape.points], getattr(shape, "radius", 0.0))
-
-
-def _boxed_parts(shape) -> Parts:
-    """Return the parts inside a Bounds in body space, of a mask its pixels."""
-    if isinstance(shape, PixelMask):
-        return parts_of(mask_outlines(shape, 0, -shape.origin[0], -shape.origin[1]))
-    return _body_parts(shape)
-
-
-def _box_at(shape, angle) -> Parts:
-    """Return the box around a shape rotated by an angle; around a mask's pixels as drawn at that angle."""
-    parts = _boxed_parts(shape)
-    if isinstance(shape, PixelMask) and shape.snap and shape.area:
-        turned = shape.turned(angle)
-        rows, columns = np.nonzero(turned.solid)
-        x, y = turned.origin
-        return parts_of([rectangle(columns.min() - x, rows.min() - y, columns.max() + 1 - x, rows.max() + 1 - y)])
-    if not len(parts.counts):
-        return parts
-    placed = _placed(parts, (0.0, 0.0, angle))
-    return parts_of([rectangle(*placed.boxes[:, :2].min(axis=0), *placed.boxes[:, 2:].max(axis=0))])
+    return shape._inner._box_at(angle), motion
 
 
 def _placed(parts, pose, x=0.0, y=0.0) -> Parts:
@@ -546,9 +466,9 @@ def _at(move, fraction):
 
 def _parts_at(shape, move, fraction, x, y) -> Parts:
     pose = _at(move, fraction)
-    if isinstance(shape, Bounds):
-        return _placed(_box_at(shape.shape, pose[2]), (pose[0], pose[1], 0.0), x, y)
-    return _placed(_body_parts(shape), pose, x, y)
+    if shape._kind == BOUNDS:
+        return _placed(shape._inner._box_at(pose[2]), (pose[0], pose[1], 0.0), x, y)
+    return _placed(shape._parts, pose, x, y)
 
 
 def _point(a, move_a, b, move_b, fraction):
@@ -567,7 +487,7 @@ def _gap_at(parts_a, parts_b):
 def _advance_boxes(a, move_a, b, move_b):
     """Return the impact of boxes whose size changes with rotation, by conservative advancement with bounded speed."""
     x, y = move_a[0][:2]
-    parts = [_boxed_parts(each.shape) if isinstance(each, Bounds) else _body_parts(each) for each in (a, b)]
+    parts = [each._inner._pixel_parts if each._kind == BOUNDS else each._parts for each in (a, b)]
     if not all(len(each.counts) for each in parts):
         return MISS, 1.0, 0.0
     reach = [float(np.hypot(*np.abs(each.boxes).reshape(-1, 2, 2).max(axis=(0, 1)))) for each in parts]

@@ -13,10 +13,12 @@ from physics.outline.decompose import convex_parts
 from physics.outline.measure import edges, measured
 from physics.outline.simple_shapes import convex_hull, fewer_sides, least_box, least_capsule, least_circle, mask_hull
 from physics.settings import MAX_CORNERS
+from physics.shapes.kinds import SHAPES, Bounds, names_of
 from physics.shapes.library import Library
-from physics.shapes.mask import Bounds, PixelMask
-from physics.shapes.values import SHORTEST, STRAIGHT, Capsule, Circle, Polygon, solid_blocks
-from physics.tables.shape import SHAPE
+from physics.shapes.mask import PixelMask
+from physics.shapes.shape import Shape
+from physics.shapes.values import SHORTEST, STRAIGHT, Capsule, Circle, Polygon
+from physics.tables.shape import BOUNDS, MASK, SHAPE
 
 # ---- polygons --------------------------------------------------------------------------------------------------------
 # Convex polygons around points, and convex decomposition of a concave polygon.
@@ -137,8 +139,6 @@ def _snapped(mask, snap):
 # ---- accuracy --------------------------------------------------------------------------------------------------------
 # Cost and error of shapes that replace a mask.
 
-Solid = Circle | Capsule | Polygon | PixelMask | Bounds
-
 
 class Fit(NamedTuple):
     """Accuracy and cost of shapes in place of a mask; the fields are described in measure."""
@@ -154,7 +154,7 @@ class Fit(NamedTuple):
     bytes: int
 
 
-def measure(mask: PixelMask, shapes: Solid | Sequence[Solid]) -> Fit:
+def measure(mask: PixelMask, shapes: Shape | Sequence[Shape]) -> Fit:
     """Return how well shapes represent a mask, in its body space; overlapping shapes count as their union.
 
     over: area of the shapes outside the mask's pixels [px²]; missed: area of the pixels outside the shapes [px²]; iou:
@@ -173,11 +173,12 @@ def measure(mask: PixelMask, shapes: Solid | Sequence[Solid]) -> Fit:
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
     given = [*shapes] if isinstance(shapes, (tuple, list)) else [shapes]
-    parts = [each for each in given if isinstance(each, Solid)]
+    solids = tuple(each for each in SHAPES if each._has_mass)
+    parts = [each for each in given if isinstance(each, solids)]
     if len(parts) < len(given):
-        raise TypeError(f"shapes must be Circle, Capsule, Polygon, Bounds or PixelMask (got {checks.shown(shapes)})")
+        raise TypeError(f"shapes must be {names_of(solids)} (got {checks.shown(shapes)})")
     origin = np.array(mask.origin)
-    found = measured(mask.solid, [(corners + origin, radius) for each in parts for corners, radius in _hulls(each)])
+    found = measured(mask.solid, [(corners + origin, radius) for each in parts for corners, radius in each._hulls()])
     ours, theirs = found.hulls, found.pixels
     together = ours.area + found.missed
     nothing = ours.area == 0.0 and theirs.area == 0.0
@@ -204,33 +205,7 @@ def _relative(value, truth):
     return abs(value - truth) / truth
 
 
-def _hulls(shape):
-    """Return the convex hulls of a shape in body space: [(corners clockwise on the screen, radius)]."""
-    if isinstance(shape, Bounds):
-        return _box_around(_hulls(shape.shape))
-    if isinstance(shape, PixelMask):
-        origin = np.array(shape.origin)
-        return [(_box(*block) - origin, 0.0) for block in solid_blocks(shape.solid)]
-    if isinstance(shape, Circle):
-        return [(np.array([shape.center], float), shape.radius)]
-    return [(np.array(shape.points, float), shape.radius)]
-
-
-def _box_around(hulls):
-    if not hulls:
-        return []
-    low = np.min([corners.min(axis=0) - radius for corners, radius in hulls], axis=0)
-    high = np.max([corners.max(axis=0) + radius for corners, radius in hulls], axis=0)
-    return [(_box(*low, *high), 0.0)]
-
-
-def _box(left, top, right, bottom):
-    return np.array([(left, top), (right, top), (right, bottom), (left, bottom)], float)
-
-
 def _corners(shape):
-    if isinstance(shape, PixelMask):
+    if shape._kind == MASK:
         return len(edges(shape.solid))
-    if isinstance(shape, Bounds):
-        return 4
-    return 1 if isinstance(shape, Circle) else len(shape.points)
+    return 4 if shape._kind == BOUNDS else len(shape.points)

@@ -9,18 +9,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks
 from physics.jit import kernel
 from physics.outline.simple_shapes import mask_hull
 from physics.raster.bits import bucket_of, halo, packed
 from physics.raster.pixel_tiles import TILE
 from physics.settings import MASK_ANGLE_BUCKETS, POSITION_LIMIT
-from physics.shapes.kinds import SHAPES, Shape, mass_of
-from physics.shapes.mask import Bounds, PixelMask
-from physics.shapes.outline import is_tiled, outline_of
+from physics.shapes.kinds import Bounds, mass_of
+from physics.shapes.mask import PixelMask
+from physics.shapes.mass import Mass
+from physics.shapes.outline import is_tiled
 from physics.shapes.placement import missing_rasters, place_masks
-from physics.shapes.values import Capsule, Chain, Circle, Mass, Polygon, Segment, TileGrid
-from physics.tables.body import DYNAMIC, KINDS, STATIC
+from physics.shapes.shape import Shape
+from physics.shapes.values import Circle
+from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.geometry import (
     BLOCK_LINKS,
     CELL,
@@ -48,21 +49,12 @@ from physics.tables.table import Table
 
 SLACK = 1 << 16  # [bytes] of geometry, and …
 FEW = 64  # … shapes: below these limits unused geometry is kept
-KIND_OF = {
-    Circle: CIRCLE,
-    Polygon: POLYGON,
-    Capsule: CAPSULE,
-    Segment: SEGMENT,
-    Chain: CHAIN,
-    TileGrid: TILES,
-    PixelMask: MASK,
-}
 
 
 class Geometries(NamedTuple):
     """Shapes of a library by kind and row, as lists. Shapes are immutable."""
 
-    outlines: list  # polygons, capsules, segments
+    outlines: list  # convex shapes
     chains: list
     grids: list
     masks: list
@@ -77,9 +69,9 @@ class Library:
         self.grids, self.cells = Table(GRID), Table(CELL)
         self.rasters, self.words = Table(RASTER), Table(np.uint64, 64)
         self.raster_of = np.full((4, MASK_ANGLE_BUCKETS), -1, np.int64)
-        self.shapes = {}  # key -> (row, shape); holds the shape, so that its id is not reused
+        self.shapes: dict[Shape, int] = {}  # the row of each shape, without values of its own
         self.masks, self.tile_grids = [], []
-        self.outlines, self.chain_shapes = [], []  # polygons, capsules and segments by row; chains by row
+        self.outlines, self.chain_shapes = [], []  # convex shapes by row, without circles; chains by row
         self.gone = 0  # number of shape rows removed since its creation
         self.least = 0  # [bytes] at its creation
         self.tables = self._tables()
@@ -119,12 +111,12 @@ class Library:
         kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
         rasters = np.zeros(self.rasters.count + 1, np.int64)
         for of, known in (
-            ((POLYGON, CAPSULE, SEGMENT), self.outlines),
+            ((CIRCLE, POLYGON, CAPSULE, SEGMENT), self.outlines),
             ((CHAIN,), self.chain_shapes),
             ((TILES,), self.tile_grids),
             ((MASK,), self.masks),
         ):
-            mine = np.flatnonzero(np.isin(kinds, of))
+            mine = np.flatnonzero(np.isin(kinds, of) & (shapes["geometry"] >= 0))
             used, which = np.unique(shapes["geometry"][mine], return_inverse=True)
             if known is self.outlines:
                 rows = fresh._add_known_hulls(self, used)
@@ -158,23 +150,17 @@ class Library:
 
     def add(self, shape: Shape) -> tuple[int, int, int]:
         """Return (kind, geometry row, kind inside a Bounds) of a shape, and add its geometry where it is new."""
-        if isinstance(shape, Bounds):
-            kind, row, _ = self.add(shape.shape)
-            return BOUNDS, row, kind
-        if isinstance(shape, Circle):
-            return CIRCLE, -1, -1
-        shape = shape.bare
-        key = id(shape) if isinstance(shape, (TileGrid, PixelMask)) else shape
-        if key not in self.shapes:
-            add = {TileGrid: self._add_grid, PixelMask: self._add_mask, Chain: self._add_chain}.get(
-                type(shape), self._add_hull
-            )
-            self.shapes[key] = (add(shape), shape)
-            self.tables = self._tables()
-        return KIND_OF[type(shape)], self.shapes[key][0], -1
+        inner = shape._inner.bare
+        row = -1 if isinstance(inner, Circle) else self._row_of(inner)
+        return shape._kind, row, inner._kind if shape._inner is not shape else -1
 
-    def _add_hull(self, shape):
-        return self._add_hulls([shape])[0]
+    def _row_of(self, shape):
+        """Return the geometry row of a shape, added where it is new."""
+        if shape not in self.shapes:
+            add = {TILES: self._add_grid, MASK: self._add_mask, CHAIN: self._add_chain}.get(shape._kind)
+            self.shapes[shape] = add(shape) if add else self._add_hulls([shape])[0]
+            self.tables = self._tables()
+        return self.shapes[shape]
 
     def _add_hulls(self, shapes):
         counts = np.array([len(each.points) for each in shapes], np.int64)
@@ -190,9 +176,9 @@ class Library:
         """Add the hulls in some rows of another library at once; `add` finds those that it found there."""
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
-        for key, (row, shape) in library.shapes.items():
-            if isinstance(shape, (Polygon, Capsule, Segment)) and row in place:
-                self.shapes[key] = (place[row], shape)
+        for shape, row in library.shapes.items():
+            if shape._is_convex and row in place:
+                self.shapes[shape] = place[row]
         self.tables = self._tables()
         return new
 
@@ -258,16 +244,16 @@ class Library:
         self.add_raster(row, 0)
         return row
 
-    def add_parts(self, shapes: Sequence[Circle | Capsule | Polygon | Chain]) -> np.ndarray:
+    def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
         """Return (n, 3), the result of `add` for each shape. Convex shapes are added without a search for equal
         ones.
         """
-        kinds = [KIND_OF[type(shape)] for shape in shapes]
+        kinds = [shape._kind for shape in shapes]
         if CHAIN in kinds:
             return np.array([self.add(shape) for shape in shapes], np.int64)
         found = np.full((len(shapes), 3), -1)
         found[:, 0] = kinds
-        hulls = [k for k, kind in enumerate(kinds) if kind != CIRCLE]
+        hulls = [k for k, shape in enumerate(shapes) if not isinstance(shape, Circle)]
         if hulls:
             found[hulls, 1] = self._add_hulls([shapes[k] for k in hulls])
             self.tables = self._tables()
@@ -279,7 +265,7 @@ class Library:
         library = cls()
         library.add_parts(shapes.outlines)
         for row, shape in reversed([*enumerate(shapes.outlines)]):
-            library.shapes[shape] = (row, shape)
+            library.shapes[shape] = row
         for shape in (*shapes.chains, *shapes.grids, *shapes.masks):
             library.add(shape)
         return library
@@ -291,12 +277,12 @@ class Library:
         written and its hull is kept; at other angles its box may then be larger than the remaining pixels. O(words that
         change), otherwise as add.
         """
-        row = self.shapes[id(old)][0]
+        row = self.shapes[old]
         users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
-        if changed is None or not is_tiled(new) or id(new) in self.shapes or users.sum() > 1 or not new.snap:
+        if changed is None or not is_tiled(new) or new in self.shapes or users.sum() > 1 or not new.snap:
             return self.add(new)[1]
-        del self.shapes[id(old)]
-        self.shapes[id(new)] = (row, new)
+        del self.shapes[old]
+        self.shapes[new] = row
         self.masks[row] = new
         self.raster_of[row, 1:] = -1
         raster = self.rasters.data[self.raster_of[row, 0]]
@@ -352,14 +338,13 @@ class Library:
 
     def shape_of(self, row: np.void) -> Shape:
         """Return the shape of a SHAPE row."""
-        kind = int(row["kind"])
+        kind, geometry = int(row["kind"]), int(row["geometry"])
         inner = int(row["wrapped"]) if kind == BOUNDS else kind
-        if inner == CIRCLE:
+        if geometry < 0:
             shape = Circle(float(row["radius"]), (float(row["local_x"]), float(row["local_y"])))
         else:
-            shape = {TILES: self.tile_grids, MASK: self.masks, CHAIN: self.chain_shapes}.get(inner, self.outlines)[
-                int(row["geometry"])
-            ]
+            known = {TILES: self.tile_grids, MASK: self.masks, CHAIN: self.chain_shapes}
+            shape = known.get(inner, self.outlines)[geometry]
         return Bounds(shape) if kind == BOUNDS else shape
 
     @contextmanager
@@ -459,41 +444,13 @@ def _draw(library, rows, bodies, shapes):
 # Table rows of shapes: SHAPE rows, masses, extents.
 
 
-def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
-    """Reject a dynamic body of segments only, dynamic chains and one-way masks, and rotated or dynamic tiles.
-
-    Raises TypeError, ValueError.
-    """
-    if kind == DYNAMIC and shapes and all(isinstance(shape, Segment) for shape in shapes):
-        raise ValueError(
-            f"shapes of a dynamic body must hold one with mass, a Segment has none (got {checks.shown(shapes)})"
-        )
-    for shape in shapes:
-        if not isinstance(shape, SHAPES):
-            raise TypeError(f"shapes must be shapes such as Circle(8) (got {checks.shown(shape)})")
-        if isinstance(shape, TileGrid) and (kind == DYNAMIC or np.any(np.asarray(angles) != 0.0)):
-            raise ValueError(
-                f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
-                f"{np.asarray(angles).tolist()})"
-            )
-        if isinstance(shape, Chain) and kind == DYNAMIC:
-            raise ValueError("a Chain needs kind static or kinematic (got dynamic): it has no inside and no mass")
-        if isinstance(shape, PixelMask) and shape.one_way and kind == DYNAMIC:
-            raise ValueError(f"a mask with one_way=True needs kind static or kinematic (got dynamic, {shape})")
-
-
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
     """Return (radius, centre of a circle in body space) [px] of a shape, or of the shape inside a Bounds, for
     its row.
     """
-    inner = getattr(shape, "shape", shape)
-    x, y = getattr(inner, "center", (0.0, 0.0))
-    return getattr(inner, "radius", 0.0), x, y
-
-
-def is_snapped(shape: Shape) -> bool:
-    """Return whether a shape is a mask that is tested as drawn, for its SHAPE row."""
-    return isinstance(shape, PixelMask) and shape.snap
+    inner = shape._inner
+    x, y = inner.points[0] if inner._kind == CIRCLE else (0.0, 0.0)
+    return inner.radius if inner._is_convex else 0.0, x, y
 
 
 def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
@@ -506,18 +463,6 @@ def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
     return Mass(mass, found.center, found.inertia * (mass / found.mass) if found.mass > 0.0 else 0.0)
 
 
-def thin_half(shape: Shape, in_parts: bool) -> float:
-    """Return the inradius [px] of a shape at its thinnest part; in_parts: masks are represented by the parts of their
-    outline.
-
-    A thin arm would be beyond a wall before the middle of the sprite is. Measured: sprites of 3 px blocks passed 1 px
-    walls at half their size per step. Parts thinner than a pixel count as 1 px, because they lie beside a thicker one.
-    """
-    if not (in_parts and isinstance(shape, PixelMask)):
-        return shape.smallest_half
-    return min((max(0.5, part.shape.smallest_half) for part in outline_of(shape)), default=shape.smallest_half)
-
-
 def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
     """Write mass, inertia and size of BODY rows of one kind of body. in_parts: response uses the parts of masks."""
     in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # only moving bodies need the thinnest part
@@ -528,7 +473,8 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
     rows["inverse_mass"] = np.where(moves, 1.0 / mass.mass if mass.mass > 0.0 else 0.0, 0.0)
     rows["inverse_inertia"] = np.where(turns, 1.0 / mass.inertia if mass.inertia > 0.0 else 0.0, 0.0)
     rows["smallest_half"] = min((shape.smallest_half for shape in shapes), default=0.0)
-    rows["thin_half"] = min((thin_half(shape, in_parts) for shape in shapes), default=0.0)
+    halves = (shape._thinnest_half if in_parts else shape.smallest_half for shape in shapes)
+    rows["thin_half"] = min(halves, default=0.0)
     rows["extent"] = max((shape.reach(*mass.center) for shape in shapes), default=0.0)
 
 
@@ -550,8 +496,8 @@ def describe(
     rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows
     rows["kind"], rows["geometry"], rows["wrapped"] = kind, geometry, wrapped
     rows["radius"], rows["local_x"], rows["local_y"] = rounding_of(shape)
-    rows["snap"] = is_snapped(shape)
-    if is_snapped(getattr(shape, "shape", shape)):
+    rows["snap"] = shape.snap
+    if shape._inner.snap:
         for angle in angles:
             library.raster(geometry, angle)
 

@@ -1,8 +1,8 @@
-"""PixelMask, the solid pixels of a sprite as a shape, and Bounds, the AABB tier of another shape."""
+"""PixelMask, the solid pixels of a sprite as a shape."""
 
 import copy
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
 from functools import cached_property
 from hashlib import blake2b
 from typing import Any
@@ -16,28 +16,19 @@ from physics.math2d import Vec2
 from physics.raster.bits import Turned, bucket_of, packed, turn
 from physics.raster.pixel_tiles import PixelTiles
 from physics.settings import MASK_ANGLE_BUCKETS, SMOOTH
-from physics.shapes.outline import outline_of
-from physics.shapes.values import (
-    NOTHING,
-    Capsule,
-    Circle,
-    EqualByValue,
-    Filter,
-    Mass,
-    Material,
-    OwnValues,
-    Polygon,
-    bools,
-    solid_blocks,
-)
-
-# ---- mask ------------------------------------------------------------------------------------------------------------
+from physics.shapes.mass import NOTHING, Mass
+from physics.shapes.outline import OutlinePart, Stretch, outline_by_tile, outline_of, surfaces_of
+from physics.shapes.placement import turn_of_mask
+from physics.shapes.shape import Filter, Material, Parts, Placed, Shape, parts_of, rectangle, turned_parts
+from physics.shapes.values import Capsule, Circle, Polygon, bools, solid_blocks
+from physics.tables.body import DYNAMIC
+from physics.tables.shape import MASK, WHOLE_MASK
 
 LARGEST = 1 << 15  # [px] largest side of a scaled mask: 128 MB of pixels
 TURNED_KEPT = 1 << 20  # [px] of rotated copies that a mask caches: 5 MB, all angles of a sprite of 64 px
 
 
-class PixelMask(OwnValues):
+class PixelMask(Shape):
     """The solid pixels of a sprite: pixel (i, j) is the square [i, i+1) x [j, j+1), minus the origin.
 
     snap=True: tested as it is drawn, on the pixel grid and at angles in buckets, by AND of packed 64-bit words.
@@ -51,6 +42,8 @@ class PixelMask(OwnValues):
     Raises ValueError and TypeError for solid that is no grid of bools, for a smooth that is not a number >= 0, and for
     snap and one_way that are no bools.
     """
+
+    _kind, _has_mass = MASK, True
 
     def __init__(
         self,
@@ -79,10 +72,9 @@ class PixelMask(OwnValues):
 
     def with_tiles(self, tiles: PixelTiles) -> "PixelMask":
         """Return the same mask with other pixels in a raster of the same size, as after carving."""
-        found = copy.copy(self.bare)
-        for name in ("words", "_sums", "solid_box", "bounds", "centroid", "fingerprint", "outline"):
-            vars(found).pop(name, None)
-        found.tiles, found.carved, found._solid = tiles, True, None
+        found = object.__new__(PixelMask)
+        kept = {name: vars(self)[name] for name in ("snap", "smooth", "one_way", "size", "origin")}
+        vars(found).update(kept, tiles=tiles, carved=True, _solid=None)
         found._forget()
         return found.with_values_of(self)
 
@@ -112,7 +104,7 @@ class PixelMask(OwnValues):
             pair[wanted].one_way = wanted
         return pair[wanted]
 
-    def with_values_of(self, other: OwnValues) -> "PixelMask":
+    def with_values_of(self, other: Shape) -> "PixelMask":
         """Return this mask with the own values of another shape, including the one_way of a mask."""
         one_way = other.one_way if isinstance(other, PixelMask) else None
         return self.with_(other.material, other.filter, other.sensor, one_way)
@@ -325,11 +317,64 @@ class PixelMask(OwnValues):
         second = (count * squares - x * x - y * y) / count + count / 6.0
         return Mass(density * count, self.centroid, density * second)
 
+    @property
+    def _thinnest_half(self) -> float:
+        """Inradius at its thinnest part [px].
+
+        A thin arm would be beyond a wall before the middle of the sprite is. Measured: sprites of 3 px blocks passed
+        1 px walls at half their size per step. Parts thinner than a pixel count as 1 px, because they lie beside a
+        thicker one.
+        """
+        return min((max(0.5, part.shape.smallest_half) for part in outline_of(self)), default=self.smallest_half)
+
     def reach(self, x: float, y: float) -> float:
         if self.bounds is None:
             return 0.0
         left, top, right, bottom = self.bounds
         return float(np.hypot(max(x - left, right - x), max(y - top, bottom - y)))
+
+    @property
+    def _key(self) -> tuple:
+        return (*self.size, *self.origin, self.snap, self.solid.tobytes())
+
+    def _hulls(self) -> list[tuple[np.ndarray, float]]:
+        origin = np.array(self.origin)
+        return [(np.array(rectangle(*block)) - origin, 0.0) for block in self.blocks(0)]
+
+    @property
+    def _parts(self) -> Parts:
+        if "outline parts" not in self.fitted:
+            shapes = [part.shape for part in outline_of(self.bare)]
+            self.fitted["outline parts"] = parts_of([each.points for each in shapes], [each.radius for each in shapes])
+        return self.fitted["outline parts"]
+
+    def _box_at(self, angle: float) -> Parts:
+        if not (self.snap and self.area):
+            return super()._box_at(angle)
+        turned = self.turned(angle)
+        rows, columns = np.nonzero(turned.solid)
+        x, y = turned.origin
+        return parts_of([rectangle(columns.min() - x, rows.min() - y, columns.max() + 1 - x, rows.max() + 1 - y)])
+
+    def _rotation(self, angle: float) -> tuple[float, float]:
+        return turn_of_mask(angle)
+
+    def _parts_at(self, placed: Placed) -> Parts:
+        if placed.swept:
+            return turned_parts(self._parts, *placed.offset, *self._rotation(placed.angle))
+        if not self.snap:
+            return super()._parts_at(placed)
+        dx, dy = (float(placed.shapes[placed.row][name]) - at for name, at in (("left", placed.x), ("top", placed.y)))
+        blocks = self.blocks(bucket_of(placed.angle, MASK_ANGLE_BUCKETS))
+        return parts_of([rectangle(dx + left, dy + top, dx + right, dy + down) for left, top, right, down in blocks])
+
+    def _response_parts(self) -> Sequence[tuple[int, Sequence[OutlinePart | Stretch]]]:
+        """Return the parts of its outline by tile; the upper side of a one-way mask is one part."""
+        return [(WHOLE_MASK, surfaces_of(self))] if self.one_way else outline_by_tile(self)
+
+    def _check_body(self, kind: int, angles: ArrayLike) -> None:
+        if self.one_way and kind == DYNAMIC:
+            raise ValueError(f"a mask with one_way=True needs kind static or kinematic (got dynamic, {self})")
 
     def __repr__(self):
         exact = "" if self.snap else ", snap=False"
@@ -342,37 +387,3 @@ def _nearest(size: int, factor: float) -> np.ndarray:
     """Return the source pixel of each pixel of a scaled side, the one that contains its centre."""
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)
-
-
-# ---- bounds ----------------------------------------------------------------------------------------------------------
-
-
-@dataclass(frozen=True)
-class Bounds(EqualByValue):
-    """The wrapped shape's world AABB at its pose, as a shape: the AABB tier. It has the wrapped shape's own values.
-
-    Raises TypeError for a shape other than Circle, Capsule, Polygon or PixelMask.
-    """
-
-    shape: Circle | Capsule | Polygon | PixelMask
-
-    def __post_init__(self):
-        if not isinstance(self.shape, (Circle, Capsule, Polygon, PixelMask)):
-            raise TypeError(f"shape must be a Circle, Capsule, Polygon or PixelMask (got {checks.shown(self.shape)})")
-        inner = self.shape
-        object.__setattr__(self, "shape", inner.bare)
-        if inner is not inner.bare:
-            vars(self).update(vars(copy.copy(self).with_values_of(inner)))
-
-    @property
-    def smallest_half(self) -> float:
-        return self.shape.smallest_half
-
-    def mass_of(self, density: float) -> Mass:
-        return self.shape.mass_of(density)
-
-    def reach(self, x: float, y: float) -> float:
-        """Return the reach [px] of the AABB at any angle: its corners are at most sqrt 2 times the shape's reach from
-        the origin.
-        """
-        return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)

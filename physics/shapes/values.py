@@ -1,12 +1,12 @@
-"""Shapes as immutable values: convex shapes, lines, tile grids, with their filter, material and mass."""
+"""Shapes as immutable values: convex shapes, lines, tile grids."""
 
-import copy
 import math
 import sys
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, fields
 from functools import cached_property, partial
-from typing import Any, ClassVar, Self
+from itertools import pairwise
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,197 +15,11 @@ from physics import checks
 from physics.checks import Pair, Points
 from physics.math2d import Vec2
 from physics.settings import MAX_CORNERS
-
-# ---- filter ----------------------------------------------------------------------------------------------------------
-# Collision filter, applied before any narrow phase.
-
-
-@dataclass(frozen=True)
-class Filter:
-    """Collision filter: shapes collide if a.membership & b.mask and b.membership & a.mask; 32 bits each.
-
-    Raises ValueError.
-    """
-
-    ALL: ClassVar["Filter"]  # collides with every shape
-
-    membership: int = 1
-    mask: int = 0xFFFFFFFF
-
-    def __post_init__(self):
-        object.__setattr__(self, "membership", checks.whole("membership", self.membership, 0, 0xFFFFFFFF))
-        object.__setattr__(self, "mask", checks.whole("mask", self.mask, 0, 0xFFFFFFFF))
-
-    @classmethod
-    def from_packed(cls, bits: int) -> "Filter":
-        """Return the filter with the low 16 bits as membership and the high 16 bits as mask."""
-        bits = checks.whole("bits", bits, 0, 0xFFFFFFFF)
-        return cls(bits & 0xFFFF, bits >> 16)
-
-
-Filter.ALL = Filter(0xFFFFFFFF, 0xFFFFFFFF)
-
-
-# ---- material --------------------------------------------------------------------------------------------------------
-# Material: surface and density of a shape.
-
-
-@dataclass(frozen=True)
-class Material:
-    """Material of a shape: density [mass per px2] > 0; friction, restitution and rolling_resistance >= 0.
-
-    surface_speed [px/s]: speed of its surface, as of a conveyor belt. rolling_resistance: share of the radius; the
-    torque against rolling is at most that times radius and load. Raises ValueError.
-    """
-
-    density: float = 1.0
-    friction: float = 0.6
-    restitution: float = 0.0
-    rolling_resistance: float = 0.0
-    surface_speed: float = 0.0
-
-    def __post_init__(self):
-        object.__setattr__(self, "density", checks.number("density", self.density, above=0.0))
-        for name in ("friction", "restitution", "rolling_resistance"):
-            object.__setattr__(self, name, checks.number(name, getattr(self, name), low=0.0))
-        object.__setattr__(self, "surface_speed", checks.number("surface_speed", self.surface_speed))
-
-
-# ---- own values ------------------------------------------------------------------------------------------------------
-# Values that a shape may have in place of those of its body: material, filter, sensor.
-
-
-class OwnValues:
-    """Base of all shapes: the values that may replace the body's. Shapes are immutable, and copies share them."""
-
-    material: Material | None = None  # None, for all three: the body's value
-    filter: Filter | None = None
-    sensor: bool | None = None
-
-    def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return the same shape with values of its own; None: the body's. Its density counts in the body's mass.
-
-        Changing the body's material, filter or sensor leaves these values unchanged. Raises TypeError.
-        """
-        for name, value, wanted in (("material", material, Material), ("filter", filter, Filter)):
-            if value is not None and not isinstance(value, wanted):
-                raise TypeError(f"{name} must be a {wanted.__name__} or None (got {checks.shown(value)})")
-        sensor = None if sensor is None else checks.flag("sensor", sensor)
-        bare = self.bare
-        if material is None and filter is None and sensor is None:
-            return bare
-        found = copy.copy(bare)
-        vars(found).update(material=material, filter=filter, sensor=sensor, _bare=bare)
-        return found
-
-    @property
-    def bare(self) -> Self:
-        """The shape without values of its own, as a library stores it: one for all shapes that differ only in them."""
-        return vars(self).get("_bare", self)
-
-    def with_values_of(self, other: "OwnValues") -> Self:
-        """Return this shape with the own values of another one."""
-        return self.with_(other.material, other.filter, other.sensor)
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
-        return self
-
-
-@dataclass(frozen=True)
-class EqualByValue(OwnValues):
-    """Base of the shapes that are equal when their geometry and their own values are."""
-
-    material: Material | None = field(default=None, init=False, repr=False)
-    filter: Filter | None = field(default=None, init=False, repr=False)
-    sensor: bool | None = field(default=None, init=False, repr=False)
-
-
-# ---- mass ------------------------------------------------------------------------------------------------------------
-# Masses of plane figures: exact sums over parts, each about its own centre, for precision far from the origin.
-
-
-@dataclass(frozen=True)
-class Mass:
-    """Mass, centre of mass in body space [px], and inertia about that centre."""
-
-    mass: float
-    center: Vec2
-    inertia: float
-
-
-NOTHING = Mass(0.0, Vec2(0.0, 0.0), 0.0)
-
-
-def together(parts: Iterable[Mass]) -> Mass:
-    """Return the mass of several parts, with the inertia about the common centre (parallel axis theorem)."""
-    parts = [part for part in parts if part.mass > 0.0]
-    if not parts:
-        return NOTHING
-    # Relative to the first part's centre, for precision far from the origin.
-    base_x, base_y = parts[0].center
-    mass = math.fsum(part.mass for part in parts)
-    x = math.fsum(part.mass * (part.center[0] - base_x) for part in parts) / mass
-    y = math.fsum(part.mass * (part.center[1] - base_y) for part in parts) / mass
-    inertia = math.fsum(
-        part.inertia + part.mass * ((part.center[0] - base_x - x) ** 2 + (part.center[1] - base_y - y) ** 2)
-        for part in parts
-    )
-    return Mass(mass, Vec2(base_x + x, base_y + y), inertia)
-
-
-def polygon_mass(points: Points, density: float) -> Mass:
-    """Return the mass of a polygon, points (n, 2) clockwise on the screen: shoelace integrals about the first
-    corner.
-    """
-    base = np.array(points[0])
-    a = np.array(points) - base
-    b = np.roll(a, -1, axis=0)
-    cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    area = cross.sum() / 2.0
-    center = ((a + b) * cross[:, None]).sum(axis=0) / (6.0 * area)
-    a, b = a - center, b - center
-    cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
-    second = (cross * ((a * a).sum(1) + (a * b).sum(1) + (b * b).sum(1))).sum() / 12.0
-    return Mass(float(density * area), Vec2(*(base + center).tolist()), float(density * second))
-
-
-def rounded_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of a rounded polygon: the polygon, a rectangle along every edge, a disc sector at every
-    corner.
-    """
-    parts = [polygon_mass(points, density)]
-    count = len(points)
-    edges = [
-        (points[(k + 1) % count][0] - points[k][0], points[(k + 1) % count][1] - points[k][1]) for k in range(count)
-    ]
-    for k, (dx, dy) in enumerate(edges):
-        length = math.hypot(dx, dy)
-        out_x, out_y = dy / length, -dx / length
-        mass = density * length * radius
-        parts.append(
-            Mass(
-                mass,
-                Vec2(points[k][0] + 0.5 * dx + 0.5 * radius * out_x, points[k][1] + 0.5 * dy + 0.5 * radius * out_y),
-                mass * (length * length + radius * radius) / 12.0,
-            )
-        )
-        before_x, before_y = edges[k - 1]
-        turn = math.atan2(before_x * dy - before_y * dx, before_x * dx + before_y * dy)
-        # The axis of the sector is the bisector of the two outward normals.
-        other = math.hypot(before_x, before_y)
-        bisector_x, bisector_y = out_x + before_y / other, out_y - before_x / other
-        size = math.hypot(bisector_x, bisector_y)
-        away = 4.0 * radius * math.sin(0.5 * turn) / (3.0 * turn)
-        mass = density * 0.5 * turn * radius * radius
-        parts.append(
-            Mass(
-                mass,
-                Vec2(points[k][0] + away * bisector_x / size, points[k][1] + away * bisector_y / size),
-                mass * (0.5 * radius * radius - away * away),
-            )
-        )
-    return together(parts)
-
+from physics.shapes.mass import Mass, convex_mass
+from physics.shapes.placement import write_hull
+from physics.shapes.shape import EqualByValue, Material, Parts, Placed, Shape, parts_of, rectangle
+from physics.tables.body import DYNAMIC, KINDS
+from physics.tables.shape import CAPSULE, CHAIN, CIRCLE, POLYGON, SEGMENT, TILES
 
 # ---- convex ----------------------------------------------------------------------------------------------------------
 # Convex shapes: a hull of corners with a rounding radius.
@@ -217,16 +31,64 @@ PHYSICS = __name__.removesuffix(".shapes.values")  # the package that a user imp
 SHORTEST = 1e-9  # relative to a hull's size: a shorter edge loses its direction by rounding when the hull moves
 
 
-def reach(points: Iterable[Pair], radius: float, x: float, y: float) -> float:
-    """Return the distance [px] from (x, y) to the furthest point of a rounded hull."""
-    return max(math.hypot(px - x, py - y) for px, py in points) + radius
+class Convex(EqualByValue):
+    """Base of the convex shapes: the hull of `points`, 1 to 16 corners clockwise on the screen, rounded by `radius`.
+
+    A subclass is a frozen dataclass that has `points`. With one corner it collides as a circle, with two as a capsule
+    or a segment, with more as a polygon.
+    """
+
+    radius = 0.0  # a field `radius` without a default is declared with field(), or this would be its default
+    _is_convex = True
+    _has_mass = True  # False for a line
+
+    @property
+    def _kind(self) -> int:
+        few = (CIRCLE, CAPSULE if self.radius > 0.0 else SEGMENT)
+        return few[len(self.points) - 1] if len(self.points) < 3 else POLYGON
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        (xs, ys), r = zip(*self.points, strict=True), self.radius
+        return min(xs) - r, min(ys) - r, max(xs) + r, max(ys) + r
+
+    @cached_property
+    def smallest_half(self) -> float:
+        if len(self.points) < 3:
+            return self.radius
+        points = np.array(self.points)
+        edges = np.roll(points, -1, axis=0) - points
+        outward = np.stack([edges[:, 1], -edges[:, 0]], axis=1) / np.hypot(*edges.T)[:, None]
+        from_center = points - np.array(self.mass_of(1.0).center)
+        return float((from_center * outward).sum(axis=1).min()) + self.radius
+
+    def mass_of(self, density: float) -> Mass:
+        return convex_mass(self.points, self.radius, density) if self._has_mass else super().mass_of(density)
+
+    def _hulls(self) -> list[tuple[np.ndarray, float]]:
+        return [(np.array(self.points, np.float64), self.radius)]
+
+    def _parts_at(self, placed: Placed) -> Parts:
+        corners = np.zeros((16, 2))
+        count, radius = write_hull(placed.geometry, placed.shapes, placed.row, *placed.offset, placed.angle, corners)
+        return parts_of([corners[:count]], radius)
+
+    def _facts(self) -> dict[str, Any]:
+        """Return the arguments of its constructor but `points`, for a snapshot: values that JSON can hold."""
+        return {each.name: getattr(self, each.name) for each in fields(self) if each.init and each.name != "points"}
+
+    @classmethod
+    def _load(cls, points: Points, facts: dict[str, Any]) -> Self:
+        """Return the shape of a snapshot. Raises TypeError, ValueError."""
+        given = {"points": points} if any(each.name == "points" for each in fields(cls)) else {}
+        return cls(**given, **facts)
 
 
 @dataclass(frozen=True)
-class Circle(EqualByValue):
+class Circle(Convex):
     """A disc. Raises ValueError for a radius that is not > 0."""
 
-    radius: float
+    radius: float = field()
     center: Pair = Vec2(0.0, 0.0)
 
     def __post_init__(self):
@@ -234,19 +96,12 @@ class Circle(EqualByValue):
         object.__setattr__(self, "center", checks.vector("center", self.center))
 
     @property
-    def smallest_half(self) -> float:
-        return self.radius
-
-    def mass_of(self, density: float) -> Mass:
-        mass = density * math.pi * self.radius * self.radius
-        return Mass(mass, Vec2(*self.center), mass * self.radius * self.radius / 2.0)
-
-    def reach(self, x: float, y: float) -> float:
-        return reach((self.center,), self.radius, x, y)
+    def points(self) -> tuple[Pair]:
+        return (self.center,)
 
 
 @dataclass(frozen=True)
-class Capsule(EqualByValue):
+class Capsule(Convex):
     """All points within a radius of the line from a to b.
 
     Raises ValueError for a radius that is not > 0, or no length.
@@ -254,7 +109,7 @@ class Capsule(EqualByValue):
 
     a: Pair
     b: Pair
-    radius: float
+    radius: float = field()
 
     def __post_init__(self):
         a, b = checks.vector("a", self.a), checks.vector("b", self.b)
@@ -272,27 +127,9 @@ class Capsule(EqualByValue):
     def points(self) -> tuple[Pair, Pair]:
         return self.a, self.b
 
-    @property
-    def smallest_half(self) -> float:
-        return self.radius
-
-    def mass_of(self, density: float) -> Mass:
-        """Return the mass of a rectangle and two half discs, whose centres of mass lie 4r/3π beyond the line's ends."""
-        length = math.hypot(self.b[0] - self.a[0], self.b[1] - self.a[1])
-        r = self.radius
-        middle, ends = density * 2.0 * r * length, density * math.pi * r * r
-        inertia = middle * (length * length + 4.0 * r * r) / 12.0 + ends * (
-            r * r / 2.0 + length * length / 4.0 + length * 4.0 * r / (3.0 * math.pi)
-        )
-        center = Vec2(self.a[0] + 0.5 * (self.b[0] - self.a[0]), self.a[1] + 0.5 * (self.b[1] - self.a[1]))
-        return Mass(middle + ends, center, inertia)
-
-    def reach(self, x: float, y: float) -> float:
-        return reach(self.points, self.radius, x, y)
-
 
 @dataclass(frozen=True)
-class Polygon(EqualByValue):
+class Polygon(Convex):
     """A convex polygon of 3 to 16 corners in either winding, stored clockwise on the screen, rounded by a radius.
 
     Raises ValueError for too few or many corners, for zero area, for three collinear corners or equal ones, for a
@@ -351,25 +188,6 @@ class Polygon(EqualByValue):
         )
         return cls(tuple((x + cosine * u - sine * v, y + sine * u + cosine * v) for u, v in corners))
 
-    @cached_property
-    def smallest_half(self) -> float:
-        """Inradius [px]: distance from the centre of mass to the nearest edge, plus the radius; half the shorter side
-        of a box.
-        """
-        points = np.array(self.points)
-        edges = np.roll(points, -1, axis=0) - points
-        outward = np.stack([edges[:, 1], -edges[:, 0]], axis=1) / np.hypot(*edges.T)[:, None]
-        from_center = points - np.array(self.mass_of(1.0).center)
-        return float((from_center * outward).sum(axis=1).min()) + self.radius
-
-    def mass_of(self, density: float) -> Mass:
-        if self.radius == 0.0:
-            return polygon_mass(self.points, density)
-        return rounded_mass(self.points, self.radius, density)
-
-    def reach(self, x: float, y: float) -> float:
-        return reach(self.points, self.radius, x, y)
-
 
 # ---- blocks ----------------------------------------------------------------------------------------------------------
 # Cover of the solid cells of a grid, or of the pixels of a mask, by rectangles.
@@ -391,13 +209,15 @@ def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
 # ---- tiles -----------------------------------------------------------------------------------------------------------
 
 
-class TileGrid(OwnValues):
+class TileGrid(Shape):
     """Solid tiles of one size; origin at the top left corner of tile (0, 0).
 
     solid[row, col] bool; one_way[row, col] bool: open from below; slopes[row, col] = (left, right): height of the
     surface above the tile's bottom as a fraction 0..1, (0, 1) rises to the right, (0, 0) is no slope. Raises ValueError
     when the arrays differ in shape, a slope is out of range, or a cell is of two kinds.
     """
+
+    _kind, _is_ground, _may_turn = TILES, True, False
 
     def __init__(
         self, solid: ArrayLike, tile_size: float, one_way: ArrayLike | None = None, slopes: ArrayLike | None = None
@@ -445,14 +265,54 @@ class TileGrid(OwnValues):
     def smallest_half(self) -> float:
         return self.tile_size / 2.0
 
-    def mass_of(self, density: float) -> Mass:
-        return NOTHING  # tiles are ground without mass
-
     def reach(self, x: float, y: float) -> float:
         height, width = self.solid.shape
         far_x = max(abs(x), abs(width * self.tile_size - x))
         far_y = max(abs(y), abs(height * self.tile_size - y))
         return math.hypot(far_x, far_y)
+
+    @property
+    def _key(self) -> tuple:
+        cells = (self.solid.tobytes(), self.slopes.tobytes(), self.one_way.tobytes())
+        return (*self.solid.shape, self.tile_size, *cells)
+
+    def _outlines(self, x: float, y: float, feet: float) -> list:
+        """Return the outlines of its tiles with its origin at (x, y) [px].
+
+        feet [px]: the lowest point of the other shape, relative to the grid's origin. A one-way tile is present, as its
+        top edge, only for shapes wholly above it.
+        """
+        size = self.tile_size
+        solid, slopes, one_way = self.blocks
+        found = [
+            rectangle(x + left * size, y + top * size, x + right * size, y + bottom * size)
+            for left, top, right, bottom in solid
+        ]
+        for row, column in slopes:
+            left, right = (y + (row + 1) * size - height * size for height in self.slopes[row, column].tolist())
+            x_left, x_right, bottom = x + column * size, x + (column + 1) * size, y + (row + 1) * size
+            corners = [(x_left, left), (x_right, right), (x_right, bottom), (x_left, bottom)]
+            found.append([each for k, each in enumerate(corners) if k > 1 or each[1] < bottom])
+        for left, top, right, bottom in one_way:
+            found += [
+                [(x + left * size, y + row * size), (x + right * size, y + row * size)]
+                for row in range(top, bottom)
+                if feet <= row * size
+            ]
+        return found
+
+    def _hulls(self) -> list[tuple[np.ndarray, float]]:
+        return [(np.array(each, np.float64), 0.0) for each in self._outlines(0.0, 0.0, -math.inf)]
+
+    def _parts_at(self, placed: Placed) -> Parts:
+        return parts_of(self._outlines(*placed.offset, placed.feet - float(placed.body["y"])))
+
+    def _check_body(self, kind: int, angles: ArrayLike) -> None:
+        if kind == DYNAMIC or np.any(np.asarray(angles) != 0.0):
+            raise ValueError(
+                f"a TileGrid needs kind static or kinematic and angle 0 (got {KINDS[kind]}, "
+                f"{np.asarray(angles).tolist()})"
+            )
 
     def __repr__(self):
         return f"TileGrid({self.solid.shape[0]} x {self.solid.shape[1]} tiles of {self.tile_size} px)"
@@ -496,11 +356,12 @@ def _check_length(name, a, b):
 
 
 @dataclass(frozen=True)
-class Segment(EqualByValue):
+class Segment(Convex):
     """The line from a to b, solid from both sides; no mass. Raises ValueError for one without length."""
 
     a: Pair
     b: Pair
+    _has_mass = False
 
     def __post_init__(self):
         object.__setattr__(self, "a", checks.vector("a", self.a))
@@ -510,16 +371,6 @@ class Segment(EqualByValue):
     @property
     def points(self) -> tuple[Pair, Pair]:
         return self.a, self.b
-
-    @property
-    def smallest_half(self) -> float:
-        return 0.0
-
-    def mass_of(self, density: float) -> Mass:
-        return NOTHING
-
-    def reach(self, x: float, y: float) -> float:
-        return reach(self.points, 0.0, x, y)
 
 
 @dataclass(frozen=True)
@@ -535,6 +386,7 @@ class Chain(EqualByValue):
     loop: bool = False
     ghosts: Sequence[Pair | None] | None = None
     materials: Sequence[Material] | None = None
+    radius, _kind, _is_ground = 0.0, CHAIN, True
 
     def __post_init__(self):
         points = tuple(Vec2(x, y) for x, y in checks.columns("points", self.points).tolist())
@@ -593,12 +445,11 @@ class Chain(EqualByValue):
         """Number of links."""
         return len(self.points) if self.loop else len(self.points) - 1
 
-    @property
-    def smallest_half(self) -> float:
-        return 0.0
+    def _hulls(self) -> list[tuple[np.ndarray, float]]:
+        """Return its links."""
+        points = list(self.points) + ([self.points[0]] if self.loop else [])
+        return [(np.array(each, np.float64), 0.0) for each in pairwise(points)]
 
-    def mass_of(self, density: float) -> Mass:
-        return NOTHING
-
-    def reach(self, x: float, y: float) -> float:
-        return reach(self.points, 0.0, x, y)
+    def _check_body(self, kind: int, angles: ArrayLike) -> None:
+        if kind == DYNAMIC:
+            raise ValueError("a Chain needs kind static or kinematic (got dynamic): it has no inside and no mass")

@@ -11,7 +11,8 @@ import pygame
 
 from game.drawing.colors import INK, PAPER, SKY, faded
 from game.drawing.rotated import poses_between
-from physics import Capsule, Chain, Circle, PixelMask
+from physics import PixelMask
+from physics.shapes.values import Convex
 from scenes.lab.pieces import RAMPS, hull, placed, scaled, turning
 
 LEAST, MOST = 8.0, 120.0  # [canvas px] range of pieces; others are drawn plain
@@ -34,7 +35,7 @@ class Looks:
             body = self.world.body(identity)
             still = body.kind == "static"
             ramp = None if still or body.sensor else "steel" if body.material.density > 1.0 else ORDER[identity % 2]
-            if any(isinstance(shape, Circle) for shape in body.shapes) and ramp not in (None, "steel"):
+            if any(is_round(shape) for shape in body.shapes) and ramp not in (None, "steel"):
                 ramp = ORDER[2 + identity % 3]
             self.known[identity] = (body.shapes, ramp, body.sensor)
         return self.known[identity]
@@ -88,11 +89,16 @@ class Looks:
 @lru_cache(maxsize=256)
 def is_piece(shape, zoom):
     """Return whether the size of a shape suits a picture of its own."""
-    if isinstance(shape, (PixelMask, Chain)):
+    if not isinstance(shape, Convex):
         return False
     points, radius = hull(shape)
     sizes = (np.ptp(points, axis=0) + 2.0 * radius) * zoom
     return bool(sizes.min() >= LEAST and sizes.max() <= MOST)
+
+
+def is_round(shape):
+    """Return whether a shape is a disc."""
+    return isinstance(shape, Convex) and len(shape.points) == 1
 
 
 def draw_ground(surface, shape, zoom, pose, sensor):
@@ -100,14 +106,14 @@ def draw_ground(surface, shape, zoom, pose, sensor):
     if isinstance(shape, PixelMask):
         return
     points = placed(shape, zoom, pose)
-    if isinstance(shape, Circle):
-        pygame.draw.circle(surface, RIM, points[0], max(2.0, shape.radius * zoom))
-    elif isinstance(shape, Chain):
+    if not isinstance(shape, Convex):  # a chain
         pygame.draw.lines(surface, INK, False, [(x, y + 2) for x, y in points], 3)
         pygame.draw.lines(surface, RIM, False, points, 2)
         for x, y in points:
             surface.set_at((round(x), round(y)), PAPER)
-    elif isinstance(shape, Capsule):
+    elif len(points) == 1:
+        pygame.draw.circle(surface, RIM, points[0], max(2.0, shape.radius * zoom))
+    elif len(points) == 2:
         draw_plain(surface, shape, zoom, pose, (RIM, RIM))
     else:
         pygame.draw.polygon(surface, faded(SKY, 0.3) if sensor else GROUND, points)
@@ -118,10 +124,10 @@ def draw_plain(surface, shape, zoom, pose, ramp):
     """Draw a tiny, or a huge, convex shape in two colours."""
     rim, inside, *_ = ramp
     points = placed(shape, zoom, pose)
-    if isinstance(shape, Circle):
+    if len(points) == 1:
         pygame.draw.circle(surface, inside, points[0], max(1.5, shape.radius * zoom))
         pygame.draw.circle(surface, rim, points[0], max(1.5, shape.radius * zoom), 1)
-    elif isinstance(shape, Capsule):
+    elif len(points) == 2:
         radius = max(1.0, shape.radius * zoom)
         (ax, ay), (bx, by) = points
         nx, ny = by - ay, ax - bx

@@ -6,13 +6,13 @@ with the body.
 
 from functools import lru_cache
 from math import ceil, cos, sin
+from typing import NamedTuple
 
 import numpy as np
 import pygame
 
 from game.drawing.colors import INK
 from game.drawing.rotated import RotatedPicture
-from physics import Capsule, Chain, Circle, Polygon
 
 OUTLINE, RIM = 1.0, 2.6  # [px] inwards from the edge
 # rim, inside, dithered inside, mark
@@ -60,37 +60,29 @@ def piece(shape, ramp, marked=True):
     return image
 
 
+class Scaled(NamedTuple):
+    """A convex shape for drawing: corners clockwise on the screen, and a rounding radius [px]."""
+
+    points: tuple
+    radius: float
+
+
 def hull(shape):
     """Return a convex shape as corners (k, 2) clockwise on the screen and a rounding radius."""
-    if isinstance(shape, Circle):
-        return np.array([shape.center]), shape.radius
-    if isinstance(shape, Capsule):
-        return np.array([shape.a, shape.b]), shape.radius
-    return np.array(shape.points, float), float(getattr(shape, "radius", 0.0))
+    return np.array(shape.points, float), float(shape.radius)
 
 
 @lru_cache(maxsize=256)
 def scaled(shape, zoom):
     """Return a convex shape, scaled."""
-    if isinstance(shape, Circle):
-        return Circle(shape.radius * zoom, (shape.center[0] * zoom, shape.center[1] * zoom))
-    if isinstance(shape, Capsule):
-        a, b = ((x * zoom, y * zoom) for x, y in (shape.a, shape.b))
-        return Capsule(a, b, shape.radius * zoom)
-    return Polygon([(x * zoom, y * zoom) for x, y in shape.points], shape.radius * zoom)
-
-
-@lru_cache(maxsize=256)
-def corners(shape):
-    """Return the corners of a convex shape, or of a chain, in body space."""
-    return tuple(map(tuple, shape.points if isinstance(shape, Chain) else hull(shape)[0].tolist()))
+    return Scaled(tuple((x * zoom, y * zoom) for x, y in shape.points), shape.radius * zoom)
 
 
 def placed(shape, zoom, pose):
     """Return the corners of a convex shape, or of a chain, scaled and at a pose of a surface."""
     x, y, angle = pose
     c, s = cos(angle) * zoom, sin(angle) * zoom
-    return [(x + c * px - s * py, y + s * px + c * py) for px, py in corners(shape)]
+    return [(x + c * px - s * py, y + s * px + c * py) for px, py in shape.points]
 
 
 def signed_distance(points, radius, x, y):

@@ -129,7 +129,7 @@ class Queries(Scene):
         for strategy in STRATEGIES:
             world = self.add_world(broadphase=strategy)
             for place, angle, velocity, shape, still in rows:
-                angle = 0.0 if isinstance(shape, PixelMask) else angle
+                angle = 0.0 if shape is RING else angle
                 if still:
                     world.add_body(shape, position=place, angle=angle, kind="static")
                 else:

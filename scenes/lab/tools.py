@@ -63,7 +63,7 @@ class Tool:
 
     def ring(self):
         """Return points around it, its middle at (0, 0) [px]."""
-        if isinstance(self.stamp, Polygon):
+        if self.name == "box":
             return list(self.stamp.points)
         angles = [2.0 * pi * k / 40 for k in range(40)]
         if self.name != "sprite":

@@ -7,7 +7,8 @@ import numpy as np
 
 from game.invariants.numbers import not_finite, not_unit
 from game.invariants.pairs import disagreement, looks_only
-from game.invariants.sample import CONVEX, pair_of
+from game.invariants.sample import pair_of
+from physics.shapes.values import Convex
 from tests.stability.invariants import pulling
 
 STATIC, DYNAMIC = 0, 2
@@ -164,7 +165,7 @@ class Watch:
         for body in world:
             row = world.bodies[world.rows([body.id])[0]]
             for identity, shape in zip(body.shape_ids, body.shapes, strict=True):
-                if isinstance(shape, CONVEX) and not row["quarantined"]:
+                if isinstance(shape, Convex) and not row["quarantined"]:
                     placed.append((identity, row))
         placed.sort(key=lambda each: each[0])
         for at, (a, row_a) in enumerate(placed):

@@ -8,8 +8,7 @@ import pytest
 from game.audio.sound import Sounds
 from game.command_line import run
 from game.input.devices import DeviceSource
-from game.overlays.layer import LAYER_NAMES
-from game.overlays.stack import Overlays
+from game.overlays.stack import Overlays, layer_names
 from game.registry import Registry
 from game.report.chart import Axis, Panel, panel_is, value
 from game.report.charts import solvers
@@ -88,7 +87,7 @@ def test_the_hud_follows_the_solver(size):
         assert all(name in reported for name in IGNORED[solver])
 
 
-@pytest.mark.parametrize("layers", [(), LAYER_NAMES])
+@pytest.mark.parametrize("layers", [(), layer_names()])
 @pytest.mark.parametrize("panel", [False, True])
 @pytest.mark.parametrize("size", SIZES)
 @pytest.mark.parametrize("kind", [Heap, Both, Wordy])

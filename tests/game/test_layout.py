@@ -6,8 +6,7 @@ import pytest
 import physics
 from game.audio.sound import Sounds
 from game.input.devices import DeviceSource
-from game.overlays.layer import LAYER_NAMES
-from game.overlays.stack import Overlays
+from game.overlays.stack import Overlays, layer_names
 from game.registry import Registry
 from game.run.picture import Picture
 from game.run.sources import BotSource
@@ -19,7 +18,7 @@ from tests.pairwise import pairwise, the_others
 pytestmark = pytest.mark.usefixtures("nothing_is_measured")
 SIZES = [(1440, 810), (1920, 1080), (960, 540), (480, 270), (1100, 900)]
 PANEL = [False, True]
-LAYERS = {"none": lambda scene: (), "all": lambda scene: LAYER_NAMES, "its own": lambda scene: scene.overlays}
+LAYERS = {"none": lambda scene: (), "all": lambda scene: layer_names(), "its own": lambda scene: scene.overlays}
 
 
 @pytest.fixture(scope="module")

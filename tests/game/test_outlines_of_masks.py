@@ -8,10 +8,9 @@ import pytest
 
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputState
-from game.overlays.layer import LAYER_NAMES
 from game.overlays.layer_masks import BLOCK, SEAM
 from game.overlays.mask_edges import mask_edges
-from game.overlays.stack import Overlays
+from game.overlays.stack import Overlays, layer_names
 from game.run.digest import scene_digest
 from game.run.picture import Picture
 from game.scene import Scene
@@ -152,7 +151,7 @@ def test_lines_stand_at_the_steps_pose_in_every_window(layer, scale, alpha):
     assert scene_digest(scene) == before
     mine = np.flatnonzero(scene.world.shapes["body"] == scene.flying.id)
     lines = mask_edges(scene.world, mine, float(scale)).outer
-    wanted = (255, 255, 255) if layer == "masks" else overlays.layers[LAYER_NAMES.index(layer)].color[:3]
+    wanted = (255, 255, 255) if layer == "masks" else overlays.layers[layer_names().index(layer)].color[:3]
     picture = pygame.surfarray.array3d(frame.surface)
     for x, y in middles(lines):
         column, row = round(x * scale), round(y * scale)

@@ -8,12 +8,11 @@ import pygame
 import pytest
 
 from game.input.inputs import InputFrame, InputState
-from game.overlays.layer import LAYER_NAMES
 from game.overlays.layer_features import text_of
 from game.overlays.layer_impulses import short, step_of
 from game.overlays.layer_islands import hull_of
 from game.overlays.outlines import corners_of, moved, ring
-from game.overlays.stack import Overlays
+from game.overlays.stack import Overlays, layer_names
 from game.run.digest import scene_digest
 from game.run.picture import Picture
 from game.scene import Scene
@@ -131,12 +130,12 @@ def test_all_layers_on_an_empty_world():
     scene = stepped(3)
     scene.world.clear()
     scene.step(InputState())
-    picture_of(scene, LAYER_NAMES)
+    picture_of(scene, layer_names())
 
 
 def test_a_legend_too_long_for_the_picture_says_so():
     scene = stepped(40)
-    frame = Picture(pygame.Surface((480, 150))).draw_scene(scene, Overlays(LAYER_NAMES))
+    frame = Picture(pygame.Surface((480, 150))).draw_scene(scene, Overlays(layer_names()))
     assert any("more lines" in text for _, text in frame.boxes)
 
 

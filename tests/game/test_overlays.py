@@ -7,9 +7,8 @@ import pytest
 from game.audio.sound import Sounds
 from game.input.devices import DeviceSource
 from game.input.inputs import InputFrame, InputState
-from game.overlays.layer import LAYER_NAMES
 from game.overlays.layer_pairs import Pairs
-from game.overlays.stack import Overlays
+from game.overlays.stack import Overlays, layer_names
 from game.run.digest import scene_digest
 from game.run.picture import Picture
 from game.scene import Scene
@@ -54,7 +53,7 @@ def crowd(request):
 
 def test_layers_have_their_keys_and_names():
     layers = Overlays().layers
-    assert tuple(layer.name for layer in layers) == LAYER_NAMES
+    assert tuple(layer.name for layer in layers) == layer_names() and layer_names()[:2] == ("bounds", "motion")
     keys = [layer.key for layer in layers]
     assert keys[:9] == [str(i) for i in range(1, 10)] and len(set(keys)) == len(keys)
     assert not set(keys) & set("0bnoprtv"), "these keys do something else"
@@ -77,7 +76,7 @@ def test_each_layer_draws_and_only_reads(crowd, layer):
 
 def test_nothing_on_screen_draws_nothing(crowd):
     crowd.camera.place(1e5, 1e5)
-    overlays = Overlays(LAYER_NAMES)
+    overlays = Overlays(layer_names())
     Picture().draw_scene(crowd, overlays)
     assert all(getattr(layer, "drawn", 0) == 0 for layer in overlays.layers if layer.name != "structure")
 
@@ -85,7 +84,7 @@ def test_nothing_on_screen_draws_nothing(crowd):
 def test_an_empty_world(crowd):
     crowd.world.clear()
     stepped(crowd, 1)
-    Picture().draw_scene(crowd, Overlays(LAYER_NAMES))
+    Picture().draw_scene(crowd, Overlays(layer_names()))
 
 
 def test_a_budget_is_never_silent(crowd, monkeypatch):

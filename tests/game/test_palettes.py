@@ -8,8 +8,7 @@ import pytest
 
 from game.drawing.colors import SERIES, toned
 from game.files.accessibility import PALETTES, Accessibility
-from game.overlays.layer import LAYER_NAMES
-from game.overlays.stack import Overlays
+from game.overlays.stack import Overlays, layer_names
 from game.run.picture import Picture
 from tests.game.test_overlays import Crowd, stepped
 
@@ -64,7 +63,7 @@ def drawn(palette, layers):
 
 
 @pytest.mark.parametrize(
-    "layer", [name for name in LAYER_NAMES if name not in ("impulses", "colors", "ghosts", "islands")]
+    "layer", [name for name in layer_names() if name not in ("impulses", "colors", "ghosts", "islands")]
 )
 def test_a_palette_is_seen_in_each_layer(layer):
     plain = drawn("standard", ())

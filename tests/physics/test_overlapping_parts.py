@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from physics import Capsule, Circle, Effects, Material, PixelMask, Polygon, World, mass_of
-from physics.shapes.values import polygon_mass, together
+from physics.shapes.mass import polygon_mass, together
 from tests.outline.rasters import pixels
 
 

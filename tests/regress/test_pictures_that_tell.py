@@ -3,6 +3,7 @@ bits.
 """
 
 import re
+from importlib import import_module
 
 import numpy as np
 import pygame
@@ -14,9 +15,9 @@ from game.drawing.number_text import plain_name
 from game.drawing.typical import KEPT, Typical
 from game.files.settings import Settings
 from game.input.devices import DeviceSource
-from game.overlays.layer import LAYER_NAMES
+from game.overlays.layer import Layer
 from game.overlays.layer_times import Times
-from game.overlays.stack import Overlays
+from game.overlays.stack import LAYERS, layer_names
 from game.registry import Registry
 from game.run.picture import Picture
 from game.screens.parts.panel import LINE, SLIDER
@@ -24,6 +25,7 @@ from game.screens.parts.switches import REPORT_SECONDS
 from game.screens.play import Play
 from physics import SOLVERS
 from scenes import SCENES
+from tests.architecture import ROOT
 
 REGISTRY = Registry(SCENES)
 WINDOWS = {"x2": (960, 540), "x3": (1440, 810)}
@@ -59,7 +61,7 @@ def test_words_and_bars_lie_over_all_overlays(name):
 def words_and_bars_lie_over_all_overlays(play, window):
     play.overlays.on = set()
     picture = Picture(pygame.Surface(WINDOWS[window]))
-    layers = [layer for layer in LAYER_NAMES if layer != "times"]
+    layers = [layer for layer in layer_names() if layer != "times"]
     plain = play.draw(picture)
     fixed, bare = [rect.copy() for rect in plain.fixed], plain.surface.copy()
     words = [(rect.copy(), text) for rect, text in plain.boxes]
@@ -275,4 +277,8 @@ def test_a_lab_that_is_over_offers_another_run(name, ends):
 
 
 def test_all_layers_are_there():
-    assert {layer.name for layer in Overlays().layers} == set(LAYER_NAMES)
+    """Every layer of a file layer_*.py is in the list, once."""
+    modules = [import_module(f"game.overlays.{path.stem}") for path in (ROOT / "game/overlays").glob("layer_*.py")]
+    there = {each for module in modules for each in vars(module).values() if isinstance(each, type)}
+    assert {each for each in there if issubclass(each, Layer)} - {Layer} == set(LAYERS)
+    assert len(set(layer_names())) == len(LAYERS)

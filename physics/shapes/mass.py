@@ -1,0 +1,328 @@
+"""Masses of plane figures, and the mass of a body, in which overlapping area counts once."""
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from physics.checks import Pair, Points
+from physics.math2d import Vec2
+from physics.outline.measure import (
+    NO_SUMS,
+    ROUNDING,
+    Box,
+    Moments,
+    Stretch,
+    Sums,
+    boundary,
+    cell_sums,
+    cells_of,
+    moments,
+    shared_sums,
+    sums_of,
+)
+
+# ---- mass ------------------------------------------------------------------------------------------------------------
+# Masses of plane figures: exact sums over parts, each about its own centre, for precision far from the origin.
+
+
+@dataclass(frozen=True)
+class Mass:
+    """Mass, centre of mass in body space [px], and inertia about that centre."""
+
+    mass: float
+    center: Vec2
+    inertia: float
+
+
+NOTHING = Mass(0.0, Vec2(0.0, 0.0), 0.0)
+
+
+def together(parts: Iterable[Mass]) -> Mass:
+    """Return the mass of several parts, with the inertia about the common centre (parallel axis theorem)."""
+    parts = [part for part in parts if part.mass > 0.0]
+    if not parts:
+        return NOTHING
+    # Relative to the first part's centre, for precision far from the origin.
+    base_x, base_y = parts[0].center
+    mass = math.fsum(part.mass for part in parts)
+    x = math.fsum(part.mass * (part.center[0] - base_x) for part in parts) / mass
+    y = math.fsum(part.mass * (part.center[1] - base_y) for part in parts) / mass
+    inertia = math.fsum(
+        part.inertia + part.mass * ((part.center[0] - base_x - x) ** 2 + (part.center[1] - base_y - y) ** 2)
+        for part in parts
+    )
+    return Mass(mass, Vec2(base_x + x, base_y + y), inertia)
+
+
+def polygon_mass(points: Points, density: float) -> Mass:
+    """Return the mass of a polygon, points (n, 2) clockwise on the screen: shoelace integrals about the first
+    corner.
+    """
+    base = np.array(points[0])
+    a = np.array(points) - base
+    b = np.roll(a, -1, axis=0)
+    cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    area = cross.sum() / 2.0
+    center = ((a + b) * cross[:, None]).sum(axis=0) / (6.0 * area)
+    a, b = a - center, b - center
+    cross = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    second = (cross * ((a * a).sum(1) + (a * b).sum(1) + (b * b).sum(1))).sum() / 12.0
+    return Mass(float(density * area), Vec2(*(base + center).tolist()), float(density * second))
+
+
+def rounded_mass(points: Points, radius: float, density: float) -> Mass:
+    """Return the mass of a rounded polygon: the polygon, a rectangle along every edge, a disc sector at every
+    corner.
+    """
+    parts = [polygon_mass(points, density)]
+    count = len(points)
+    edges = [
+        (points[(k + 1) % count][0] - points[k][0], points[(k + 1) % count][1] - points[k][1]) for k in range(count)
+    ]
+    for k, (dx, dy) in enumerate(edges):
+        length = math.hypot(dx, dy)
+        out_x, out_y = dy / length, -dx / length
+        mass = density * length * radius
+        parts.append(
+            Mass(
+                mass,
+                Vec2(points[k][0] + 0.5 * dx + 0.5 * radius * out_x, points[k][1] + 0.5 * dy + 0.5 * radius * out_y),
+                mass * (length * length + radius * radius) / 12.0,
+            )
+        )
+        before_x, before_y = edges[k - 1]
+        turn = math.atan2(before_x * dy - before_y * dx, before_x * dx + before_y * dy)
+        # The axis of the sector is the bisector of the two outward normals.
+        other = math.hypot(before_x, before_y)
+        bisector_x, bisector_y = out_x + before_y / other, out_y - before_x / other
+        size = math.hypot(bisector_x, bisector_y)
+        away = 4.0 * radius * math.sin(0.5 * turn) / (3.0 * turn)
+        mass = density * 0.5 * turn * radius * radius
+        parts.append(
+            Mass(
+                mass,
+                Vec2(points[k][0] + away * bisector_x / size, points[k][1] + away * bisector_y / size),
+                mass * (0.5 * radius * radius - away * away),
+            )
+        )
+    return together(parts)
+
+
+def disc_mass(center: Pair, radius: float, density: float) -> Mass:
+    """Return the mass of a disc."""
+    mass = density * math.pi * radius * radius
+    return Mass(mass, Vec2(*center), mass * radius * radius / 2.0)
+
+
+def capsule_mass(a: Pair, b: Pair, r: float, density: float) -> Mass:
+    """Return the mass of a rectangle and two half discs, whose centres of mass lie 4r/3π beyond the line's ends."""
+    length = math.hypot(b[0] - a[0], b[1] - a[1])
+    middle, ends = density * 2.0 * r * length, density * math.pi * r * r
+    inertia = middle * (length * length + 4.0 * r * r) / 12.0 + ends * (
+        r * r / 2.0 + length * length / 4.0 + length * 4.0 * r / (3.0 * math.pi)
+    )
+    center = Vec2(a[0] + 0.5 * (b[0] - a[0]), a[1] + 0.5 * (b[1] - a[1]))
+    return Mass(middle + ends, center, inertia)
+
+
+def convex_mass(points: Points, radius: float, density: float) -> Mass:
+    """Return the mass of the convex hull of corners, clockwise on the screen, rounded by a radius."""
+    if len(points) < 3:
+        if len(points) == 2:
+            return capsule_mass(points[0], points[1], radius, density)
+        return disc_mass(points[0], radius, density)
+    return rounded_mass(points, radius, density) if radius > 0.0 else polygon_mass(points, density)
+
+
+# ---- overlapping -----------------------------------------------------------------------------------------------------
+# Mass of the shapes of one body: overlapping area counts once, with the density of the densest shape.
+#
+# This holds for convex shapes and for pixel masks, as the union of their pixel squares. Tile grids and lines have no
+# mass. Shapes are grouped by overlaps, and each group is weighed as a union. Shapes that only touch keep their own
+# mass, to the bit.
+
+
+class Hull(NamedTuple):
+    """A convex shape with a density [mass per px2]."""
+
+    corners: tuple
+    radius: float  # [px]
+    density: float
+
+
+class Pixels(NamedTuple):
+    """A mask with a density [mass per px2]."""
+
+    mask: Any  # a PixelMask, which stands further right in the import order
+    density: float
+
+
+Weighed = Hull | Pixels
+
+
+def weighed_once(parts: Sequence[tuple]) -> Mass:
+    """Return the mass of shapes with their densities: [(shape, density)]; overlapping area counts once."""
+    if len(parts) < 2:
+        return together(shape.mass_of(density) for shape, density in parts)
+    figures = [_figure_of(shape, density) for shape, density in parts]
+    groups = _groups([each for each in figures if each is not None])
+    crowded = set().union(*groups) if groups else set()
+    alone = [
+        shape.mass_of(density) for (shape, density), each in zip(parts, figures, strict=True) if each not in crowded
+    ]
+    return together([*alone, *(_mass_of_group(group) for group in groups)])
+
+
+def _figure_of(shape, density) -> Weighed | None:
+    solid = shape._inner
+    if not solid._has_mass or solid.bounds is None:
+        return None
+    if not solid._is_convex:
+        return Pixels(solid, float(density))
+    return Hull(tuple(tuple(each) for each in solid.points), float(solid.radius), float(density))
+
+
+def _box_of(figure: Weighed) -> Box:
+    if isinstance(figure, Pixels):
+        return figure.mask.bounds or (0.0, 0.0, 0.0, 0.0)
+    low, high = np.min(figure.corners, axis=0) - figure.radius, np.max(figure.corners, axis=0) + figure.radius
+    return (*low.tolist(), *high.tolist())
+
+
+def _groups(figures):
+    """Return the sets of figures connected by overlaps. Equal figures count as one that overlaps."""
+    groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
+    different = list(dict.fromkeys(figures))
+    for i, k in _near(different):
+        a, b = different[i], different[k]
+        if overlap(a, b) if isinstance(a, Hull) and isinstance(b, Hull) else _shares_pixels(a, b):
+            joined = {a, b}.union(*(each for each in groups if each & {a, b}))
+            groups = [each for each in groups if not each & joined] + [joined]
+    return groups
+
+
+def _near(figures):
+    """Return the index pairs of the figures whose boxes share area."""
+    if len(figures) < 2:
+        return []
+    boxes = np.array([_box_of(each) for each in figures])
+    low, high = boxes[:, :2], boxes[:, 2:]
+    meet = ((low[:, None] < high[None, :]) & (low[None, :] < high[:, None])).all(axis=2)
+    return np.argwhere(np.triu(meet, 1)).tolist()
+
+
+def overlap(a: Hull, b: Hull) -> bool:
+    """Return whether two rounded hulls share area, by the separating axis theorem.
+
+    Candidate axes are the normals of all sides and, because of the rounding, the lines between any two corners of both
+    hulls.
+    """
+    first, second = np.array(a.corners), np.array(b.corners)
+    reach = a.radius + b.radius
+    both = np.concatenate([first, second])
+    near = ROUNDING * (float(np.ptp(both, axis=0).max()) + reach)
+    sides = [corners - np.roll(corners, 1, axis=0) for corners in (first, second)]
+    axes = [np.stack([each[:, 1], -each[:, 0]], axis=1) for each in sides]
+    axes.append((second[None, :] - first[:, None]).reshape(-1, 2))
+    every = np.concatenate([*axes, *(-each for each in axes)])
+    lengths = np.hypot(*every.T)
+    every = every[lengths > near] / lengths[lengths > near, None]
+    gaps = (second @ every.T).min(axis=0) - (first @ every.T).max(axis=0)
+    return not len(gaps) or float(gaps.max()) < reach - near
+
+
+def _shares_pixels(a: Weighed, b: Weighed) -> bool:
+    """Return whether two figures share area, one or both of them a mask."""
+    window = _common(_box_of(a), _box_of(b))
+    cells = cells_of([_placed(each) for each in (a, b) if isinstance(each, Pixels)], window)
+    base = (window[0], window[1])
+    hulls = [each for each in (a, b) if isinstance(each, Hull)]
+    shared = shared_sums(_outline(hulls), cells, base) if hulls else cell_sums(cells, cells.count > 1, base)
+    return shared.area > ROUNDING * max(window[2] - window[0], window[3] - window[1]) ** 2
+
+
+def _placed(figure: Pixels):
+    """Return (solid, left, top) of a mask in body space."""
+    return figure.mask.solid, -figure.mask.origin[0], -figure.mask.origin[1]
+
+
+def _outline(hulls: Sequence[Hull]) -> list[Stretch]:
+    return boundary([(np.array(each.corners), each.radius) for each in hulls])
+
+
+def _common(a: Box, b: Box) -> Box:
+    """Return the intersection of two boxes; if it is empty, the right side lies left of the left one."""
+    return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
+
+
+def _around(boxes: Sequence[Box]) -> Box:
+    low, high = np.min(boxes, axis=0), np.max(boxes, axis=0)
+    return (*low[:2].tolist(), *high[2:].tolist())
+
+
+def _mass_of_group(group: set) -> Mass:
+    masks = [each for each in group if isinstance(each, Pixels)]
+    hulls = sorted(each for each in group if isinstance(each, Hull))
+    if not masks:
+        return _union_mass(tuple(hulls))
+    # Sorted: the sum is independent of the order of the shapes.
+    return _mass_with_masks(
+        sorted(masks, key=lambda each: (each.density, each.mask.bounds, each.mask.fingerprint)), hulls
+    )
+
+
+def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> Mass:
+    """Return the mass of a group, summed by layers of density.
+
+    Each layer is the moments, from found_of, of all shapes with at least that density.
+    """
+    densities = sorted({each.density for each in group})
+    layers = []
+    for below, density in zip([0.0, *densities], densities, strict=False):
+        found, share = found_of([each for each in group if each.density >= density]), density - below
+        layers.append(Mass(share * found.area, Vec2(found.x, found.y), share * found.inertia))
+    return together(layers)
+
+
+@lru_cache(maxsize=256)
+def _union_mass(group: tuple[Hull, ...]) -> Mass:
+    """Return the mass of overlapping hulls."""
+    return _layered(group, lambda hulls: moments(_outline(hulls)))
+
+
+def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
+    """Return the mass of overlapping masks and hulls, by inclusion-exclusion: masks plus hulls minus the shared
+    area.
+    """
+    base = _box_of(masks[0])[:2]
+
+    def union(dense):
+        pixels = [each for each in dense if isinstance(each, Pixels)]
+        solids = [each for each in dense if isinstance(each, Hull)]
+        around = _outline(solids)
+        sums = _mask_sums(pixels, base).plus(sums_of(moments(around), base))
+        if pixels and solids:
+            cells = cells_of([_placed(each) for each in pixels], _around([_box_of(each) for each in solids]))
+            sums = sums.plus(shared_sums(around, cells, base), -1.0)
+        return sums.moments(base)
+
+    return _layered([*masks, *hulls], union)
+
+
+def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
+    """Return the sums of the union of masks: the sum of all, minus the area counted more than once."""
+    sums = NO_SUMS
+    for each in masks:
+        weight: Mass = each.mask.mass_of(1.0)
+        sums = sums.plus(sums_of(Moments(weight.mass, *weight.center, weight.inertia), base))
+    windows = [_common(_box_of(a), _box_of(b)) for a, b in combinations(masks, 2)]
+    windows = [each for each in windows if each[0] < each[2] and each[1] < each[3]]
+    if not windows:
+        return sums
+    cells = cells_of([_placed(each) for each in masks], _around(windows))
+    return sums.plus(cell_sums(cells, np.maximum(cells.count - 1, 0), base), -1.0)
