@@ -50,7 +50,7 @@ class Disagreement(Shooter):
     features = (
         "nine tiers asked about the same moments of a real game",
         "wrong and missed hits apart, with the interval they lie in",
-        "the wrong verdicts of the chosen tier are lit",
+        "errors of the chosen tier are lit",
     )
     actions = (("arrows", "fly"), ("Space", "fire"), ("wheel", "which tier is lit"))
     tiers = ("pixels",)
@@ -104,7 +104,7 @@ class Disagreement(Shooter):
             canvas.fix(rect)
         canvas.surface.fill(SLATE, (SIDE.x, SIDE.y, 1, SIDE.height))
         canvas.text("DISAGREEMENT", 4, 4, GOLD)
-        canvas.text("hits reported wrong", BARS, TOP - 12, FOG, SMALL)
+        canvas.text("wrong hits", BARS, TOP - 12, FOG, SMALL)
         canvas.text("missed", SIDE.right - 4, TOP - 12, FOG, SMALL, align="right")
         for row, tier in enumerate(self.reference.tiers):
             self._draw_row(canvas, tier, TOP + row * ROW)

@@ -144,7 +144,7 @@ class Masks(Scene):
         canvas.surface.fill(INK, (0, 0, 480, ARENA.top))
         canvas.text("MASKS", 4, 4, GOLD)
         canvas.text("nine verdicts on the same two planes", ARENA.right - 4, 6, FOG, SMALL, align="right")
-        canvas.text("of reported", COLUMNS[0], TABLE_Y - 20, FOG, SMALL, align="right")
+        canvas.text("of hits", COLUMNS[0], TABLE_Y - 20, FOG, SMALL, align="right")
         canvas.text("of true", COLUMNS[1], TABLE_Y - 20, FOG, SMALL, align="right")
         canvas.text("one test [ns]", COLUMNS[3], TABLE_Y - 20, FOG, SMALL, align="right")
         for name, right in zip(HEADS, COLUMNS, strict=True):

@@ -20,7 +20,7 @@ from game.screens.parts.advice_rows import AdviceRows
 from game.screens.parts.switches import following
 
 TITLES = {
-    "verdict": "hits reported wrong: by how much, on average",
+    "verdict": "wrong verdicts: by how much, on average",
     "overlap": "bodies in each other: the deepest place",
     "way": "bodies astray from a reference run",
 }
