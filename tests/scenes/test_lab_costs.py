@@ -7,9 +7,9 @@ import pygame
 import pytest
 
 import physics
-from game.measure.knowing import know
 from game.measure.measured_runs import RunFigures
 from game.measure.moment import Moment
+from game.measure.synchronous import measure_requests
 from game.measure.timing import RUNS, Cost
 from game.overlays.stack import Overlays
 from game.registry import Registry
@@ -115,7 +115,7 @@ def test_a_shot_is_measured_from_the_gun_to_the_end(kind):
 def test_known_costs_come_with_the_picture(name):
     scene = played(name)
     before = scene.state()
-    know(scene)
+    measure_requests(scene)
     assert all(figures.cost.least > 0.0 for figures in scene.figures.values()) and scene.state() == before
     assert sum(bool(TIMED.search(text)) for text in words(scene)) == LABS[name]
 

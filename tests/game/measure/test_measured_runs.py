@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from game.input.devices import DeviceSource
-from game.measure.knowing import know
 from game.measure.measured_runs import WARM_STEPS, RunFigures, measure_runs
 from game.measure.surveyor import Surveyor
+from game.measure.synchronous import measure_requests
 from game.measure.timing import RUNS, Cost
 from game.measure.worker import measure_stored_runs
 from game.measurement_requests import STEPS, Act, MeasuredRun, RunRequest
@@ -152,13 +152,13 @@ def test_a_screen_asks_once_for_each_name():
 
 def test_where_nobody_plays_it_is_known_at_once():
     scene = Requesting()
-    know(scene)
-    know(scene)
+    measure_requests(scene)
+    measure_requests(scene)
     assert scene.made == 2 and all(figures.cost.runs == RUNS for figures in scene.figures.values())
     assert not RunFigures(Cost.of([1.0] * (RUNS - 1), 1)).sure
 
 
 def test_figures_are_no_part_of_a_scene():
     plain, known = Requesting(), Requesting()
-    know(known)
+    measure_requests(known)
     assert plain.state() == known.state() and known.measured().names == plain.measured().names

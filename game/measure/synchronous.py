@@ -7,7 +7,7 @@ from game.measurement_requests import RunRequest, SpriteRequest
 from game.scene import Scene
 
 
-def know(scene: Scene) -> None:
+def measure_requests(scene: Scene) -> None:
     """Measure the scene's requests that have no figures yet, and store the results in its `figures`."""
     request = scene.measured()
     if isinstance(request, SpriteRequest) and not scene.figures:
