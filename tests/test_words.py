@@ -28,7 +28,9 @@ REPLACED = {
         "measure_stored_lanes", "Light", "Lights", "last_told", "put_lights", "Apart", "TakenApart", "taken_apart",
         "take_apart", "Why", "Jury", "jury", "Scrub", "scrub", "left_over", "tells_contacts", "TOLD_SECONDS",
     ),
-    ("game", "scenes", "tests/game", "tests/scenes"): ("tell", "tells", "told", "telling", "Tell", "Told", "TOLD", "_told"),
+    ("game", "scenes", "tests/game", "tests/scenes"): (
+        "tell", "tells", "told", "telling", "Tell", "Told", "TOLD", "_told",
+    ),
     ("game", "scenes"): ("Pace", "pace", "Plan", "_Plan", "_lane", "questions"),
     ("game", "tests/game"): ("lights", "front", "pareto", "knowing"),
     ("physics",): (
