@@ -93,7 +93,7 @@ def make_parser() -> Parser:
         action="store_true",
         help="warnings are failures, and the first broken invariant ends the run: U1 to U11, after every step",
     )
-    add("--advise", metavar="SCENE", help="measure every setting of a scene, and tell which takes the least time")
+    add("--advise", metavar="SCENE", help="measure every setting of a scene, and report which takes the least time")
     add("--error", metavar="PX", type=float, help="that the advice may cost (1 px: what can be seen)")
     add("--report", metavar="DIR", help="measure what accuracy costs, and write it as a page; goes on where it ended")
     add("--quick", action="store_true", help="of the report: smaller and fewer, two minutes")

@@ -22,10 +22,10 @@ from game.drawing.presenter import Frame
 from game.files.accessibility import Accessibility
 from game.input.drag import Drag
 from game.input.inputs import CHANGES, InputFrame, InputState
-from game.invariants.lights import Lights
+from game.invariants.monitor import InvariantMonitor
 from game.invariants.watch import WatchedWorld
+from game.measurement_requests import MeasurementRequest
 from game.places import OUTLINES
-from game.wishes import Lanes, Sprites
 from physics import BROADPHASES, SOLVERS, Effects
 from physics.outline import kept
 
@@ -165,7 +165,7 @@ class Scene:
         self.particles = Particles(seed)
         self.drag = Drag()
         self.pointer = (0, 0)  # at the last step; the end of the drag line
-        self.lights: Lights | None = None  # invariant monitor of its worlds; None: not monitored
+        self.monitor: InvariantMonitor | None = None  # invariant monitor of its worlds; None: not monitored
         self.built: set[str] = set()  # names of the attributes that build() made
         self.restart()
 
@@ -179,8 +179,8 @@ class Scene:
             tuple[str, float | None, float]
         ] = []  # (sound, canvas x, volume) of this step; the app plays them
         self.worlds: list[WatchedWorld] = []
-        if self.lights is not None:
-            self.lights = Lights(self.lights.strict)
+        if self.monitor is not None:
+            self.monitor = InvariantMonitor(self.monitor.strict)
         self.camera = Camera()
         self.camera.shake_share = self.accessibility.shake
         self.flash = Flash()
@@ -212,8 +212,8 @@ class Scene:
         if self.substeps is not None:
             settings["substeps"] = self.substeps
         world = WatchedWorld(effects, strategy, solver or self.solver, **settings)
-        if self.lights is not None:
-            self.lights.take(world)
+        if self.monitor is not None:
+            self.monitor.take(world)
         self.worlds.append(world)
         return world
 
@@ -236,16 +236,16 @@ class Scene:
         self.particles.step(STEP_SECONDS)
         self.flash.step()
         self.frame += 1
-        if self.lights is not None:
-            self.lights.note(self.frame, self.worlds)
+        if self.monitor is not None:
+            self.monitor.note(self.frame, self.worlds)
 
     def watch_invariants(self, on: bool = True, strict: bool = False) -> None:
-        """Start or stop monitoring the invariants of its worlds after every step. strict: see Lights."""
-        self.lights = Lights(strict) if on else None
+        """Start or stop monitoring the invariants of its worlds after every step. strict: see InvariantMonitor."""
+        self.monitor = InvariantMonitor(strict) if on else None
         for world in self.worlds:
             world.watch = None
-            if self.lights is not None:
-                self.lights.take(world)
+            if self.monitor is not None:
+                self.monitor.take(world)
 
     def _cameras(self):
         """Return each camera once: the scene's own, and those of its views."""
@@ -370,7 +370,7 @@ class Scene:
         """
         return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
 
-    def measured(self) -> Sprites | Lanes | None:
+    def measured(self) -> MeasurementRequest | None:
         """Return the measurement request whose results go to `figures`; None: none. It runs beside the game."""
         return None
 

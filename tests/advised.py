@@ -33,12 +33,12 @@ def ask(name: str) -> dict:
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     if done.returncode not in (0, 1):  # 1: nothing is within the error
         raise subprocess.CalledProcessError(done.returncode, command, done.stdout, done.stderr)
-    told = json.loads(done.stdout.splitlines()[-1])
-    changes = {each: told["best"][each] for each in told["changes"]}
-    found = {"changes": changes, "within": [each for each in told["within"] if each == told["here"]] != []}
+    reported = json.loads(done.stdout.splitlines()[-1])
+    changes = {each: reported["best"][each] for each in reported["changes"]}
+    found = {"changes": changes, "within": [each for each in reported["within"] if each == reported["here"]] != []}
     if changes:
-        found |= {"share": round(told["share"], 3), "interval": [round(each, 3) for each in told["interval"]]}
-    return {"here": told["here"], "run": found}
+        found |= {"share": round(reported["share"], 3), "interval": [round(each, 3) for each in reported["interval"]]}
+    return {"here": reported["here"], "run": found}
 
 
 def agreed(runs: list[dict]) -> dict:

@@ -25,7 +25,7 @@ ORDER = ("assets", "physics", "game", "scenes", "main")
 APART = {"physics": set(), "assets": set(), "game": {"physics"}, "scenes": {"physics", "game", "assets"}}
 # Within game/, from the inside out: input knows no screens, screens know no command line.
 GAME = (
-    "errors", "startup", "places", "input", "files", "drawing", "audio", "invariants", "wishes", "scene",
+    "errors", "startup", "places", "input", "files", "drawing", "audio", "invariants", "measurement_requests", "scene",
     "overlays", "registry", "measure", "run", "report", "parts", "screens", "app", "command_line",
 )  # fmt: skip
 LIMIT = 800

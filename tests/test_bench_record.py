@@ -14,7 +14,7 @@ RATIOS = {"masks": {"hash / collidelistall": 0.0401234}, "solvers": {"soft_step 
 
 
 @pytest.fixture
-def told(monkeypatch):
+def reported(monkeypatch):
     """The benches find RATIOS at once, and say so."""
 
     def measured(names, quick):
@@ -34,7 +34,7 @@ def test_a_record_has_ratios_and_the_machine_but_not_its_name():
     assert json.loads(record.to_text(made)) == made
 
 
-def test_json_is_all_that_is_printed(told, capsys):
+def test_json_is_all_that_is_printed(reported, capsys):
     assert command.main(["--json"]) == 0
     said = capsys.readouterr()
     assert json.loads(said.out)["ratios"] == {"masks": {"hash / collidelistall": 0.04012}, "broadphase": {}} | {
@@ -43,7 +43,7 @@ def test_json_is_all_that_is_printed(told, capsys):
     assert "a table" in said.err
 
 
-def test_a_kept_file_is_compared_and_what_moved_is_flagged(told, tmp_path, capsys):
+def test_a_kept_file_is_compared_and_what_moved_is_flagged(reported, tmp_path, capsys):
     kept = tmp_path / "kept.json"
     assert command.main(["--json", str(kept)]) == 0
     changed = record.read_record(kept)
@@ -90,7 +90,7 @@ def test_without_a_peer_it_says_what_to_install(monkeypatch, capsys):
     assert command.main([]) == 2 and '".[bench]"' in capsys.readouterr().err
 
 
-def test_broad_phases_are_told_against_brute_force():
+def test_broad_phases_are_compared_with_brute_force():
     findings = broadphase.Findings()
     for moving in ("all moving", "nothing moving"):
         for size, brute, grid in ((100, 2e-5, 1e-5), (1000, 2e-3, 4e-4)):

@@ -73,8 +73,8 @@ def test_every_example_is_tried_here_and_short():
 def test_an_example_is_a_scene_that_its_bot_wins(name, registry, capsys):
     assert issubclass(registry.scene_class(name), Scene)
     assert run(["--scene", name, "--headless", "--bot", "--frames", "300", "--json"], registry) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["frames"] == 300 and told["check"] == {"ok": True, "failures": [], "pending": []}
+    reported = json.loads(capsys.readouterr().out)
+    assert reported["frames"] == 300 and reported["check"] == {"ok": True, "failures": [], "pending": []}
 
 
 def test_the_ball_is_judged(registry, monkeypatch, capsys):

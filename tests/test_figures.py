@@ -76,9 +76,9 @@ def pyramids():
         {int(boxes): value for (boxes,), value in ratios("solvers", rf"(\d+) boxes, soft_step {some} / pymunk").items()}
         for some in ("auto", "4")
     )
-    told = ", ".join(f"{four[boxes]:.2f}" for boxes in (55, 210, 1035, 5050))
+    reported = ", ".join(f"{four[boxes]:.2f}" for boxes in (55, 210, 1035, 5050))
     return (
-        f"With four substeps pyramids of 55, 210, 1,035 and 5,050 boxes take {told} of pymunk's time at its ten "
+        f"With four substeps pyramids of 55, 210, 1,035 and 5,050 boxes take {reported} of pymunk's time at its ten "
         f"iterations; the awake one of 1,035 takes {default[1035] / four[1035]:.1f} times as long by load as with four"
     )
 

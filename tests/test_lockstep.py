@@ -66,7 +66,7 @@ def test_other_seeds_differ_at_once():
     assert first_difference(Run("", Arena(seed=1)), Run("", Arena(seed=1)), 5) is None
 
 
-def test_a_change_comes_in_the_frame_that_was_told():
+def test_a_change_comes_in_the_frame_that_was_given():
     run = Run("", Arena(seed=1), Changing({3: (("broadphase", "tree"),)}))
     seen = []
     for _ in range(5):

@@ -198,7 +198,7 @@ def test_a_source_distribution_holds_what_is_kept():
         assert set(kept) == {name.split("/")[0] for name in listed.splitlines()}
 
 
-def test_what_is_allowed_is_there_and_told_in_a_checkout_only():
+def test_what_is_allowed_is_there_and_reported_in_a_checkout_only():
     for name, text in layout.ALLOWED:
         values = [
             node.value for node in ast.walk(ast.parse((ROOT / name).read_text())) if isinstance(node, ast.Constant)

@@ -2,12 +2,15 @@
 
 PLAIN lists the folders that hold to all rules. Comments are read from the tokens, so that a word in a string does not
 count.
+
+REPLACED lists identifiers that were replaced by the standard word, and the folders in which each must not come back.
 """
 
 import ast
 import io
 import re
 import tokenize
+from functools import cache
 
 import pytest
 
@@ -18,6 +21,25 @@ FIRST = re.compile(r"(What|Who|Whoever|Whom|Whose|Nobody|Somebody|Nothing|Everyt
 PERSONS = re.compile(r"\b(whoever|whomever|nobody|somebody|anybody|everybody)\b", re.IGNORECASE)
 ABSENT = re.compile(r"\bhard_cases\b|\bdesign\.md\b|\bapi\.md\b")  # pages that a reader of the repository cannot open
 PATHS = [path for top in (*TOPS, "tests") for path in sources(top)]
+# Folders -> identifiers (functions, classes, attributes, arguments, variables, modules) that must not occur in them.
+REPLACED = {
+    ("game", "scenes", "tests"): (
+        "wishes", "wish", "wish_restart", "Lane", "Lanes", "LaneFigures", "lane_of", "measure_lanes",
+        "measure_stored_lanes", "Light", "Lights", "last_told", "put_lights", "Apart", "TakenApart", "taken_apart",
+        "take_apart", "Why", "Jury", "jury", "Scrub", "scrub", "left_over", "tells_contacts", "TOLD_SECONDS",
+    ),
+    ("game", "scenes", "tests/game", "tests/scenes"): (
+        "tell", "tells", "told", "telling", "Tell", "Told", "TOLD", "_told",
+    ),
+    ("game", "scenes"): ("Pace", "pace", "Plan", "_Plan", "_lane", "questions"),
+    ("game", "tests/game"): ("lights", "front", "pareto", "knowing"),
+    ("physics",): (
+        "ANCHOR", "MANIFOLD", "CONSTRAINT", "carry_over", "take_places", "renew", "serves_again", "follow_anchor",
+        "follow_bodies", "KeptForces", "let_out_both", "wanted_apart", "Pace", "push_piles", "move_driven",
+        "ask_by_load", "demand", "eased", "overloaded", "play_hits", "split_of", "couple", "told_manifolds",
+        "tell_contacts", "Told",
+    ),
+}  # fmt: skip
 
 
 def docstrings(source):
@@ -74,3 +96,76 @@ def test_docstrings_and_comments_are_plain(path):
 )
 def test_what_breaks_a_rule_is_found(source, count):
     assert len(complaints(source)) == count
+
+
+def identifiers(source):
+    """Return (line, name) of every identifier in a source. Words in strings and comments do not count."""
+    found = []
+    for node in ast.walk(ast.parse(source)):
+        names = []
+        for field in ("id", "attr", "arg", "name", "asname", "rest"):  # names, attributes, arguments, definitions
+            value = getattr(node, field, None)
+            names += value.split(".") if isinstance(value, str) else []
+        if isinstance(node, ast.ImportFrom):
+            names += (node.module or "").split(".")
+        elif isinstance(node, ast.Global | ast.Nonlocal):
+            names += node.names
+        elif isinstance(node, ast.MatchClass):
+            names += node.kwd_attrs
+        found += [(getattr(node, "lineno", 0), name) for name in names]
+    return found
+
+
+@cache
+def places_of_identifiers():
+    """Return {identifier: ["path:line"]} of all sources, the names of modules and folders included."""
+    places = {}
+    for path in PATHS:
+        where = path.relative_to(ROOT)
+        found = identifiers(path.read_text(encoding="utf-8"))
+        found += [(0, part) for part in where.with_suffix("").parts]
+        for line, name in found:
+            places.setdefault(name, []).append(f"{where.as_posix()}:{line}")
+    return places
+
+
+def returned(word, folders, places):
+    """Return the places in these folders where a replaced identifier occurs."""
+    return [each for each in places.get(word, []) if each.startswith(tuple(f"{folder}/" for folder in folders))]
+
+
+@pytest.mark.parametrize(
+    ("word", "folders"), [(word, folders) for folders, words in REPLACED.items() for word in words]
+)
+def test_a_replaced_identifier_does_not_come_back(word, folders):
+    assert returned(word, folders, places_of_identifiers()) == []
+
+
+@pytest.mark.parametrize(
+    "source",
+    [
+        "wishes = 1",
+        "x.wishes = 1",
+        "def wishes(): pass",
+        "class wishes: pass",
+        "def f(wishes): pass",
+        "f(wishes=1)",
+        "import game.wishes as other",
+        "from game.wishes import STEPS",
+        "from game import wishes",
+        "import game as wishes",
+        "f'{wishes}'",
+        "try: pass\nexcept ValueError as wishes: pass",
+        "def f():\n    global wishes",
+        "match x:\n    case {**wishes}: pass",
+        "match x:\n    case Y(wishes=1): pass",
+    ],
+)
+def test_a_planted_identifier_is_found(source):
+    planted = {name: [f"game/planted.py:{line}"] for line, name in identifiers(source)}
+    assert returned("wishes", ("game", "scenes"), planted) and not returned("wishes", ("physics",), planted)
+
+
+@pytest.mark.parametrize("source", ['x = "wishes"  # wishes', '"""A wish, of wishes."""', "best_wishes = 1"])
+def test_words_in_prose_are_free(source):
+    assert not [name for _, name in identifiers(source) if name == "wishes"]

@@ -69,12 +69,12 @@ class Particles:
         rows = (self.newest + np.arange(min(count, CAPACITY))) % CAPACITY
         self.newest = (self.newest + len(rows)) % CAPACITY
         heading = angle + rng.uniform(-0.5, 0.5, len(rows)) * spread
-        pace = rng.uniform(*speed, len(rows))
+        speeds = rng.uniform(*speed, len(rows))
         self.rows[:, rows] = (
             np.full(len(rows), x),
             np.full(len(rows), y),
-            np.cos(heading) * pace + carry[0],
-            np.sin(heading) * pace + carry[1],
+            np.cos(heading) * speeds + carry[0],
+            np.sin(heading) * speeds + carry[1],
             np.zeros(len(rows)),
             rng.uniform(*life, len(rows)),
             rng.integers(size[0], size[1] + 1, len(rows)),

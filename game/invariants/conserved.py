@@ -115,11 +115,11 @@ class Spin(OfTheAlone):
         x, y = 0.5 * (before.cx + now.cx), 0.5 * (before.cy + now.cy)
         x, y = x - mass @ x / total, y - mass @ y / total
         torque = mass * (x * (now.vy - before.vy) - y * (now.vx - before.vx)) + inertia * (now.turn - before.turn)
-        arm, pace = np.sqrt(x * x + y * y), np.maximum(step.pace, before.speed)
+        arm, max_speed = np.sqrt(x * x + y * y), np.maximum(step.max_speed, before.speed)
         fall = math.hypot(*now.gravity) * step.dt * np.abs(now.felt)
         scale = now.spin(alone) + before.spin(alone)
         reach = arm + step.world.bodies["extent"]
-        rounding = float(mass @ (reach * (pace + fall)) + inertia @ (np.abs(now.turn) + np.abs(before.turn)))
+        rounding = float(mass @ (reach * (max_speed + fall)) + inertia @ (np.abs(now.turn) + np.abs(before.turn)))
         drift = float(torque.sum())
         beyond = math.copysign(max(0.0, abs(drift) - slip(step, alone)), drift)
         return np.array((beyond, 0.0)), TWIST * scale + DRIFT * rounding, np.abs(torque)

@@ -42,7 +42,7 @@ Answer = Broken | NotAsked | None  # None: checked, and it holds
 
 
 class Invariant:
-    """One invariant; `id` and `word` label its light. look() is called after every step, in the order of the steps."""
+    """One invariant; `id` and `word` label it. look() is called after every step, in the order of the steps."""
 
     id: str
     word: str

@@ -19,17 +19,17 @@ Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, quantity
 def tables(world: World, sleeping: bool) -> list:
     """Return (name, rows, columns) of all numbers that a world reports, except the boxes of shapes."""
     events = world.events
-    told = [(f"events.{name}", getattr(events, name), EVENT_NUMBERS) for name in TOLD]
+    reported = [(f"events.{name}", getattr(events, name), EVENT_NUMBERS) for name in REPORTED]
     return [
         ("bodies", world.bodies, BODY_NUMBERS),
         ("contacts", world.contacts, CONTACT_NUMBERS),
         ("events.hits", events.hits, HIT_NUMBERS),
-        *told,
+        *reported,
         *([("sleeping_contacts", world.sleeping_contacts, CONTACT_NUMBERS)] if sleeping else []),
     ]
 
 
-TOLD = ("begin", "persist", "end", "sensor_begin", "sensor_end")
+REPORTED = ("begin", "persist", "end", "sensor_begin", "sensor_end")
 
 
 def ids_of(row: np.void) -> tuple[int, ...]:

@@ -11,7 +11,7 @@ COMPARED = ("x", "y", "angle", "vx", "vy", "angular_velocity")
 
 
 class Order(Invariant):
-    """U9, which cannot be checked in one running world, because that has one order only: its light is never green.
+    """U9, which cannot be checked in one running world, because that has one order only: its indicator is never green.
     `furthest_apart` compares two worlds, as tests do (tests/game/test_invariants.py).
 
     It holds for bodies that do not press on each other. Loaded contacts are solved one after the other, in an order

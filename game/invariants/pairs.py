@@ -96,8 +96,8 @@ class Turn(OfPairs):
         off, allowed = abs(here.distance - there.distance), ULPS * rounding(pair)
         if off <= allowed:
             return None
-        told = f"by {quarters} quarters and shifted" if quarters else "by nothing but shifted"
-        return self.broken(step, pair.bodies, off, allowed, f"another distance [px], turned {told}")
+        reported = f"by {quarters} quarters and shifted" if quarters else "by nothing but shifted"
+        return self.broken(step, pair.bodies, off, allowed, f"another distance [px], turned {reported}")
 
 
 def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float, float]:
@@ -143,14 +143,14 @@ def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
         return gap, 0.0, f"distance [px] and {len(met)} points of contact disagree"
     if (depth > 0.0) != (gap < 0.0):
         return depth, max(0.0, -gap), "depth [px] and distance disagree"
-    if not looks_only(world) or not tells_contacts(world, pair):
+    if not looks_only(world) or not reports_contacts(world, pair):
         return None
     rows = world.contacts
     of_pair = (rows["shape_a"] == pair.shape_id_a) & (rows["shape_b"] == pair.shape_id_b)
-    told = bool((of_pair & (rows["separation"] <= 0.0)).any())
-    if told == (gap < 0.0):
+    reported = bool((of_pair & (rows["separation"] <= 0.0)).any())
+    if reported == (gap < 0.0):
         return None
-    return gap, 0.0, f"the world tells {'a' if told else 'no'} contact at this distance [px]"
+    return gap, 0.0, f"the world reports {'a' if reported else 'no'} contact at this distance [px]"
 
 
 def looks_only(world: World) -> bool:
@@ -159,7 +159,7 @@ def looks_only(world: World) -> bool:
     return effects.narrowphase and not effects.response and not effects.continuous
 
 
-def tells_contacts(world: World, pair: Pair) -> bool:
+def reports_contacts(world: World, pair: Pair) -> bool:
     """Return whether a contact of the two is reported by their shapes: no sensor, and no mask, which is tested by its
     pixels.
     """

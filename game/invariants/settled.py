@@ -59,7 +59,7 @@ class Settled(Invariant):
             kept = dict(zip(self.ids.tolist(), self.calm.tolist(), strict=True))
             self.calm = np.array([kept.get(identity, 0.0) for identity in now.ids.tolist()])
             self.ids = now.ids
-        slow = np.maximum(step.pace, np.abs(now.turn) * step.world.bodies["extent"]) <= limit
+        slow = np.maximum(step.max_speed, np.abs(now.turn) * step.world.bodies["extent"]) <= limit
         slow &= ~step.changed & ~step.forced
         slow |= now.kind == STATIC
         self.calm = np.where(slow, self.calm + step.dt, 0.0)

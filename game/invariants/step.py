@@ -34,7 +34,7 @@ class Step:
         return max(0.0, -float(depths.min())) if len(depths) else 0.0
 
     @cached_property
-    def pace(self) -> np.ndarray:
+    def max_speed(self) -> np.ndarray:
         """Speed of each body or of its displacement in the step, the greater [px/s]: push-out moves a body without
         velocity.
         """

@@ -9,10 +9,10 @@ from random import Random
 from typing import NamedTuple
 
 from game.measure.errors import VISIBLE, References
-from game.measure.front import cheaper
 from game.measure.moment import STEPS, Moment
+from game.measure.pareto_front import cheaper
 from game.measure.setting import Setting, settings_around
-from game.measure.survey import Survey, is_sound, told
+from game.measure.survey import Survey, is_sound, reported_error
 from game.measure.timing import RUNS
 
 # the groups of fields that are chosen independently
@@ -30,11 +30,11 @@ class Advice(NamedTuple):
     within: tuple[Setting, ...]  # all settings within the error, the cheapest first
 
 
-Tell = Callable[[int, int], object]  # called with (runs done, runs in all)
+Report = Callable[[int, int], object]  # called with (runs done, runs in all)
 
 
 def measure_settings(
-    survey: Survey, moments: Sequence[Moment], settings: Iterable[Setting], tell: Tell, seed: int
+    survey: Survey, moments: Sequence[Moment], settings: Iterable[Setting], report: Report, seed: int
 ) -> None:
     """Add the errors and the times of settings at all moments to a survey."""
     settings, chance, done = list(settings), Random(seed), 0
@@ -48,26 +48,26 @@ def measure_settings(
             survey.dot(setting).erred(number, references.errors(setting))
             survey.dot(setting).steps = STEPS
             done += 1
-            tell(done, of)
+            report(done, of)
         for _ in range(RUNS):
             chance.shuffle(settings)
             for setting in settings:
                 survey.dot(setting).took(number, moment.time_run(setting))
                 done += 1
-                tell(done, of)
+                report(done, of)
 
 
 def advise(
-    moments: Sequence[Moment], error: float, tell: Tell = lambda done, of: None, seed: int = 0
+    moments: Sequence[Moment], error: float, report: Report = lambda done, of: None, seed: int = 0
 ) -> tuple[Advice, Survey]:
     """Return the advice for an error [px], and the survey that it follows from. Raises ValueError for no moments."""
     if not moments:
         raise ValueError("moments must be one at least (got none)")
     here, survey = moments[0].here, Survey()
-    measure_settings(survey, moments, settings_around(here, moments[0].effects), tell, seed)
+    measure_settings(survey, moments, settings_around(here, moments[0].effects), report, seed)
     together = _together(survey, here, error)
     if together not in survey.dots:
-        measure_settings(survey, moments, [here, together], tell, seed + 1)
+        measure_settings(survey, moments, [here, together], report, seed + 1)
     within = settings_within(survey, error)
     if not within:
         return Advice(here, None, ()), survey
@@ -105,7 +105,7 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
     found = {}
     for setting, dot in survey.dots.items():
         errors = [dot.error(kind) for kind in survey.kinds]
-        if dot.cost is not None and all(e is not None and is_sound(e) and told(e) <= error for e in errors):
+        if dot.cost is not None and all(e is not None and is_sound(e) and reported_error(e) <= error for e in errors):
             found[setting] = dot.cost.median
     return sorted(found, key=found.__getitem__)
 

@@ -84,11 +84,11 @@ def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
 
 
 def measure_effects(
-    moment: Moment, tell: Callable[[str, Cost, Cost], object], goes_on: Callable[[], bool], seed: int = 0
+    moment: Moment, report: Callable[[str, Cost, Cost], object], goes_on: Callable[[], bool], seed: int = 0
 ) -> None:
     """Time every effect, in shuffled turns.
 
-    tell(effect, cost with it, cost without it) is called after each round. Nothing is reported for an effect that the
+    report(effect, cost with it, cost without it) is called after each round. Nothing is reported for an effect that the
     world cannot be without (characters need response). Ends early when goes_on() is False.
     """
     sides = {
@@ -107,4 +107,4 @@ def measure_effects(
                 spent[side].append(seconds)
         if turn:
             for name, pair in sides.items():
-                tell(name, *(Cost.of(spent[side], STEPS) for side in pair))
+                report(name, *(Cost.of(spent[side], STEPS) for side in pair))

@@ -44,7 +44,7 @@ class Error:
     missed: Rate | None = None  # missed hits, of all true hits
 
     @property
-    def told(self) -> bool:
+    def above_floor(self) -> bool:
         """Return whether the error is above the uncertainty of the reference."""
         return self.value > self.floor
 
@@ -102,22 +102,22 @@ class References:
         """Compare the pairs that meet with those of the exact world in some steps. Both worlds move alike: nothing is
         pushed.
         """
-        told, true = self.moment.world(setting), self.moment.world(self.truth)
-        wrong = missed = hits = said = 0
+        world, true = self.moment.world(setting), self.moment.world(self.truth)
+        wrong = missed = hits = reports = 0
         pixels, failures = 0.0, Counter()
         for step in range(STEPS):
-            told.step()
+            world.step()
             true.step()
-            failures += failures_of(told)
+            failures += failures_of(world)
             if step % (STEPS // LOOKS):
                 continue
-            says, is_so = pairs_of(told), pairs_of(true)
-            wrong, missed = wrong + len(says - is_so), missed + len(is_so - says)
-            said, hits = said + len(says), hits + len(is_so)
-            pixels += sum(abs(gap(true, *pair)) for pair in says ^ is_so)
-        decided = said + missed
+            reported, actual = pairs_of(world), pairs_of(true)
+            wrong, missed = wrong + len(reported - actual), missed + len(actual - reported)
+            reports, hits = reports + len(reported), hits + len(actual)
+            pixels += sum(abs(gap(true, *pair)) for pair in reported ^ actual)
+        decided = reports + missed
         value = pixels / decided if decided else 0.0
-        return Error(value, 0.0, STEPS, failures, Rate(wrong, said), Rate(missed, hits))
+        return Error(value, 0.0, STEPS, failures, Rate(wrong, reports), Rate(missed, hits))
 
 
 def pairs_of(world: World) -> set[tuple[int, int]]:

@@ -22,7 +22,7 @@ from physics.tables.body import CONTINUOUS
 
 EFFECTS = tuple(field.name for field in fields(Effects))
 AFTER = 120  # frames that a run continues after the two copies differ: two seconds
-TOLD = ("begin", "persist", "end", "hits", "sensor_begin", "sensor_end")
+REPORTED = ("begin", "persist", "end", "hits", "sensor_begin", "sensor_end")
 WORK = ("bodies_integrated", "narrow_tests", "solver_rows")  # counters that measure the amount of work
 # These effects have no neutral value: adding one may change the run, and the change is reported.
 NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
@@ -36,7 +36,7 @@ class Entry(NamedTuple):
     changed: tuple[str, ...]  # declared: the effects removed, this one first; undeclared: this effect
     refused: str  # reason why the scene cannot be built or run without it; "" if it can
     moved: int | None  # frame after which poses, velocities or body ids differ
-    told: int | None  # frame after which the events differ
+    reported: int | None  # frame after which the events differ
     ruled: int | None  # frame after which the scene's own state differs
     parted: int | None  # frame after which the digests differ
     # [px] root mean square distance of the bodies in both copies, AFTER frames after they differ, or at the end
@@ -52,7 +52,7 @@ class Entry(NamedTuple):
             return True
         if self.effect == "sleeping":
             return self.worked < self.worked_without
-        return any(frame is not None for frame in (self.moved, self.told, self.ruled))
+        return any(frame is not None for frame in (self.moved, self.reported, self.ruled))
 
 
 def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER, seed: int = 1) -> Entry:
@@ -84,7 +84,7 @@ def _compared(one, other_class, found, frames, after):
         other = Side(other_class, one.scene.seed)
     except ValueError as error:
         return found._replace(refused=str(error))
-    firsts: dict[str, int | None] = dict.fromkeys(("moved", "told", "ruled", "parted"))
+    firsts: dict[str, int | None] = dict.fromkeys(("moved", "reported", "ruled", "parted"))
     costs, known = [], frames
     for frame in range(1, frames + 1):
         keys = one.bot()
@@ -137,10 +137,12 @@ class Side:
             for name in ("id", "x", "y", "angle", "vx", "vy")
         ]
 
-    def told(self) -> list[Any]:
+    def reported(self) -> list[Any]:
         """Return the events of the last step."""
         return [
-            np.ascontiguousarray(getattr(world.events, name)).tobytes() for world in self.scene.worlds for name in TOLD
+            np.ascontiguousarray(getattr(world.events, name)).tobytes()
+            for world in self.scene.worlds
+            for name in REPORTED
         ]
 
     def ruled(self) -> tuple[Any, ...]:

@@ -12,7 +12,7 @@ import numpy as np
 from game.measure.setting import SUBSTEPPED, Setting
 from game.measure.staged import seconds_of_stage
 from game.measure.timing import seconds_a_step
-from game.wishes import STEPS, Act
+from game.measurement_requests import STEPS, Act
 from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from game.measure.errors import VISIBLE, Error
-from game.measure.front import TIE, cheaper, pareto
+from game.measure.pareto_front import TIE, cheaper, pareto_front
 from game.measure.rates import Rate
 from game.measure.setting import Setting
 from game.measure.timing import RUNS, Cost
@@ -110,11 +110,11 @@ class Survey:
                 found[setting] = cost, error
         return found
 
-    def front(self, kind: str) -> list[Setting]:
+    def pareto_front(self, kind: str) -> list[Setting]:
         """Return the Pareto front of the settings by cost and error, the cheapest first. Errors below their floor count
         as 0.
         """
-        return pareto({s: (cost.median, told(error)) for s, (cost, error) in self.known(kind).items()})
+        return pareto_front({s: (cost.median, reported_error(error)) for s, (cost, error) in self.known(kind).items()})
 
     def finding(self, kind: str, here: Setting) -> str:
         """Return one sentence about the present setting from the measurements; "" if there are too few."""
@@ -122,31 +122,39 @@ class Survey:
         if here not in known or len(known) < 2:
             return ""
         cost, error = known[here]
-        as_good = {s: c for s, (c, e) in known.items() if told(e) <= (1.0 + TIE) * told(error) and is_sound(e)}
+        as_good = {
+            s: c
+            for s, (c, e) in known.items()
+            if reported_error(e) <= (1.0 + TIE) * reported_error(error) and is_sound(e)
+        }
         best = min(as_good, key=lambda s: as_good[s].median, default=here)
         if best != here and cheaper(as_good[best][:2], cost[:2]):
             share = as_good[best].median / cost.median
             return f"{best.label(here)}: as exact in {share:.2f} x the time"
-        exacter = {s: (c, e) for s, (c, e) in known.items() if told(e) < (1.0 - TIE) * told(error) and is_sound(e)}
+        exacter = {
+            s: (c, e)
+            for s, (c, e) in known.items()
+            if reported_error(e) < (1.0 - TIE) * reported_error(error) and is_sound(e)
+        }
         better = {s: e for s, (c, e) in exacter.items() if not cheaper(cost[:2], c[:2])}
         if better:
-            best = min(better, key=lambda s: told(better[s]))
+            best = min(better, key=lambda s: reported_error(better[s]))
             return f"{best.label(here)}: {shown(better[best])} instead of {shown(error)}, and no dearer"
-        if exacter and told(error) > VISIBLE:
+        if exacter and reported_error(error) > VISIBLE:
             best = min(exacter, key=lambda s: exacter[s][0].median)
             price = exacter[best][0].median / cost.median
             return f"wrong by {shown(error)}; {best.label(here)} has {shown(known[best][1])} for {price:.2f} x the time"
         return f"nothing measured here is as exact ({shown(error)}) for less time"
 
 
-def told(error: Error) -> float:
+def reported_error(error: Error) -> float:
     """Return the error [px], or 0 if it is below the floor of its reference."""
-    return error.value if error.told else 0.0
+    return error.value if error.above_floor else 0.0
 
 
 def shown(error: Error) -> str:
     """Return the error in words."""
-    if error.told:
+    if error.above_floor:
         return f"{error.value:.2g} px"
     return f"less than {error.floor:.2g} px" if error.floor else "0 px"
 

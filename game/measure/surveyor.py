@@ -17,14 +17,14 @@ import numpy as np
 
 from game.measure.effect_costs import EffectCost
 from game.measure.errors import Error
-from game.measure.lanes import LaneFigures
 from game.measure.ledger import EFFECTS
+from game.measure.measured_runs import RunFigures
 from game.measure.rates import Rate
 from game.measure.setting import Setting
 from game.measure.survey import Survey
 from game.measure.tiers import TierFigures
 from game.measure.timing import Cost
-from game.wishes import Lane, Lanes
+from game.measurement_requests import MeasuredRun, RunRequest
 from physics import Fit, PixelMask, Snapshot
 from physics.jit.workers import end_all, start_module
 
@@ -42,10 +42,10 @@ class Surveyor:
         self.busy = False
         self.trouble = ""
         self.revision = 0  # counts the results
-        # Figures of the requested sprites or lanes so far, by tier or by name.
-        self.figures: dict[Hashable, TierFigures | LaneFigures] = {}
-        self.asked: list[tuple[list[Hashable], list[Lane]]] = []  # lanes, order by order
-        self.runs: dict[Hashable, list[float]] = {}  # of lanes, seconds per step
+        # Figures of the requested sprites or runs so far, by tier or by name.
+        self.figures: dict[Hashable, TierFigures | RunFigures] = {}
+        self.asked: list[tuple[list[Hashable], list[MeasuredRun]]] = []  # measured runs, order by order
+        self.runs: dict[Hashable, list[float]] = {}  # by name of a measured run: seconds per step of each turn
         self.latest: int | str | None = None  # identifier of the last order
         self.effects: dict[str, EffectCost] = {}  # costs of effects once requested, as far as measured
         self.found: queue.SimpleQueue[dict[str, Any]] = queue.SimpleQueue()
@@ -71,23 +71,26 @@ class Surveyor:
         order = {"moment": self.latest, "sprites": self._path("sprites.npz")}
         _hand_on(self.process, order, partial(np.savez, order["sprites"], **arrays), self.found)
 
-    def measure_lanes(self, wish: Lanes) -> None:
-        """Measure the lanes of a request that have no figures yet; the results go to `figures`. Replaces an earlier
+    def measure_runs(self, request: RunRequest) -> None:
+        """Measure the runs of a request that have no figures yet; the results go to `figures`. Replaces an earlier
         order.
         """
-        names = [name for name in wish.names if not self.knows(name)]
+        names = [name for name in request.names if not self.knows(name)]
         if not names or not self._started():
             return
-        lanes = [wish.make(name) for name in names]
-        self.latest = f"lanes {len(self.asked)}"
-        self.asked.append((names, lanes))
-        taken = (each for lane in lanes for each in lane.snapshots if isinstance(each, Snapshot))
+        measured_runs = [request.make(name) for name in names]
+        self.latest = f"runs {len(self.asked)}"
+        self.asked.append((names, measured_runs))
+        taken = (
+            each for measured_run in measured_runs for each in measured_run.snapshots if isinstance(each, Snapshot)
+        )
         snapshots = list({id(each): each for each in taken}.values())
         paths = {id(each): self._path(f"{self.latest} {k}.npz") for k, each in enumerate(snapshots)}
         stored = [
-            lane._replace(snapshots=[paths.get(id(each), each) for each in lane.snapshots])._asdict() for lane in lanes
+            measured_run._replace(snapshots=[paths.get(id(each), each) for each in measured_run.snapshots])._asdict()
+            for measured_run in measured_runs
         ]
-        order = {"moment": self.latest, "lanes": stored}
+        order = {"moment": self.latest, "runs": stored}
         self._hand_on_beside(order, lambda: [each.save(paths[id(each)]) for each in snapshots])
 
     def measure_effects(self, snapshot: Snapshot, broadphase: str, pieces: tuple[str, ...] | None) -> None:
@@ -109,9 +112,9 @@ class Surveyor:
         self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def knows(self, name: Hashable) -> bool:
-        """Return whether a lane of this name has enough runs."""
+        """Return whether the measured run of this name has enough runs."""
         figures = self.figures.get(name)
-        return isinstance(figures, LaneFigures) and figures.sure
+        return isinstance(figures, RunFigures) and figures.sure
 
     def _started(self):
         """Start the process if there is none and mark it busy. Return whether it runs."""
@@ -166,7 +169,7 @@ class Surveyor:
         elif "tier" in found:
             figures = figures_of(found["tier"])
             self.figures[figures.tier] = figures
-        elif "lane" in found:
+        elif "run" in found:
             self._take_run(**found)
         elif "effect" in found:
             known = self.effects[found["effect"]]
@@ -183,12 +186,13 @@ class Surveyor:
                 dot.steps = found["steps"]
                 dot.took(found["moment"], found["spent"])
 
-    def _take_run(self, moment, lane, spent, overlap, farthest):
-        names, lanes = self.asked[int(moment.split()[1])]
-        runs = self.runs.setdefault(names[lane], [])
-        runs.append(spent)
-        steps = lanes[lane].steps * len(lanes[lane].snapshots)
-        self.figures[names[lane]] = LaneFigures(Cost.of(runs, steps), overlap, farthest)
+    def _take_run(self, moment, run, spent, overlap, farthest):
+        names, measured_runs = self.asked[int(moment.split()[1])]
+        name, measured_run = names[run], measured_runs[run]
+        seconds = self.runs.setdefault(name, [])
+        seconds.append(spent)
+        steps = measured_run.steps * len(measured_run.snapshots)
+        self.figures[name] = RunFigures(Cost.of(seconds, steps), overlap, farthest)
 
     def stop(self) -> None:
         """End the process; the results stay."""

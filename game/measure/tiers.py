@@ -76,19 +76,19 @@ def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: 
 def measure_tiers(
     first: PixelMask,
     second: PixelMask,
-    tell: Callable[[TierFigures], object],
+    report: Callable[[TierFigures], object],
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
     """Measure the tiers over random relative poses and report each. Raises ValueError for a sprite without pixels."""
-    measure_at(first, second, poses_around(first, second, seed=seed), tell, tiers, seed)
+    measure_at(first, second, poses_around(first, second, seed=seed), report, tiers, seed)
 
 
 def measure_at(
     first: PixelMask,
     second: PixelMask,
     poses: Poses,
-    tell: Callable[[TierFigures], object],
+    report: Callable[[TierFigures], object],
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
@@ -111,7 +111,7 @@ def measure_at(
         missed = Rate(int((is_so & ~says).sum()), int(is_so.sum()))
         a, fitted = shapes[tier][0], measure(first, shapes[tier][0])
         hit, miss = costs[f"{tier} hit"], costs[f"{tier} miss"]
-        tell(TierFigures(tier, len(a), hit, miss, wrong, missed, builds[tier], fitted))
+        report(TierFigures(tier, len(a), hit, miss, wrong, missed, builds[tier], fitted))
 
 
 def _build(mask, tier):

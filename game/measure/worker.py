@@ -1,4 +1,4 @@
-"""`python -m game.measure.worker`: measures moments, sprites, lanes and effects in a separate process.
+"""`python -m game.measure.worker`: measures moments, sprites, runs and effects in a separate process.
 
 Each line of JSON on standard input is an order that replaces the one before. Lines of JSON on standard output are
 results. The process ends when its standard input closes, so it never outlives the program that started it.
@@ -19,12 +19,12 @@ import numpy as np
 
 from game.measure.effect_costs import measure_effects
 from game.measure.errors import References
-from game.measure.lanes import measure_lanes
+from game.measure.measured_runs import measure_runs
 from game.measure.moment import Moment
 from game.measure.setting import settings_around
 from game.measure.tiers import measure_tiers
 from game.measure.timing import RUNS
-from game.wishes import STEPS, Act, Lane, Recipe
+from game.measurement_requests import STEPS, Act, MeasuredRun, Recipe
 from physics import PixelMask, Snapshot
 from physics.jit.workers import end_all, start_module
 
@@ -58,71 +58,71 @@ class Orders:
         return self.latest is order
 
 
-def measure(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
+def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
     """Measure a moment: the errors of every setting and a first run, then run by run in shuffled turns."""
     number = order["moment"]
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
     settings = settings_around(moment.here, moment.effects)
     references = References(moment)
 
-    def say(**found):
-        tell(json.dumps({"moment": number, **found}))
+    def send(**found):
+        report(json.dumps({"moment": number, **found}))
 
-    say(settings=len(settings), kinds=references.kinds, here=moment.here)
+    send(settings=len(settings), kinds=references.kinds, here=moment.here)
     for setting in settings:
         if not goes_on():
             return
         moment.time_run(setting, 2)  # compiles missing kernels
-        say(setting=setting, errors={kind: vars(error) for kind, error in references.errors(setting).items()})
-        say(setting=setting, spent=moment.time_run(setting), steps=STEPS)
+        send(setting=setting, errors={kind: vars(error) for kind, error in references.errors(setting).items()})
+        send(setting=setting, spent=moment.time_run(setting), steps=STEPS)
     chance = Random(number)
     for _ in range(RUNS - 1):
         chance.shuffle(settings)
         for setting in settings:
             if not goes_on():
                 return
-            say(setting=setting, spent=moment.time_run(setting), steps=STEPS)
-    say(done=True)
+            send(setting=setting, spent=moment.time_run(setting), steps=STEPS)
+    send(done=True)
 
 
-def measure_sprites(order: dict[str, Any], tell: Callable[[str], object]) -> None:
+def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> None:
     """Measure every tier of two sprites, stored in an .npz file: solid_0, origin_0, solid_1, origin_1."""
     with np.load(order["sprites"], allow_pickle=False) as stored:
         masks = [PixelMask(stored[f"solid_{k}"], tuple(stored[f"origin_{k}"].tolist())) for k in (0, 1)]
-    measure_tiers(masks[0], masks[1], lambda figures: tell(json.dumps({"moment": order["moment"], "tier": figures})))
-    tell(json.dumps({"moment": order["moment"], "done": True}))
+    measure_tiers(masks[0], masks[1], lambda figures: report(json.dumps({"moment": order["moment"], "tier": figures})))
+    report(json.dumps({"moment": order["moment"], "done": True}))
 
 
-def measure_stored_lanes(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure lanes, each a dict with file names in place of its snapshots; recipes and acts are lists."""
-    loaded = cache(Snapshot.load)  # a snapshot that several lanes share is read once
+def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
+    """Measure runs, each a dict with file names in place of its snapshots; recipes and acts are lists."""
+    loaded = cache(Snapshot.load)  # a snapshot that several runs share is read once
 
     def begun(given):
         return loaded(given) if isinstance(given, str) else Recipe(*given)
 
-    def lane_of(stored):
+    def run_of(stored):
         act = stored["act"] and Act(*stored["act"])
-        return Lane(**{**stored, "act": act, "snapshots": [begun(each) for each in stored["snapshots"]]})
+        return MeasuredRun(**{**stored, "act": act, "snapshots": [begun(each) for each in stored["snapshots"]]})
 
-    lanes = [lane_of(each) for each in order["lanes"]]
+    measured_runs = [run_of(each) for each in order["runs"]]
 
-    def say(**found):
-        tell(json.dumps({"moment": order["moment"], **found}))
+    def send(**found):
+        report(json.dumps({"moment": order["moment"], **found}))
 
-    def told(number, spent, overlap, farthest):
-        say(lane=number, spent=spent, overlap=overlap, farthest=farthest)
+    def report_run(number, spent, overlap, farthest):
+        send(run=number, spent=spent, overlap=overlap, farthest=farthest)
 
-    measure_lanes(lanes, told, goes_on)
+    measure_runs(measured_runs, report_run, goes_on)
     if goes_on():
-        say(done=True)
+        send(done=True)
 
 
-def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
+def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
     """Measure the cost of each effect at a moment, and count the kernels that are compiled for it."""
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
 
-    def say(**found):
-        tell(json.dumps({"moment": order["moment"], **found}))
+    def send(**found):
+        report(json.dumps({"moment": order["moment"], **found}))
 
     counting = start_module(f"{__package__}.kernel_counts")
     try:
@@ -133,7 +133,7 @@ def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on:
         counted: queue.SimpleQueue[str | None] = queue.SimpleQueue()
         threading.Thread(target=_listen, args=(counting.stdout, counted), daemon=True).start()
 
-        def say_counts(wait):
+        def send_counts(wait):
             """Report the counts so far. wait: report all."""
             while wait or not counted.empty():
                 line = counted.get()
@@ -142,17 +142,17 @@ def measure_costs(order: dict[str, Any], tell: Callable[[str], object], goes_on:
                     return
                 if line.startswith("["):  # libraries may print greetings
                     name, count = json.loads(line)
-                    say(effect=name, kernels=count)
+                    send(effect=name, kernels=count)
 
-        def say_costs(name, *costs):
-            say(effect=name, costs=costs)
-            say_counts(wait=False)
+        def send_costs(name, *costs):
+            send(effect=name, costs=costs)
+            send_counts(wait=False)
 
-        measure_effects(moment, say_costs, goes_on)
-        say_counts(wait=True)
+        measure_effects(moment, send_costs, goes_on)
+        send_counts(wait=True)
     finally:
         end_all([counting])
-    say(done=True)
+    send(done=True)
 
 
 def _listen(lines, heard):
@@ -171,15 +171,15 @@ def main() -> None:
     while True:
         order = orders.next(order)
         try:
-            tell, goes_on = partial(print, flush=True), partial(orders.holds, order)
+            report, goes_on = partial(print, flush=True), partial(orders.holds, order)
             if "sprites" in order:
-                measure_sprites(order, tell)
-            elif "lanes" in order:
-                measure_stored_lanes(order, tell, goes_on)
+                measure_sprites(order, report)
+            elif "runs" in order:
+                measure_stored_runs(order, report, goes_on)
             elif "pieces" in order:
-                measure_costs(order, tell, goes_on)
+                measure_costs(order, report, goes_on)
             else:
-                measure(order, tell, goes_on)
+                measure(order, report, goes_on)
         except (ValueError, OSError) as error:  # report a moment that cannot be measured, and go on
             print(json.dumps({"moment": order["moment"], "failed": str(error)}), flush=True)
 

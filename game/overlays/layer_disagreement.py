@@ -67,11 +67,11 @@ class Disagreement(Layer):
         if scene.frame < self.frame:
             self.clear()
         self.frame = scene.frame
-        told = [false_hits(world) for world in scene.worlds]
-        self.counts.append((sum(len(rows) for rows, _ in told), sum(len(lies) for _, lies in told)))
+        reported = [false_hits(world) for world in scene.worlds]
+        self.counts.append((sum(len(rows) for rows, _ in reported), sum(len(lies) for _, lies in reported)))
         self.marks = [[age + 1, box] for age, box in self.marks if age < KEPT]
-        if told:
-            self._mark_own(scene, *told[0])
+        if reported:
+            self._mark_own(scene, *reported[0])
 
     def _mark_own(self, scene, hits, lies):
         """Mark the player's own box after another body's box has left it without a hit."""

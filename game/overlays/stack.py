@@ -8,7 +8,7 @@ import pygame
 from game.drawing.canvas import SMALL, Canvas
 from game.drawing.colors import FOG, NIGHT, PAPER, faded
 from game.drawing.presenter import Frame
-from game.invariants.lights import Lights
+from game.invariants.monitor import InvariantMonitor
 from game.overlays.layer import Layer, LegendLine
 from game.overlays.layer_bounds import Bounds, Motion
 from game.overlays.layer_centers import Centers
@@ -64,7 +64,7 @@ class Overlays:
         self.layers: tuple[Layer, ...] = tuple(each() for each in LAYERS)
         self.times = self._only(Times)  # keeps a history: needs every step
         self.filters = self._only(Filters)  # needs the scene's names of its kinds
-        self.invariants = self._only(Invariants)  # needs the lights of the scene
+        self.invariants = self._only(Invariants)  # needs the monitor of the scene
         self.disagreement = self._only(Disagreement)  # counts the steps during which it is on
         self.on = set(on)
 
@@ -83,7 +83,7 @@ class Overlays:
     def note(self, scene: Scene) -> None:
         """Record a step; call it every step. Monitoring of the invariants starts one step after they are shown."""
         self.times.note(scene)
-        self.invariants.note(scene.lights)
+        self.invariants.note(scene.monitor)
         if "disagreement" in self.on:
             self.disagreement.note(scene)
         self.watch(scene)
@@ -91,9 +91,9 @@ class Overlays:
     def watch(self, scene: Scene) -> None:
         """Monitor the invariants of a scene while they are shown or the run is strict."""
         shown = "invariants" in self.on
-        if shown and scene.lights is None:
+        if shown and scene.monitor is None:
             scene.watch_invariants()
-        elif not shown and scene.lights is not None and not scene.lights.strict:
+        elif not shown and scene.monitor is not None and not scene.monitor.strict:
             scene.watch_invariants(False)
 
     def shows_geometry(self) -> bool:
@@ -111,7 +111,7 @@ class Overlays:
         """Draw the layers at window resolution, each view clipped to its part of the picture."""
         surface = frame.surface
         self.filters.names = scene.filter_names
-        self.invariants.lights = scene.lights or Lights()
+        self.invariants.monitor = scene.monitor or InvariantMonitor()
         for layer in self._active("on_frame"):
             if not layer.on_canvas:  # else draw_on_canvas has begun its picture
                 layer.begin(len(scene.views()))
@@ -135,7 +135,7 @@ class Overlays:
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
         if "invariants" in self.on:
-            self._draw_lights(frame, area, scale)
+            self._draw_invariants(frame, area, scale)
         self.times.rect = None
         for size in self.times.sizes(frame) if "times" in self.on else ():
             place = frame.free_place(size, _corners(area, size, 4 * scale))
@@ -146,8 +146,8 @@ class Overlays:
                 break
         self._draw_legend(frame, area, legend_at, scale)
 
-    def _draw_lights(self, frame, area, scale):
-        """Draw the strip of lights in the middle, as close to the bottom or top as possible, in few rows."""
+    def _draw_invariants(self, frame, area, scale):
+        """Draw the strip of invariants in the middle, as close to the bottom or top as possible, in few rows."""
         for size in self.invariants.sizes(frame):
             margin = 4 * scale
             top, bottom = area.top + margin, area.bottom - size[1] - margin
@@ -155,11 +155,11 @@ class Overlays:
             places = [(x, y) for off in range(0, area.height // 2, margin) for y in (bottom - off, top + off)]
             place = frame.free_place(size, places + _corners(area, size, margin))
             if place is not None:
-                self.put_lights(frame, pygame.Rect(place, size))
+                self.put_invariants(frame, pygame.Rect(place, size))
                 return
 
-    def put_lights(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the strip of lights into a rect and keep other text out of it."""
+    def put_invariants(self, frame: Frame, rect: pygame.Rect) -> None:
+        """Draw the strip of invariants into a rect and keep other text out of it."""
         there = pygame.display.get_init() and pygame.mouse.get_focused()
         self.invariants.draw_strip(frame, rect, pygame.mouse.get_pos() if there else (-1, -1))
         frame.reserve(rect)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from game.measure.rates import Rate
 from game.report.claim import Claim
-from game.report.job import Job, Plan, Row
+from game.report.job import Job, ReportScope, Row
 
 Interval = tuple[float, float, float]  # low, middle, high
 Reading = Callable[[Row], Interval | None]  # None: the row has nothing to show there
@@ -57,7 +57,7 @@ class Chart(NamedTuple):
     question: str
     truth: str
     panels: tuple[Panel, ...] | Callable[[Sequence[Row]], list[Panel]]  # of the existing rows
-    jobs: Callable[[Plan], list[Job]]
+    jobs: Callable[[ReportScope], list[Job]]
     claims: Callable[[Sequence[Row]], list[Claim]] = lambda rows: []
     of: str = ""  # key of the chart whose rows it shows; "" its own
 

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from game.measure.front import cheaper
+from game.measure.pareto_front import cheaper
 
 HOLDS, FAILS, TIE = "holds", "does not hold", "a tie"
 
@@ -30,10 +30,10 @@ def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 
     ordered = sorted(costs, key=lambda name: costs[name][1])
     best = ordered[0]
     alike = [name for name in ordered if name == best or not cheaper(costs[best], costs[name])]
-    told = ", ".join(f"{name} {costs[name][1] * unit:.3g} {word}" for name in ordered[:3])
+    reported = ", ".join(f"{name} {costs[name][1] * unit:.3g} {word}" for name in ordered[:3])
     if len(alike) > 1:
-        return Claim(f"{what}: {' and '.join(alike)} are the cheapest", told, TIE, "", tuple(sorted(alike)), what)
-    return Claim(f"{what}: {best} is the cheapest", told, HOLDS, "", (best,), what)
+        return Claim(f"{what}: {' and '.join(alike)} are the cheapest", reported, TIE, "", tuple(sorted(alike)), what)
+    return Claim(f"{what}: {best} is the cheapest", reported, HOLDS, "", (best,), what)
 
 
 def at_least(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:

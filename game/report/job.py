@@ -17,7 +17,7 @@ Row = dict[str, Any]
 COST = "cost"  # suffix of the keys of times
 
 
-class Plan(NamedTuple):
+class ReportScope(NamedTuple):
     """The extent of the measurements. scenes: {name: "module:Class"} of all scenes."""
 
     quick: bool

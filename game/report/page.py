@@ -32,8 +32,8 @@ class Measured(NamedTuple):
 
 def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder: str, spent: float) -> str:
     """Return the page's text. folder: as given on the command line, for the commands that measure a dot again."""
-    told: dict[str, Any] = {}
-    charts = "\n".join(_chart(each, told, folder, bool(manifest["quick"])) for each in measured)
+    reported: dict[str, Any] = {}
+    charts = "\n".join(_chart(each, reported, folder, bool(manifest["quick"])) for each in measured)
     rows = {each.chart.key: each.rows for each in measured}
     parts = {
         "version": VERSION,
@@ -46,7 +46,7 @@ def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder
         "failures": _failures(measured),
         "claims": _claims([claim for each in measured for claim in each.chart.claims(each.rows)]),
         "charts": charts,
-        "told": _script(told),
+        "dots": _script(reported),
         "data": _script(rows),
     }
     page = PAGE.read_text(encoding="utf-8")
@@ -60,7 +60,7 @@ def _script(value):
     return json.dumps(value).replace("</", "<\\/")
 
 
-def _chart(measured, told, folder, quick):
+def _chart(measured, reported, folder, quick):
     chart, rows = measured.chart, measured.rows
     panels = []
     for number, panel in enumerate(chart.panels if isinstance(chart.panels, tuple) else chart.panels(rows)):
@@ -69,7 +69,7 @@ def _chart(measured, told, folder, quick):
         if not svg:
             continue
         for k, dot in enumerate(dots):
-            told[f"{name}-{k}"] = {**shown(dot, panel), "again": command(dot.row, folder, quick)}
+            reported[f"{name}-{k}"] = {**shown(dot, panel), "again": command(dot.row, folder, quick)}
         panels.append(f"<figure><figcaption>{escape(panel.title)}</figcaption>{svg}</figure>")
     text = "".join(panels) or "<p>Nothing of this is measured.</p>"
     return (

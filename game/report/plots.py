@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from game import startup
 from game.drawing.number_text import plain_name
 from game.errors import UsageError
-from game.measure.front import pareto
+from game.measure.pareto_front import pareto_front
 from game.report.chart import Axis, Interval, Panel
 from game.report.job import Row
 
@@ -86,7 +86,9 @@ def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
         points = {str(k): (dot.x[1], dot.y[1]) for k, dot in enumerate(dots)}
         if panel.line == "medians":
             points = {name: _middle([dot for _, dot in members]) for name, members in _series(dots, panel)}
-        axes.plot(*zip(*(points[each] for each in pareto(points)), strict=True), color=INK, linewidth=1.0, zorder=2)
+        axes.plot(
+            *zip(*(points[each] for each in pareto_front(points)), strict=True), color=INK, linewidth=1.0, zorder=2
+        )
     _scale(axes, "x", panel.x, [dot.x for dot in dots])
     _curves(axes, panel, dots)
     _scale(axes, "y", panel.y, [dot.y for dot in dots])
@@ -181,14 +183,14 @@ def _page_colors(figure) -> str:
 
 def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
     """Return the texts of a dot under the pointer: both figures with their intervals, then the row's other values."""
-    told = {
+    reported = {
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]
     }
     for axis, (low, middle, high) in ((panel.x, dot.x), (panel.y, dot.y)):
-        told[axis.label] = f"{middle:.4g}" + (f" ({low:.4g} to {high:.4g})" if high > low else "")
+        reported[axis.label] = f"{middle:.4g}" + (f" ({low:.4g} to {high:.4g})" if high > low else "")
     failures = {key: count for key, count in dot.row.get("failures", {}).items() if count}
     if failures:
-        told["failures"] = ", ".join(f"{key} {count}" for key, count in failures.items())
+        reported["failures"] = ", ".join(f"{key} {count}" for key, count in failures.items())
     if dot.row.get("ignored_effects"):
-        told["effects that the solver ignores"] = ", ".join(map(plain_name, dot.row["ignored_effects"]))
-    return told
+        reported["effects that the solver ignores"] = ", ".join(map(plain_name, dot.row["ignored_effects"]))
+    return reported

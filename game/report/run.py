@@ -15,7 +15,7 @@ from game.errors import UsageError, brief
 from game.files.data_folder import write_atomically
 from game.registry import Registry
 from game.report.charts import CHARTS
-from game.report.job import Job, Plan
+from game.report.job import Job, ReportScope
 from game.report.page import Measured, as_csv, write_page
 from game.report.plots import library
 from game.report.runners import connect, run_here, run_in_processes, run_on_dask
@@ -31,7 +31,7 @@ def run_report(options: Options, registry: Registry) -> int:
     assert options.report is not None
     library()  # matplotlib is required before anything is measured
     start_dummy_display()
-    jobs = all_jobs(Plan(options.quick, registry.listing))
+    jobs = all_jobs(ReportScope(options.quick, registry.listing))
     chosen = chosen_jobs(jobs, options.only)
     client = connect(options.dask) if options.dask is not None else None  # before a folder is created in vain
     store = Store(Path(options.report), options.quick)
@@ -76,9 +76,9 @@ def compile_kernels() -> None:
     progress.end()
 
 
-def all_jobs(plan: Plan) -> list[Job]:
+def all_jobs(scope: ReportScope) -> list[Job]:
     """Return the jobs of all charts, in their order."""
-    return [job for chart in CHARTS for job in chart.jobs(plan)]
+    return [job for chart in CHARTS for job in chart.jobs(scope)]
 
 
 def chosen_jobs(jobs: Sequence[Job], only: str | None) -> list[Job]:

@@ -14,11 +14,11 @@ from game.report.job import run_job
 def main() -> None:
     """Run jobs until standard input ends."""
     startup.prepare_environment()
-    told, sys.stdout = sys.stdout, sys.stderr  # prints of a job must not mix with the results
+    results, sys.stdout = sys.stdout, sys.stderr  # prints of a job must not mix with the results
     for line in sys.stdin:
         order = json.loads(line)
-        told.write(json.dumps(run_job(order["name"], order["work"], order["params"])) + "\n")
-        told.flush()
+        results.write(json.dumps(run_job(order["name"], order["work"], order["params"])) + "\n")
+        results.flush()
 
 
 if __name__ == "__main__":

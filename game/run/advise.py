@@ -52,12 +52,12 @@ class Progress:
     """Progress lines on standard error: the runs done and the estimated time left."""
 
     def __init__(self) -> None:
-        self.started = self.told = perf_counter()
+        self.started = self.reported = perf_counter()
 
     def __call__(self, done: int, of: int) -> None:
         now = perf_counter()
-        if now - self.told >= EVERY and done < of:
-            self.told = now
+        if now - self.reported >= EVERY and done < of:
+            self.reported = now
             left = (now - self.started) * (of - done) / done
             print(f"{done} of {of} runs, about {left:.0f} s more", file=sys.stderr, flush=True)
 
@@ -112,6 +112,6 @@ def as_json(options: Options, error: float, advice: Advice, survey: Survey) -> d
 
 def _line(word, setting, here, survey):
     dot = survey.dots[setting]
-    told = ", ".join(f"{kind} {shown(error)}" for kind in survey.kinds if (error := dot.error(kind)) is not None)
+    reported = ", ".join(f"{kind} {shown(error)}" for kind in survey.kinds if (error := dot.error(kind)) is not None)
     cost = f"{1e6 * dot.cost.median:8.1f} us +{100 * dot.cost.noise:.0f} %" if dot.cost is not None else ""
-    return f"{word:7}{cost}  {setting.label(here)}: {told}"
+    return f"{word:7}{cost}  {setting.label(here)}: {reported}"

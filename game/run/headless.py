@@ -9,7 +9,7 @@ from time import perf_counter
 import pygame
 
 from game.errors import StrictFailure, UsageError, brief
-from game.measure.knowing import know
+from game.measure.synchronous import measure_requests
 from game.overlays.stack import Overlays
 from game.registry import Registry
 from game.run.options import DEFAULT_FRAMES, Options, make_scene, scene_class_of
@@ -53,7 +53,7 @@ def run_headless(options: Options, registry: Registry) -> int:
             overlays.note(scene)
             kept = options.screenshot and frame == frames - 1
             if kept:
-                know(scene)
+                measure_requests(scene)
             if draws or kept:
                 started = perf_counter()
                 picture.draw_scene(scene, overlays)

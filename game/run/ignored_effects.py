@@ -50,12 +50,12 @@ def draw_ignored(frame: Frame, scene: Scene) -> None:
 
     If no place is free, they are written at the bottom left and replace the text there.
     """
-    told = sentences(scene)
-    if not told:
+    shown_ignored = sentences(scene)
+    if not shown_ignored:
         return
     area = frame.area.clip(frame.rect)
     for scale in range(frame.text_scale, 0, -1):
-        rows = [row for text in told for row in wrap(text, area.width - 4 * EDGE * scale, SMALL, scale)]
+        rows = [row for text in shown_ignored for row in wrap(text, area.width - 4 * EDGE * scale, SMALL, scale)]
         size = _size(frame, rows, scale)
         if size[0] <= area.width and size[1] <= area.height:
             place = frame.free_place(size, _places(area, size, scale))

@@ -18,9 +18,9 @@ class FixedStep:
     def __init__(self, step: float = STEP_SECONDS) -> None:
         self.step = step
         self.speed = 1.0  # slow motion, for looking closely
-        self.pace = 1.0  # game speed that the player chose
+        self.game_speed = 1.0  # game speed that the player chose
         self.paused = False
-        self.left_over = 0.0
+        self.accumulator = 0.0
         self.before = None
         self.requested = 0
         self.due = 0  # steps of the last frame
@@ -32,13 +32,13 @@ class FixedStep:
         self.before = now
         if self.paused:
             due, self.requested = self.requested, 0
-            self.left_over = 0.0
+            self.accumulator = 0.0
             return due
-        self.left_over += passed * self.speed * self.pace
-        self.due = int(self.left_over / self.step)
-        self.left_over -= self.due * self.step
+        self.accumulator += passed * self.speed * self.game_speed
+        self.due = int(self.accumulator / self.step)
+        self.accumulator -= self.due * self.step
         if self.behind and self.due > 1:
-            self.due, self.left_over = 1, 0.0
+            self.due, self.accumulator = 1, 0.0
         return self.due
 
     @property
@@ -65,7 +65,7 @@ class FixedStep:
     @property
     def alpha(self) -> float:
         """The place of drawing between the step before and the last one, 0..1. Paused: the last one."""
-        return 1.0 if self.paused else self.left_over / self.step
+        return 1.0 if self.paused else self.accumulator / self.step
 
     def request_step(self) -> None:
         """Request one step while paused (single step)."""

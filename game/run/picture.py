@@ -116,7 +116,7 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
     scale = frame.text_scale
     if rect.height < 40 * scale:
         return
-    rect = _lights_above(frame, rect, overlays, scale)
+    rect = _invariants_above(frame, rect, overlays, scale)
     left = rect.x + 4 * scale
     wanted = (GRAPH_LEAST + 8) * scale if "times" in overlays.on else 0
     for column in legend_columns(frame, overlays.legend(), rect.width - wanted, rect.height - 2 * scale, scale):
@@ -128,12 +128,12 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
     frame.reserve(rect)
 
 
-def _lights_above(frame, rect, overlays, scale):
+def _invariants_above(frame, rect, overlays, scale):
     """Draw the strip of invariants in the widest form that fits, and return the rest of the rect under it."""
     if "invariants" in overlays.on:
         for width, height in overlays.invariants.sizes(frame):
             if width <= rect.width - 8 * scale and height <= rect.height - 4 * scale:
-                overlays.put_lights(frame, pygame.Rect(rect.x + 4 * scale, rect.y + 4 * scale, width, height))
+                overlays.put_invariants(frame, pygame.Rect(rect.x + 4 * scale, rect.y + 4 * scale, width, height))
                 return pygame.Rect(rect.x, rect.y + height + 4 * scale, rect.width, rect.height - height - 4 * scale)
     return rect
 

@@ -42,14 +42,14 @@ class Session:
         self.inputs.set(frame)
         started = perf_counter()
         self.scene.step(self.inputs)
-        lights = self.scene.lights
-        watching = lights.seconds if lights is not None else 0.0
+        monitor = self.scene.monitor
+        watching = monitor.seconds if monitor is not None else 0.0
         self.report.note_step(self.scene, perf_counter() - started - watching)
         self.scene.observe()
         if self.recorder is not None:
             self.recorder.note(frame, self.scene)
-        if lights is not None and lights.strict and lights.first is not None:
-            frame, broken = lights.first
+        if monitor is not None and monitor.strict and monitor.first is not None:
+            frame, broken = monitor.first
             raise StrictFailure(f"{self.scene.name}, frame {frame}: {broken}")
         if self.replay is not None:
             self.replay.verify(self.scene)

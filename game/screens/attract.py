@@ -26,7 +26,7 @@ ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, 
 class Attract(SceneScreen):
     """The demonstration. `make(name)` builds a scene.
 
-    `outcome` becomes ("back",). `quiet` tells the app to play the music low.
+    `outcome` becomes ("back",). `quiet` asks the app to play the music low.
     """
 
     shows_pointer = False

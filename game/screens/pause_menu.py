@@ -55,7 +55,7 @@ class PauseMenu(CanvasScreen):
         high = len(self._rows()) * LINE
         return (480 - WIDTH) // 2 + 16, (270 - high) // 2 + 14, WIDTH - 32, high
 
-    def tell(self, message: str) -> None:
+    def report(self, message: str) -> None:
         """Show a message under the menu."""
         self.message = message
 

@@ -20,7 +20,7 @@ from game.run.rewind import Rewind
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.scene import Scene
-from game.screens.parts.apart import Apart
+from game.screens.parts.contact_inspector_view import ContactInspectorView
 from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.lab_card import LabCard, asks_for_card, first_card, what_to_see
 from game.screens.parts.lighter import Lighter
@@ -29,10 +29,10 @@ from game.screens.parts.panel import Panel
 from game.screens.parts.panel_rows import play_rows
 from game.screens.parts.play_keys import press, press_button
 from game.screens.parts.rumble import rumble
-from game.screens.parts.scrub import Scrub
 from game.screens.parts.status_line import RESULT_WAIT, draw_status
+from game.screens.parts.step_inspector_view import StepInspectorView
 from game.screens.parts.switches import Switches
-from game.screens.parts.why import Why
+from game.screens.parts.timeline import Timeline
 from game.screens.screen import SceneScreen
 
 RECORDED_ON = 120  # steps recorded after the end, so that a replay shows it
@@ -69,10 +69,10 @@ class Play(SceneScreen):
         self.recorder = Recorder(scene, bot, KEPT_EVERY if self.renews else 1) if records or self.person else None
         self.session = Session(scene, source, self.recorder, recording, strict)
         self.overlays = Overlays(scene.overlays if overlays is None else overlays)
-        self.scrub: Scrub | None = None  # a recording is rewound by Watch only
+        self.timeline: Timeline | None = None  # a recording is rewound by Watch only
         if recording is None:
-            self.scrub = Scrub(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
-        self.apart = Apart(self.session, self.scrub and self.scrub.rewind, self.overlays)
+            self.timeline = Timeline(Rewind(self.session, lambda: self.overlays.watch(scene)), self._went)
+        self.step_inspector = StepInspectorView(self.session, self.timeline and self.timeline.rewind, self.overlays)
         self.clock = FixedStep()
         self.panel = Panel(lambda: play_rows(self))
         self.panel_open = False
@@ -80,7 +80,7 @@ class Play(SceneScreen):
         measuring = self.measuring
         self.costs = CostPanel(measuring.surveyor, measuring.now, self.try_setting, self.start_race, measuring.tuner)
         self.costs_open = False
-        self.why = Why(scene)
+        self.contact_inspector = ContactInspectorView(scene)
         self.lighter = Lighter(scene, devices) if self.person else None
         self.run_ended = lambda recorder, result: None  # called with each run that ends, to keep it
         self.settings_changed = lambda: None
@@ -126,7 +126,7 @@ class Play(SceneScreen):
         self.scene.set_accessibility(self.settings.accessibility())
         if not self.person:
             return
-        self.clock.pace = self.settings.speed
+        self.clock.game_speed = self.settings.speed
         pending = dict(self.devices.changes)
         for name, value in self.settings.assists().items():
             if name in self.scene.assist and pending.get(f"assist:{name}", self.scene.assist[name]) != value:
@@ -136,8 +136,8 @@ class Play(SceneScreen):
         """Update when the screen is shown again."""
         self.clock.rest()
         self.apply_settings()
-        if self.scrub is not None:
-            self.scrub.let_go()
+        if self.timeline is not None:
+            self.timeline.let_go()
 
     @property
     def finished(self) -> bool:
@@ -156,11 +156,11 @@ class Play(SceneScreen):
             self.devices.lost_pad = False
             self.outcome = ("pause", "The controller is gone. Plug it in again, or play on with the keyboard.")
             return
-        if self.apart.open and not self.devices.changes:
+        if self.step_inspector.open and not self.devices.changes:
             self.clock.rest()
             return
-        self.apart.leave()
-        if self.scrub is not None and self.scrub.turn(now, self.clock.paused):
+        self.step_inspector.leave()
+        if self.timeline is not None and self.timeline.turn(now, self.clock.paused):
             self.clock.rest()
             return
         if self.session.replay is not None:
@@ -176,27 +176,27 @@ class Play(SceneScreen):
 
     def _went(self):
         """Update after the scene moved to another step of its past."""
-        assert self.scrub is not None
+        assert self.timeline is not None
         self.assisted = True
         self.measuring.end_race()
-        self.since_result = self.scrub.rewind.since_result
+        self.since_result = self.timeline.rewind.since_result
         if self.settings is not None:
             self.scene.set_accessibility(self.settings.accessibility())
 
     def drop_future(self) -> None:
         """Continue the game and its recording from a step of the past, with the settings made since."""
-        self.apart.leave()
-        if self.scrub is not None and not self.scrub.rewind.live:
+        self.step_inspector.leave()
+        if self.timeline is not None and not self.timeline.rewind.live:
             self.apply_settings()
-        if self.scrub is not None:
-            self.scrub.rewind.drop_future()
+        if self.timeline is not None:
+            self.timeline.rewind.drop_future()
 
     def step(self) -> None:
         """Make one fixed step, with its sounds and measurements."""
         self.drop_future()
         self.session.step()
-        if self.scrub is not None:
-            self.scrub.rewind.note()
+        if self.timeline is not None:
+            self.timeline.rewind.note()
         if self.measuring.race is not None:
             self.measuring.race.step(self.session)
         self.overlays.note(self.scene)
@@ -208,7 +208,7 @@ class Play(SceneScreen):
 
     def _note_help(self):
         """Record the changes that make a score an assisted one."""
-        slow = self.clock.speed < 1.0 or self.clock.pace < 1.0 or self.clock.paused
+        slow = self.clock.speed < 1.0 or self.clock.game_speed < 1.0 or self.clock.paused
         changed = any(name.startswith(EASIER) for name, _ in self.session.inputs.now.changes)
         if slow or changed or self.scene.assist.get("invincible") or self.scene.drag.holds:
             self.assisted = True
@@ -239,7 +239,7 @@ class Play(SceneScreen):
 
         Its first input contains the choices made before, so that the recording is independent of earlier runs.
         """
-        self.apart.leave()
+        self.step_inspector.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)
         if self.renews:
             self.end_run()
@@ -250,7 +250,7 @@ class Play(SceneScreen):
         self.since_result = 0
         self.devices.change("restart", True)
 
-    def wish_restart(self) -> None:
+    def request_restart(self) -> None:
         """Restart; in an ended game open its result first, so that a hasty key loses no score."""
         if self.person and self.scene.result is not None:
             self.outcome = ("result",)
@@ -275,14 +275,14 @@ class Play(SceneScreen):
         self.clock.paused = True
         self.clock.request_step()
 
-    def take_apart(self) -> None:
+    def toggle_step_inspector(self) -> None:
         """Freeze, and inspect the next step stage by stage; if a step is inspected, leave it."""
-        if self.apart.open:
-            self.apart.leave()
+        if self.step_inspector.open:
+            self.step_inspector.leave()
         else:
             self.clock.paused, self.panel_open = True, False
             self.close_costs()
-            self.switches.tell(self.apart.enter())
+            self.switches.report(self.step_inspector.enter())
 
     def feed(self, event: pygame.event.Event) -> bool:
         """Process an event before the game does; return whether it was used."""
@@ -295,7 +295,7 @@ class Play(SceneScreen):
             if hint.keeps_keys or event.type == pygame.MOUSEBUTTONDOWN:
                 return True
         button = self.devices.pressed_button(event)
-        if self.apart.feed(event, button):
+        if self.step_inspector.feed(event, button):
             return True
         if button is not None and press_button(self, button):
             return True
@@ -303,11 +303,11 @@ class Play(SceneScreen):
         if panel is not None and panel.feed(event):
             self.devices.release_all()
             return True
-        if self.scrub is not None and self.scrub.feed(event, self.devices, self.clock.paused, self.now):
+        if self.timeline is not None and self.timeline.feed(event, self.devices, self.clock.paused, self.now):
             return True
         if self.measuring.split is not None and event.type == pygame.MOUSEBUTTONDOWN:
             return True  # clicks on the halves of a split screen have no effect
-        if self.why.feed(event, self.clock.paused):
+        if self.contact_inspector.feed(event, self.clock.paused):
             return True
         if event.type == pygame.KEYDOWN and asks_for_card(event) and what_to_see(type(self.scene)):
             self.close_costs()
@@ -345,52 +345,52 @@ class Play(SceneScreen):
 
     def try_setting(self, setting: Setting) -> None:
         """Apply a measured setting."""
-        self.switches.tell(self.measuring.apply(setting))
+        self.switches.report(self.measuring.apply(setting))
 
     def start_race(self, setting: Setting) -> None:
         """Restart, in a race against the same scene under a measured setting."""
-        self.switches.tell(self.measuring.start_race(setting))
+        self.switches.report(self.measuring.start_race(setting))
         if self.measuring.race is not None:
             self.restart()
 
     def close(self) -> None:
         """Clean up when the screen is left for good."""
         super().close()
-        self.apart.leave()
+        self.step_inspector.leave()
         self.close_costs()
         self.measuring.leave()
 
     def _measure(self):
         self.measuring.beside(self.now, self.panel_open)
         if (self.costs_open or self.measuring.tuner.on) and (news := self.measuring.turn(self.now)):
-            self.switches.tell(news)
+            self.switches.report(news)
 
-    def _below(self) -> Apart | Scrub | None:
+    def _below(self) -> StepInspectorView | Timeline | None:
         """Return the element over the bottom of the picture while the game is paused."""
-        if self.apart.open:
-            return self.apart
-        return self.scrub if self.scrub is not None and (self.clock.paused or self.scrub.runs) else None
+        if self.step_inspector.open:
+            return self.step_inspector
+        return self.timeline if self.timeline is not None and (self.clock.paused or self.timeline.runs) else None
 
     def draw(self, picture: Picture) -> Frame:
         """Draw the scene and the elements over it; return the frame."""
         started = perf_counter()
-        if not self.apart.open:  # a part of a step is no moment to measure from
+        if not self.step_inspector.open:  # a part of a step is no moment to measure from
             self._measure()
         below = self._below()
         reserve = None if below is None else below.reserve
-        alpha, split = self.clock.alpha, None if self.apart.open else self.measuring.split
+        alpha, split = self.clock.alpha, None if self.step_inspector.open else self.measuring.split
         if split is not None:
             draw = partial(split.draw, overlays=self.overlays, alpha=alpha)
             frame = picture.draw_without(draw, self.overlays, self.open_panel)
         else:
-            with self.apart.showing():
+            with self.step_inspector.showing():
                 frame = picture.draw_scene(self.scene, self.overlays, alpha, self.open_panel, reserve)
         if below is not None:
             below.draw(frame)
         if self.measuring.race is not None and split is None:
             self.measuring.race.draw(frame)
         draw_status(frame, self)
-        self.why.draw(frame, self.clock.paused)
+        self.contact_inspector.draw(frame, self.clock.paused)
         if self.hint is not None and self.open_panel is None:
             self.hint.draw(frame)
         self.session.report.note_drawing(perf_counter() - started)

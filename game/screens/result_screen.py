@@ -89,7 +89,7 @@ class ResultScreen(CanvasScreen):
             self.outcome = ("menu",)
         self.list.step(inputs, dt)
 
-    def tell(self, message: str) -> None:
+    def report(self, message: str) -> None:
         """Show a message under the list, in place of the last one."""
         self.notes[:] = [message]
 

@@ -71,7 +71,7 @@ class Screen:
     def accept(self) -> None:
         """Accept a pending entry, because the window closes."""
 
-    def tell(self, message: str) -> None:
+    def report(self, message: str) -> None:
         """Show one line about an action of this screen."""
 
 

@@ -318,9 +318,9 @@ class Screens:
         try:
             path = free_name(replays_folder(), play.scene.name)
             play.recorder.save(path, play.scene.result)
-            self.top.tell(f"Saved as {path.name}")
+            self.top.report(f"Saved as {path.name}")
         except OSError as error:
-            self.top.tell(f"It could not be saved: {error.strerror or error}")
+            self.top.report(f"It could not be saved: {error.strerror or error}")
 
     def quit(self) -> None:
         """End the program."""

@@ -123,7 +123,7 @@ class Watch(SceneScreen):
     def turn_speed(self, way: int) -> None:
         """Change to the next speed, or the previous one."""
         self.speed = max(0, min(len(SPEEDS) - 1, self.speed + way))
-        self.clock.pace = SPEEDS[self.speed]
+        self.clock.game_speed = SPEEDS[self.speed]
 
     def leap(self, frames: int) -> None:
         """Move by so many frames, from the current frame or from the goal of a seek."""

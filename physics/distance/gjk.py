@@ -406,7 +406,7 @@ def measure_depth(a, a_count, b, b_count, workspace):
 
 
 @subkernel
-def noalias(a, a_count, a_radius, b, b_count, b_radius, i, j, workspace):
+def shape_separation(a, a_count, a_radius, b, b_count, b_radius, i, j, workspace):
     """Write separation, unit normal from A to B and nearest points to workspace.gap. Return the separation [px].
 
     a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; i, j: first corners. If the hulls overlap, the
@@ -472,7 +472,7 @@ def separate_parts(
             if best_i >= 0 and box_gap(a.boxes, i, b.boxes, j) > max(best, 0.0):
                 continue
             copy_part(b.corners, j, b.counts[j], corners_b_out)
-            separation = noalias(
+            separation = shape_separation(
                 corners_a_out, a.counts[i], a.radii[i], corners_b_out, b.counts[j], b.radii[j], 0, 0, workspace
             )
             totals_out[0] += workspace.state[ROUNDS]
@@ -484,7 +484,7 @@ def separate_parts(
     if best_i >= 0 and len(a.counts) * len(b.counts) > 1:
         copy_part(a.corners, best_i, a.counts[best_i], corners_a_out)
         copy_part(b.corners, best_j, b.counts[best_j], corners_b_out)
-        noalias(
+        shape_separation(
             corners_a_out,
             a.counts[best_i],
             a.radii[best_i],

@@ -30,7 +30,19 @@ from physics.ccd.time_of_impact import (
 )
 from physics.checks import Pair, Pose
 from physics.collision.narrow_phase import narrow_phase_for_queries
-from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, copy_part, new_gap_workspace, noalias, separate_parts
+from physics.distance.gjk import (
+    AX,
+    AY,
+    BX,
+    BY,
+    NX,
+    NY,
+    ROUNDS,
+    copy_part,
+    new_gap_workspace,
+    separate_parts,
+    shape_separation,
+)
 from physics.jit import kernel
 from physics.math2d import Vec2
 from physics.queries.index import AskedWorld, IndexedWorld
@@ -277,7 +289,9 @@ def nearest_hull(
         point_inout[0, 0] = 0.0
         point_inout[0, 1] = 0.0
         n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners_inout)
-        distance = max(0.0, noalias(point_inout, 1, 0.0, corners_inout, n, rounding(shapes, rows[k]), 0, 0, workspace))
+        distance = max(
+            0.0, shape_separation(point_inout, 1, 0.0, corners_inout, n, rounding(shapes, rows[k]), 0, 0, workspace)
+        )
         work_inout[NARROW_TESTS] += 1
         work_inout[GJK_ITERATIONS] += int(workspace.state[ROUNDS])
         if distance < nearest_out[0]:

@@ -15,7 +15,7 @@ from physics.checks import Pose
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
 from physics.collision.narrow_phase import exact_narrow_phase, kind_of_pair, no_work
-from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, noalias, separate_parts
+from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate_parts, shape_separation
 from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
 from physics.shapes.kinds import checked_pose, rank_of
@@ -313,7 +313,7 @@ def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out,
     count_b = hull_at(geometry, shapes, 1, b.x - x, b.y - y, b.angle, corners_b_out)
     radius_a = rounding(shapes, 0)
     radius_b = rounding(shapes, 1)
-    separation = noalias(corners_a_out, count_a, radius_a, corners_b_out, count_b, radius_b, 0, 0, workspace)
+    separation = shape_separation(corners_a_out, count_a, radius_a, corners_b_out, count_b, radius_b, 0, 0, workspace)
     size = max(size_of(corners_a_out, count_a, radius_a), size_of(corners_b_out, count_b, radius_b))
     return separation, size, workspace.state[ROUNDS]
 

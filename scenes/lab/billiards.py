@@ -334,8 +334,10 @@ class Billiards(Scene):
         """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"
-        told = f"in {count_text(self.compared, 'step')} before a cushion momentum was off by {self.kept:.1g} of itself"
-        return f"{told}; a collision of two added {max(self.grown, 0.0):.1g} of the energy at most"
+        sentence = (
+            f"in {count_text(self.compared, 'step')} before a cushion momentum was off by {self.kept:.1g} of itself"
+        )
+        return f"{sentence}; a collision of two added {max(self.grown, 0.0):.1g} of the energy at most"
 
     def bot(self):
         """Return the bot: break, then shoot at the best aligned ball and pocket."""

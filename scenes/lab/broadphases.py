@@ -18,8 +18,8 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, RED, SLATE
 from game.input.inputs import InputFrame
 from game.measure.power_law import fit_power_law
+from game.measurement_requests import MeasuredRun, Recipe, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes, Recipe
 from physics import JIT, Effects
 from scenes.lab import layouts
 from scenes.lab.costs import cost_text
@@ -96,12 +96,12 @@ class Broadphases(Scene):
         """
         sizes = sorted({*SIZES, min(int(self.values["bodies"]), LARGEST)})
         names = [(self.layout, size, strategy) for size in sizes for strategy in STRATEGIES]
-        return Lanes(names, self._lane)
+        return RunRequest(names, self._make)
 
-    def _lane(self, name):
+    def _make(self, name):
         layout, size, strategy = name
         made = Recipe(f"{layouts.__name__}:snapshot_of", (self.effects.names(), self.seed, layout, size))
-        return Lane([made], strategy, stage="broad_phase")
+        return MeasuredRun([made], strategy, stage="broad_phase")
 
     def growth(self, strategy):
         """Return the measured points of a broad phase in this layout, and the power law of the largest of them."""

@@ -64,7 +64,7 @@ class BusyYard:
         self.world = world
         self.ids, self.kinds, self.ends = {}, {}, {}  # by number: body id; Kind or name; step of its removal
         self.rock = -1
-        self.told = np.zeros(6, np.int64)  # begin, persist, end, hits, sensor begin, sensor end
+        self.reported = np.zeros(6, np.int64)  # begin, persist, end, hits, sensor begin, sensor end
         self.worked = 0  # bodies moved, pairs tested and rows solved, over all steps
 
     def furnish(self):
@@ -154,7 +154,7 @@ class BusyYard:
     def _count(self):
         events, counters = self.world.events, self.world.profile.counters
         found = (events.begin, events.persist, events.end, events.hits, events.sensor_begin, events.sensor_end)
-        self.told += [len(rows) for rows in found]
+        self.reported += [len(rows) for rows in found]
         self.worked += sum(counters[name] for name in ("bodies_integrated", "narrow_tests", "solver_rows"))
 
     def places(self, numbers):

@@ -238,11 +238,11 @@ class CardHouse(Scene):
         house = f"{len(self.cards)} cards at a friction of {self.values['friction'] / 100:.2f}"
         for_so_long = f"{self.stood / 60:.1f} s"
         stands = f"stand for {for_so_long}, none further than {self.wandered:.2f} px from its place"
-        told = f"{house} {stands if self.stands(self.cards) else f'fell after {for_so_long}'}"
+        sentence = f"{house} {stands if self.stands(self.cards) else f'fell after {for_so_long}'}"
         slid, stood = (self.stands(cards) for cards in self.pairs)
         if slid or not stood:
-            return told
-        return f"{told}; a pair slides at {LESS:.3f} and stands at {MORE:.3f}, as theory says: {NEEDED:.3f}"
+            return sentence
+        return f"{sentence}; a pair slides at {LESS:.3f} and stands at {MORE:.3f}, as theory says: {NEEDED:.3f}"
 
     def bot(self):
         """Return the bot: watch for ten seconds, then make the cards slippery."""

@@ -20,8 +20,8 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, INK, PAPER, SLATE
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
+from game.measurement_requests import STEPS, Act, MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import STEPS, Act, Lane, Lanes
 from physics import Circle, Effects, Material, PixelMask, Polygon
 from physics.tables.shape import PART
 from scenes.lab.costs import cost_text
@@ -183,9 +183,11 @@ class Carving(Scene):
             return None
         act = Act(f"{__package__}.tools:carving", (self.tool.name, self.tool.radius, self.ground, CRUMB))
         steps = max(FEWEST, min(STEPS, solid // (2 * square)))
-        return Lanes([self._lane()], lambda name: Lane([self.world.snapshot()], self.broadphase, steps, act=act))
+        return RunRequest(
+            [self._run_name()], lambda name: MeasuredRun([self.world.snapshot()], self.broadphase, steps, act=act)
+        )
 
-    def _lane(self):
+    def _run_name(self):
         return self.tool.name, self.tool.radius
 
     def _tiles(self):
@@ -248,7 +250,7 @@ class Carving(Scene):
             ("pixels carved", f"{self.removed:,}"),
             ("in crumbs", f"{self.crumbs:,}"),
             ("pieces", f"{self.made}"),
-            ("a carve", cost_text(self, self._lane())),
+            ("a carve", cost_text(self, self._run_name())),
             ("tiles made anew", f"{self.anew} of {len(self._tiles())}"),
             ("parts", f"{int(np.count_nonzero(shapes['role'] == PART)):,}"),
             ("awake", f"{self.awake} of {int(np.count_nonzero(self.world.bodies['inverse_mass'] > 0.0))}"),

@@ -288,9 +288,13 @@ class Conveyor(Scene):
         speed = float(self.values["speed"])
         off = max(abs(found - speed) for found in self.last.values()) / speed
         on = f"on {len(self.last)} of {count_text(len(BELTS), 'belt')} at {speed:.0f} px/s"
-        told = f"{on} the last crate was off that by {100 * off:.1g} % at most"
+        sentence = f"{on} the last crate was off that by {100 * off:.1g} % at most"
         lies = sum(start is not None for _, start in self.fallen.values())
-        return f"{told}; without the effect {count_text(lies, 'crate')} moved {self.strayed:.2f} px" if lies else told
+        return (
+            f"{sentence}; without the effect {count_text(lies, 'crate')} moved {self.strayed:.2f} px"
+            if lies
+            else sentence
+        )
 
     def bot(self):
         """Return the bot: watch, then raise the speed."""

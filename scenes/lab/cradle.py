@@ -21,8 +21,8 @@ from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Circle, Effects, Material, Polygon
 from scenes.lab.costs import cost_text
 from scenes.lab.piles import SOLVERS, kinetic_energy
@@ -138,9 +138,9 @@ class Cradle(Scene):
         chain of collisions.
         """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
-        return Lanes(
+        return RunRequest(
             [(*self.chosen, name) for name in SOLVERS],
-            lambda name: Lane([worlds[name[-1]].snapshot()], self.broadphase, PERIOD),
+            lambda name: MeasuredRun([worlds[name[-1]].snapshot()], self.broadphase, PERIOD),
         )
 
     def struck(self, index):
@@ -266,13 +266,13 @@ class Cradle(Scene):
 
     def finding(self):
         """Return the error of each row before its first ball reached the wall, and the time of a step."""
-        strikers, told = int(self.values["strikers"]), []
+        strikers, parts = int(self.values["strikers"]), []
         for name in SOLVERS:
             found = self.results.get((name, strikers, int(self.values["gap"])))
             if found is None:
                 return "not yet: each row has to be struck, and not dragged"
-            told.append(f"{plain_name(name)} {found[0]:.0e} ({cost_text(self, (*self.chosen, name))})")
-        return f"{strikers} in, {strikers} out; speeds are off by {', '.join(told)}"
+            parts.append(f"{plain_name(name)} {found[0]:.0e} ({cost_text(self, (*self.chosen, name))})")
+        return f"{strikers} in, {strikers} out; speeds are off by {', '.join(parts)}"
 
     def bot(self):
         """Return the bot: one striker, then two."""

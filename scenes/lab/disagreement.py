@@ -19,7 +19,7 @@ import pygame
 from game.drawing.canvas import SMALL
 from game.drawing.colors import BLUE, DUSK, FOG, GOLD, INK, NIGHT, PAPER, RED, SLATE, faded
 from game.drawing.sprites import load_atlas
-from game.measure.jury import Jury
+from game.measure.reference_tier import ReferenceTier
 from game.overlays.outlines import draw_outline
 from game.scene import Goal
 from physics import BROADPHASES, Circle, World
@@ -50,7 +50,7 @@ class Disagreement(Shooter):
     features = (
         "nine tiers asked about the same moments of a real game",
         "wrong and missed hits apart, with the interval they lie in",
-        "what the chosen tier told wrongly is lit",
+        "errors of the chosen tier are lit",
     )
     actions = (("arrows", "fly"), ("Space", "fire"), ("wheel", "which tier is lit"))
     tiers = ("pixels",)
@@ -71,7 +71,7 @@ class Disagreement(Shooter):
         self.director = Director(from_then_on(self.director.stage, OPENS))
         self.director.mode = "run"
         rehearse(self.effects)
-        self.jury = Jury(FIRST)
+        self.reference = ReferenceTier(FIRST)
         self.curves: list[tuple[float, ...]] = []  # shares of wrong hits by tier, over a growing number of moments
         self.apart = 1  # moments between two of them
 
@@ -83,13 +83,15 @@ class Disagreement(Shooter):
     def update(self, inputs):
         """Step the game, then evaluate one more tier."""
         super().update(inputs)
-        jury = self.jury
+        reference = self.reference
         if inputs.wheel:
-            jury.lit = jury.tiers[(jury.tiers.index(jury.lit) - inputs.wheel) % len(jury.tiers)]
-            jury.seen = []
-        if not jury.ask(self.world) or jury.moments % self.apart:
+            reference.lit = reference.tiers[
+                (reference.tiers.index(reference.lit) - inputs.wheel) % len(reference.tiers)
+            ]
+            reference.seen = []
+        if not reference.ask(self.world) or reference.moments % self.apart:
             return
-        self.curves.append(tuple(jury.wrong[tier].share for tier in jury.tiers))
+        self.curves.append(tuple(reference.wrong[tier].share for tier in reference.tiers))
         if len(self.curves) > MOST_POINTS:
             self.curves, self.apart = self.curves[1::2], 2 * self.apart
 
@@ -102,18 +104,18 @@ class Disagreement(Shooter):
             canvas.fix(rect)
         canvas.surface.fill(SLATE, (SIDE.x, SIDE.y, 1, SIDE.height))
         canvas.text("DISAGREEMENT", 4, 4, GOLD)
-        canvas.text("hits told wrong", BARS, TOP - 12, FOG, SMALL)
+        canvas.text("wrong hits", BARS, TOP - 12, FOG, SMALL)
         canvas.text("missed", SIDE.right - 4, TOP - 12, FOG, SMALL, align="right")
-        for row, tier in enumerate(self.jury.tiers):
+        for row, tier in enumerate(self.reference.tiers):
             self._draw_row(canvas, tier, TOP + row * ROW)
         self._draw_curves(canvas)
-        hits = self.jury.missed[FIRST].total
-        canvas.text(f"{self.jury.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
+        hits = self.reference.missed[FIRST].total
+        canvas.text(f"{self.reference.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
         """Draw a tier's share of wrong hits, as a bar with its interval, and of missed ones."""
-        wrong, missed, color = self.jury.wrong[tier], self.jury.missed[tier], COLORS[tier]
-        if tier == self.jury.lit:
+        wrong, missed, color = self.reference.wrong[tier], self.reference.missed[tier], COLORS[tier]
+        if tier == self.reference.lit:
             canvas.surface.fill(DUSK, (SIDE.x + 2, y - 3, SIDE.width - 3, ROW - 1))
         canvas.surface.fill(color, (SIDE.x + 6, y, 2, 6))
         canvas.text(NAMES.get(tier, tier), SIDE.x + 10, y, PAPER, SMALL)
@@ -136,7 +138,7 @@ class Disagreement(Shooter):
         canvas.text("share of wrong hits, as they add up", SIDE.x + 6, area.y - 9, FOG, SMALL)
         if len(self.curves) < 2:
             return
-        for column, tier in enumerate(self.jury.tiers):
+        for column, tier in enumerate(self.reference.tiers):
             points = [
                 (
                     area.x + number * (area.width - 1) / (len(self.curves) - 1),
@@ -152,8 +154,8 @@ class Disagreement(Shooter):
         clip = frame.from_canvas(pygame.Rect(0, 0, SIDE.x, SIDE.height))
         frame.surface.set_clip(clip)
         width = max(1, frame.scale - 1)
-        for told, outlines in self.jury.seen:
-            color = RED if told else BLUE
+        for false_hit, outlines in self.reference.seen:
+            color = RED if false_hit else BLUE
             for outline in outlines:
                 if outline[0] not in ("mask", "tiles"):
                     draw_outline(frame.surface, lens, outline, color, width, frame.scale)
@@ -161,25 +163,25 @@ class Disagreement(Shooter):
 
     def check(self):
         """Return the goals: simple shapes report wrong hits; tiers made of the outline hardly ever do."""
-        wrong, missed = self.jury.wrong, self.jury.missed
+        wrong, missed = self.reference.wrong, self.reference.missed
         caught = [tier for tier in LIARS if wrong[tier].count]
         all_caught = len(caught) == len(LIARS)
         holding = [tier for tier in HOLDING if missed[tier].count]
         return [
             Goal("true hits were seen", 1200, missed[FIRST].total > 0, f"{missed[FIRST].total}"),
-            Goal("circle, box and turned box told hits that are none", 1200, all_caught, ", ".join(caught)),
+            Goal("circle, box and turned box reported hits that are none", 1200, all_caught, ", ".join(caught)),
             Goal("what holds all pixels misses no hit", 1, not holding, ", ".join(holding)),
         ]
 
     def finding(self):
         """Return the share of the chosen tier's hits that are wrong in this traffic, with its interval."""
-        lit = self.jury.lit
-        wrong, missed = self.jury.wrong[lit], self.jury.missed[lit]
+        lit = self.reference.lit
+        wrong, missed = self.reference.wrong[lit], self.reference.missed[lit]
         if not wrong.total:
-            return f"not yet: the {NAMES.get(lit, lit)} has to tell a hit"
+            return f"not yet: the {NAMES.get(lit, lit)} has to report a hit"
         low, high = (100 * share for share in wrong.interval)
-        told = f"{100 * wrong.share:.0f} % of {wrong.total:,} hits that the {NAMES.get(lit, lit)} told are none"
-        return f"{told} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
+        sentence = f"{100 * wrong.share:.0f} % of {wrong.total:,} hits that the {NAMES.get(lit, lit)} reported are none"
+        return f"{sentence} (95 %: {low:.0f} to {high:.0f} %); of {missed.total:,} true hits it missed {missed.count:,}"
 
     def bot(self):
         """Return the shooter's own pilot."""
@@ -187,20 +189,20 @@ class Disagreement(Shooter):
 
     def state(self):
         """Return the state of the game, and the counts of the tiers."""
-        return (*super().state(), *self.jury.state(), self.jury.lit)
+        return (*super().state(), *self.reference.state(), self.reference.lit)
 
 
 def rehearse(effects):
     """Evaluate every tier once, for two planes and an overlapping disc, so that its kernels are compiled before the
     game.
     """
-    world, jury = World(effects, BROADPHASES["sweep"]()), Jury(FIRST)
+    world, reference = World(effects, BROADPHASES["sweep"]()), ReferenceTier(FIRST)
     masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]
     for x, mask in zip((0.0, 9.0), masks, strict=True):
         world.add_body(mask, position=(x, 0.0), kind="kinematic", tier="pixels")
     world.add_body(Circle(2.0), position=(4.0, 0.0), kind="kinematic")
     world.step()
-    while not jury.ask(world):
+    while not reference.ask(world):
         pass
 
 

@@ -238,10 +238,10 @@ class Dominoes(Scene):
         if small is None or large is None:
             return "not yet: both waves have to run through their rows"
         meter = self.world.tolerances.pixels_per_meter
-        told = (
+        sentence = (
             f"{SCALES[1]:.0f} times as large, the wave runs {large / small:.3f} times as fast: {large / meter:.2f} m/s"
         )
-        return f"{told}, not {small / meter:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
+        return f"{sentence}, not {small / meter:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
 
     def bot(self):
         """Return the bot: one push."""

@@ -23,8 +23,8 @@ from game.drawing.colors import DUSK, FOG, GOLD, GREEN, INK, NIGHT, PAPER, SKY, 
 from game.drawing.number_text import plain_name
 from game.input.inputs import InputFrame
 from game.measure.errors import VISIBLE
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Effects
 from scenes.lab.busy_picture import BusyPicture, draw_ghost
 from scenes.lab.busy_yard import DRAG, WIND, BusyYard, apart, rms
@@ -59,7 +59,7 @@ class EffectsLab(Scene):
     """The yard. `worlds` holds the visible world: with the marked effect, or without it."""
 
     name = "lab/effects"
-    keeps = {"substeps": "by load, as a World has them by itself: what each effect costs is told of such a world"}
+    keeps = {"substeps": "by load, as a World has them by itself: the cost of each effect is that in such a world"}
     title = "Effects"
     about = "A busy yard, with and without each of sixteen effects: what would be missed, and what does it cost?"
     effects = ALL
@@ -111,7 +111,7 @@ class EffectsLab(Scene):
         self.real.world.set_effects(world.effects)  # all wake in both
         world.set_effects(world.effects.without(self.marked))
         self.other = self.real.beside(world)
-        self.began = self.real.told.copy(), self.real.worked
+        self.began = self.real.reported.copy(), self.real.worked
         self.since = 0
         if self.marked not in self.looked:
             self.looked.append(self.marked)
@@ -161,8 +161,8 @@ class EffectsLab(Scene):
             self.play("coin", 80.0, 0.3)
 
     def _outcome(self):
-        told, worked = self.began
-        more = self.real.told - told - self.other.told
+        reported, worked = self.began
+        more = self.real.reported - reported - self.other.reported
         _, gaps = apart(self.real, self.other)
         return Outcome(
             rms(gaps), int(more.sum()), int(np.count_nonzero(more)), self.real.worked - worked - self.other.worked
@@ -172,16 +172,16 @@ class EffectsLab(Scene):
         """Return the runs to measure: a step of the yard at the first look at an effect, all awake, with the effect and
         without it.
         """
-        return Lanes([self._lane(name, on) for name in self.looked for on in (True, False)], self._make)
+        return RunRequest([self._run_name(name, on) for name in self.looked for on in (True, False)], self._make)
 
-    def _lane(self, name, on):
+    def _run_name(self, name, on):
         return name, on, self.broadphase, self.substeps, self.narrowphase
 
-    def _make(self, lane):
-        name, on, *_ = lane
+    def _make(self, run_name):
+        name, on, *_ = run_name
         effects = self.real.world.effects
         made = with_effects(self.real.world, effects if on else effects.without(name))
-        return Lane([made], self.broadphase, WINDOW)
+        return MeasuredRun([made], self.broadphase, WINDOW)
 
     def stages(self):
         """Return (stages that only the marked effect needs, those that replace them without it)."""
@@ -190,7 +190,7 @@ class EffectsLab(Scene):
 
     def price(self, name):
         """Return the time per step of an effect [us]; below 0: a saving. None before it was measured."""
-        real, other = (cost_of(self, self._lane(name, on)) for on in (True, False))
+        real, other = (cost_of(self, self._run_name(name, on)) for on in (True, False))
         return None if real is None or other is None else 1e6 * (real - other)
 
     def finding(self):
@@ -282,8 +282,8 @@ class EffectsLab(Scene):
         """Return both clocks, the other world, and the results."""
         hidden = (self.other if self.is_on else self.real).world
         found = (value for name in NAMES if name in self.found for value in self.found[name])
-        told = (*self.real.told.tolist(), *self.other.told.tolist())
-        return (self.frame, self.clock, self.since, *self.values.values(), hidden.digest(), *told, *found)
+        reported = (*self.real.reported.tolist(), *self.other.reported.tolist())
+        return (self.frame, self.clock, self.since, *self.values.values(), hidden.digest(), *reported, *found)
 
 
 def short(outcome, name):

@@ -220,9 +220,13 @@ class Filters(Scene):
         if not self.steps:
             return "not yet: the discs have to swing"
         counters = self.world.profile.counters
-        told = f"of {counters['filtered'] + counters['candidates']} pairs whose boxes met {counters['filtered']} were"
+        sentence = (
+            f"of {counters['filtered'] + counters['candidates']} pairs whose boxes met {counters['filtered']} were"
+        )
         agreed = sum(self.says_yes(row, column) and self.says_yes(column, row) for row, column in CELLS)
-        return f"{told} dropped unwritten; {agreed} of {len(CELLS)} cells may touch, {self.wrong} ever did otherwise"
+        return (
+            f"{sentence} dropped unwritten; {agreed} of {len(CELLS)} cells may touch, {self.wrong} ever did otherwise"
+        )
 
     def bot(self):
         """Return the bot: three clicks, one yes taken, one given, the first given back."""

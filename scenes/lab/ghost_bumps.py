@@ -21,8 +21,8 @@ from game.drawing.canvas import SMALL
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, PAPER, RED, SKY, SLATE
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas, load_backdrop
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Capsule, Chain, Circle, Effects, Filter, Polygon, TileGrid
 from scenes.lab.costs import cost_text
 from scenes.lab.pieces import piece
@@ -165,9 +165,9 @@ class GhostBumps(Scene):
         if self.run == 0 or ahead < self.values["speed"]:
             return None
         worlds = dict(zip(FLOORS, self.worlds, strict=True))
-        return Lanes(
+        return RunRequest(
             [(*self.chosen, floor) for floor in FLOORS],
-            lambda name: Lane([worlds[name[-1]].snapshot()], self.broadphase),
+            lambda name: MeasuredRun([worlds[name[-1]].snapshot()], self.broadphase),
         )
 
     def _follow(self, jump=False):
@@ -293,12 +293,12 @@ class GhostBumps(Scene):
         """Return the greatest loss of speed on each floor, and the time of a step."""
         if self.run == 0:
             return "not yet: the sliders have to come over some tiles"
-        told = (
+        parts = (
             f"{TITLES[floor]} {amount(max(self.slowed[floor, kind] for kind in KINDS))}"
             f" ({cost_text(self, (*self.chosen, floor))})"
             for floor in FLOORS
         )
-        return f"of the speed was lost after {self.run} tiles: {', '.join(told)}"
+        return f"of the speed was lost after {self.run} tiles: {', '.join(parts)}"
 
     def bot(self):
         """Return the bot: watch."""

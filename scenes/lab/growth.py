@@ -39,17 +39,17 @@ def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str,
     plot = pygame.Rect(rect.x + 3 * scale, rect.y + 12 * scale, 0, 0)
     plot.size = rect.right - LABEL * scale - plot.x, rect.bottom - 10 * scale - plot.y
     if points:
-        plan = _Plan(plot, points)
-        _draw_grid(frame, plan, here, scale)
+        axes = _LogAxes(plot, points)
+        _draw_grid(frame, axes, here, scale)
         for each in series.values():
-            _draw_series(surface, plan, each, frame)
-        _write_laws(frame, plan, series, rect, scale)
+            _draw_series(surface, axes, each, frame)
+        _write_laws(frame, axes, series, rect, scale)
     else:
         frame.text("measuring", plot.x, rect.centery, FOG, SMALL, scale)
     frame.fix(rect)
 
 
-class _Plan:
+class _LogAxes:
     """Transform of numbers and seconds into a plot, both by their logarithms."""
 
     def __init__(self, plot, points):
@@ -65,48 +65,48 @@ class _Plan:
         return self.plot.bottom - self.plot.height * (log10(cost) - self.low) / (self.high - self.low)
 
 
-def _draw_grid(frame, plan, here, scale):
-    surface, plot = frame.surface, plan.plot
-    for power in range(ceil(plan.low), floor(plan.high) + 1):
-        y = plan.y(10.0**power)
+def _draw_grid(frame, axes, here, scale):
+    surface, plot = frame.surface, axes.plot
+    for power in range(ceil(axes.low), floor(axes.high) + 1):
+        y = axes.y(10.0**power)
         pygame.draw.line(surface, GRID, (plot.left, y), (plot.right, y))
-    for power in range(ceil(plan.left), floor(plan.right) + 1):
-        x = plan.x(10.0**power)
+    for power in range(ceil(axes.left), floor(axes.right) + 1):
+        x = axes.x(10.0**power)
         pygame.draw.line(surface, GRID, (x, plot.top), (x, plot.bottom))
         frame.text(f"{10**power:,}", round(x), plot.bottom + 3 * scale, FOG, SMALL, scale, "center")
-    x = min(max(plan.x(here), plot.left), plot.right)
+    x = min(max(axes.x(here), plot.left), plot.right)
     reach = 2 * scale
     pygame.draw.polygon(
         surface, FOG, [(x, plot.bottom - 2 * reach), (x - reach, plot.bottom), (x + reach, plot.bottom)]
     )
 
 
-def _draw_series(surface, plan, series, frame):
+def _draw_series(surface, axes, series, frame):
     if series.law is not None and series.fitted:
         ends = [series.points[-series.fitted][0], series.points[-1][0]]
-        start, end = ((plan.x(n), plan.y(series.law.at(n))) for n in ends)
+        start, end = ((axes.x(n), axes.y(series.law.at(n))) for n in ends)
         pygame.draw.line(surface, series.color, start, end)
     for size, cost in series.points:
-        x, y = plan.x(size), plan.y(cost.least)
-        pygame.draw.line(surface, series.color, (x, y), (x, plan.y(cost.median)))
+        x, y = axes.x(size), axes.y(cost.least)
+        pygame.draw.line(surface, series.color, (x, y), (x, axes.y(cost.median)))
         pygame.draw.circle(surface, series.color, (x, y), max(2, frame.scale), 0 if series.law else 1)
 
 
-def _write_laws(frame, plan, series, rect, scale):
+def _write_laws(frame, axes, series, rect, scale):
     """Write the exponents beside the ends of their lines without overlaps, then the decades of the lines."""
-    ends = sorted((plan.y(each.points[-1][1].least), name) for name, each in series.items() if each.points)
-    step, top = LINE * scale, plan.plot.top
+    ends = sorted((axes.y(each.points[-1][1].least), name) for name, each in series.items() if each.points)
+    step, top = LINE * scale, axes.plot.top
     last = rect.bottom - 10 * scale - step * len(ends)
     for number, (y, name) in enumerate(ends):
         y = top = max(top, min(round(y - step / 2), last + step * number))
         law = series[name].law
         text = f"n^{law.exponent:.2f} +-{law.error:.2f}" if law is not None else name
-        frame.text(text, plan.plot.right + 3 * scale, y, series[name].color, SMALL, scale)
+        frame.text(text, axes.plot.right + 3 * scale, y, series[name].color, SMALL, scale)
         top += step
-    for power in range(ceil(plan.low), floor(plan.high) + 1):  # over the lines
-        y = round(plan.y(10.0**power)) - 6 * scale
-        if y > plan.plot.top:
-            frame.text_if_free(in_units(10.0**power), plan.plot.left + scale, y, FOG, SMALL, scale, "left", True)
+    for power in range(ceil(axes.low), floor(axes.high) + 1):  # over the lines
+        y = round(axes.y(10.0**power)) - 6 * scale
+        if y > axes.plot.top:
+            frame.text_if_free(in_units(10.0**power), axes.plot.left + scale, y, FOG, SMALL, scale, "left", True)
 
 
 def in_units(seconds: float) -> str:

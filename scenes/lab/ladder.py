@@ -24,9 +24,9 @@ from game.drawing.sprites import load_atlas
 from game.errors import FileError
 from game.files.pictures import png_size
 from game.input.inputs import InputFrame
+from game.measurement_requests import SpriteRequest
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
-from game.wishes import Sprites
 from physics import TIERS, Effects, PixelMask, debug, fit
 from scenes.lab.coverage import covered
 from scenes.lab.yard import HEAD
@@ -45,7 +45,7 @@ SPRITES = (
     ("crate", "lab", "crate_24_0"),
 )
 NAMES = {"aabb": "box", "obb": "turned box", "pixels": "pixels, as drawn", "mask": "pixels, exactly"}
-TOLD = ("aabb", "hull", "outline")  # tiers in the finding
+IN_FINDING = ("aabb", "hull", "outline")  # tiers in the finding
 HOLDING = ("circle", "aabb", "obb", "capsule", "hull")  # tiers that contain all pixels of a sprite
 COLUMNS = 3
 CELL = (160, 84)
@@ -144,7 +144,7 @@ class Ladder(Scene):
 
     def measured(self):
         """Return the poses to measure: the sprite against itself."""
-        return Sprites(self.mask, self.mask)
+        return SpriteRequest(self.mask, self.mask)
 
     def update(self, inputs):
         """Change the sprite by left, right and the wheel."""
@@ -228,14 +228,14 @@ class Ladder(Scene):
 
     def finding(self):
         """Return the empty share of three shapes around this sprite, and the time of a hit."""
-        empty = [100 * self.counts[tier][0] / (self.mask.area + self._balance(tier)) for tier in TOLD]
-        names = [NAMES.get(tier, tier) for tier in TOLD]
+        empty = [100 * self.counts[tier][0] / (self.mask.area + self._balance(tier)) for tier in IN_FINDING]
+        names = [NAMES.get(tier, tier) for tier in IN_FINDING]
         shares = ", ".join(f"{share:.0f} % of its {name}" for name, share in zip(names, empty, strict=True))
-        told = f"{self.sprite_name}: {shares} is empty"
-        if not all(tier in self.figures for tier in TOLD):
-            return told
-        times = ", ".join(f"{1e9 * self.figures[tier].hit.median:,.0f}" for tier in TOLD)
-        return f"{told}; a hit takes {times} ns"
+        sentence = f"{self.sprite_name}: {shares} is empty"
+        if not all(tier in self.figures for tier in IN_FINDING):
+            return sentence
+        times = ", ".join(f"{1e9 * self.figures[tier].hit.median:,.0f}" for tier in IN_FINDING)
+        return f"{sentence}; a hit takes {times} ns"
 
     def _balance(self, tier):
         """Return the surplus of pixels that a tier covers."""
@@ -253,8 +253,8 @@ class Ladder(Scene):
 
 def _times(hit, miss):
     """Return both in one unit; in us if the text would overlap its name."""
-    told = f"{1e9 * hit:,.0f}, {1e9 * miss:,.0f} ns"
-    return told if len(told) <= ROOM else f"{1e6 * hit:.3g}, {1e6 * miss:.2f} us"
+    sentence = f"{1e9 * hit:,.0f}, {1e9 * miss:,.0f} ns"
+    return sentence if len(sentence) <= ROOM else f"{1e6 * hit:.3g}, {1e6 * miss:.2f} us"
 
 
 @cache

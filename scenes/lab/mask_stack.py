@@ -22,10 +22,10 @@ from game.drawing.colors import FOG, GOLD, GREEN, ORANGE, PAPER, RED, SKY, YELLO
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.overlays.mask_edges import mask_edges
 from game.overlays.outlines import draw_lines, draw_outline
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Effects, PixelMask, Polygon, debug, fit, measure
 from physics.settings import SMOOTH
 from physics.tables.shape import PART, WHOLE
@@ -35,7 +35,7 @@ from scenes.lab.yard import HEAD, Yard, plate
 
 WAYS = ("box", "hull", "parts", "outline", "exact")
 COLORS = {"box": RED, "hull": ORANGE, "parts": YELLOW, "outline": GREEN, "exact": SKY}
-TOLD = ("box", "outline", "exact")  # in the finding
+IN_FINDING = ("box", "outline", "exact")  # in the finding
 PUSHED_AS_MASKS = ("outline", "exact")
 SPRITES = {
     "crates": ("lab", "crate_24_0"),
@@ -198,12 +198,14 @@ class MaskStack(Scene):
         if self.since < WARM:
             return None
         worlds = dict(zip(WAYS, self.worlds, strict=True))
-        return Lanes(
-            [self._lane(way) for way in WAYS],
-            lambda name: Lane([with_effects(worlds[name[-1]], self.effects.without("sleeping"))], self.broadphase),
+        return RunRequest(
+            [self._run_name(way) for way in WAYS],
+            lambda name: MeasuredRun(
+                [with_effects(worlds[name[-1]], self.effects.without("sleeping"))], self.broadphase
+            ),
         )
 
-    def _lane(self, way):
+    def _run_name(self, way):
         return *self.chosen, way
 
     def stands_now(self, way):
@@ -247,7 +249,7 @@ class MaskStack(Scene):
             ("missed", f"{whole(missed)} px"),
             ("sinks", f"{self.sinks[way]:z.2f} px"),
             ("sways", f"{self.sways[way]:.2f} px"),
-            ("step, awake", cost_text(self, self._lane(way))),
+            ("step, awake", cost_text(self, self._run_name(way))),
         )
         for row, (word, value) in enumerate(rows):
             canvas.text(word, box.x + 3, box.y + 16 + row * 8, FOG, SMALL)
@@ -295,12 +297,12 @@ class MaskStack(Scene):
             return "not yet: the piles have to settle for half a second"
         if any(isnan(corners) for corners, _, _ in map(self.share, WAYS)):
             return "not yet: how well the shapes fit is being measured"
-        told = []
-        for way in TOLD:
+        parts = []
+        for way in IN_FINDING:
             corners, air, _ = self.share(way)
             stands = f"sinks {self.sinks[way]:z.2f} px" if self.stands_now(way) else "fell"
-            told.append(f"{way} {whole(air)} px of air, {whole(corners)} corners, {stands}")
-        return "; ".join(told)
+            parts.append(f"{way} {whole(air)} px of air, {whole(corners)} corners, {stands}")
+        return "; ".join(parts)
 
     def bot(self):
         """Return the bot: watch them come to rest, nudge once, watch again."""

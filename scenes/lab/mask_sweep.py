@@ -256,7 +256,7 @@ class MaskSweep(Scene):
         """Return the goals: none passes if swept; many do otherwise."""
         passed, fired, hit = self.passed, self.fired, self.hit
         flying = {way: sum(WAYS[of] == way for of, *_ in self.shots) for way in WAYS}
-        told = all(
+        all_accounted = all(
             sum(fired[way, shape] - hit[way, shape] - passed[way, shape] for shape in SHAPES) == flying[way]
             for way in WAYS
         )
@@ -277,7 +277,7 @@ class MaskSweep(Scene):
                 all(passed["off", shape] > 0 for shape in SHAPES),
                 ", ".join(f"{passed['off', shape]} of {fired['off', shape]}" for shape in SHAPES),
             ),
-            Goal("every shot has passed, hit, or flies", 300, told, f"{sum(flying.values())} fly"),
+            Goal("every shot has passed, hit, or flies", 300, all_accounted, f"{sum(flying.values())} fly"),
         ]
 
     def finding(self):
@@ -287,8 +287,8 @@ class MaskSweep(Scene):
             return "not yet: shots have to come to the walls"
         rates = {way: Rate(passed[way], met[way]) for way in WAYS}
         most = 100 * rates["toi"].interval[1]
-        told = f"{rates['off'].count} of {rates['off'].total} shots came through walls of one pixel"
-        return f"{told}; swept, {rates['toi'].count} of {rates['toi'].total} (95 %: at most {most:.1f} %)"
+        sentence = f"{rates['off'].count} of {rates['off'].total} shots came through walls of one pixel"
+        return f"{sentence}; swept, {rates['toi'].count} of {rates['toi'].total} (95 %: at most {most:.1f} %)"
 
     def _ended(self):
         """Return (shots that passed, all that did or hit)."""

@@ -22,9 +22,9 @@ from game.drawing.colors import BLUE, FOG, GOLD, GREEN, INK, ORANGE, PAPER, PINK
 from game.drawing.sprites import RotatedSprites, load_atlas, load_backdrop
 from game.input.inputs import InputFrame
 from game.measure.tiers import POSES
+from game.measurement_requests import SpriteRequest
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene
-from game.wishes import Sprites
 from physics import TIERS, Effects, World, collide, debug
 from scenes.lab.hands import Hands
 from scenes.lab.yard import HEAD
@@ -94,7 +94,7 @@ class Masks(Scene):
 
     def measured(self):
         """Return the poses to measure: those of the two planes."""
-        return Sprites(self.masks[0], self.masks[1])
+        return SpriteRequest(self.masks[0], self.masks[1])
 
     def _world(self, tier):
         world = self.add_world()
@@ -144,7 +144,7 @@ class Masks(Scene):
         canvas.surface.fill(INK, (0, 0, 480, ARENA.top))
         canvas.text("MASKS", 4, 4, GOLD)
         canvas.text("nine verdicts on the same two planes", ARENA.right - 4, 6, FOG, SMALL, align="right")
-        canvas.text("of told", COLUMNS[0], TABLE_Y - 20, FOG, SMALL, align="right")
+        canvas.text("of hits", COLUMNS[0], TABLE_Y - 20, FOG, SMALL, align="right")
         canvas.text("of true", COLUMNS[1], TABLE_Y - 20, FOG, SMALL, align="right")
         canvas.text("one test [ns]", COLUMNS[3], TABLE_Y - 20, FOG, SMALL, align="right")
         for name, right in zip(HEADS, COLUMNS, strict=True):

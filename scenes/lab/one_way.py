@@ -331,9 +331,11 @@ class OneWay(Scene):
         if not all((*self.passed.values(), *self.landed.values())):
             return "not yet: a body and the hero have to come up through a plank, and to land on one"
         body, hero = (f"{self.passed[who]} times up, {self.landed[who]} landings" for who in ("body", "hero"))
-        told = f"through the same planks: bodies {body}; the hero {hero}"
+        sentence = f"through the same planks: bodies {body}; the hero {hero}"
         slid = max(self.slip.values())
-        return f"{told}; in {self.carried:,.0f} px of lift its riders slid {slid:.2f} px" if self.carried else told
+        return (
+            f"{sentence}; in {self.carried:,.0f} px of lift its riders slid {slid:.2f} px" if self.carried else sentence
+        )
 
     def bot(self):
         """Return the bot: up the left planks, down through two, and up again."""

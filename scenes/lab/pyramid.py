@@ -20,8 +20,8 @@ from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.measure.setting import SUBSTEPPED
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import BROADPHASES, Circle, Effects, Material, Polygon, World
 from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
@@ -114,7 +114,7 @@ class Pyramid(Scene):
                 self.change_slider(name, self.values[name] + way)
         if inputs.pressed("fire"):
             self._drop()
-        self.tried.add(self.lane)
+        self.tried.add(self.run_name)
         self.world.step()
         self._sound()
         self.since += 1
@@ -128,19 +128,21 @@ class Pyramid(Scene):
                 self.still = self.top.position
 
     @property
-    def lane(self):
+    def run_name(self):
         """Name of the current run: rows, solver, substeps (None if it has none), broad phase."""
-        return self._lane(self.world.solver, self.world.substeps)
+        return self._run_name(self.world.solver, self.world.substeps)
 
-    def _lane(self, solver, substeps):
+    def _run_name(self, solver, substeps):
         return int(self.values["rows"]), solver, substeps if solver in SUBSTEPPED else None, self.broadphase
 
     def measured(self):
         """Return the runs to measure: this pyramid under every solver and number of substeps, from its start: time of a
         step, and errors.
         """
-        names = [self._lane(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
-        return Lanes(list(dict.fromkeys([self.lane, *names, *sorted(self._tried_here(), key=str)])), self._make)
+        names = [self._run_name(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
+        return RunRequest(
+            list(dict.fromkeys([self.run_name, *names, *sorted(self._tried_here(), key=str)])), self._make
+        )
 
     def _tried_here(self):
         return [name for name in self.tried if name[0] == self.values["rows"] and name[-1] == self.broadphase]
@@ -150,7 +152,7 @@ class Pyramid(Scene):
         more = {} if substeps is None else {"substeps": substeps}
         world = World(self.effects, BROADPHASES[self.broadphase](), solver, **more)
         pile_up(world, rows)
-        return Lane([world.snapshot()], self.broadphase, judged=(JUDGED_AT - 60, JUDGED_AT))
+        return MeasuredRun([world.snapshot()], self.broadphase, judged=(JUDGED_AT - 60, JUDGED_AT))
 
     def dots(self):
         """Return {run: Dot} of this pyramid, as far as measured: microseconds and thousandths of a crate."""
@@ -166,16 +168,16 @@ class Pyramid(Scene):
     def finding(self):
         """Return cost and error of the current setting, and the cheapest setting of the same accuracy."""
         dots = self.dots()
-        if self.lane not in dots:
+        if self.run_name not in dots:
             return "not yet: this pyramid has to be stepped beside the game"
-        mine = dots[self.lane]
-        told = f"a step takes {mine.cost:,.0f} us and crates overlap by {mine.error:.2g} thousandths"
+        mine = dots[self.run_name]
+        sentence = f"a step takes {mine.cost:,.0f} us and crates overlap by {mine.error:.2g} thousandths"
         as_good = [name for name, dot in dots.items() if dot.error <= mine.error]
         best = min(as_good, key=lambda name: dots[name].cost)
-        if len(dots) < len(self.measured().names) or best == self.lane:
-            return told
+        if len(dots) < len(self.measured().names) or best == self.run_name:
+            return sentence
         substeps = "" if best[2] is None else f", {best[2]} substeps"
-        return f"{told}; {plain_name(best[1])}{substeps}: no more for {dots[best].cost:,.0f} us"
+        return f"{sentence}; {plain_name(best[1])}{substeps}: no more for {dots[best].cost:,.0f} us"
 
     def _energy(self):
         """Return the energy of the crates [mass px2/s2]."""
@@ -229,7 +231,7 @@ class Pyramid(Scene):
         rows = (
             ("solver", plain_name(solver)),
             ("substeps", f"{self.values['substeps']}"),
-            ("a step", cost_text(self, self.lane)),
+            ("a step", cost_text(self, self.run_name)),
             ("contacts", f"{len(self.world.contacts)}"),
             ("overlap", f"{100 * deepest(self.world) / SIZE:.2f} %"),
             ("fastest", f"{fastest(self.world) / SIZE:.3f} m/s"),
@@ -242,7 +244,7 @@ class Pyramid(Scene):
     def draw_on_frame(self, frame):
         """Draw the curve of the overlap, and error against time of all measured settings."""
         self.overlap.draw(frame, OVERLAP_AT)
-        draw_scatter(frame, SCATTER_AT, "overlap over a step's time [log]", self.dots(), self.lane)
+        draw_scatter(frame, SCATTER_AT, "overlap over a step's time [log]", self.dots(), self.run_name)
         if self.thrown is None:
             (x, y), lens = self._built_at(), frame.lens(self.camera)
             aside = max(abs(self.top.position[0] - x), abs(self.top.position[1] - y))

@@ -24,15 +24,15 @@ from game.drawing.colors import BROADPHASE_COLORS, FOG, GOLD, NIGHT, PAPER, SLAT
 from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
+from game.measurement_requests import Act, MeasuredRun, RunRequest
 from game.overlays.layer_impulses import arrow
 from game.overlays.outlines import draw_outline
 from game.scene import Goal, Scene, Slider
-from game.wishes import Act, Lane, Lanes
 from physics import Capsule, Circle, Effects, PixelMask, Polygon, debug
 from scenes.lab.costs import cost_text
 from scenes.lab.curves import Curves
 from scenes.lab.looks import Looks
-from scenes.lab.questions import angle_of, ask, told
+from scenes.lab.query_calls import angle_of, ask, rows_of
 from scenes.lab.yard import HEAD, darken, draw_head
 
 STRATEGIES = ("tree", "hash", "sweep", "brute")
@@ -177,7 +177,7 @@ class Queries(Scene):
         for strategy, world in zip(STRATEGIES, self.worlds, strict=True):
             bounce(world)
             world.step()
-            answers.append(told(ask(world, self.query, self.origin, self.target, float(self.values["size"]))))
+            answers.append(rows_of(ask(world, self.query, self.origin, self.target, float(self.values["size"]))))
             counters = world.queries.counters
             self.work[strategy] = counters["nodes_visited"], counters["pairs_tested"]
             self.looked[strategy] += sum(self.work[strategy])
@@ -201,12 +201,12 @@ class Queries(Scene):
             if not made:
                 made.append(self.worlds[0].snapshot())
             query, size, _, strategy = name
-            act = Act(f"{__package__}.questions:asking", (query, ORIGIN, (WIDTH, HEIGHT), size))
-            return Lane(made, strategy, PLACES, act=act)
+            act = Act(f"{__package__}.query_calls:asking", (query, ORIGIN, (WIDTH, HEIGHT), size))
+            return MeasuredRun(made, strategy, PLACES, act=act)
 
-        return Lanes([self._lane(strategy) for strategy in STRATEGIES], make)
+        return RunRequest([self._run_name(strategy) for strategy in STRATEGIES], make)
 
-    def _lane(self, strategy):
+    def _run_name(self, strategy):
         return self.query, float(self.values["size"]), int(self.values["bodies"]), strategy
 
     def views(self):
@@ -230,7 +230,7 @@ class Queries(Scene):
                 pygame.draw.rect(canvas.surface, faded(color, 0.3), (SIDE_X - 2, y - 2, 122, 36), 1)
                 canvas.surface.fill(color, (SIDE_X - 2, y - 2, 2, 36))
             canvas.text(name, SIDE_X + 3, y, color)
-            canvas.text(cost_text(self, self._lane(name)), 473, y + 1, color, SMALL, align="right")
+            canvas.text(cost_text(self, self._run_name(name)), 473, y + 1, color, SMALL, align="right")
             nodes, boxes = self.work[name]
             for row, (word, value) in enumerate(((PARTS[name], nodes), ("boxes compared", boxes))):
                 canvas.text(word, SIDE_X + 3, y + 12 + 10 * row, FOG, SMALL)
@@ -352,8 +352,8 @@ class Queries(Scene):
             return "not yet: something has to be asked"
         looks = ", ".join(f"the {name} at {self.usual[name].value:,.0f}" for name in STRATEGIES[:-1])
         among = f"{self.query} among {self.values['bodies']:,} shapes: {looks}, brute force at"
-        told = f"{among} {self.usual['brute'].value:,.0f} boxes and nodes"
-        return f"{told}; {self.disagreements} of {self.asked:,} answers differed"
+        sentence = f"{among} {self.usual['brute'].value:,.0f} boxes and nodes"
+        return f"{sentence}; {self.disagreements} of {self.asked:,} answers differed"
 
     def bot(self):
         """Return the bot: point along a slow curve; change the query now and then, the strategy more often."""

@@ -340,8 +340,8 @@ class Sensors(Scene):
         due, missed, false = (sum(each.values()) for each in (self.due, self.missed, self.false))
         if not due:
             return "not yet: something has to cross a zone"
-        told = f"of {due:,} entries by geometry {missed:,} were missed and {false:,} made up"
-        return f"{told}, with {self.fastest:.0f} px in a step through zones down to 1 px"
+        sentence = f"of {due:,} entries by geometry {missed:,} were missed and {false:,} made up"
+        return f"{sentence}, with {self.fastest:.0f} px in a step through zones down to 1 px"
 
     def bot(self):
         """Return the bot: watch, and make both faster."""

@@ -323,8 +323,8 @@ class Shapes(Scene):
             return "not yet: the shapes have to be compared"
         wrong = self.disagreed + self.mirrored
         seen = f"{count_text(self.compared, 'pose')} of {count_text(len(self.pairs), 'pair')}"
-        told = f"in {seen} of shapes the methods disagreed {wrong} times"
-        return f"{told}; SAT and GJK are {self.worst['axis']:.1g} px apart at most, after {self.rounds} rounds"
+        sentence = f"in {seen} of shapes the methods disagreed {wrong} times"
+        return f"{sentence}; SAT and GJK are {self.worst['axis']:.1g} px apart at most, after {self.rounds} rounds"
 
     def bot(self):
         """Return the bot: another pair every 25 steps; B is dragged into A and out again, with rotation."""

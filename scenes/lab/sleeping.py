@@ -23,8 +23,8 @@ from game.drawing.colors import FOG, GOLD, PAPER, SKY, SLATE, faded
 from game.drawing.number_text import count_text
 from game.drawing.rotated import RotatedPicture, poses_between
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Capsule, Circle, Effects, Material, Polygon, debug
 from scenes.lab.costs import cost_of, cost_text, microseconds
 from scenes.lab.curves import Curves
@@ -190,15 +190,15 @@ class Sleeping(Scene):
         """
         if self.awake or not self.asleep or self.thrown:
             return None
-        return Lanes([self._lane(how) for how in SLEPT], self._make)
+        return RunRequest([self._run_name(how) for how in SLEPT], self._make)
 
-    def _lane(self, how):
+    def _run_name(self, how):
         return *self.chosen, how
 
     def _make(self, name):
         world, awake = self.world, name[-1] != "asleep"
         made = with_effects(world, self.effects.without("sleeping")) if awake else world.snapshot()
-        return Lane([made], self.broadphase)
+        return MeasuredRun([made], self.broadphase)
 
     def _count(self, islands):
         """Count bodies awake and asleep, and islands. islands: that of each body."""
@@ -271,8 +271,8 @@ class Sleeping(Scene):
             ("asleep", f"{self.asleep}", FOG),
             ("islands", f"{self.islands}", PAPER),
             ("islands woken by balls", f"{islands}", PAPER),
-            ("a step, all awake", cost_text(self, self._lane("awake")), SKY),
-            ("a step, all asleep", cost_text(self, self._lane("asleep")), SKY),
+            ("a step, all awake", cost_text(self, self._run_name("awake")), SKY),
+            ("a step, all asleep", cost_text(self, self._run_name("asleep")), SKY),
         )
         for number, (word, value, color) in enumerate(rows):
             canvas.text(word, 10, 210 + number * 9, FOG, SMALL)
@@ -317,16 +317,16 @@ class Sleeping(Scene):
 
     def finding(self):
         """Return the cost of sleeping against that of being awake, and the number of islands that a knock woke."""
-        told = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
-        awake, asleep = (cost_of(self, self._lane(how)) for how in SLEPT)
+        parts = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
+        awake, asleep = (cost_of(self, self._run_name(how)) for how in SLEPT)
         if awake is not None and asleep is not None:
-            told.append(f"a step takes {microseconds(asleep)} asleep, {awake / asleep:,.1f} x that without sleep")
+            parts.append(f"a step takes {microseconds(asleep)} asleep, {awake / asleep:,.1f} x that without sleep")
         elif self.slept_at < 0 and not self.waves:
             return "not yet: all have to fall asleep"
         if self.waves:
             woken = sum(count for _, count in self.waves)
-            told.append(f"balls woke {count_text(woken, 'island')}, {self.first_woken} at first")
-        return "; ".join(told)
+            parts.append(f"balls woke {count_text(woken, 'island')}, {self.first_woken} at first")
+        return "; ".join(parts)
 
     def bot(self):
         """Return the bot: wait until all sleep, then throw a ball at the top of the first column."""

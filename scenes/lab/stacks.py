@@ -22,8 +22,8 @@ from game.drawing.number_text import plain_name
 from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Effects, Material, Polygon
 from scenes.lab.costs import cost_text
 from scenes.lab.piles import SOLVERS, deepest
@@ -129,9 +129,9 @@ class Stacks(Scene):
         if self.since < SETTLED:
             return None
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
-        return Lanes(
+        return RunRequest(
             [(*self.chosen, name) for name in SOLVERS],
-            lambda name: Lane([worlds[name[-1]].snapshot()], self.broadphase),
+            lambda name: MeasuredRun([worlds[name[-1]].snapshot()], self.broadphase),
         )
 
     def stands(self, name):
@@ -243,12 +243,12 @@ class Stacks(Scene):
         """Return the sag and sway of each column, and the time of a step."""
         if self.since <= SETTLED:
             return "not yet: the columns have to settle for two seconds"
-        told = []
+        parts = []
         for index, name in enumerate(SOLVERS):
             sinks, sways = self.sag[name] / (self.values["crates"] * SIZE), self.sway[name] / SIZE
             how = f"sinks {100 * sinks:.1f} %, sways {100 * sways:.1f} %" if self.stands_now(index) else "fell"
-            told.append(f"{plain_name(name)} {how} ({cost_text(self, (*self.chosen, name))})")
-        return "; ".join(told)
+            parts.append(f"{plain_name(name)} {how} ({cost_text(self, (*self.chosen, name))})")
+        return "; ".join(parts)
 
     def bot(self):
         """Return the bot: watch, and nudge once."""

@@ -24,8 +24,8 @@ from game.drawing.rotated import Cast
 from game.drawing.sprites import load_atlas
 from game.input.inputs import InputFrame
 from game.measure.setting import SUBSTEPPED
+from game.measurement_requests import MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes
 from physics import Capsule, Circle, Effects, Polygon
 from scenes.lab.costs import cost_of, cost_text, microseconds
 from scenes.lab.piles import deepest, kinetic_energy, with_substeps
@@ -139,18 +139,18 @@ class Tumbler(Scene):
         """Return {name: run} of the current number of substeps and another one."""
         now, solver = self.world.substeps, self.world.solver
         asked = (now, SUBSTEPS if now == "auto" else "auto") if solver in SUBSTEPPED else (None,)
-        lane = (int(self.values["bodies"]), round(float(self.values["speed"]), 1), solver, self.broadphase)
+        name = (int(self.values["bodies"]), round(float(self.values["speed"]), 1), solver, self.broadphase)
         words = {None: "a step", "auto": "by load"}
-        return {words.get(substeps, f"{substeps} substeps"): (*lane, substeps) for substeps in asked}
+        return {words.get(substeps, f"{substeps} substeps"): (*name, substeps) for substeps in asked}
 
     def measured(self):
         """Return the runs to measure: a step of this drum once the load has settled, with the current number of
         substeps and another.
         """
-        return Lanes(list(self.ways().values()), self._make) if self.since > SETTLED else None
+        return RunRequest(list(self.ways().values()), self._make) if self.since > SETTLED else None
 
     def _make(self, name):
-        return Lane([with_substeps(self.world, name[-1])], self.broadphase)
+        return MeasuredRun([with_substeps(self.world, name[-1])], self.broadphase)
 
     def draw(self, canvas, alpha):
         """Draw the drum, its load, the numbers."""
@@ -167,14 +167,14 @@ class Tumbler(Scene):
             ("contacts", f"{len(self.world.contacts)}"),
             ("overlap", f"{deepest(self.world):.2f} px"),
             ("on average", f"{self.pressed:.2f} px"),
-            ("speed", f"{self._pace():.0f} px/s"),
-            *((word, cost_text(self, lane)) for word, lane in self.ways().items()),
+            ("speed", f"{self._rms_speed():.0f} px/s"),
+            *((word, cost_text(self, name)) for word, name in self.ways().items()),
         )
         for number, (word, value) in enumerate(rows):
             canvas.text(word, 10, 40 + number * 10, FOG, SMALL)
             canvas.text(value, 110, 40 + number * 10, GOLD if word == "turns" else PAPER, SMALL, align="right")
 
-    def _pace(self):
+    def _rms_speed(self):
         """Return the root mean square speed of the load [px/s]."""
         mass = float(self.world.bodies["mass"][1:].sum())
         return (2.0 * self.energy / mass) ** 0.5 if mass else 0.0
@@ -211,13 +211,13 @@ class Tumbler(Scene):
         if self.since < SETTLED + 60:
             return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)
-        told = f"{self.escaped} of {len(self.world.bodies) - 1} shapes got out in {turns:.2f} turns"
+        sentence = f"{self.escaped} of {len(self.world.bodies) - 1} shapes got out in {turns:.2f} turns"
         deep = f"{self.pressed:.2f} px, {self.pressed / THINNEST:.0%} of the thinnest"
-        told = f"{told}; the deepest overlap is {deep}, on average over {(self.since - SETTLED) / 60:.0f} s"
-        costs = {word: cost_of(self, lane) for word, lane in self.ways().items()}
+        sentence = f"{sentence}; the deepest overlap is {deep}, on average over {(self.since - SETTLED) / 60:.0f} s"
+        costs = {word: cost_of(self, name) for word, name in self.ways().items()}
         if None in costs.values():
-            return told
-        return f"{told}; a step takes {', '.join(f'{microseconds(cost)} ({word})' for word, cost in costs.items())}"
+            return sentence
+        return f"{sentence}; a step takes {', '.join(f'{microseconds(cost)} ({word})' for word, cost in costs.items())}"
 
     def bot(self):
         """Return the bot: watch."""

@@ -21,8 +21,8 @@ from game.drawing.canvas import SMALL, TEXT
 from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED, SKY, SLATE, WHITE, faded
 from game.drawing.sprites import load_atlas, load_backdrop
 from game.input.inputs import InputFrame
+from game.measurement_requests import STEPS, MeasuredRun, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import STEPS, Lane, Lanes
 from physics import BROADPHASES, Effects, World
 from scenes.lab.costs import cost_text
 from scenes.lab.shots import (
@@ -168,9 +168,11 @@ class Tunnelling(Scene):
         def make(name):
             world = World(self.effects, BROADPHASES[self.broadphase](), self.solver)
             count = ceil(STEPS / steps)
-            return Lane(flights(world, self.kind, name[-1], speed, plate, count, Random(0)), self.broadphase, steps)
+            return MeasuredRun(
+                flights(world, self.kind, name[-1], speed, plate, count, Random(0)), self.broadphase, steps
+            )
 
-        return Lanes([(*self.chosen, lane) for lane in LANES], make)
+        return RunRequest([(*self.chosen, lane) for lane in LANES], make)
 
     def _count_hits(self):
         for row in self.world.events.begin:
@@ -339,11 +341,11 @@ class Tunnelling(Scene):
         ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}
         if not all(ended.values()):
             return f"not yet: {kind} have to come to each wall"
-        told = []
+        parts = []
         for lane in LANES:
             missed = self.missed[kind, lane]
-            told.append(f"{lane} missed {missed} of {ended[lane]} ({cost_text(self, (*self.chosen, lane))})")
-        return f"{kind}: {', '.join(told)}"
+            parts.append(f"{lane} missed {missed} of {ended[lane]} ({cost_text(self, (*self.chosen, lane))})")
+        return f"{kind}: {', '.join(parts)}"
 
     def bot(self):
         """Return the bot: watch balls, rods and bullets; make it faster once."""

@@ -52,10 +52,10 @@ class Backdrop:
     def draw_snow(self, surface, layer, look, wind, left, top):
         """Draw one layer of snow; less of it in a cave. look: the Spectacle."""
         share, carried, fall, color, thick = SNOW[layer]
-        across, down, pace = self.flakes[layer]
+        across, down, speed = self.flakes[layer]
         shown = whole(FLAKES * (1.0 - look.shelter) * (0.45 + min(abs(wind) / 160.0, 0.55)))
         width, height = CANVAS_SIZE[0] + 40, CANVAS_SIZE[1] + 20
-        own = 0.7 + 0.6 * pace
+        own = 0.7 + 0.6 * speed
         x = (across * width + look.gusted * carried * own - left * share) % width - 20
         y = (down * height + look.time * fall * own - top * share) % height - 10
         long_x, long_y = wind * carried * STREAK, fall * STREAK

@@ -11,7 +11,7 @@ from game.files.json_file import read_json
 from game.places import LEVELS
 from physics import PixelMask
 
-PLAN = LEVELS / "lander.json"
+LEVEL = LEVELS / "lander.json"
 
 
 @dataclass(frozen=True)
@@ -58,17 +58,17 @@ class Moon:
     """
 
     def __init__(self):
-        plan = read_json(PLAN)
-        self.width, self.height = plan["size"]
+        level = read_json(LEVEL)
+        self.width, self.height = level["size"]
         self.pads = tuple(
             Pad(pad["name"], pad["title"], pad.get("hint", ""), pad.get("more", ""), pad["x"], pad["y"], pad["width"])
-            for pad in plan["pads"]
+            for pad in level["pads"]
         )
-        self.winds = tuple(Wind(**wind) for wind in plan["winds"])
-        self.cargo = tuple((each["look"], each["x"], each["y"]) for each in plan["cargo"])
-        self.rocks = tuple((x, y, f"rock_{kind}") for x, y, kind in plan["rocks"])
-        self.cans = tuple((x, y) for x, y in plan["cans"])
-        self.flight = tuple(tuple(Waypoint(**each) for each in act) for act in plan["flight"])
+        self.winds = tuple(Wind(**wind) for wind in level["winds"])
+        self.cargo = tuple((each["look"], each["x"], each["y"]) for each in level["cargo"])
+        self.rocks = tuple((x, y, f"rock_{kind}") for x, y, kind in level["rocks"])
+        self.cans = tuple((x, y) for x, y in level["cans"])
+        self.flight = tuple(tuple(Waypoint(**each) for each in act) for act in level["flight"])
         self.picture, self.wall = load_backdrop("lander_ground"), load_backdrop("lander_wall")
         self.mask = PixelMask.from_surface(self.picture, origin=(0, 0))
         self.solid = self.mask.solid

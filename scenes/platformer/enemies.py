@@ -75,8 +75,8 @@ class Walker(Creature):
         if (x - self.home) * self.way >= self.range:
             self.way = -self.way
         self.vy = approach(self.vy, FALL_SPEED, GRAVITY * STEP_SECONDS)
-        pace = WALK_SPEED[self.kind] if self.range else 0.0
-        moved = self.character.move(self.way * pace * STEP_SECONDS, self.vy * STEP_SECONDS)
+        speed = WALK_SPEED[self.kind] if self.range else 0.0
+        moved = self.character.move(self.way * speed * STEP_SECONDS, self.vy * STEP_SECONDS)
         self.vy = 0.0 if moved.grounded else self.vy
         if moved.wall == self.way:
             self.way = -self.way

@@ -227,14 +227,14 @@ class Look:
             elif word == "launch":
                 bursts.launch(self.scene.particles, *self._feet())
 
-    def tell(self, word, thing):
+    def show(self, word, thing):
         """Show an event: a stone shakes, breaks or is back, a bat wakes."""
         scene = self.scene
         if word == "wake":
             self._sound_at("blip", thing.character.position[0], 0.35)
             return
         if thing.kind == "bomb":
-            self._tell_bomb(word, *thing.place)
+            self._show_bomb(word, *thing.place)
             return
         x, y = thing.center
         if word == "shake":
@@ -247,7 +247,7 @@ class Look:
         elif self._in_picture(x, y):
             self._puff("sparkle", x, y)
 
-    def _tell_bomb(self, word, x, y):
+    def _show_bomb(self, word, x, y):
         """Show a bomb that is taken, thrown, or back at its place."""
         if word == "taken":
             self._sound_at("hook", x, 0.5)

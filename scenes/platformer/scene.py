@@ -121,7 +121,7 @@ class Platformer(Scene):
             elif word == "burst":
                 self._burst(thing)
             else:
-                self.look.tell(word, thing)
+                self.look.show(word, thing)
 
     def _move_hero(self, inputs):
         hero, things = self.hero, self.things
@@ -151,13 +151,13 @@ class Platformer(Scene):
             for each in self.things.bombs:
                 if each.phase == WAITING and each.is_reached(hero.box):
                     each.take()
-                    self.look.tell("taken", each)
+                    self.look.show("taken", each)
                     break
         elif bomb.carry(hero.character.position):
-            self.look.tell("back", bomb)
+            self.look.show("back", bomb)
         elif inputs.pressed("focus"):
             bomb.throw(hero.facing, hero.vx, inputs.held("down"))
-            self.look.tell("thrown", bomb)
+            self.look.show("thrown", bomb)
 
     def _burst(self, bomb):
         """Burst a bomb: walls break, enemies are flattened, and a hero too near is thrown back without a hurt."""

@@ -29,7 +29,7 @@ class Leader(Enemy):
 
     def __init__(self, event):
         group = Group("", (0.5,), 1.0, 0.0, "", HOME_Y)
-        super().__init__(WIDTH / 2, ENTRY_Y, group, event)  # an event has the factors of a pace
+        super().__init__(WIDTH / 2, ENTRY_Y, group, event)  # an event has the factors of a difficulty
         self.kind, self.name, self.phases = event.event, event.name, event.phases
         self.number = 0
         self.beaten = False

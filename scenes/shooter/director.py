@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from scenes.shooter.cast import WIDTH, steps
-from scenes.shooter.pace import Pace
+from scenes.shooter.difficulty import Difficulty
 
 SCATTER = 0.03  # of the side: random offset of a plane's entry
 WARNING = steps(3.0)  # steps between the warning and its leader
@@ -24,7 +24,7 @@ class Director:
         self.mode, self.since = "ready", 0
         self.number, self.wave = 0, ""
         self.grounds = [(-1e9, stage.events[0].ground)]  # (motion of the ground [px] at its start, name)
-        self.pace = Pace()
+        self.difficulty = Difficulty()
         self.due = []  # (step, group, number in the group, wave), earliest first
         self.left = {}  # wave -> its planes that are not shot down
         self.mirrored = False
@@ -84,7 +84,7 @@ class Director:
             if event.ground != self.ground:
                 self.grounds.append((sky.scrolled, event.ground))
         elif event.event == "pace":
-            self.pace = Pace(event.speed, event.patience, event.armour, event.extra)
+            self.difficulty = Difficulty(event.speed, event.patience, event.armour, event.extra)
         elif event.event == "item":
             sky.loot.drop(event.item, WIDTH * event.across, -12.0, sky.frame)
         elif event.event == "wave":
@@ -118,7 +118,7 @@ class Director:
                 share = 1.0 - share if self.mirrored else share
             share += sky.random.uniform(-SCATTER, SCATTER)
             carries = group.carries if number + 1 == len(group.places) else ""
-            sky.fleet.launch(self._turned(group), share, carries, self.pace, wave, sky.scrolled)
+            sky.fleet.launch(self._turned(group), share, carries, self.difficulty, wave, sky.scrolled)
 
     def _turned(self, group):
         """Return a group as the wave flies it: mirrored at random."""

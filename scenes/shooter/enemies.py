@@ -29,13 +29,13 @@ class Enemy:
     heavy = False  # smokes when damaged, shows its health, and survives ramming the player
     leads = False  # a mid-boss or a boss
 
-    def __init__(self, x, y, group, pace):
+    def __init__(self, x, y, group, difficulty):
         self.id = -1  # of its body, set at the launch
         self.x, self.y = x, y
         self.home_x, self.home_y = x, group.hover
         self.sway, self.bend = group.sway, group.bend
         self.carries, self.wave = "", 0
-        self.health = self.full = type(self).health * pace.armour
+        self.health = self.full = type(self).health * difficulty.armour
         self.vx = self.vy = self.angle = 0.0
         self.heading = DOWN
         self.age = self.since = self.volleys = 0
@@ -105,15 +105,15 @@ class Dart(Enemy):
             heading = atan2(sky.target[1] - self.y, sky.target[0] - self.x)
             off = (heading - self.heading + pi) % (2 * pi) - pi
             self.face(self.heading + off * self.TURN_RATE / 60)
-            if self.since > steps(self.AIM_TIME * sky.pace.patience):
+            if self.since > steps(self.AIM_TIME * sky.difficulty.patience):
                 self.frame = "dart_1"
                 self.begin("dive")
                 sky.spectacle.dive(self)
         else:
-            speed = (self.DIVE_SPEED + self.DIVE_GAIN * self.since / 60) * sky.pace.speed
+            speed = (self.DIVE_SPEED + self.DIVE_GAIN * self.since / 60) * sky.difficulty.speed
             self.vx, self.vy = speed * cos(self.heading), speed * sin(self.heading)
-            if sky.pace.extra and self.since == 10:
-                sky.incoming.fire("needle", self.x, self.y, [self.angle + DOWN], self.NEEDLE * sky.pace.speed)
+            if sky.difficulty.extra and self.since == 10:
+                sky.incoming.fire("needle", self.x, self.y, [self.angle + DOWN], self.NEEDLE * sky.difficulty.speed)
 
 
 class Saucer(Enemy):
@@ -134,18 +134,18 @@ class Saucer(Enemy):
         turn = 2 * pi * self.TURNS
         self.vx = self.sway * turn * cos(turn * self.age / 60)
         self.vy = self.FALL * (2.2 if self.y < 10.0 else 1.0)
-        due = steps(self.BETWEEN * sky.pace.patience)
+        due = steps(self.BETWEEN * sky.difficulty.patience)
         if self.since > due and 8.0 < self.y < sky.target[1] - 70.0:
             self.since = 0
             self.volleys += 1
-            count = 1 + sky.pace.extra
+            count = 1 + sky.difficulty.extra
             heading = aimed(self.x, self.y + 8.0, sky.target)
             sky.incoming.fire(
                 "red",
                 self.x,
                 self.y + 8.0,
                 fan(heading, count, self.SPREAD * (count - 1)),
-                self.BULLET * sky.pace.speed,
+                self.BULLET * sky.difficulty.speed,
             )
             sky.spectacle.enemy_fires(self)
 
@@ -176,7 +176,7 @@ class Gunship(Enemy):
             self.vy = 5.0 * cos(2 * pi * 0.4 * self.since / 60)
             if (self.x < EDGE and self.vx < 0.0) or (self.x > WIDTH - EDGE and self.vx > 0.0):
                 self.vx = -self.vx
-            between = steps(self.BETWEEN * sky.pace.patience)
+            between = steps(self.BETWEEN * sky.difficulty.patience)
             if self.since % between == steps(self.FIRST) % between:
                 self._fire(sky)
             if self.since > steps(self.STAY):
@@ -185,14 +185,14 @@ class Gunship(Enemy):
             self.vx, self.vy = self.vx * 0.98, max(self.vy - 1.5, -70.0)
 
     def _fire(self, sky):
-        pace = sky.pace
+        difficulty = sky.difficulty
         if self.volleys % 2 == 0:
             heading = aimed(self.x, self.y + 14.0, sky.target)
-            count = 5 + 2 * (pace.extra // 2)
+            count = 5 + 2 * (difficulty.extra // 2)
             spokes = fan(heading, count, self.FAN_GAP * (count - 1))
-            sky.incoming.fire("orange", self.x, self.y + 14.0, spokes, self.FAN * pace.speed)
+            sky.incoming.fire("orange", self.x, self.y + 14.0, spokes, self.FAN * difficulty.speed)
         else:
-            spokes = ring(16 + 2 * pace.extra, 0.26 * self.volleys)
-            sky.incoming.fire("purple", self.x, self.y, spokes, self.RING * pace.speed)
+            spokes = ring(16 + 2 * difficulty.extra, 0.26 * self.volleys)
+            sky.incoming.fire("purple", self.x, self.y, spokes, self.RING * difficulty.speed)
         self.volleys += 1
         sky.spectacle.enemy_fires(self)

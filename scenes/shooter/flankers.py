@@ -22,8 +22,8 @@ class Hornet(Enemy):
     MOMENTS, BULLET = (0.8, 1.7), 150.0  # [s], [px/s]
     CLOSE = 80.0  # [px] within which it does not fire, because the bullet could not be dodged
 
-    def __init__(self, x, y, group, pace):
-        super().__init__(x, y, group, pace)
+    def __init__(self, x, y, group, difficulty):
+        super().__init__(x, y, group, difficulty)
         headings = {"left": 0.0, "right": pi, "below": -DOWN}
         self.face(headings[group.side])
         # A positive bend turns a file from either side downwards; one from below, to the right.
@@ -43,7 +43,7 @@ class Hornet(Enemy):
             self.left -= step
             self.face(self.heading + (step if self.turn > 0.0 else -step))
         self.vx, self.vy = self.SPEED * cos(self.heading), self.SPEED * sin(self.heading)
-        if self.age in [steps(moment * sky.pace.patience) for moment in self.MOMENTS]:
+        if self.age in [steps(moment * sky.difficulty.patience) for moment in self.MOMENTS]:
             self._fire(sky)
 
     def _fire(self, sky):
@@ -51,9 +51,9 @@ class Hornet(Enemy):
         inside = 0.0 < self.x < WIDTH and 0.0 < self.y < HEIGHT
         if not inside or hypot(x - self.x, y - self.y) < self.CLOSE:
             return
-        speed = self.BULLET * sky.pace.speed
+        speed = self.BULLET * sky.difficulty.speed
         heading = lead(self.x, self.y, (x, y), sky.plane.velocity, speed)
-        count = 1 + sky.pace.extra // 2
+        count = 1 + sky.difficulty.extra // 2
         sky.incoming.fire("hollow", self.x, self.y, fan(heading, count, 0.3 * (count - 1)), speed)
         sky.spectacle.enemy_fires(self)
 
@@ -74,7 +74,7 @@ class Turret(Enemy):
 
     def think(self, sky):
         self.vx, self.vy = 0.0, GROUND_SPEED
-        if self.since > steps((self.FIRST if not self.volleys else self.BETWEEN) * sky.pace.patience):
+        if self.since > steps((self.FIRST if not self.volleys else self.BETWEEN) * sky.difficulty.patience):
             if 6.0 < self.y < sky.target[1] - 50.0:
                 self._fire(sky)
             self.since = 0
@@ -84,12 +84,16 @@ class Turret(Enemy):
         if self.volleys % 2 == 0:
             for number in range(self.COUNT):
                 x = self.x + self.SPACING * (number - (self.COUNT - 1) / 2)
-                sky.incoming.fire("big", x, muzzle, (DOWN,), self.WALL * sky.pace.speed)
+                sky.incoming.fire("big", x, muzzle, (DOWN,), self.WALL * sky.difficulty.speed)
         else:
-            count = 3 + sky.pace.extra
+            count = 3 + sky.difficulty.extra
             heading = aimed(self.x, muzzle, sky.target)
             sky.incoming.fire(
-                "orange", self.x, muzzle, fan(heading, count, self.SPREAD * (count - 1)), self.FAN * sky.pace.speed
+                "orange",
+                self.x,
+                muzzle,
+                fan(heading, count, self.SPREAD * (count - 1)),
+                self.FAN * sky.difficulty.speed,
             )
         self.volleys += 1
         sky.spectacle.enemy_fires(self)

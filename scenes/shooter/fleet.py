@@ -5,9 +5,9 @@ from math import pi
 from game.drawing.sprites import load_atlas
 from scenes.shooter.boss import LOOKS, Leader
 from scenes.shooter.cast import GROUNDED
+from scenes.shooter.difficulty import EASY
 from scenes.shooter.enemies import NOTCH, Dart, Gunship, Saucer
 from scenes.shooter.flankers import Hornet, Turret
-from scenes.shooter.pace import EASY
 
 KINDS = {each.kind: each for each in (Dart, Saucer, Gunship, Hornet, Turret)}
 DIVES = 20  # notches to either side of straight down: darts dive no flatter
@@ -31,10 +31,10 @@ class Fleet:
         """The current mid-boss or boss, or None."""
         return next((plane for plane in self.planes.values() if plane.leads), None)
 
-    def launch(self, group, share, carries="", pace=EASY, wave=0, scrolled=0.0):
+    def launch(self, group, share, carries="", difficulty=EASY, wave=0, scrolled=0.0):
         """Launch one plane of a group, over ground that has moved so far [px]. Return it."""
         made = KINDS[group.kind]
-        plane = made(*made.entry(group, share), group, pace)
+        plane = made(*made.entry(group, share), group, difficulty)
         if plane.side is GROUNDED:
             plane.y += scrolled % 1.0  # so that it moves from pixel to pixel together with its ground
         plane.carries, plane.wave = carries, wave

@@ -89,9 +89,9 @@ class Shooter(Scene):
         return self.plane.x, self.plane.y
 
     @property
-    def pace(self):
+    def difficulty(self):
         """Current difficulty."""
-        return self.director.pace
+        return self.director.difficulty
 
     @property
     def hurts(self):

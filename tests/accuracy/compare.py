@@ -11,7 +11,7 @@ from pathlib import Path
 from statistics import median
 from typing import NamedTuple
 
-from game.measure.front import TIE as TIE_SHARE
+from game.measure.pareto_front import TIE as TIE_SHARE
 from game.report.chart import Chart
 from game.report.charts import CHARTS
 from game.report.claim import FAILS, HOLDS, TIE, Claim

@@ -17,7 +17,7 @@ def test_a_dropped_picture_is_shown_at_every_tier(drive, tmp_path):
     d.screen.close()
 
 
-def test_a_picture_that_is_none_is_told_and_the_game_goes_on(drive, tmp_path):
+def test_a_picture_that_is_none_is_reported_and_the_game_goes_on(drive, tmp_path):
     (tmp_path / "mine.png").write_bytes(b"nothing")
     d = drive("--scene", "lab/filters", listing=SCENES)
     d.turns(3)

@@ -8,15 +8,15 @@ import pytest
 
 import physics
 from game.input.devices import DeviceSource
-from game.measure.lanes import LaneFigures
+from game.measure.measured_runs import RunFigures
 from game.measure.tiers import measure_at, poses_around
 from game.measure.timing import RUNS, Cost
+from game.measurement_requests import RunRequest, SpriteRequest
 from game.run.picture import Picture
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.screens.parts.lab_card import LabCard
 from game.screens.play import Play
-from game.wishes import Lanes, Sprites
 from scenes import SCENES
 from tests.game.test_lab_card import SIZES, Silent, words
 from tests.lockstep import make_scene
@@ -43,24 +43,26 @@ needs_speed = pytest.mark.skipif(
 costs = count(1)
 
 
-def tiers_of(wish):
+def tiers_of(request):
     """Figures of sprites, from few poses and the tiers that are told: they are measured in full elsewhere."""
     found = {}
-    poses = poses_around(*wish, count=200)
-    measure_at(*wish, poses, lambda figures: found.update({figures.tier: figures}), ("aabb", "hull", "outline", "mask"))
+    poses = poses_around(*request, count=200)
+    measure_at(
+        *request, poses, lambda figures: found.update({figures.tier: figures}), ("aabb", "hull", "outline", "mask")
+    )
     return found
 
 
 def figures_of(scene):
     """Return figures in place of the measurements beside the game, with costs of their own."""
-    wish = scene.measured()
-    if isinstance(wish, Sprites):
-        return tiers_of(wish)
-    if isinstance(wish, Lanes):
-        seconds = [1e-6 * (10 * next(costs) + number) for number in range(len(wish.names))]
-        cost = {name: Cost.of([each] * RUNS, 60) for name, each in zip(wish.names, seconds, strict=True)}
+    request = scene.measured()
+    if isinstance(request, SpriteRequest):
+        return tiers_of(request)
+    if isinstance(request, RunRequest):
+        seconds = [1e-6 * (10 * next(costs) + number) for number in range(len(request.names))]
+        cost = {name: Cost.of([each] * RUNS, 60) for name, each in zip(request.names, seconds, strict=True)}
         return {
-            name: LaneFigures(each, 0.01 * number, 0.01 * number) for number, (name, each) in enumerate(cost.items())
+            name: RunFigures(each, 0.01 * number, 0.01 * number) for number, (name, each) in enumerate(cost.items())
         }
     return scene.figures
 
@@ -69,8 +71,8 @@ def know(play):
     """Give a played scene its figures, as the process that measures would."""
     if play.scene.measured() is not None:
         play.scene.figures = play.measuring.bench.figures = figures_of(play.scene)
-        wish = play.scene.measured()
-        play.measuring.benched = wish.names if isinstance(wish, Lanes) else wish
+        request = play.scene.measured()
+        play.measuring.benched = request.names if isinstance(request, RunRequest) else request
 
 
 def has_found(finding):

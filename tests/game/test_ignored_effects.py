@@ -82,9 +82,9 @@ def test_the_hud_follows_the_solver(size):
         play.step()
         solver = play.scene.world.solver
         assert ignored_effects(play.scene) == IGNORED[solver]
-        told = hud_of(play, size)
-        assert ("ignores" in told) == bool(IGNORED[solver])
-        assert all(name in told for name in IGNORED[solver])
+        reported = hud_of(play, size)
+        assert ("ignores" in reported) == bool(IGNORED[solver])
+        assert all(name in reported for name in IGNORED[solver])
 
 
 @pytest.mark.parametrize("layers", [(), layer_names()])
@@ -103,15 +103,15 @@ def test_the_hud_stays_apart_from_other_text_and_within_the_frame(kind, size, pa
             reader.assert_readable()
     if size >= (480, 270):  # smaller than the canvas: the picture is cut
         assert_text_is_apart([box for box in frame.boxes if "word" not in box[1]], frame.rect)
-    told = [(rect, text) for rect, text in frame.boxes if "ignores" in text]
-    assert bool(told) != (panel and picture.presenter.crowded)
-    assert all(frame.rect.contains(rect) for rect, _ in told)
+    reported = [(rect, text) for rect, text in frame.boxes if "ignores" in text]
+    assert bool(reported) != (panel and picture.presenter.crowded)
+    assert all(frame.rect.contains(rect) for rect, _ in reported)
 
 
-def test_worlds_of_two_solvers_are_told_apart():
-    told = hud_of(play_of(Both(seed=1)))
-    assert "projection ignores stacking" in told
-    assert "blocking ignores rotation, friction, restitution, stacking, conveyor" in told
+def test_worlds_of_two_solvers_are_distinguished():
+    reported = hud_of(play_of(Both(seed=1)))
+    assert "projection ignores stacking" in reported
+    assert "blocking ignores rotation, friction, restitution, stacking, conveyor" in reported
     assert ignored_effects(Both(seed=1)) == IGNORED["blocking"]
 
 
@@ -125,11 +125,11 @@ def test_the_panel_says_so_at_the_solver():
 def test_json_lists_what_is_ignored(solver, capsys):
     listing = {"heap": "tests.game.test_ignored_effects:Heap"}
     assert run(["--headless", "--scene", "heap", "--frames", "3", "--solver", solver, "--json"], Registry(listing)) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert (told["solver"], told["ignored_effects"]) == (solver, IGNORED[solver])
+    reported = json.loads(capsys.readouterr().out)
+    assert (reported["solver"], reported["ignored_effects"]) == (solver, IGNORED[solver])
 
 
-def test_the_report_tells_it_of_every_dot():
+def test_the_report_names_it_at_every_dot():
     panel = Panel("", Axis("x", value("x")), Axis("y", value("y")), panel_is("all"))
     row = {"series": "blocking", "label": "blocking", "panel": "all", "x": 1.0, "y": 2.0, "job": "job"}
     for names, wanted in ((["rotation", "one_way"], "rotation, one way"), ([], None)):

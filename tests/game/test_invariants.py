@@ -7,7 +7,7 @@ import pytest
 
 import game.invariants.pairs as pairs
 from game.invariants.invariant import Broken, NotAsked
-from game.invariants.lights import AFTERGLOW, GREEN, GREY, RED, Lights
+from game.invariants.monitor import AFTERGLOW, GREEN, GREY, RED, InvariantMonitor
 from game.invariants.order import NOISE, furthest_apart
 from game.invariants.watch import Watch, WatchedWorld, all_invariants
 from physics import Chain, Circle, Effects, Material, PixelMask, Polygon, Segment, TileGrid, World
@@ -222,7 +222,7 @@ def test_u7_u8_u10_ask_physics_about_pairs(monkeypatch):
         assert invariant in found
 
 
-def test_u10_a_contact_that_is_not_told():
+def test_u10_a_contact_that_is_not_reported():
     def forget(world):
         world.report_contacts(world.reported_rows()[:0])
 
@@ -338,12 +338,12 @@ def test_watching_changes_nothing():
         assert plain.digest() == seen.digest()
 
 
-def test_lights_go_out_and_keep_their_count():
-    lights, world = Lights(), WatchedWorld()
+def test_states_expire_and_keep_their_count():
+    monitor, world = InvariantMonitor(), WatchedWorld()
     world.add_body(BOX)
-    lights.note(1, [world])  # takes it
-    by_id = {light.id: light for light in lights.lights}
-    assert {light.state for light in lights.lights} == {GREY}
+    monitor.note(1, [world])  # takes it
+    by_id = {status.id: status for status in monitor.statuses}
+    assert {status.state for status in monitor.statuses} == {GREY}
 
     def frame(number, broken):
         world.watch.before(world)
@@ -351,11 +351,11 @@ def test_lights_go_out_and_keep_their_count():
         if broken:
             world.bodies["vx"][0] += 1.0
         world.watch.after(world)
-        lights.note(number, [world])
+        monitor.note(number, [world])
         return by_id["U3"].state
 
     assert [frame(n, n in (4, 5)) for n in range(2, 7)] == [GREEN, GREEN, RED, RED, RED]
-    assert by_id["U3"].breaks == 2 and lights.first[0] == 4 and lights.first[1].invariant == "U3"
+    assert by_id["U3"].breaks == 2 and monitor.first[0] == 4 and monitor.first[1].invariant == "U3"
     states = [frame(n, False) for n in range(7, 7 + AFTERGLOW)]
     assert states.index(GREEN) == 5 + AFTERGLOW - 7 and set(states[states.index(GREEN) :]) == {GREEN}
     assert by_id["U3"].breaks == 2 and "frame 5" in by_id["U3"].sentence

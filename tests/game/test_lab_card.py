@@ -136,7 +136,7 @@ def test_a_key_for_a_scene_without_a_card_is_left_to_it():
 
 
 @pytest.mark.parametrize("wrong", ["lab/cradle", [3], {"lab/cradle": True}])
-def test_a_damaged_list_of_visits_is_told_and_left_out(tmp_path, wrong):
+def test_a_damaged_list_of_visits_is_reported_and_left_out(tmp_path, wrong):
     path = tmp_path / "settings.json"
     path.write_text(json.dumps({"version": 2, "labs_seen": wrong}))
     settings, message = load_settings(path)

@@ -30,10 +30,10 @@ class Kernels:
 
 @pytest.fixture
 def kernels(monkeypatch):
-    told = Kernels()
-    monkeypatch.setattr(lighter, "tiers", told)
-    monkeypatch.setattr(lighter, "store", lambda: told)
-    return told
+    reported = Kernels()
+    monkeypatch.setattr(lighter, "tiers", reported)
+    monkeypatch.setattr(lighter, "store", lambda: reported)
+    return reported
 
 
 def lighter_of(name):

@@ -55,7 +55,7 @@ def test_paused_steps_only_on_request():
 
 def test_game_speed_and_slow_motion_multiply():
     clock = FixedStep()
-    clock.pace, clock.speed = 0.5, 0.5
+    clock.game_speed, clock.speed = 0.5, 0.5
     steps = sum(clock.advance(i / 60) for i in range(601))
     assert steps == pytest.approx(150, abs=1)
 

@@ -82,7 +82,7 @@ def test_contacts_are_counted_by_state():
     assert any("persisted" in text for _, text in layer.notes())
 
 
-def test_what_sleeps_is_told_apart():
+def test_what_sleeps_is_distinguished():
     scene = stepped(400)
     assert layer_after(scene, "islands").asleep > 0
     awake = stepped(20)
@@ -216,31 +216,31 @@ def test_contacts_persist_in_worlds_that_remember_none():
 
 
 @pytest.mark.parametrize("size", [(480, 270), (960, 540), (1440, 810)])
-def test_lights_are_shown_whole_and_tell_what_the_pointer_is_on(size):
+def test_invariants_are_shown_whole_and_the_one_under_the_pointer_is_described(size):
     scene, overlays = stepped(8), Overlays(["invariants"])
     overlays.note(scene)
-    assert scene.lights is not None
+    assert scene.monitor is not None
     for _ in range(6):
         scene.step(InputState())
     frame = Picture(pygame.Surface(size)).draw_scene(scene, overlays)
     layer, texts = overlays.invariants, [text for _, text in frame.boxes]
-    assert [light.id for _, light in layer.places] == [f"U{k}" for k in range(1, 12)]
+    assert [status.id for _, status in layer.places] == [f"U{k}" for k in range(1, 12)]
     assert all(frame.rect.contains(place) for place, _ in layer.places)
     assert "U1 finite" in texts and any("hold, 0 broken" in text for text in texts)
-    at, order = next((place, light) for place, light in layer.places if light.id == "U9")
-    assert layer.told(at.center)[1] == order.sentence and "second world" in order.sentence
+    at, order = next((place, status) for place, status in layer.places if status.id == "U9")
+    assert layer.message_at(at.center)[1] == order.sentence and "second world" in order.sentence
     overlays.toggle("invariants")
     overlays.note(scene)
-    assert scene.lights is None and all(world.watch is None for world in scene.worlds)
+    assert scene.monitor is None and all(world.watch is None for world in scene.worlds)
 
 
-def test_a_broken_light_says_what_and_when():
+def test_a_broken_invariant_is_shown_with_its_frame():
     scene, overlays = stepped(8), Overlays(["invariants"])
     overlays.note(scene)
     scene.world.watch.before(scene.world)
     scene.world.bodies["vx"][2] = float("nan")
     scene.world.watch.after(scene.world)
-    scene.lights.note(77, scene.worlds)
+    scene.monitor.note(77, scene.worlds)
     frame = Picture().draw_scene(scene, overlays)
     texts = [text for _, text in frame.boxes]
     assert "U1 finite 1" in texts and any(

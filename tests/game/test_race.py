@@ -81,11 +81,11 @@ def test_another_broad_phase_is_never_apart(played, name):
         assert play.scene.frame == race.rival.frame
         assert [w.digest() for w in race.rival.worlds] == [w.digest() for w in play.scene.worlds]
     assert race.rival.world.broadphase.name == OTHER[play.scene.world.broadphase.name]
-    assert "0 px apart, 0 of" in race.told()[2] and race.steps == 90
+    assert "0 px apart, 0 of" in race.report_lines()[2] and race.steps == 90
 
 
 @needs_speed
-def test_fewer_substeps_are_apart_and_that_is_told_and_drawn(played):
+def test_fewer_substeps_are_apart_and_that_is_reported_and_drawn(played):
     play = played("lab/pyramid", BotSource())
     steps(play, 5)
     race = race_of(play, substeps=1)
@@ -94,12 +94,12 @@ def test_fewer_substeps_are_apart_and_that_is_told_and_drawn(played):
     bodies, others = play.scene.world.bodies, race.rival.world.bodies
     apart = np.hypot(bodies["x"] - others["x"], bodies["y"] - others["y"])
     assert np.hypot(*(ours - theirs).T) == pytest.approx(apart) and apart.max() > 0.0
-    assert f"{np.sqrt((apart**2).mean()):.2g} px apart" in race.told()[2]
-    assert "1 substep:" in race.told()[1] and "us a step" in race.told()[0]
+    assert f"{np.sqrt((apart**2).mean()):.2g} px apart" in race.report_lines()[2]
+    assert "1 substep:" in race.report_lines()[1] and "us a step" in race.report_lines()[0]
     picture = Picture(pygame.Surface((960, 540)))
     with_rival = pygame.surfarray.array3d(play.draw(picture).surface)
     text = " ".join(text for _, text in picture.presenter.frame.boxes)
-    assert all(word in text for line in race.told() for word in line.split())
+    assert all(word in text for line in race.report_lines() for word in line.split())
     play.measuring.end_race()
     assert (pygame.surfarray.array3d(play.draw(picture).surface) != with_rival).any()
 
@@ -115,7 +115,7 @@ def test_one_number_for_two_things_is_not_one_body(played):
         assert len(ours) == len(theirs) == len(race.same)
     ids = np.intersect1d(play.scene.world.bodies["id"], race.rival.world.bodies["id"])
     assert len(race.same) < len(ids) or len(ids) == 0 or len(race.same) == 0
-    assert "without a twin" in race.told()[2]
+    assert "without a twin" in race.report_lines()[2]
 
 
 def test_what_the_player_does_goes_to_both_and_what_is_raced_to_one(played):
@@ -155,7 +155,7 @@ def test_the_rival_has_the_solver_that_was_chosen(played):
     assert play.measuring.race.rival.world.solver == "projection"
 
 
-def test_a_setting_that_cannot_be_played_is_told_and_nothing_restarts(played):
+def test_a_setting_that_cannot_be_played_is_reported_and_nothing_restarts(played):
     play = played("lab/stacks")
     steps(play, 10)
     play.start_race(play.measuring.now()._replace(solver="blocking", substeps=None))
@@ -167,7 +167,7 @@ def test_rewinding_ends_it(played):
     play = played("lab/cradle")
     race_of(play, broadphase="brute")
     steps(play, 20)
-    play.scrub.go(-5)
+    play.timeline.go(-5)
     assert play.measuring.race is None
 
 
@@ -195,7 +195,9 @@ def test_its_figures_are_whole_beside_an_open_panel(played, size):
     frame = play.draw(Picture(pygame.Surface(size)))
     inside = frame.area.clip(frame.rect)
     found = [
-        rect for rect, text in frame.boxes if len(text) > 8 and any(text in line for line in play.measuring.race.told())
+        rect
+        for rect, text in frame.boxes
+        if len(text) > 8 and any(text in line for line in play.measuring.race.report_lines())
     ]
     assert len(found) >= 2 and all(inside.contains(rect) for rect in found)
 
@@ -238,7 +240,7 @@ def test_the_split_screen_shows_both_and_their_difference(played):
     left, right = pixels[:478, 40:230], pixels[480:958, 40:230]
     assert (left != right).any(axis=2).mean() > 0.001, "the crates of the rival have sunk"
     text = " ".join(text for _, text in frame.boxes)
-    for line in race.told():
+    for line in race.report_lines():
         assert all(part in text for part in line.rsplit(": ", 1)), line
     apart = race.distances()
     assert race.apart[-1] == pytest.approx(np.sqrt((apart**2).mean())) and len(race.apart) == 60
@@ -277,7 +279,7 @@ def test_the_split_screen_is_whole_at_any_size(played, size, panel):
     if panel and picture.presenter.crowded:
         return  # the panel has the whole picture
     inside = frame.area.clip(frame.rect)
-    parts = [part for line in race.told() for part in line.rsplit(": ", 1)]
+    parts = [part for line in race.report_lines() for part in line.rsplit(": ", 1)]
     found = {text for rect, text in frame.boxes if text in parts and inside.contains(rect)}
     assert len(found) >= 4, found
 

@@ -98,7 +98,7 @@ class Hands:
 def watched(monkeypatch):
     """Return the list of errors that end threads."""
     ended = []
-    monkeypatch.setattr(threading, "excepthook", lambda told: ended.append(told.exc_value))
+    monkeypatch.setattr(threading, "excepthook", lambda reported: ended.append(reported.exc_value))
     return ended
 
 

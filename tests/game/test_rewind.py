@@ -283,7 +283,7 @@ def turns(play, count, start):
 
 
 def test_backspace_runs_back_while_held_and_play_goes_on_from_there(play):
-    rewind, heard = play.scrub.rewind, play.sounds.heard
+    rewind, heard = play.timeline.rewind, play.sounds.heard
     key(play, K.K_BACKSPACE)
     now = turns(play, 31, 0.0)
     assert rewind.position == pytest.approx(120, abs=2) and rewind.end == 150
@@ -299,8 +299,8 @@ def test_backspace_runs_back_while_held_and_play_goes_on_from_there(play):
     assert rewind.position == 0, "and faster after a while"
 
 
-def test_the_frozen_game_is_scrubbed_by_arrows_and_goes_on_where_it_is(play):
-    rewind = play.scrub.rewind
+def test_arrows_move_the_frozen_game_along_the_timeline_and_it_goes_on_where_it_is(play):
+    rewind = play.timeline.rewind
     key(play, K.K_p)
     for name, mod, place in ((K.K_LEFT, 0, 149), (K.K_LEFT, K.KMOD_LSHIFT, 139), (K.K_RIGHT, 0, 140)):
         key(play, name, mod=mod)
@@ -322,10 +322,10 @@ def test_the_frozen_game_is_scrubbed_by_arrows_and_goes_on_where_it_is(play):
 
 
 def test_the_bar_is_worked_with_the_mouse(play):
-    picture, rewind = Picture(K.Surface((960, 540))), play.scrub.rewind
+    picture, rewind = Picture(K.Surface((960, 540))), play.timeline.rewind
     key(play, K.K_p)
     play.draw(picture)
-    bar = play.scrub.bar
+    bar = play.timeline.bar
     at = (bar.right - bar.width * 60 // STEPS, bar.centery)
     assert play.feed(K.event.Event(K.MOUSEBUTTONDOWN, button=1, pos=at))
     turns(play, 1, 1.0)
@@ -339,13 +339,13 @@ def test_the_bar_is_worked_with_the_mouse(play):
     assert rewind.position == 0
 
 
-def test_the_pad_scrubs_while_frozen_and_flies_while_not(play):
+def test_the_pad_moves_along_the_timeline_while_frozen_and_flies_while_not(play):
     def button(name, down=True):
         kind = K.CONTROLLERBUTTONDOWN if down else K.CONTROLLERBUTTONUP
         event = K.event.Event(kind, button=name, instance_id=5)
         return play.feed(event)
 
-    rewind = play.scrub.rewind
+    rewind = play.timeline.rewind
     assert not button(K.CONTROLLER_BUTTON_LEFTSHOULDER)
     key(play, K.K_p)
     assert button(K.CONTROLLER_BUTTON_LEFTSHOULDER)
@@ -361,7 +361,7 @@ def test_the_panel_has_a_row_for_it(play):
     row = next(row for row in play_rows(play) if row.label.startswith("Rewind"))
     assert row.key == "Backspace"
     row.press()
-    assert play.clock.paused and play.scrub.rewind.position == 150 - LEAP
+    assert play.clock.paused and play.timeline.rewind.position == 150 - LEAP
     assert any("1.0 s back" in row.label for row in play_rows(play))
 
 
@@ -370,32 +370,32 @@ def test_a_result_is_taken_back():
     play.session.source = ScriptSource([InputFrame(frozenset({"right"}))] * 400)
     while play.since_result < 30:
         play.step()
-    ended, trail = play.scrub.rewind.end - 29, list(play.scene.trail)
+    ended, trail = play.timeline.rewind.end - 29, list(play.scene.trail)
     assert play.scene.result is not None and play.sounds.jingles == ["victory"]
-    play.scrub.go(-40)
+    play.timeline.go(-40)
     assert play.scene.result is None and play.since_result == 0 and play.assisted
-    play.scrub.go(25)
+    play.timeline.go(25)
     assert play.since_result == 15
-    play.scrub.go(-25)
+    play.timeline.go(-25)
     assert play.sounds.jingles == ["victory"]
-    play.scrub.rewind.seek(play.scrub.rewind.end)
+    play.timeline.rewind.seek(play.timeline.rewind.end)
     assert play.scene.trail == trail, "what was gone along is whole again"
-    play.scrub.go(-40)
+    play.timeline.go(-40)
     play.session.source = ScriptSource([InputFrame()] * 400)
     for _ in range(20):
         play.step()
-    assert play.scene.result is None and play.scrub.rewind.end == ended - 11 + 20
-    assert play.recorder.frames == play.scrub.rewind.end
+    assert play.scene.result is None and play.timeline.rewind.end == ended - 11 + 20
+    assert play.recorder.frames == play.timeline.rewind.end
 
 
 def test_a_restart_is_where_the_past_begins(play):
-    rewind = play.scrub.rewind
+    rewind = play.timeline.rewind
     play.restart()
     play.step()
     assert rewind.start == rewind.end == 151
     for _ in range(30):
         play.step()
-    play.scrub.go(-100)
+    play.timeline.go(-100)
     assert rewind.position == 151 and play.scene.frame == 1
     play.step()
     assert play.recorder.frames == 2
@@ -404,19 +404,19 @@ def test_a_restart_is_where_the_past_begins(play):
 def test_invariants_are_watched_as_they_are_now(play):
     key(play, K.K_u)
     play.step()
-    play.scrub.go(-30)
-    assert play.scene.lights is not None, "though nobody watched then"
-    assert any(light.state == "green" for light in play.scene.lights.lights)
+    play.timeline.go(-30)
+    assert play.scene.monitor is not None, "though nobody watched then"
+    assert any(status.state == "green" for status in play.scene.monitor.statuses)
     key(play, K.K_u)
     play.step()
-    play.scrub.go(-1)
-    assert play.scene.lights is None
+    play.timeline.go(-1)
+    assert play.scene.monitor is None
 
 
 def test_what_is_set_from_outside_stays(play):
     play.settings.shake = 0.0
     play.apply_settings()
     play.scene.best, play.scene.ghost = 70, [(1.0, 2.0, "run_0", 1)]
-    play.scrub.go(-50)
+    play.timeline.go(-50)
     assert play.scene.best == 70 and play.scene.ghost and play.scene.camera.shake_share == 0.0
-    assert not play.scrub.rewind.live
+    assert not play.timeline.rewind.live

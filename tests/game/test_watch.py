@@ -129,18 +129,18 @@ def test_keys_of_the_player(watch):
     press(watch, pygame.K_END)
     assert watch.tape.ended
     press(watch, pygame.K_HOME, pygame.K_UP, pygame.K_UP, pygame.K_UP)
-    assert watch.tape.position == 0 and watch.clock.pace == 4.0
+    assert watch.tape.position == 0 and watch.clock.game_speed == 4.0
     press(watch, *[pygame.K_DOWN] * 9)
-    assert watch.clock.pace == 0.25
+    assert watch.clock.game_speed == 0.25
 
 
-@pytest.mark.parametrize("times, pace", [(0, 1.0), (1, 2.0), (2, 4.0), (-1, 0.5), (-2, 0.25)])
-def test_speeds(watch, times, pace):
+@pytest.mark.parametrize("times, speed", [(0, 1.0), (1, 2.0), (2, 4.0), (-1, 0.5), (-2, 0.25)])
+def test_speeds(watch, times, speed):
     press(watch, *[pygame.K_UP if times > 0 else pygame.K_DOWN] * abs(times))
     watch.advance(10.0)
     for number in range(60):
         watch.advance(10.0 + (number + 1.01) / 60)
-    assert watch.tape.position == pytest.approx(60 * pace, abs=2)
+    assert watch.tape.position == pytest.approx(60 * speed, abs=2)
 
 
 def test_it_stops_at_the_end_and_starts_over(watch):

@@ -33,11 +33,11 @@ def test_who_packs_late_says_nothing_of_a_closed_pipe():
     packing = [each for each in threading.enumerate() if each.name == "hand on"]
     surveyor.process.kill()
     turns_until(surveyor, lambda: surveyor.trouble)
-    told = surveyor.trouble
-    assert "has ended" in told and surveyor.process is None
+    reported = surveyor.trouble
+    assert "has ended" in reported and surveyor.process is None
     snapshot.free.set()
     for thread in packing:
         thread.join(20.0)
     assert packing and snapshot.done.is_set()
     surveyor.turn()
-    assert surveyor.trouble == told
+    assert surveyor.trouble == reported

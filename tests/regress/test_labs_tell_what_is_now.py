@@ -123,11 +123,11 @@ def test_nodes_of_the_tree_are_tests():
 
 def test_a_column_that_settles_does_not_sway_by_nothing():
     """It leant by a crate while its sway was told as 0.0 %: it was not looked at before two seconds had passed."""
-    for frames, told in ((60, False), (180, True)):
+    for frames, reported in ((60, False), (180, True)):
         said = words(after("lab/stacks", frames)[0])
         sways = [said[at + 1] for at, each in enumerate(said) if each == "sways"]
         assert len(sways) == len(SOLVERS)
-        assert all((each != "-") == told for each in sways)
+        assert all((each != "-") == reported for each in sways)
 
 
 def test_a_pair_of_cards_that_slides_does_not_stand():
@@ -141,5 +141,5 @@ def test_a_pair_of_cards_that_slides_does_not_stand():
 def test_times_of_the_ladder_do_not_run_into_their_name(costs):
     """ "hit, miss1,443, 133 ns"."""
     canvas = Canvas()
-    name, told = (canvas.measure(text, SMALL)[0] for text in ("hit, miss", _times(*costs)))
-    assert name + told < 78 - 2, "the width of a column of figures, and a gap"
+    name, reported = (canvas.measure(text, SMALL)[0] for text in ("hit, miss", _times(*costs)))
+    assert name + reported < 78 - 2, "the width of a column of figures, and a gap"

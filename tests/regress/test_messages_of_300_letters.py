@@ -97,8 +97,8 @@ def test_on_the_command_line(capsys, tmp_path, monkeypatch, arguments):
     (tmp_path / ("folder/" * 40)).mkdir(parents=True)
     listing = SCENES if "--only" in arguments else GAMES  # the report asks for the game's scenes
     assert run([each.format(folder=tmp_path / "made") for each in arguments], Registry(listing)) == 2
-    told = capsys.readouterr().err.splitlines()
-    lines = [line for line in told if "both pygame" not in line and "numba is not in use" not in line]
+    reported = capsys.readouterr().err.splitlines()
+    lines = [line for line in reported if "both pygame" not in line and "numba is not in use" not in line]
     assert len(lines) == 1 and len(lines[0].split("; valid: ")[0]) <= len(HEAD) + LONGEST, lines
 
 

@@ -21,7 +21,7 @@ from game.overlays.stack import LAYERS, layer_names
 from game.registry import Registry
 from game.run.picture import Picture
 from game.screens.parts.panel import LINE, SLIDER
-from game.screens.parts.switches import TOLD_SECONDS
+from game.screens.parts.switches import REPORT_SECONDS
 from game.screens.play import Play
 from physics import SOLVERS
 from scenes import SCENES
@@ -41,7 +41,7 @@ def screen(name, frames=30, layers=(), person=True, hint=False):
     play = Play(scene, DeviceSource(), Sounds(silent=True), not person, overlays=layers, settings=settings)
     for _ in range(frames):
         play.step()
-    play.clock.left_over = play.clock.step / 2
+    play.clock.accumulator = play.clock.step / 2
     return play
 
 
@@ -53,7 +53,7 @@ def pixels(surface, rect):
 def test_words_and_bars_lie_over_all_overlays(name):
     play = screen(name, 12 if name == "lab/broadphases" else 45, person=False)
     play.session.report.steps = 10_000  # no line of keys
-    play.clock.left_over = play.clock.step  # at the last step's poses, as with overlays
+    play.clock.accumulator = play.clock.step  # at the last step's poses, as with overlays
     for window in WINDOWS:
         words_and_bars_lie_over_all_overlays(play, window)
 
@@ -223,7 +223,7 @@ def test_what_is_switched_is_said(name):
     before = scene.narrowphase
     assert ("on, was off" if not before else "off, was on") in said(pygame.K_n)
     play.clock.paused = True
-    play.advance(10.1 + TOLD_SECONDS)
+    play.advance(10.1 + REPORT_SECONDS)
     assert play.news == ""
 
 
@@ -233,19 +233,19 @@ def test_a_new_player_is_told_what_the_keys_do(name, needed, window):
     play = screen(name, 400, hint=True)
     picture = Picture(pygame.Surface(WINDOWS[window]))
 
-    def told():
+    def reported():
         frame = play.draw(picture)
         return all(any(word in text for _, text in frame.boxes) for word in needed)
 
-    assert play.hint is not None and told(), "while the card is up"
+    assert play.hint is not None and reported(), "while the card is up"
     play.feed(pygame.event.Event(pygame.KEYDOWN, key=first_hint.KEYS[1], mod=0, unicode=""))
     assert play.hint is None
     for _ in range(120):
         play.step()
-    assert told(), "and for a while after it"
+    assert reported(), "and for a while after it"
     for _ in range(600):
         play.step()
-    assert not told()
+    assert not reported()
 
 
 @pytest.mark.parametrize(

@@ -9,19 +9,19 @@ from game.run.picture import Picture
 from game.run.rewind import Rewind
 from game.run.session import Session
 from game.run.sources import BotSource
-from game.screens.parts.scrub import Scrub
+from game.screens.parts.timeline import Timeline
 from tests.lockstep import make_scene
 
 
 @pytest.mark.parametrize("size", [(960, 540), (1440, 810)])
 def test_a_line_goes_as_a_whole(size):
     session = Session(make_scene("lab/stacks"), BotSource())
-    scrub = Scrub(Rewind(session))
+    timeline = Timeline(Rewind(session))
     picture = Picture(pygame.Surface(size))
     frame = picture.draw_scene(session.scene, Overlays(()))
     before = [box.copy() for box, _ in frame.boxes]
-    scrub.draw(frame)
-    bar = scrub._rect(frame)
+    timeline.draw(frame)
+    bar = timeline._rect(frame)
     cut = [box for box in before if bar.colliderect(box) and box.top < bar.top]
     assert cut, "nothing of this scene reaches above the bar"
     for box in cut:

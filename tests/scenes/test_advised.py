@@ -8,8 +8,8 @@ import json
 import pytest
 
 import physics
-from game.measure.front import TIE
 from game.measure.moment import here_of
+from game.measure.pareto_front import TIE
 from game.measure.setting import Setting
 from game.registry import Registry
 from scenes import SCENES

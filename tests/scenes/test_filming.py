@@ -106,6 +106,6 @@ def test_the_program_refuses_what_cannot_be(arguments, why, capsys):
     assert left.value.code == 2 and why in capsys.readouterr().err
 
 
-def test_art_is_told_why_filming_failed():
+def test_the_reason_why_filming_failed_is_reported():
     with pytest.raises(RuntimeError, match="invalid choice: 'lab/nothing'"):
         filmed("moments", "lab/nothing")

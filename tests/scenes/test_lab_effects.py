@@ -5,7 +5,7 @@ import pytest
 
 import physics
 from game.input.inputs import InputFrame, InputState
-from game.measure.lanes import LaneFigures
+from game.measure.measured_runs import RunFigures
 from game.measure.timing import RUNS, Cost
 from game.run.session import Session
 from game.run.sources import BotSource
@@ -133,18 +133,18 @@ def test_a_yard_without_rotation_sensors_or_carving_can_be_built():
 def test_a_price_is_measured_beside_the_game_on_the_yard_with_and_without(lab):
     play(lab, 2)
     choose(lab, "friction")
-    wish = lab.measured()
-    assert [name[:2] for name in wish.names] == [(n, on) for n in ("gravity", "friction") for on in (True, False)]
+    request = lab.measured()
+    assert [name[:2] for name in request.names] == [(n, on) for n in ("gravity", "friction") for on in (True, False)]
     assert lab.price("friction") is None and lab.price("drag") is None
-    for name in wish.names:
+    for name in request.names:
         effect, on = name[:2]
-        (snapshot,) = wish.make(name).snapshots
+        (snapshot,) = request.make(name).snapshots
         assert Effects.named(snapshot.facts["effects"]) == (ALL if on else ALL.without(effect))
         moving = snapshot.arrays["bodies"][snapshot.arrays["bodies"]["kind"] == DYNAMIC]
         assert moving["awake"].all() and np.array_equal(
             moving["x"], lab.real.world.bodies["x"][lab.real.world.bodies["kind"] == DYNAMIC]
         )
-        lab.figures[name] = LaneFigures(Cost.of([3e-4 if on else 1e-4] * RUNS, WINDOW))
+        lab.figures[name] = RunFigures(Cost.of([3e-4 if on else 1e-4] * RUNS, WINDOW))
     assert lab.price("friction") == pytest.approx(200.0)
     lab.change("broadphase", "sweep")
     assert lab.price("friction") is None, "other settings cost something else"

@@ -7,12 +7,12 @@ import physics
 from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT, Canvas
 from game.drawing.font import load_font
 from game.input.inputs import InputFrame, InputState
-from game.measure.lanes import LaneFigures
+from game.measure.measured_runs import RunFigures
 from game.measure.moment import Moment
 from game.measure.timing import RUNS, Cost
+from game.measurement_requests import Recipe
 from game.run.session import Session
 from game.run.sources import BotSource
-from game.wishes import Recipe
 from physics import World
 from scenes.lab.gallery.page import Side
 from scenes.lab.gallery.pages import PAGES
@@ -128,12 +128,12 @@ def test_keys_turn_the_pages_and_begin_them_again():
     assert scene.page is PAGES[1] and scene.sides[0].steps == 0
 
 
-def test_the_thousand_is_stepped_beside_the_game_and_told_on_its_page():
+def test_the_thousand_is_stepped_beside_the_game_and_reported_on_its_page():
     scene = opened("point")
-    wish = scene.measured()
-    for name, side in zip(wish.names, scene.sides, strict=True):
-        lane = wish.make(name)
-        (recipe,) = lane.snapshots
+    request = scene.measured()
+    for name, side in zip(request.names, scene.sides, strict=True):
+        measured_run = request.make(name)
+        (recipe,) = measured_run.snapshots
         assert isinstance(recipe, Recipe), "no world of a thousand is made on the frame"
         snapshot = recipe.make()
         rows, facts = snapshot.arrays["bodies"], snapshot.facts
@@ -145,7 +145,7 @@ def test_the_thousand_is_stepped_beside_the_game_and_told_on_its_page():
     for number, runs in enumerate((1, RUNS)):
         farthest = (1.6, 2.0 + number)  # [px] a step: of 32 px to the metre, 60 steps a second
         cost = Cost.of([2.5] * runs, 2)
-        scene.figures = {name: LaneFigures(cost, 0.0, far) for name, far in zip(wish.names, farthest, strict=True)}
+        scene.figures = {name: RunFigures(cost, 0.0, far) for name, far in zip(request.names, farthest, strict=True)}
         wanted = [f"1,000 boxes: {amount(far * 60 / 32)}" + ", 2.5 s" * number for far in farthest]
         assert words(scene, "1,000 boxes") == wanted
         assert f"1,000 boxes 3 and {amount(farthest[1] * 60 / 32)}" in scene.finding()
@@ -166,10 +166,10 @@ def words(scene, start):
 def test_the_thousand_keeps_the_limit_too():
     """499,500 pairs, a step of seconds."""
     scene = opened("point")
-    page, wish = scene.page, scene.measured()
-    for name in wish.names:
-        lane = wish.make(name)
-        moment = Moment(lane.snapshots[0].make(), lane.broadphase)
+    page, request = scene.page, scene.measured()
+    for name in request.names:
+        measured_run = request.make(name)
+        moment = Moment(measured_run.snapshots[0].make(), measured_run.broadphase)
         way = moment.way(moment.here, 3)
         assert way.places.shape == (3, 1000, 2)
         farthest = max(np.abs(np.diff(way.places, axis=0)).max(), np.abs(way.places[0]).max())

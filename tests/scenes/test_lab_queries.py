@@ -14,7 +14,7 @@ from game.run.session import Session
 from game.run.sources import BotSource
 from physics import debug
 from scenes.lab.queries import EACH, HEIGHT, QUERIES, STRATEGIES, VIEW, WIDTH, Queries
-from scenes.lab.questions import told
+from scenes.lab.query_calls import rows_of
 
 
 class Player:
@@ -118,4 +118,4 @@ def test_the_bot_asks_everything():
 
 
 def test_no_answer_is_no_row():
-    assert told([None]) == [] and told([]) == []
+    assert rows_of([None]) == [] and rows_of([]) == []

@@ -234,7 +234,7 @@ def test_nothing_costs_anything_before_the_piles_have_been_laid():
     assert scene.measured() is None, "other piles, other costs"
 
 
-def test_who_stands_is_told_as_it_is():
+def test_who_stands_is_reported_as_it_is():
     scene = MaskStack(seed=1)
     session = idle(scene, 2)
     top = scene.tops[WAYS.index("outline")]
@@ -253,7 +253,7 @@ def test_who_stands_is_told_as_it_is():
 
 
 @compiled
-def test_sleep_is_told_since_when_and_a_nudge_wakes():
+def test_sleep_is_reported_since_when_and_a_nudge_wakes():
     scene = MaskStack(seed=1)
     session = idle(scene, 230)
     assert scene.asleep["outline"] and 0 < scene.changed["outline"] < 230

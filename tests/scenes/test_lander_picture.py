@@ -45,7 +45,7 @@ def test_texts_keep_clear_of_each_other_from_the_title_to_the_medal():
     assert any("MEDAL" in text for text in seen)
 
 
-def test_game_over_is_told():
+def test_game_over_is_reported():
     flight = Flight()
     for _ in range(LIVES):
         flight.until(lambda: flight.ship.here, AWAY + 5)

@@ -134,15 +134,15 @@ class Spins(Drop):
 
 def test_an_effect_that_would_not_be_missed_is_found():
     found = entry(Drop, "wind", 90)
-    assert not found.matters and found.moved is found.told is found.parted is None and found.apart == 0.0
+    assert not found.matters and found.moved is found.reported is found.parted is None and found.apart == 0.0
     assert found.declared and found.changed == ("wind",)
 
 
-def test_what_is_missed_is_told_in_pixels_and_frames():
+def test_what_is_missed_is_reported_in_pixels_and_frames():
     gravity = entry(Drop, "gravity", 90, after=90)
     assert gravity.matters and gravity.moved == 1
     # Half a second: of four bodies that move one falls 9.8 m/s2 / 2 * t2 until it meets the floor.
-    assert gravity.told is not None and 20 < gravity.told < 40 and gravity.apart > 10.0
+    assert gravity.reported is not None and 20 < gravity.reported < 40 and gravity.apart > 10.0
     bounce = entry(Drop, "restitution", 90)
     assert bounce.matters and bounce.moved is not None and bounce.moved > 20
 

@@ -285,7 +285,7 @@ def test_the_trail_has_a_row_for_each_step_and_the_ghost_is_drawn_whatever_it_sa
         assert canvas.surface.get_buffer().raw == alone.get_buffer().raw
 
 
-def test_a_ghost_tells_the_time_at_a_checkpoint():
+def test_a_ghost_reports_the_time_at_a_checkpoint():
     scene, session = start()
     x, bottom = scene.checkpoints[0].foot
     scene.ghost = [(0.0, 0.0, "idle_0", 1)] * 100 + [(x, bottom, "run_0", 1)]

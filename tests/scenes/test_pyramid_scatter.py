@@ -6,7 +6,7 @@ import pytest
 from game.drawing.colors import PAPER
 from game.drawing.presenter import Frame
 from game.input.inputs import InputFrame, InputState
-from game.measure.lanes import LaneFigures
+from game.measure.measured_runs import RunFigures
 from game.measure.moment import Moment
 from game.measure.timing import RUNS, Cost
 from scenes.lab.pyramid import JUDGED_AT, SIZE, SUBSTEPS, Pyramid
@@ -22,7 +22,7 @@ def stepped(scene, steps=1, changes=()):
 
 
 def known(name, cost=2e-4, overlap=0.08):
-    return {name: LaneFigures(Cost.of([cost] * RUNS, 60), overlap)}
+    return {name: RunFigures(Cost.of([cost] * RUNS, 60), overlap)}
 
 
 @pytest.mark.parametrize("solver, substeps", [("soft_step", 2), ("sequential_impulse", 1), ("projection", 4)])
@@ -30,8 +30,8 @@ def test_a_dot_has_the_error_that_the_lab_judges(solver, substeps):
     scene = Pyramid(1, solver=solver)
     scene.change("slider:rows", 5)
     scene.change("slider:substeps", substeps)
-    lane = scene.measured().make(scene.lane)
-    moment, (first, last) = Moment(lane.snapshots[0], lane.broadphase), lane.judged
+    measured_run = scene.measured().make(scene.run_name)
+    moment, (first, last) = Moment(measured_run.snapshots[0], measured_run.broadphase), measured_run.judged
     overlap = moment.way(moment.here, last).overlap[first - 1 :].max()
     stepped(scene, JUDGED_AT)
     assert overlap == scene.deepest > 0.0
@@ -44,16 +44,16 @@ def test_every_solver_and_number_is_asked_for_once():
 
 def test_what_was_tried_stays():
     scene = stepped(Pyramid(1))
-    first = scene.lane
+    first = scene.run_name
     stepped(scene, changes=(("substeps", 16),))
-    odd = scene.lane
+    odd = scene.run_name
     assert odd == (12, "soft_step", 16, "hash") and odd in scene.measured().names
     stepped(scene, changes=(("slider:solver", 0),))
-    other = scene._lane("soft_step", 8)
-    scene.figures = known(first) | known(odd, overlap=0.0) | known(scene.lane, 1e-4) | known(other)
+    other = scene._run_name("soft_step", 8)
+    scene.figures = known(first) | known(odd, overlap=0.0) | known(scene.run_name, 1e-4) | known(other)
     dots = scene.dots()
-    assert scene.lane == (12, "projection", None, "hash") and odd in scene.measured().names
-    assert [dots[name].tried for name in (first, odd, scene.lane, other)] == [True, True, True, False]
+    assert scene.run_name == (12, "projection", None, "hash") and odd in scene.measured().names
+    assert [dots[name].tried for name in (first, odd, scene.run_name, other)] == [True, True, True, False]
     assert dots[first].cost == pytest.approx(200.0) and dots[first].error == pytest.approx(1000 * 0.08 / SIZE)
     scene.change("slider:rows", 6)
     assert scene.dots() == {} and scene.finding().startswith("not yet"), "another pyramid"
@@ -66,9 +66,9 @@ def test_the_finding_names_what_is_as_good_for_less():
     scene = stepped(Pyramid(1))
     for name in scene.measured().names:
         scene.figures |= known(name, 3e-4, 0.2)
-    scene.figures |= known(scene.lane, 2e-4, 0.1)
+    scene.figures |= known(scene.run_name, 2e-4, 0.1)
     assert scene.finding() == "a step takes 200 us and crates overlap by 3.1 thousandths"
-    scene.figures |= known(scene._lane("sequential_impulse", 2), 1e-4, 0.1)
+    scene.figures |= known(scene._run_name("sequential_impulse", 2), 1e-4, 0.1)
     assert scene.finding().endswith("; sequential impulse, 2 substeps: no more for 100 us")
 
 

@@ -5,9 +5,9 @@ from math import atan2, degrees, hypot, pi
 import pytest
 
 from scenes.shooter.cast import GROUND_SPEED
+from scenes.shooter.difficulty import EASY, Difficulty
 from scenes.shooter.enemies import Gunship
 from scenes.shooter.fleet import KINDS
-from scenes.shooter.pace import EASY, Pace
 from scenes.shooter.patterns import Gun, fan, lead, ring
 from scenes.shooter.stage import Pattern
 from tests.scenes.shooter_stages import Sky
@@ -126,7 +126,7 @@ def test_the_turret_fires_walls_and_fans():
 def test_every_kind_has_health_points_and_a_pace_that_makes_it_harder():
     group = type("Group", (), {"hover": 50.0, "sway": 40.0, "bend": 10.0, "side": "left"})
     for made in KINDS.values():
-        easy, hard = made(0.0, 0.0, group, EASY), made(0.0, 0.0, group, Pace(armour=2.0))
+        easy, hard = made(0.0, 0.0, group, EASY), made(0.0, 0.0, group, Difficulty(armour=2.0))
         assert made.points > 0 and hard.health == 2 * easy.health > 0
 
 

@@ -19,18 +19,18 @@ SHORT, LONG = (240, 3600) if physics.JIT else (20, 200)  # frames
 
 
 def play(name, frames):
-    """Under its bot; returns the lights. Raises StrictFailure for a broken invariant."""
+    """Under its bot; returns the monitor. Raises StrictFailure for a broken invariant."""
     session = Session(make_scene(name, FEW), BotSource(), strict=True)
     for _ in range(frames):
         session.step()
-    return session.scene.lights
+    return session.scene.monitor
 
 
 @pytest.mark.parametrize("name", SCENES)
 def test_no_scene_breaks_an_invariant(name):
-    lights = play(name, SHORT)
-    assert lights.first is None and lights.frame == SHORT
-    states = {light.id: light.state for light in lights.lights}
+    monitor = play(name, SHORT)
+    assert monitor.first is None and monitor.frame == SHORT
+    states = {status.id: status.state for status in monitor.statuses}
     assert states["U1"] == states["U2"] == states["U11"] == "green" and states["U9"] == "grey"
 
 
@@ -96,5 +96,5 @@ def test_watching_changes_no_digest_and_is_not_counted_as_the_scenes_time(capsys
 def test_nobody_watches_unless_asked(monkeypatch):
     session = Session(make_scene("lab/filters", FEW), BotSource())
     session.step()
-    assert session.scene.lights is None
+    assert session.scene.monitor is None
     assert all(isinstance(world, WatchedWorld) and world.watch is None for world in session.scene.worlds)

@@ -15,7 +15,7 @@ from game.measure.staged import seconds_of_stage
 from game.measure.timing import Cost
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, at_least, at_most, ordering, pair, ratio_of
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from physics import BROADPHASES, Bounds, BruteForce, Circle, DynamicTree, Effects, SweepAndPrune, World
 
 SPACING, RADIUS, SPEED = 22.0, 6.0, 60.0  # [px], [px], [px/s]
@@ -127,17 +127,17 @@ def measure(layout: str, n: int, moving: str) -> list[Row]:
     ]
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    sizes = SIZES[:4] if plan.quick else SIZES
+def _jobs(scope: ReportScope) -> list[Job]:
+    sizes = SIZES[:4] if scope.quick else SIZES
     found = []
     for layout in LAYOUTS:
         for moving in MOVERS:
-            if plan.quick and (
+            if scope.quick and (
                 layout == "clusters" or moving == "half move" or (layout == "line" and moving != "all move")
             ):
                 continue
             for n in sizes:
-                if layout == "one point" and (n > (100 if plan.quick else NAIVE_LIMIT) or moving != "all move"):
+                if layout == "one point" and (n > (100 if scope.quick else NAIVE_LIMIT) or moving != "all move"):
                     continue
                 params = {"layout": layout, "n": n, "moving": moving}
                 name = f"broadphases/{layout}-{moving}-{n}".replace(" ", "-")

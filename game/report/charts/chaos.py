@@ -10,7 +10,7 @@ import numpy as np
 from game.measure.timing import timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import HOLDS, TIE, Claim
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import BOX, EFFECTS, pyramid, world_of
 from physics import Circle
 
@@ -59,8 +59,8 @@ def _way(world):
     return found
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    seeds = 6 if plan.quick else 30
+def _jobs(scope: ReportScope) -> list[Job]:
+    seeds = 6 if scope.quick else 30
     return [Job("chaos/pyramid", f"{__name__}:measure", {"seeds": seeds}, seeds * 0.6)]
 
 

@@ -13,7 +13,7 @@ from game.measure.pair_batch import PairBatch
 from game.measure.timing import timed_in_turns
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, ordering, pair
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from physics import TIERS, Circle, PixelMask, Polygon, fit
 
 RADIUS = 12.0  # [px] of the disc, half the width of the square
@@ -93,11 +93,13 @@ def _row(body, name, batch, normals, depths):
     pairs = batch.pair_of[batch.found["candidate"]]
     order = np.lexsort((batch.found["separation_1"], pairs))
     first = order[np.unique(pairs[order], return_index=True)[1]]
-    told, which = batch.found[first], pairs[first]
-    normal = np.stack([told["normal_x"], told["normal_y"]], axis=1)  # from the first shape to the second
+    reported, which = batch.found[first], pairs[first]
+    normal = np.stack([reported["normal_x"], reported["normal_y"]], axis=1)  # from the first shape to the second
     cosine = np.clip((normal * normals[which]).sum(axis=1), -1.0, 1.0)
     degrees = np.degrees(np.arccos(cosine))
-    deep = np.maximum(-np.minimum(told["separation_1"], np.where(told["count"] > 1, told["separation_2"], np.inf)), 0.0)
+    deep = np.maximum(
+        -np.minimum(reported["separation_1"], np.where(reported["count"] > 1, reported["separation_2"], np.inf)), 0.0
+    )
     wrong = np.abs(deep - depths[which])
     return {
         "series": name,
@@ -110,8 +112,8 @@ def _row(body, name, batch, normals, depths):
     }
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    count = POSES_QUICK if plan.quick else POSES
+def _jobs(scope: ReportScope) -> list[Job]:
+    count = POSES_QUICK if scope.quick else POSES
     return [
         Job(f"contacts/{body}".replace(" ", "-"), f"{__name__}:measure", {"body": body, "count": count}, 2.0)
         for body in BODIES

@@ -12,7 +12,7 @@ from game.measure.rates import Rate
 from game.measure.timing import Cost, clock, undisturbed
 from game.report.chart import Axis, Chart, Panel, percent, time, value
 from game.report.claim import FAILS, HOLDS, Claim, at_least, at_most, ordering, pair, ratio_of
-from game.report.job import Job, Plan, Row, counted, spread
+from game.report.job import Job, ReportScope, Row, counted, spread
 from physics import Circle, Effects, Polygon, World
 
 RADIUS, WIDTH, HALF = 5.0, 1.0, 11.0  # [px] of the disc, the plate's width, half its height
@@ -84,10 +84,10 @@ def measure(ratio: float, lanes: int) -> list[Row]:
                 lane = discs[identity]
                 if np.isnan(late[lane]):
                     late[lane] = abs(float(world.body(identity).position.x) - touch[lane]) if meets[lane] else 0.0
-        told = ~np.isnan(late)
-        missed = Rate(int((meets & ~told).sum()), int(meets.sum()))
-        ghost = Rate(int((told & ~meets).sum()), int(told.sum()))
-        found = late[meets & told]
+        reported = ~np.isnan(late)
+        missed = Rate(int((meets & ~reported).sum()), int(meets.sum()))
+        ghost = Rate(int((reported & ~meets).sum()), int(reported.sum()))
+        found = late[meets & reported]
         rows.append(
             {
                 "series": name_of(way, divided),
@@ -96,7 +96,7 @@ def measure(ratio: float, lanes: int) -> list[Row]:
                 "ratio": ratio,
                 "missed": counted(missed),
                 "ghost": counted(ghost),
-                "deepest_missed": float(depth[meets & ~told].max(initial=0.0)),
+                "deepest_missed": float(depth[meets & ~reported].max(initial=0.0)),
                 "late": [float(each) for each in np.percentile(found, (5, 50, 95))] if len(found) else None,
                 "failures": {"cap_hits": failures},
             }
@@ -152,10 +152,10 @@ def _traffic(way, divided, count, ratio):
     return world
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    lanes = 200 if plan.quick else 1000
-    ratios = RATIOS[::2] if plan.quick else RATIOS
-    counts = COUNTS[1:3] if plan.quick else COUNTS
+def _jobs(scope: ReportScope) -> list[Job]:
+    lanes = 200 if scope.quick else 1000
+    ratios = RATIOS[::2] if scope.quick else RATIOS
+    counts = COUNTS[1:3] if scope.quick else COUNTS
     work = __name__
     return [
         *(Job(f"continuous/miss-{r:g}", f"{work}:measure", {"ratio": r, "lanes": lanes}, lanes / 200) for r in ratios),
@@ -225,7 +225,7 @@ CHART = Chart(
             "series",
         ),
         Panel(
-            "told how far from the first touch",
+            "reported how far from the first touch",
             Axis("v dt / size", value("ratio")),
             Axis("off by [px]", value("late"), mark=1.0),
             lambda r: r["panel"] == "miss",
@@ -250,7 +250,7 @@ TIME_CHART = Chart(
         )
         for count in COUNTS
     ),
-    lambda plan: [],
+    lambda scope: [],
     _time_claims,
     of="continuous",
 )

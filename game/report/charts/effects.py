@@ -6,7 +6,7 @@ from game.measure.ledger import EFFECTS, Entry, entry
 from game.report.chart import Axis, Chart, Panel, panel_is, value
 from game.report.charts.latency import scene_class
 from game.report.claim import HOLDS, TIE, Claim
-from game.report.job import Job, Plan, Row
+from game.report.job import Job, ReportScope, Row
 from game.run.headless import start_dummy_display
 from game.run.warmup import warm_up_scene
 
@@ -35,7 +35,7 @@ def _row(scene: str, found: Entry) -> Row:
         "refused": found.refused,
         "matters": found.matters,
         "moved": found.moved,
-        "told": found.told,
+        "told": found.reported,
         "ruled": found.ruled,
         "parted": found.parted,
         "apart": None if found.refused else found.apart,
@@ -45,14 +45,14 @@ def _row(scene: str, found: Entry) -> Row:
     }
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    frames, chosen = (FRAMES_QUICK, FEW) if plan.quick else (FRAMES, plan.scenes)
+def _jobs(scope: ReportScope) -> list[Job]:
+    frames, chosen = (FRAMES_QUICK, FEW) if scope.quick else (FRAMES, scope.scenes)
     return [
         Job(
             f"effects/{name}".replace("lab/", "lab-"),
             f"{__name__}:measure",
-            {"scene": name, "where": plan.scenes[name], "frames": min(frames, LONGEST.get(name, frames))},
-            6.0 if plan.quick else 25.0,
+            {"scene": name, "where": scope.scenes[name], "frames": min(frames, LONGEST.get(name, frames))},
+            6.0 if scope.quick else 25.0,
         )
         for name in chosen
     ]

@@ -9,7 +9,7 @@ from game.measure.moment import failures_of
 from game.measure.timing import timed_steps
 from game.report.chart import Axis, Chart, Curve, Panel, panel_is, time, value
 from game.report.claim import FAILS, HOLDS, Claim
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import overlap, stack, world_of
 from physics import World
 
@@ -64,7 +64,7 @@ def measure(solver: str) -> list[Row]:
     return [row | ({"cost": spread(costs[key])} if key in costs else {}) for key, row in rows.items()]
 
 
-def _jobs(plan: Plan) -> list[Job]:
+def _jobs(scope: ReportScope) -> list[Job]:
     return [Job(f"far/{solver}", f"{__name__}:measure", {"solver": solver}, 2.5) for solver in SOLVERS]
 
 

@@ -14,7 +14,7 @@ from game.measure.power_law import fit_power_law
 from game.measure.timing import Cost, clock, undisturbed
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import HOLDS, TIE, Claim
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from physics import Circle, Effects, Material, Polygon, Vec2, World
 
 G, SECONDS, RUNS = 320.0, 1.0, 5
@@ -118,7 +118,7 @@ def order_of(rows: Sequence[Row]) -> tuple[float, float] | None:
     return fit_power_law(points)[:2] if len(points) >= 3 else None
 
 
-def _jobs(plan: Plan) -> list[Job]:
+def _jobs(scope: ReportScope) -> list[Job]:
     return [Job(f"integration/{case}".replace(" ", "-"), f"{__name__}:measure", {"case": case}, 4.0) for case in CASES]
 
 

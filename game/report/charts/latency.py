@@ -9,11 +9,11 @@ from pkgutil import resolve_name
 
 import numpy as np
 
-from game.measure.front import TIE as SHARE
+from game.measure.pareto_front import TIE as SHARE
 from game.measure.timing import clock, undisturbed
 from game.report.chart import Axis, Chart, Panel, time, value
 from game.report.claim import FAILS, HOLDS, TIE, Claim
-from game.report.job import Job, Plan, Row
+from game.report.job import Job, ReportScope, Row
 from game.run.headless import start_dummy_display
 from game.run.session import Session
 from game.run.sources import BotSource
@@ -77,15 +77,15 @@ def _peaks(made, frames):
     return np.array(found)
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    frames = 120 if plan.quick else 600
-    chosen = ("shooter", "platformer", "lab/pyramid", "lab/masks") if plan.quick else tuple(plan.scenes)
+def _jobs(scope: ReportScope) -> list[Job]:
+    frames = 120 if scope.quick else 600
+    chosen = ("shooter", "platformer", "lab/pyramid", "lab/masks") if scope.quick else tuple(scope.scenes)
     return [
         Job(
             f"latency/{name}".replace("lab/", "lab-"),
             f"{__name__}:measure",
-            {"scene": name, "where": plan.scenes[name], "frames": frames},
-            3.0 if plan.quick else 12.0,
+            {"scene": name, "where": scope.scenes[name], "frames": frames},
+            3.0 if scope.quick else 12.0,
         )
         for name in chosen
     ]

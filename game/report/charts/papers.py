@@ -9,7 +9,7 @@ from game.measure.pair_batch import PairBatch
 from game.measure.timing import timed_in_turns, timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, at_least, at_most, ratio_of
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import EFFECTS, pyramid, world_of
 from physics import Effects, Polygon, World
 
@@ -100,7 +100,7 @@ def measure_events() -> list[Row]:
     ]
 
 
-def _jobs(plan: Plan) -> list[Job]:
+def _jobs(scope: ReportScope) -> list[Job]:
     work = __name__
     return [
         Job(f"papers/{name}", f"{work}:measure_{name}", {}, seconds)
@@ -120,10 +120,10 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
         most = (min(rounds), max(rounds), max(rounds))
         text = "GJK needs few iterations, however many corners: ten in a whole time of impact"
         found.append(at_most(text, most, 10.0, "Gilbert, Johnson, Keerthi 1988", "iterations at most"))
-    without, told = by.get(("persist", "without", None)), by.get(("persist", "with", None))
-    if without and told:
+    without, reported = by.get(("persist", "without", None)), by.get(("persist", "with", None))
+    if without and reported:
         text = "events of what goes on touching cost a tenth of a step, and more"
-        found.append(at_least(text, ratio_of(told["cost"], without["cost"]), 1.1, "manuals, where they are off"))
+        found.append(at_least(text, ratio_of(reported["cost"], without["cost"]), 1.1, "manuals, where they are off"))
     return found
 
 

@@ -16,7 +16,7 @@ from game.measure.rates import Rate
 from game.measure.timing import timed_in_turns, timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
 from game.report.claim import Claim, at_most, ordering, pair, ratio_of
-from game.report.job import Job, Plan, Row, counted, spread
+from game.report.job import Job, ReportScope, Row, counted, spread
 from game.report.piles import overlap, pyramid, world_of
 from game.report.pymunk_piles import overlap_in, space_of
 from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
@@ -104,11 +104,11 @@ def measure_sprites(count: int) -> list[Row]:
         "pygame: Rect, then Mask": traffic.masks_after_rects,
         "pygame: groupcollide": traffic.group_collide,
     }
-    told: dict[str, set] = {
+    reported: dict[str, set] = {
         "pygame: Rect": traffic.rects_only(),
         "pygame: Rect, then Mask": traffic.masks_after_rects(),
     }
-    told["pygame: groupcollide"] = truth  # it returns sprites, not pairs: the same masks, one by one
+    reported["pygame: groupcollide"] = truth  # it returns sprites, not pairs: the same masks, one by one
     works: dict[str, Callable[[], object]] = dict(ways)
     for name, make, tier in (
         ("ours: grid, boxes", SpatialHashGrid, "aabb"),
@@ -120,7 +120,7 @@ def measure_sprites(count: int) -> list[Row]:
         rows = {int(identity): k for k, identity in enumerate(world.bodies["id"])}
         found = world.contacts
         hits = found[found["separation"] <= 0.0]
-        told[name] = {
+        reported[name] = {
             tuple(sorted((rows[a], rows[b])))
             for a, b in zip(hits["body_a"].tolist(), hits["body_b"].tolist(), strict=True)
         }
@@ -134,8 +134,8 @@ def measure_sprites(count: int) -> list[Row]:
             "label": name,
             "panel": "sprites",
             "n": count,
-            "wrong": counted(Rate(len(told[name] - truth), len(told[name]))),
-            "missed": counted(Rate(len(truth - told[name]), len(truth))),
+            "wrong": counted(Rate(len(reported[name] - truth), len(reported[name]))),
+            "missed": counted(Rate(len(truth - reported[name]), len(truth))),
             "cost": spread(costs[name]),
         }
         for name in works
@@ -176,9 +176,9 @@ def measure_piles(rows: int) -> list[Row]:
     ]
 
 
-def _jobs(plan: Plan) -> list[Job]:
+def _jobs(scope: ReportScope) -> list[Job]:
     work = __name__
-    counts, rows = ((300,), (10,)) if plan.quick else ((100, 500, 1500), (10, 20, 45))
+    counts, rows = ((300,), (10,)) if scope.quick else ((100, 500, 1500), (10, 20, 45))
     return [
         *(Job(f"peers/sprites-{n}", f"{work}:measure_sprites", {"count": n}, n / 150) for n in counts),
         *(Job(f"peers/pyramid-{n}", f"{work}:measure_piles", {"rows": n}, n * n / 50) for n in rows),

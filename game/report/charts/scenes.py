@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from game.measure.advice import measure_settings
 from game.measure.moment import Moment
 from game.measure.setting import settings_around
-from game.measure.survey import Survey, told
+from game.measure.survey import Survey, reported_error
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.charts.latency import scene_class
 from game.report.claim import Claim, ordering, pair
-from game.report.job import Job, Plan, Row, counted, spread
+from game.report.job import Job, ReportScope, Row, counted, spread
 from game.run.headless import start_dummy_display
 from game.run.session import Session
 from game.run.sources import BotSource
@@ -42,7 +42,7 @@ def measure(scene: str, where: str) -> list[Row]:
                     "panel": f"{scene}, {kind}",
                     "setting": setting._asdict(),
                     "ignored_effects": list(ignored_effects(moment.effects, setting.solver or world.solver)),
-                    "error": [max(0.0, error.value - error.floor), told(error), error.value + error.floor],
+                    "error": [max(0.0, error.value - error.floor), reported_error(error), error.value + error.floor],
                     "floor": error.floor,
                     "wrong": None if error.wrong is None else counted(error.wrong),
                     "missed": None if error.missed is None else counted(error.missed),
@@ -53,15 +53,15 @@ def measure(scene: str, where: str) -> list[Row]:
     return rows
 
 
-def _jobs(plan: Plan) -> list[Job]:
+def _jobs(scope: ReportScope) -> list[Job]:
     return [
         Job(
             f"scenes/{name}".replace("lab/", "lab-"),
             f"{__name__}:measure",
-            {"scene": name, "where": plan.scenes[name]},
+            {"scene": name, "where": scope.scenes[name]},
             15.0,
         )
-        for name in (FEW if plan.quick else plan.scenes)
+        for name in (FEW if scope.quick else scope.scenes)
     ]
 
 

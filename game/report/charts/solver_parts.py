@@ -10,13 +10,13 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from game.measure import studied_solvers as studied
-from game.measure.front import TIE as SHARE
 from game.measure.moment import failures_of
+from game.measure.pareto_front import TIE as SHARE
 from game.measure.staged import advance, stages_of
 from game.measure.timing import timed_steps
 from game.report.chart import Axis, Panel, time, value
 from game.report.claim import FAILS, HOLDS, TIE, Claim
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import PILES, world_of
 from game.report.standing import VISIBLE, Watch
 from physics import World
@@ -95,7 +95,7 @@ def measure(pile: str) -> list[Row]:
     return [row | {"cost": spread(cost)} for row, cost in zip(rows.values(), timed_steps(steps).values(), strict=True)]
 
 
-def jobs(plan: Plan) -> list[Job]:
+def jobs(scope: ReportScope) -> list[Job]:
     """Return one job per pile; none in a quick report."""
     return [
         Job(
@@ -104,7 +104,7 @@ def jobs(plan: Plan) -> list[Job]:
             {"pile": pile},
             60.0 if "pyramid" in pile else 9.0,
         )
-        for pile in (() if plan.quick else PILES)
+        for pile in (() if scope.quick else PILES)
     ]
 
 

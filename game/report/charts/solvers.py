@@ -12,7 +12,7 @@ from game.measure.timing import timed_steps
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.charts import solver_parts
 from game.report.claim import Claim, ordering, pair
-from game.report.job import Job, Plan, Row, spread
+from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import PILES, world_of
 from game.report.standing import VISIBLE, Watch
 
@@ -51,17 +51,17 @@ def measure(pile: str, quick: bool) -> list[Row]:
     return list(rows.values())
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    chosen = ("stack of 10", "crooked 20", "pyramid of 20 rows", "100:1") if plan.quick else PILES
+def _jobs(scope: ReportScope) -> list[Job]:
+    chosen = ("stack of 10", "crooked 20", "pyramid of 20 rows", "100:1") if scope.quick else PILES
     return [
         Job(
             f"solvers/{pile}".replace(" ", "-").replace(":", "-to-"),
             f"{__name__}:measure",
-            {"pile": pile, "quick": plan.quick},
+            {"pile": pile, "quick": scope.quick},
             6.0 if "pyramid" in pile else 1.5,
         )
         for pile in chosen
-    ] + solver_parts.jobs(plan)
+    ] + solver_parts.jobs(scope)
 
 
 def _claims(rows: Sequence[Row]) -> list[Claim]:

@@ -13,7 +13,7 @@ from game.measure.rates import Rate
 from game.measure.tiers import Poses, TierFigures, measure_at, poses_around
 from game.report.chart import Axis, Chart, Panel, panel_is, percent, time, value
 from game.report.claim import FAILS, HOLDS, TIE, Claim, ordering, pair
-from game.report.job import Job, Plan, Row, counted, spread
+from game.report.job import Job, ReportScope, Row, counted, spread
 from game.report.sprites import FEW, SPRITES, mask_of
 from physics import PixelMask, distance, fit
 
@@ -69,14 +69,14 @@ def _row(name, panel, figures: TierFigures) -> Row:
     }
 
 
-def _jobs(plan: Plan) -> list[Job]:
-    chosen, tried = (FEW, TRIED_QUICK) if plan.quick else (SPRITES, TRIED)
+def _jobs(scope: ReportScope) -> list[Job]:
+    chosen, tried = (FEW, TRIED_QUICK) if scope.quick else (SPRITES, TRIED)
     return [
         Job(
             f"tiers/{name}",
             f"{__name__}:measure",
             {"atlas": atlas, "name": name, "tried": tried},
-            4.0 if plan.quick else 15.0,
+            4.0 if scope.quick else 15.0,
         )
         for atlas, name in chosen
     ]
@@ -192,7 +192,7 @@ FIT_CHART = Chart(
             _built,
         ),
     ),
-    lambda plan: [],
+    lambda scope: [],
     _fit_claims,
     of="tiers",
 )

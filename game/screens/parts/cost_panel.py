@@ -12,7 +12,7 @@ from game.drawing.presenter import Frame
 from game.measure.errors import VISIBLE, Error
 from game.measure.moment import STEPS
 from game.measure.setting import Setting
-from game.measure.survey import shown, told
+from game.measure.survey import reported_error, shown
 from game.measure.surveyor import Surveyor
 from game.measure.timing import RUNS, Cost
 from game.measure.tuner import Tuner
@@ -20,7 +20,7 @@ from game.screens.parts.advice_rows import AdviceRows
 from game.screens.parts.switches import following
 
 TITLES = {
-    "verdict": "hits told wrong: by how much, on average",
+    "verdict": "wrong verdicts: by how much, on average",
     "overlap": "bodies in each other: the deepest place",
     "way": "bodies astray from a reference run",
 }
@@ -194,14 +194,14 @@ class CostPanel:
 
     def _draw_plot(self, frame, rect, known, now, scale):
         x = Axis([1e6 * value for cost, _ in known.values() for value in (cost.least, cost.upper)])
-        errors = [told(error) for _, error in known.values()]
+        errors = [reported_error(error) for _, error in known.values()]
         plot = LogPlot(rect, x, Axis([*errors, VISIBLE]), any(error <= 0.0 for error in errors), scale)
         plot.draw_ground(frame)
         plot.draw_level(frame, VISIBLE, PAPER, "a pixel: seen above")
-        places = {s: plot.place(1e6 * cost.median, told(error)) for s, (cost, error) in known.items()}
-        front = [places[setting] for setting in self.survey.front(self.shown_kind())]
-        if len(front) > 1:
-            pygame.draw.lines(frame.surface, faded(GOLD, 0.25), False, _stairs(front), scale)
+        places = {s: plot.place(1e6 * cost.median, reported_error(error)) for s, (cost, error) in known.items()}
+        pareto_front = [places[setting] for setting in self.survey.pareto_front(self.shown_kind())]
+        if len(pareto_front) > 1:
+            pygame.draw.lines(frame.surface, faded(GOLD, 0.25), False, _stairs(pareto_front), scale)
         trail = [places[setting] for setting in self.trail if setting in places]
         if len(trail) > 1:
             pygame.draw.lines(frame.surface, faded(PAPER, 0.5), False, trail, 1)
@@ -216,7 +216,7 @@ class CostPanel:
         low, high = (plot.place(1e6 * value, 1.0)[0] for value in (cost.least, cost.upper))
         if high - low > 2:
             pygame.draw.line(frame.surface, faded(color, 0.4), (low, place[1]), (high, place[1]), 1)
-        draw_form(frame.surface, form, place, 2.2 * scale, color, error.told or not error.floor)
+        draw_form(frame.surface, form, place, 2.2 * scale, color, error.above_floor or not error.floor)
         if setting == now:
             pygame.draw.circle(frame.surface, GOLD, place, 5 * scale, max(1, scale // 2))
         if setting == self.hovered:
@@ -262,7 +262,7 @@ class CostPanel:
 
     def _draw_list(self, frame, rect, known, now, scale):
         """Draw the settings by cost, and the number of those that do not fit."""
-        base, front = self.surveyor.here or now, set(self.survey.front(self.shown_kind()))
+        base, pareto_front = self.surveyor.here or now, set(self.survey.pareto_front(self.shown_kind()))
         ranking = self.ranking()
         frame.text("time of a step, noise, error", rect.right - 2 * scale, rect.y + scale, FOG, SMALL, scale, "right")
         rect = pygame.Rect(rect.x, rect.y + ROW * scale, rect.width, rect.height - ROW * scale)
@@ -279,7 +279,7 @@ class CostPanel:
                 frame.surface.fill(DUSK, row)
             color, form = look_of(setting, base)
             draw_form(frame.surface, form, (row.x + 3 * scale, row.y + 3 * scale), 2 * scale, frame.tone(color), True)
-            ink = GOLD if setting == now else PAPER if setting in front else FOG
+            ink = GOLD if setting == now else PAPER if setting in pareto_front else FOG
             values = f"{_short(cost)}  {shown(error)}{_failed(error)}"
             right = frame.text(values, row.right - 2 * scale, row.y + scale, ink, SMALL, scale, "right").left
             name = shorten(setting.label(base), right - row.x - 12 * scale, SMALL, scale)
@@ -326,12 +326,12 @@ def draw_form(
         pygame.draw.line(surface, color, (x - size, y + size), (x + size, y - size), thick)
 
 
-def _stairs(front):
+def _stairs(pareto_front):
     """Return the border of the dominated region: right along each point's error, then down to the next."""
     points = []
-    for (x, y), (next_x, _) in zip(front, front[1:], strict=False):
+    for (x, y), (next_x, _) in zip(pareto_front, pareto_front[1:], strict=False):
         points += [(x, y), (next_x, y)]
-    return [*points, front[-1]]
+    return [*points, pareto_front[-1]]
 
 
 def _short(cost: Cost) -> str:

@@ -9,11 +9,11 @@ from game.measure.moment import here_of
 from game.measure.setting import Setting, settings_around
 from game.measure.surveyor import Surveyor
 from game.measure.tuner import Tuner
+from game.measurement_requests import RunRequest, SpriteRequest
 from game.run.warmup import pieces_of
 from game.scene import SUBSTEPS, Scene
 from game.screens.parts.race import Race
 from game.screens.parts.race_split import SplitScreen
-from game.wishes import Lanes, Sprites
 from physics import World
 
 LINGER = 0.5  # [s] for which the panel must be open before the effects are measured: a glance starts no process
@@ -28,7 +28,9 @@ class Measuring:
         self.surveyor = Surveyor()
         self.tuner = Tuner(self.surveyor.survey, self._try)
         self.bench = Surveyor()  # for the scene's measurement requests …
-        self.benched: Sprites | Sequence[Hashable] | None = None  # … which are these sprites, or runs of these names
+        self.benched: SpriteRequest | Sequence[Hashable] | None = (
+            None  # … which are these sprites, or runs of these names
+        )
         self.ledger = Surveyor()  # for the effects
         self.opened_at: float | None = None  # [s] opening time of the panel; None: it is closed
         self.weighed = False  # whether the effects were requested since then
@@ -50,7 +52,7 @@ class Measuring:
         """Measure the requests of the scene, and of the panel while it is open. Call it once per picture, at `now`
         [s].
         """
-        self._measure_wish()
+        self._measure_request()
         self._measure_effects(now if panel_open else None)
 
     def _measure_effects(self, now):
@@ -70,16 +72,16 @@ class Measuring:
             if not self.ledger.busy:
                 self.ledger.stop()
 
-    def _measure_wish(self) -> None:
+    def _measure_request(self) -> None:
         """Measure the scene's requests, once."""
-        wish = self.scene.measured()
-        if isinstance(wish, Sprites) and not (self.benched and all(map(is_, wish, self.benched))):
+        request = self.scene.measured()
+        if isinstance(request, SpriteRequest) and not (self.benched and all(map(is_, request, self.benched))):
             self.bench.stop()
-            self.bench, self.benched = Surveyor(), wish
-            self.bench.measure_sprites(*wish)
-        if isinstance(wish, Lanes) and wish.names != self.benched:
-            self.benched = wish.names
-            self.bench.measure_lanes(wish)
+            self.bench, self.benched = Surveyor(), request
+            self.bench.measure_sprites(*request)
+        if isinstance(request, RunRequest) and request.names != self.benched:
+            self.benched = request.names
+            self.bench.measure_runs(request)
         if self.bench.busy:
             self.bench.turn()
             if not self.bench.busy:
@@ -97,8 +99,8 @@ class Measuring:
         decided = self.tuner.step(self.scene.frame, self.now())
         if decided is None:
             return ""
-        told = f"{decided.after.label(decided.before)}, {decided.share:.2f} x the time"
-        return f"tuned: {told}" if not decided.refused else f"not tuned: {decided.refused}"
+        reported = f"{decided.after.label(decided.before)}, {decided.share:.2f} x the time"
+        return f"tuned: {reported}" if not decided.refused else f"not tuned: {decided.refused}"
 
     def _try(self, setting):
         """Apply a setting. Return the reason if it cannot be applied, else ""."""

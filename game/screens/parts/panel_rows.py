@@ -140,7 +140,13 @@ def _time(play):
     return [
         Row(CHECK, "Freeze", key="P", on=clock.paused, press=play.toggle_pause),
         Row(BUTTON, "Single step", key="O", press=play.single_step, hint="one sixtieth of a second"),
-        Row(BUTTON, "One step, taken apart", key="E", press=play.take_apart, hint="stage by stage, forwards and back"),
+        Row(
+            BUTTON,
+            "Step inspector",
+            key="E",
+            press=play.toggle_step_inspector,
+            hint="stage by stage, forwards and back",
+        ),
         Row(
             CHOICE,
             "Speed",
@@ -150,14 +156,14 @@ def _time(play):
             hint=f"down to {SPEEDS[-1]:.0%}",
         ),
         *_rewind(play),
-        Row(BUTTON, "Restart", key="R", press=play.wish_restart),
+        Row(BUTTON, "Restart", key="R", press=play.request_restart),
     ]
 
 
 def _rewind(play):
-    if play.scrub is None:
+    if play.timeline is None:
         return []
-    rewind = play.scrub.rewind
+    rewind = play.timeline.rewind
     back = "" if rewind.live else f"   {(rewind.end - rewind.position) / 60.0:.1f} s back"
     hint = "a second back, frozen; hold the key to run back"
     return [Row(BUTTON, "Rewind" + back, key="Backspace", press=lambda: _leap(play), hint=hint)]
@@ -165,7 +171,7 @@ def _rewind(play):
 
 def _leap(play):
     play.clock.paused = True
-    play.scrub.go(-LEAP)
+    play.timeline.go(-LEAP)
 
 
 def _slider(play, scene, slider):

@@ -38,15 +38,15 @@ def press(play: Played, key: int) -> bool:
     elif key == pygame.K_n:
         play.switches.narrowphase()
     elif key == pygame.K_r:
-        play.wish_restart()
+        play.request_restart()
     elif key == pygame.K_p:
         play.toggle_pause()  # not through the input of a step: a paused game makes no steps
     elif key == pygame.K_o:
         play.single_step()
     elif key == pygame.K_e:
-        play.take_apart()
+        play.toggle_step_inspector()
     elif key == pygame.K_k:
-        play.switches.tell(play.measuring.toggle_split())
+        play.switches.report(play.measuring.toggle_split())
     elif key == pygame.K_MINUS:
         play.clock.slower()
     elif key in (pygame.K_EQUALS, pygame.K_PLUS):

@@ -9,14 +9,14 @@ from game.overlays.stack import Overlays
 from game.run.loop import FixedStep
 from game.run.session import Session
 from game.scene import Scene
-from game.screens.parts.apart import Apart
 from game.screens.parts.cost_panel import CostPanel
 from game.screens.parts.first_hint import HintCard
 from game.screens.parts.lab_card import LabCard
 from game.screens.parts.measuring import Measuring
 from game.screens.parts.panel import Panel
-from game.screens.parts.scrub import Scrub
+from game.screens.parts.step_inspector_view import StepInspectorView
 from game.screens.parts.switches import Switches
+from game.screens.parts.timeline import Timeline
 
 
 class Played(Protocol):
@@ -30,8 +30,8 @@ class Played(Protocol):
     measuring: Measuring
     switches: Switches
     settings: Settings | None
-    scrub: Scrub | None
-    apart: Apart
+    timeline: Timeline | None
+    step_inspector: StepInspectorView
     hint: HintCard | LabCard | None
     person: bool
     since_result: int
@@ -56,7 +56,7 @@ class Played(Protocol):
         """Pause, and make one step."""
         ...
 
-    def take_apart(self) -> None:
+    def toggle_step_inspector(self) -> None:
         """Start or end the inspection of the next step."""
         ...
 
@@ -64,7 +64,7 @@ class Played(Protocol):
         """Restart, in a race against the same scene under another setting."""
         ...
 
-    def wish_restart(self) -> None:
+    def request_restart(self) -> None:
         """Restart, unless that would lose a result."""
         ...
 

@@ -83,7 +83,7 @@ class Race:
         ours, theirs = self.gaps()
         return np.hypot(*(ours - theirs).T)
 
-    def told(self) -> list[str]:
+    def report_lines(self) -> list[str]:
         """Return three lines: the scene's setting and time, the rival's, and their distance."""
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
         apart = self.distances()
@@ -133,7 +133,7 @@ class Race:
     def _draw_figures(self, frame):
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
         rows = []
-        for line, color in zip(self.told(), (GOLD, SKY, ORANGE), strict=True):
+        for line, color in zip(self.report_lines(), (GOLD, SKY, ORANGE), strict=True):
             wrapped = wrap(line, area.width - 16 * scale, SMALL, scale)
             rows += [(text, color if text is wrapped[0] else INK) for text in wrapped]
         width = max(frame.measure(text, SMALL, scale)[0] for text, _ in rows) + 14 * scale

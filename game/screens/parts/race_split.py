@@ -14,7 +14,7 @@ from game.measure.errors import VISIBLE
 from game.overlays.stack import Overlays
 from game.run.picture import Picture
 from game.screens.parts.race import Race
-from game.screens.parts.scrub import BAR_HEIGHT
+from game.screens.parts.timeline import BAR_HEIGHT
 
 LEAST, MOST = 1e-3, 1e3  # [px] range of the plot
 LINE = 9  # [text px]
@@ -62,17 +62,17 @@ class SplitScreen:
         scale = frame.text_scale
         seconds = [each.value for each in self.race.times]
         y = rect.y + 3 * scale
-        told = self.race.told()
+        lines = self.race.report_lines()
         for number, color in enumerate((GOLD, SKY)):
             left, room = rect.x + number * rect.width // 2 + 4 * scale, rect.width // 2 - 8 * scale
-            name, time = told[number].rsplit(": ", 1)
+            name, time = lines[number].rsplit(": ", 1)
             text = wrap(name, room - frame.measure(time, SMALL, scale)[0] - 4 * scale, TEXT, scale)[0]
             frame.text(text, left, y, color, TEXT, scale)
             frame.text(time, left + room, y + 2 * scale, PAPER, SMALL, scale, "right")
             share = seconds[number] / max(*seconds, 1e-9)
             frame.surface.fill(faded(color, 0.7), (left, y + 11 * scale, room, 2 * scale))
             frame.surface.fill(frame.tone(color), (left, y + 11 * scale, round(room * share), 2 * scale))
-        lines = wrap(told[2], rect.width - 8 * scale, SMALL, scale)
+        lines = wrap(lines[2], rect.width - 8 * scale, SMALL, scale)
         y += 16 * scale
         for line in lines:
             frame.text(line, rect.x + 4 * scale, y, ORANGE, SMALL, scale)

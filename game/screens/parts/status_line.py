@@ -28,7 +28,7 @@ def status_of(play: Played) -> tuple[str, Color]:
     scene, clock = play.scene, play.clock
     if play.news:
         return play.news, GOLD
-    if play.apart.open:
+    if play.step_inspector.open:
         return "", GOLD
     if clock.paused:
         return "FROZEN   P goes on   O one step   E into it   R restart   Esc menu", GOLD

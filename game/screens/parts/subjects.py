@@ -50,8 +50,8 @@ def _of_pairs(world, pairs):
 
 def touching(world: World) -> np.ndarray:
     """Return (n, 4) boxes around two touching shapes."""
-    told = world.reported_rows()
-    return _of_pairs(world, np.stack([told["parent_a"], told["parent_b"]], axis=1))
+    rows = world.reported_rows()
+    return _of_pairs(world, np.stack([rows["parent_a"], rows["parent_b"]], axis=1))
 
 
 def candidates(world: World) -> np.ndarray:

@@ -9,7 +9,7 @@ from game.run.outcome import solver_name
 from game.scene import SUBSTEPS, Scene
 from physics import BROADPHASES
 
-TOLD_SECONDS = 2.5  # duration of the line about a switch
+REPORT_SECONDS = 2.5  # duration of the line about a switch
 
 
 class Switches:
@@ -21,7 +21,7 @@ class Switches:
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
         self.scene, self.devices = scene, devices
         self.now = 0.0  # [s]
-        self.told: tuple[str, float] = ("", 0.0)  # last switch, and the end of its line [s]
+        self.reported: tuple[str, float] = ("", 0.0)  # last switch, and the end of its line [s]
 
     def solver(self, way: int) -> None:
         """Change the solver."""
@@ -30,9 +30,9 @@ class Switches:
             name = following(choices, solver_name(self.scene), way)
             self._switch("solver", "solver", name, solver_name(self.scene))
         elif self.scene.effects.response:
-            self.tell("each world here has a solver of its own")
+            self.report("each world here has a solver of its own")
         else:
-            self.tell("nothing is pushed here: there is no solver to switch")
+            self.report("nothing is pushed here: there is no solver to switch")
 
     def broadphase(self, way: int) -> None:
         """Change the broad phase."""
@@ -40,7 +40,7 @@ class Switches:
             name = following(tuple(BROADPHASES), self.scene.broadphase, way)
             self._switch("broadphase", "broad phase", name, self.scene.broadphase)
         else:
-            self.tell("each world here has a broad phase of its own")
+            self.report("each world here has a broad phase of its own")
 
     def substeps(self, way: int) -> None:
         """Change the number of substeps."""
@@ -52,26 +52,26 @@ class Switches:
         if self.scene.tiers:
             self._switch("tier", "tested as", following(self.scene.tiers, self.scene.tier, way), self.scene.tier)
         else:
-            self.tell("no sprites here that could be tested as another shape")
+            self.report("no sprites here that could be tested as another shape")
 
     def narrowphase(self) -> None:
         """Stop at boxes, or go on to the narrow phase."""
         on = not self.scene.narrowphase
         self.devices.change("narrowphase", on)
-        self.tell("narrow phase: on, was off" if on else "narrow phase: off, was on: boxes that meet are a hit")
+        self.report("narrow phase: on, was off" if on else "narrow phase: off, was on: boxes that meet are a hit")
 
     def _switch(self, change, what, new, old):
         self.devices.change(change, new)
-        self.tell(f"{what}: {plain_name(str(new))}, was {plain_name(str(old or 'none'))}")
+        self.report(f"{what}: {plain_name(str(new))}, was {plain_name(str(old or 'none'))}")
 
-    def tell(self, line: str) -> None:
+    def report(self, line: str) -> None:
         """Show a line for a while."""
-        self.told = line, self.now + TOLD_SECONDS
+        self.reported = line, self.now + REPORT_SECONDS
 
     @property
     def news(self) -> str:
         """Line about the last switch, "" once it is old."""
-        return self.told[0] if self.now < self.told[1] else ""
+        return self.reported[0] if self.now < self.reported[1] else ""
 
 
 def following(names: Sequence[Any], name: Any, way: int) -> Any:

@@ -179,7 +179,7 @@ PAGES = (
         "scale",
         "Metres taken for pixels",
         "A ball of e = 0.8 falls two metres: left it does not bounce, right it does.",
-        "Tolerances are in metres: told 32 px to the metre, an impact of 6 m/s counts as 0.2, too slow to bounce.",
+        "Tolerances are in metres: at 32 px to the metre, an impact of 6 m/s counts as 0.2, too slow to bounce.",
         Way("pixels_per_meter=32, as it is", {"gravity": (0.0, 9.8)}),
         Way("pixels_per_meter=1", {"gravity": (0.0, 9.8), "pixels_per_meter": 1.0}),
         Effects(response=True, gravity=True, restitution=True, stacking=True),

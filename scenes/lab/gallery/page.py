@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from game.measure.lanes import LaneFigures
+from game.measure.measured_runs import RunFigures
 from physics import Effects, Polygon, World
 
 METER = 32.0  # [px]
@@ -52,7 +52,7 @@ class Larger:
     name: str  # "1,000 boxes"
     maker: str
     steps: int
-    read: Callable[[LaneFigures], float]  # its error, in the unit of the page
+    read: Callable[[RunFigures], float]  # its error, in the unit of the page
 
 
 @dataclass(frozen=True)

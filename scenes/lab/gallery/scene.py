@@ -23,8 +23,8 @@ from game.drawing.colors import FOG, GOLD, GREEN, INK, NIGHT, ORANGE, PAPER, RED
 from game.drawing.sprites import load_backdrop
 from game.drawing.typical import Typical
 from game.input.inputs import InputFrame
+from game.measurement_requests import MeasuredRun, Recipe, RunRequest
 from game.scene import Goal, Scene, Slider
-from game.wishes import Lane, Lanes, Recipe
 from physics import Effects
 from scenes.lab.gallery.page import MARKED, Side
 from scenes.lab.gallery.pages import PAGES
@@ -140,20 +140,20 @@ class Gallery(Scene):
         """Return the runs to measure: the page at its full size, if that is too large for a frame."""
         if self.page.larger is None:
             return None
-        return Lanes([self._lane(side) for side in self.sides], self._make)
+        return RunRequest([self._run_name(side) for side in self.sides], self._make)
 
-    def _lane(self, side):
+    def _run_name(self, side):
         return side.page.name, side.way.name, self.broadphase
 
     def _make(self, name):
-        larger, way = self.page.larger, next(side.way for side in self.sides if self._lane(side) == name)
+        larger, way = self.page.larger, next(side.way for side in self.sides if self._run_name(side) == name)
         assert larger is not None
         made = Recipe(larger.maker, (dict(way.world),))
-        return Lane([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
+        return MeasuredRun([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
 
     def larger(self, side):
-        """Return (error, LaneFigures) of a side at the page's full size; None before it was stepped."""
-        figures = self.figures.get(self._lane(side))
+        """Return (error, RunFigures) of a side at the page's full size; None before it was stepped."""
+        figures = self.figures.get(self._run_name(side))
         if self.page.larger is None or figures is None:
             return None
         return self.page.larger.read(figures), figures
@@ -188,10 +188,10 @@ class Gallery(Scene):
         canvas.text(f"{spent:,.0f} us a step", x + 2, 221, GOLD, SMALL)
         if page.larger is not None:
             found = self.larger(side)
-            told = "being stepped" if found is None else amount(found[0])
+            sentence = "being stepped" if found is None else amount(found[0])
             if found is not None and found[1].sure:
-                told += f", {found[1].cost.median:.1f} s"
-            canvas.text(f"{page.larger.name}: {told}", x + 2, 229, PAPER, SMALL)
+                sentence += f", {found[1].cost.median:.1f} s"
+            canvas.text(f"{page.larger.name}: {sentence}", x + 2, 229, PAPER, SMALL)
 
     def draw_on_frame(self, frame):
         """Draw tiny shapes, and the errors against their limit."""
@@ -242,12 +242,12 @@ class Gallery(Scene):
                 page.title,
                 DUE,
                 page.name in self.verdicts and is_met(page, *self.verdicts[page.name]),
-                self._told(page),
+                self._result(page),
             )
             for page in PAGES
         ]
 
-    def _told(self, page):
+    def _result(self, page):
         if page.name not in self.verdicts:
             return "not judged yet"
         naive, ours = self.verdicts[page.name]
@@ -260,13 +260,13 @@ class Gallery(Scene):
             return "not yet: the page has to be stepped"
         page = self.page
         errors = ", ".join(f"{side.way.name} {amount(side.error)}" for side in (naive, ours))
-        told = f"{page.title}, step {naive.steps}: {errors} {page.unit}"
+        sentence = f"{page.title}, step {naive.steps}: {errors} {page.unit}"
         met = sum(is_met(page, *self.verdicts[page.name]) for page in PAGES if page.name in self.verdicts)
         judged = f"; {met} of {len(self.verdicts)} judged pages came out as expected" if self.verdicts else ""
         full = [found for side in self.sides if (found := self.larger(side)) is not None]
         if len(full) == len(self.sides) and page.larger is not None:
-            told += f"; {page.larger.name} {' and '.join(amount(error) for error, _ in full)}"
-        return f"{told}, limit {amount(page.limit)}{judged}"
+            sentence += f"; {page.larger.name} {' and '.join(amount(error) for error, _ in full)}"
+        return f"{sentence}, limit {amount(page.limit)}{judged}"
 
     def bot(self):
         """Return the bot: a short look at each page; then each until it is judged."""

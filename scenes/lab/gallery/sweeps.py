@@ -202,7 +202,7 @@ PAGES = (
     Page(
         "beam",
         "A beam of one pixel",
-        "Balls cross a sensor of 1 px at 60 px a step: left most are not told of.",
+        "Balls cross a sensor of 1 px at 60 px a step: left most are not reported.",
         "Left events come from where a step ends, right from the way between: each entry, with its exit.",
         Way("where it stands", bodies={"continuous": "off"}),
         Way("swept", bodies={"continuous": "swept"}),

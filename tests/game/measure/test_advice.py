@@ -98,23 +98,27 @@ def test_a_real_scene_is_measured_whole():
     for _ in range(20):
         session.step()
     taken = Moment(scene.world.snapshot(), scene.world.broadphase.name)
-    told = []
-    found, survey = advise([taken], 1.0, lambda done, of: told.append((done, of)))
-    assert told[-1][0] == told[-1][1] and [done for done, _ in told[:5]] == [1, 2, 3, 4, 5]
+    reported = []
+    found, survey = advise([taken], 1.0, lambda done, of: reported.append((done, of)))
+    assert reported[-1][0] == reported[-1][1] and [done for done, _ in reported[:5]] == [1, 2, 3, 4, 5]
     assert {setting.broadphase for setting in survey.dots} == set(BROADPHASES)
     assert all(isinstance(dot.cost, Cost) and dot.cost.runs >= 5 for dot in survey.dots.values())
     assert found.best in survey.dots and found.here == taken.here
 
 
 @needs_speed
-def test_the_command_line_tells_it_as_text_and_as_json(capsys):
+def test_the_command_line_reports_it_as_text_and_as_json(capsys):
     registry = Registry(SCENES)
     assert run(["--advise", "lab/sensors", "--frames", "30"], registry) == 0
     assert "advice:" in capsys.readouterr().out
     assert run(["--advise", "lab/sensors", "--frames", "30", "--error", "0.5", "--json"], registry) == 0
-    told = json.loads(capsys.readouterr().out)
-    assert told["scene"] == "lab/sensors" and told["error"] == 0.5 and told["here"]["broadphase"] in BROADPHASES
-    assert len(told["settings"]) >= 4 and all(each["cost"]["runs"] >= 5 for each in told["settings"])
+    reported = json.loads(capsys.readouterr().out)
+    assert (
+        reported["scene"] == "lab/sensors"
+        and reported["error"] == 0.5
+        and reported["here"]["broadphase"] in BROADPHASES
+    )
+    assert len(reported["settings"]) >= 4 and all(each["cost"]["runs"] >= 5 for each in reported["settings"])
 
 
 @pytest.mark.parametrize(

@@ -99,7 +99,7 @@ def test_enter_puts_a_setting_to_work_and_a_recording_holds_it(driver):
     assert play.costs.trail[-2:] == [here, here._replace(substeps=8)], "what was tried stays as a trail"
 
 
-def test_a_setting_that_a_scene_does_not_play_with_is_told_and_changes_nothing(driver):
+def test_a_setting_that_a_scene_does_not_play_with_is_reported_and_changes_nothing(driver):
     play = open_scene(driver, "lab/stacks")
     assert isinstance(play.scene, Stacks)
     before = [world.solver for world in play.scene.worlds]
@@ -133,7 +133,7 @@ def test_only_what_a_scene_can_take_is_possible_in_a_recording():
     assert not is_possible(Shooter, "substeps", 8), "nothing is stacked there"
 
 
-def test_a_process_that_dies_is_told(driver):
+def test_a_process_that_dies_is_reported(driver):
     play = open_scene(driver, "lab/filters")
     play.measuring.surveyor.process.kill()
     for _ in range(100):

@@ -65,25 +65,25 @@ def test_taken_out_it_does_not():
     assert time_side(moment(), Side(PILE), 2) > 0.0
 
 
-def test_every_effect_is_told_after_each_round_and_nothing_once_it_is_over(monkeypatch):
+def test_every_effect_is_reported_after_each_round_and_nothing_once_it_is_over(monkeypatch):
     monkeypatch.setattr("game.measure.effect_costs.STEPS", 1)
-    told, asked = [], []
-    measure_effects(moment(), lambda *found: told.append(found), lambda: True)
-    assert [name for name, _, _ in told] == RUNS * list(EFFECTS)
-    assert {cost.runs for _, *both in told[-len(EFFECTS) :] for cost in both} == {RUNS}
-    told.clear()
-    measure_effects(moment(), lambda *found: told.append(found), lambda: bool(asked.append(1)))
-    assert not told and len(asked) == 1
+    reported, asked = [], []
+    measure_effects(moment(), lambda *found: reported.append(found), lambda: True)
+    assert [name for name, _, _ in reported] == RUNS * list(EFFECTS)
+    assert {cost.runs for _, *both in reported[-len(EFFECTS) :] for cost in both} == {RUNS}
+    reported.clear()
+    measure_effects(moment(), lambda *found: reported.append(found), lambda: bool(asked.append(1)))
+    assert not reported and len(asked) == 1
 
 
-def test_of_what_a_world_cannot_be_without_nothing_is_told(monkeypatch):
+def test_of_what_a_world_cannot_be_without_nothing_is_reported(monkeypatch):
     monkeypatch.setattr("game.measure.effect_costs.STEPS", 1)
     world = World(PILE, BROADPHASES["hash"]())
     Character(world, Polygon.box(8, 16), (0, 0))
     world.step()
-    told = set()
-    measure_effects(Moment(world.snapshot(), "hash"), lambda name, *_: told.add(name), lambda: True)
-    assert set(EFFECTS) - told == {"response"}
+    reported = set()
+    measure_effects(Moment(world.snapshot(), "hash"), lambda name, *_: reported.add(name), lambda: True)
+    assert set(EFFECTS) - reported == {"response"}
 
 
 def test_what_the_runs_scatter_by_is_no_cost():

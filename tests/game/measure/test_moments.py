@@ -9,7 +9,7 @@ import pytest
 from game.measure.errors import References, gap, pairs_of
 from game.measure.moment import Moment, here_of
 from game.measure.setting import Setting, settings_around
-from game.measure.survey import Survey, told
+from game.measure.survey import Survey, reported_error
 from game.measure.surveyor import Surveyor
 from game.measure.worker import measure
 from physics import BROADPHASES, TIERS, Effects, PixelMask, Polygon, World, collide
@@ -113,10 +113,10 @@ def test_verdicts_are_wrong_by_what_the_shapes_say():
     for tier in ("circle", "aabb", "mask"):
         setting = moment.here._replace(tier=tier)
         error = references.errors(setting)["verdict"]
-        told_world, wrong, missed, pixels, decided = moment.world(setting), 0, 0, 0.0, 0
+        reported_world, wrong, missed, pixels, decided = moment.world(setting), 0, 0, 0.0, 0
         exact = moment.world(moment.here._replace(tier="mask"))
         for step in range(60):
-            told_world.step()
+            reported_world.step()
             exact.step()
             if step % 5:
                 continue
@@ -125,7 +125,7 @@ def test_verdicts_are_wrong_by_what_the_shapes_say():
                 for b in bodies[i + 1 :]:
                     poses = [(*body.position, body.angle) for body in (a, b)]
                     true = len(collide(a.shapes[0], poses[0], b.shapes[0], poses[1])) > 0
-                    says = (a.id, b.id) in pairs_of(told_world)
+                    says = (a.id, b.id) in pairs_of(reported_world)
                     wrong, missed, decided = (
                         wrong + (says and not true),
                         missed + (true and not says),
@@ -139,7 +139,7 @@ def test_verdicts_are_wrong_by_what_the_shapes_say():
         assert (error.value > 0.0) == (tier != "mask")
 
 
-def test_a_worker_tells_every_setting_five_times(tmp_path):
+def test_a_worker_reports_every_setting_five_times(tmp_path):
     moment = moment_of(sprites(), "sweep")
     moment.snapshot.save(tmp_path / "m.npz")
     lines = []
@@ -153,9 +153,9 @@ def test_a_worker_tells_every_setting_five_times(tmp_path):
     survey = surveyor.survey
     assert surveyor.here == moment.here and set(survey.dots) == set(settings) and not surveyor.busy
     assert all(dot.sure and dot.cost.runs == 5 and dot.cost.least > 0.0 for dot in survey.dots.values())
-    front = survey.front("verdict")
-    errors = {s: told(e) for s, (_, e) in survey.known("verdict").items()}
-    assert min(errors.values()) == 0.0 and errors[front[-1]] == 0.0
+    pareto_front = survey.pareto_front("verdict")
+    errors = {s: reported_error(e) for s, (_, e) in survey.known("verdict").items()}
+    assert min(errors.values()) == 0.0 and errors[pareto_front[-1]] == 0.0
     assert survey.finding("verdict", moment.here)
 
 
@@ -185,7 +185,9 @@ def test_a_survey_without_runs_says_nothing():
     survey = Survey()
     here = Setting("hash", True)
     survey.dot(here)
-    assert survey.known("verdict") == {} and survey.finding("verdict", here) == "" and survey.front("verdict") == []
+    assert (
+        survey.known("verdict") == {} and survey.finding("verdict", here) == "" and survey.pareto_front("verdict") == []
+    )
 
 
 def test_a_surveyor_that_is_forgotten_leaves_no_process():

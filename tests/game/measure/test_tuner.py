@@ -45,14 +45,14 @@ def test_only_what_is_sure_is_advised(survey):
     assert advised(survey, HERE) == BRUTE and share(survey, BRUTE, HERE) == pytest.approx(0.5)
 
 
-def test_who_is_wrong_is_told_what_is_not_whatever_it_takes(survey):
+def test_a_wrong_choice_is_reported_and_the_right_one_is_not(survey):
     put(survey, HERE, 1.0, error=3.0)
     put(survey, TREE, 4.0)
     assert advised(survey, HERE) == TREE
     assert advised(survey, SWEEP) is None, "nothing is known of what runs"
 
 
-def test_the_tuner_tells_what_it_does_and_asks_nobody_twice_who_refuses(survey):
+def test_the_tuner_reports_what_it_does_and_asks_nobody_twice_who_refuses(survey):
     put(survey, TREE, 0.5)
     taken = []
     tuner = Tuner(survey, lambda setting: taken.append(setting) or ("no" if setting == TREE else ""))
@@ -122,7 +122,7 @@ def test_the_tuner_goes_on_with_the_panel_closed_and_ends_with_the_scene(play):
     assert not play.measuring.tuner.on and play.measuring.surveyor.process is None
 
 
-def test_what_is_read_of_a_dot_follows_what_is_told_of_it(survey):
+def test_what_is_read_of_a_dot_follows_what_is_reported_of_it(survey):
     """Cost and error are worked out once, and anew after every run and every error."""
     put(survey, TREE, 1e-3, 0.5, runs=1)
     dot, kind = survey.dot(TREE), survey.kinds[0]

@@ -30,11 +30,11 @@ def test_a_cluster_finds_the_same_facts_as_this_process():
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, protocol="tcp", silence_logs=50
     ) as cluster:
-        told = facts(run_on_dask(JOBS, connect(cluster.scheduler_address)))
-    assert told == facts(run_here(JOBS))
+        reported = facts(run_on_dask(JOBS, connect(cluster.scheduler_address)))
+    assert reported == facts(run_here(JOBS))
 
 
-def test_a_scheduler_that_does_not_answer_is_told(monkeypatch):
+def test_a_scheduler_that_does_not_answer_is_reported(monkeypatch):
     pytest.importorskip("distributed")
     monkeypatch.setattr("game.report.runners.PATIENCE", "200ms")
     with pytest.raises(UsageError, match="--dask: no scheduler answers at tcp://127.0.0.1:9"):
@@ -42,7 +42,7 @@ def test_a_scheduler_that_does_not_answer_is_told(monkeypatch):
 
 
 @pytest.mark.parametrize("address", ["nonsense", "tcp://host", "tcp://host:port", "ftp://host:1", ""])
-def test_an_address_that_is_none_is_told_at_once(address):
+def test_an_address_that_is_none_is_reported_at_once(address):
     pytest.importorskip("distributed")
     with pytest.raises(UsageError, match=rf"--dask: {address} is no address such as tcp://host:8786"):
         connect(address)
@@ -61,7 +61,7 @@ def test_what_a_job_raises_is_its_result():
 
 
 @pytest.mark.parametrize("times, comes_through", ((1, True), (2, False)))
-def test_a_job_whose_process_dies_is_done_once_more_then_told(times, comes_through, tmp_path):
+def test_a_job_whose_process_dies_is_done_once_more_then_reported(times, comes_through, tmp_path):
     jobs = [Job("x/dies", f"{WORK}:die", {"path": str(tmp_path), "times": times}), *JOBS]
     found = by_name(run_in_processes(jobs, 2))
     assert len(found) == len(jobs), "the others are done"

@@ -14,7 +14,7 @@ from game.measure.timing import Cost
 from game.registry import Registry
 from game.report.chart import Axis, Chart, Panel, time, value
 from game.report.claim import FAILS, HOLDS, TIE, at_least, at_most, ordering
-from game.report.job import Job, Plan, spread
+from game.report.job import Job, ReportScope, spread
 from game.report.page import as_csv
 from game.report.store import Store
 from scenes import SCENES
@@ -27,7 +27,7 @@ REGISTRY = Registry(SCENES)
 def small(jobs):
     """A report of one chart."""
     panel = Panel("of all", Axis("n", value("n")), Axis("us", time("cost")))
-    return (Chart(1, "fall", "Falling <b>", "How long?", "none & all", (panel,), lambda plan: list(jobs)),)
+    return (Chart(1, "fall", "Falling <b>", "How long?", "none & all", (panel,), lambda scope: list(jobs)),)
 
 
 @pytest.fixture
@@ -96,10 +96,10 @@ def test_interrupted_it_keeps_what_is_done_and_goes_on(charts, tmp_path, monkeyp
     charts([Job(f"fall/{k}", f"{WORK}:wait", {"path": str(mark)}) for k, mark in enumerate(marks)])
     from game.report.run import Progress
 
-    told = Progress.__call__
+    reported = Progress.__call__
 
     def interrupt(self, found):
-        told(self, found)
+        reported(self, found)
         if self.count == 2:
             raise KeyboardInterrupt
 
@@ -110,12 +110,12 @@ def test_interrupted_it_keeps_what_is_done_and_goes_on(charts, tmp_path, monkeyp
     assert "2 jobs are not done yet" in (tmp_path / "r" / "index.html").read_text()
     for mark in marks:
         mark.unlink(missing_ok=True)
-    monkeypatch.setattr(Progress, "__call__", told)
+    monkeypatch.setattr(Progress, "__call__", reported)
     assert report(tmp_path / "r") == 0
     assert [mark.exists() for mark in marks] == [False, False, True, True]
 
 
-def test_a_job_that_fails_is_told_and_done_again(charts, tmp_path, capsys):
+def test_a_job_that_fails_is_reported_and_done_again(charts, tmp_path, capsys):
     charts([Job("fall/1", f"{WORK}:fall", {"bodies": 1}), Job("fall/bad", f"{WORK}:fail", {})])
     assert report(tmp_path / "r") == 1
     assert "1 failed" in capsys.readouterr().out
@@ -230,11 +230,11 @@ def test_every_job_of_every_chart_can_be_handed_to_another_process():
     from game.report.charts import CHARTS
 
     for quick in (True, False):
-        plan = Plan(quick, REGISTRY.listing)
-        names = [job.name for chart in CHARTS for job in chart.jobs(plan)]
+        scope = ReportScope(quick, REGISTRY.listing)
+        names = [job.name for chart in CHARTS for job in chart.jobs(scope)]
         assert len(set(names)) == len(names) and len({name.replace("/", "--") for name in names}) == len(names)
         for chart in CHARTS:
-            for job in chart.jobs(plan):
+            for job in chart.jobs(scope):
                 assert job.name.startswith(f"{chart.key}/") and not re.search(r"[\s:]", job.name)
                 assert json.loads(json.dumps(job._asdict())) == job._asdict()
     keys = [chart.key for chart in CHARTS]

@@ -73,7 +73,7 @@ def test_all_ways_are_named_apart():
     assert {way.substeps for way in WAYS if way.solver == SOFT} == {1, 2, 4, 8, 16, 32}
 
 
-def test_what_errs_less_is_told_and_what_errs_alike_is_a_tie():
+def test_what_errs_less_is_reported_and_what_errs_alike_is_a_tie():
     def row(error):
         return {"error": error, "cost": {"seconds": [1e-6] * 3}}
 

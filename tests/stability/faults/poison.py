@@ -150,7 +150,7 @@ def same(found, wanted, rows):
 def columns_of(value, fill, depth=3):
     """Fill every float of every array in an object's attributes, and in those of its parts. Returns how many arrays.
 
-    Anchors are what a world remembers, kept there by turns: poisoned by name instead.
+    Contacts are kept in its tables from step to step: they are poisoned by name instead.
     """
     if isinstance(value, np.ndarray):
         if value.dtype.names:
@@ -162,5 +162,5 @@ def columns_of(value, fill, depth=3):
     if depth == 0 or isinstance(value, (str, bytes, int, float, bool, type(None))):
         return 0
     named = getattr(value, "__dict__", {})
-    parts = value if isinstance(value, (list, tuple)) else [named[name] for name in named if name != "_anchors"]
+    parts = value if isinstance(value, (list, tuple)) else [named[name] for name in named if name != "tables"]
     return sum(columns_of(each, fill, depth - 1) for each in parts)

@@ -1,11 +1,11 @@
-"""The jury's counts are those of single calls of collide() on every pair, in the shooter's own traffic."""
+"""The counts against the reference tier are those of single calls of collide() on every pair, in the shooter."""
 
 from itertools import combinations
 
 import pytest
 
 import physics
-from game.measure.jury import Jury
+from game.measure.reference_tier import ReferenceTier
 from game.run.session import Session
 from game.run.sources import BotSource
 from physics import TIERS, collide, fit
@@ -32,45 +32,47 @@ def slow_verdict(bodies, filters, tier):
 
 @pytest.fixture(scope="module")
 def asked():
-    """(jury, {tier: (said, wrong, missed)} counted slowly) after some moments of the shooter."""
+    """(reference tier, {tier: (hits, wrong, missed)} counted slowly) after some moments of the shooter."""
     scene = make_scene("shooter")
-    session, jury = Session(scene, BotSource()), Jury("aabb")
-    counts = dict.fromkeys(jury.tiers, (0, 0, 0))
+    session, reference = Session(scene, BotSource()), ReferenceTier("aabb")
+    counts = dict.fromkeys(reference.tiers, (0, 0, 0))
     for _ in range(QUIET):
         session.step()
-    while jury.moments < ASKED:
+    while reference.moments < ASKED:
         bodies = list(scene.world)
         filters = {body.id: (body.filter.membership, body.filter.mask) for body in bodies}
         true = slow_verdict(bodies, filters, "mask")
-        for tier in jury.tiers:
-            said, (all_said, wrong, missed) = slow_verdict(bodies, filters, tier), counts[tier]
-            counts[tier] = all_said + len(said), wrong + len(said - true), missed + len(true - said)
-        while not jury.ask(scene.world):
+        for tier in reference.tiers:
+            hits, (all_hits, wrong, missed) = slow_verdict(bodies, filters, tier), counts[tier]
+            counts[tier] = all_hits + len(hits), wrong + len(hits - true), missed + len(true - hits)
+        while not reference.ask(scene.world):
             session.step()  # the moment that is being judged stays as it was taken
         session.step()
         while not len(scene.world.contacts):
             session.step()
-    return jury, counts
+    return reference, counts
 
 
 def test_every_tier_is_counted_as_a_slow_look_counts(asked):
-    jury, counts = asked
-    for tier in jury.tiers:
-        wrong, missed = jury.wrong[tier], jury.missed[tier]
+    reference, counts = asked
+    for tier in reference.tiers:
+        wrong, missed = reference.wrong[tier], reference.missed[tier]
         assert (wrong.total, wrong.count, missed.count) == counts[tier], tier
-    assert set(jury.tiers) == set(TIERS) - {"mask"} and jury.wrong["circle"].count > 0
+    assert set(reference.tiers) == set(TIERS) - {"mask"} and reference.wrong["circle"].count > 0
 
 
-def test_what_the_lit_tier_told_wrongly_is_there_to_be_drawn():
+def test_what_the_lit_tier_reported_wrongly_is_there_to_be_drawn():
     scene = make_scene("shooter")
-    session, jury = Session(scene, BotSource()), Jury("circle")
+    session, reference = Session(scene, BotSource()), ReferenceTier("circle")
     for _ in range(QUIET):
         session.step()
     before = 0
     for _ in range(900):
         session.step()
-        if jury.ask(scene.world):
-            wrong = jury.wrong["circle"].count - before
-            assert sum(told for told, _ in jury.seen) == wrong and all(outlines for _, outlines in jury.seen)
+        if reference.ask(scene.world):
+            wrong = reference.wrong["circle"].count - before
+            assert sum(false_hit for false_hit, _ in reference.seen) == wrong and all(
+                outlines for _, outlines in reference.seen
+            )
             before += wrong
     assert before > 0

@@ -13,7 +13,7 @@ from game.run.digest import scene_digest
 from game.run.picture import Picture
 from game.run.session import Session
 from game.run.sources import BotSource, ScriptSource
-from game.run.taken_apart import TakenApart, compared, photographed
+from game.run.step_inspector import StepInspector, compared, photographed
 from game.screens.parts.panel_rows import play_rows
 from game.screens.play import Play
 from physics import debug
@@ -33,10 +33,10 @@ def played(name, frames=BEFORE):
     return session
 
 
-def apart(session, world=None):
+def inspector(session, world=None):
     scene = session.scene
     world = world or scene.views()[0][0]
-    return TakenApart(scene, world, session.inputs.now, lambda: BotSource().next(scene))
+    return StepInspector(scene, world, session.inputs.now, lambda: BotSource().next(scene))
 
 
 def tables_of(world):
@@ -50,7 +50,7 @@ def tables_of(world):
 def test_play_goes_on_as_if_nobody_had_looked(name):
     session, other = played(name), played(name)
     before = scene_digest(session.scene)
-    step = apart(session)
+    step = inspector(session)
     for place in (len(step.stages), 0, len(step.stages) // 2):
         step.go(place)
         debug.bounds(step.world)
@@ -64,7 +64,7 @@ def test_play_goes_on_as_if_nobody_had_looked(name):
 
 @pytest.mark.parametrize("name", KINDS)
 def test_forwards_and_back_to_the_bit(name):
-    step = apart(played(name))
+    step = inspector(played(name))
     there = []
     for place in range(len(step.stages) + 1):
         step.go(place)
@@ -84,7 +84,7 @@ def test_forwards_and_back_to_the_bit(name):
 @pytest.mark.parametrize("name", KINDS)
 def test_the_last_stage_shows_the_step_that_is_then_made(name):
     session = played(name)
-    step = apart(session)
+    step = inspector(session)
     step.go(len(step.stages))
     names, counted = [each.stage for each in step.stages], step.world.profile.counters
     shown = {column: step.world.bodies[column].copy() for column in ("id", "x", "y", "angle", "vx", "vy")}
@@ -99,7 +99,7 @@ def test_the_last_stage_shows_the_step_that_is_then_made(name):
 
 
 def test_what_a_stage_is_said_to_change_is_what_it_changes():
-    step = apart(played("lab/pyramid"))
+    step = inspector(played("lab/pyramid"))
     for place in range(1, len(step.stages) + 1):
         step.go(place - 1)
         before, counters = photographed(step.world), step.world.profile.counters
@@ -135,7 +135,7 @@ class Twice(Arena):
 def test_all_steps_of_a_frame_one_after_the_other():
     session = Session(Twice(), BotSource())
     session.step()
-    step = apart(session)
+    step = inspector(session)
     count = len(step.world.stages)
     assert step.starts == [0, count] and len(step.stages) == 2 * count
     step.go(count)
@@ -185,15 +185,15 @@ def play():
 def test_keys_go_through_it_and_out_again(play):
     before, frame = scene_digest(play.scene), play.scene.frame
     key(play, K.K_e)
-    assert play.clock.paused and play.apart.open and play.apart.step.place == 1
+    assert play.clock.paused and play.step_inspector.open and play.step_inspector.step.place == 1
     for name, place in ((K.K_RIGHT, 2), (K.K_RIGHT, 3), (K.K_LEFT, 2), (K.K_END, 8), (K.K_HOME, 0)):
         key(play, name)
         play.advance(1.0)
-        assert play.apart.step.place == place
+        assert play.step_inspector.step.place == place
     key(play, K.K_6)
-    assert play.apart.open and "contacts" in play.overlays.on, "overlays are switched as always"
+    assert play.step_inspector.open and "contacts" in play.overlays.on, "overlays are switched as always"
     key(play, K.K_e)
-    assert not play.apart.open and play.clock.paused
+    assert not play.step_inspector.open and play.clock.paused
     assert scene_digest(play.scene) == before and play.scene.frame == frame
 
 
@@ -204,7 +204,7 @@ def test_whatever_else_is_pressed_finds_the_scene_as_it_was(play, name):
     key(play, K.K_END)
     assert scene_digest(play.scene) != before
     key(play, name)
-    assert not play.apart.open and scene_digest(play.scene) == before
+    assert not play.step_inspector.open and scene_digest(play.scene) == before
     assert play.outcome is None
 
 
@@ -220,16 +220,16 @@ def test_a_single_step_makes_the_step_that_was_looked_at(play):
 def test_the_strip_names_all_stages_and_a_click_goes_there(play):
     picture = Picture(K.Surface((960, 540)))
     key(play, K.K_e)
-    play.apart.step.go(4)
+    play.step_inspector.step.go(4)
     frame = play.draw(picture)
-    told = words(frame)
-    assert all(stage.replace("_", " ") in told for stage in play.scene.world.stages)
-    assert "4 of 8: narrow phase" in told and "us, the least of" in told and "narrow tests +" in told
-    assert "contact rows" in told and "FROZEN" not in told and "-10 s" not in told
-    assert "contacts" not in play.overlays.on and "contacts 321 of 321" in told, "the layer of the stage is shown"
-    rect, number = play.apart.names[1]
+    reported = words(frame)
+    assert all(stage.replace("_", " ") in reported for stage in play.scene.world.stages)
+    assert "4 of 8: narrow phase" in reported and "us, the least of" in reported and "narrow tests +" in reported
+    assert "contact rows" in reported and "FROZEN" not in reported and "-10 s" not in reported
+    assert "contacts" not in play.overlays.on and "contacts 321 of 321" in reported, "the layer of the stage is shown"
+    rect, number = play.step_inspector.names[1]
     assert play.feed(K.event.Event(K.MOUSEBUTTONDOWN, button=1, pos=rect.center))
-    assert play.apart.step.place == number == 2
+    assert play.step_inspector.step.place == number == 2
     assert "2 of 8: motion rectangles" in words(play.draw(picture))
 
 
@@ -238,28 +238,28 @@ def test_the_strip_names_all_stages_and_a_click_goes_there(play):
 def test_nothing_is_cut_at_any_size(name, size):
     play = screen(make_scene(name), BotSource())
     key(play, K.K_e)
-    for place in range(len(play.apart.step.stages) + 1):
-        play.apart.step.go(place)
+    for place in range(len(play.step_inspector.step.stages) + 1):
+        play.step_inspector.step.go(place)
         frame = play.draw(Picture(K.Surface(size)))
-        inside, told = frame.area.clip(frame.rect), words(frame)
-        assert "the input is the bot's" in told and "E puts the step back" in told
+        inside, reported = frame.area.clip(frame.rect), words(frame)
+        assert "the input is the bot's" in reported and "E puts the step back" in reported
         card = [rect for rect, text in frame.boxes if "reads" in text or "may write" in text or "the input" in text]
         assert all(inside.contains(rect) for rect in card)
-        assert all(rect.bottom <= play.apart.names[0][0].top for rect in card)
+        assert all(rect.bottom <= play.step_inspector.names[0][0].top for rect in card)
     play.close()
 
 
 def test_of_several_worlds_each_in_turn():
     play = screen(make_scene("lab/stacks"), BotSource(), 5)
-    worlds = play.apart.worlds()
+    worlds = play.step_inspector.worlds()
     key(play, K.K_e)
-    seen = [play.apart.step.world]
+    seen = [play.step_inspector.step.world]
     for _ in range(2):
         key(play, K.K_DOWN)
-        seen.append(play.apart.step.world)
+        seen.append(play.step_inspector.step.world)
     assert [worlds.index(world) for world in seen] == [0, 1, 2]
     key(play, K.K_UP)
-    assert play.apart.step.world is worlds[1]
+    assert play.step_inspector.step.world is worlds[1]
     assert "world 2 of 3" in words(play.draw(Picture(K.Surface((960, 540)))))
     play.close()
 
@@ -267,16 +267,16 @@ def test_of_several_worlds_each_in_turn():
 def test_in_the_past_it_is_the_step_that_was_recorded():
     frames = [InputFrame(frozenset({"right"} if number % 7 < 3 else ())) for number in range(60)]
     play = screen(Arena(seed=3), ScriptSource(frames), 60)
-    recorded = play.scrub.rewind
+    recorded = play.timeline.rewind
     play.clock.paused = True
-    play.scrub.go(-25)
+    play.timeline.go(-25)
     key(play, K.K_e)
-    assert play.apart.whose.endswith("recorded")
+    assert play.step_inspector.whose.endswith("recorded")
     key(play, K.K_END)
     shown = play.scene.disc.position
     key(play, K.K_e)
     assert recorded.position == 35 and recorded.end == 60
-    play.scrub.go(1)
+    play.timeline.go(1)
     assert play.scene.disc.position == shown
     play.close()
 
@@ -284,14 +284,14 @@ def test_in_the_past_it_is_the_step_that_was_recorded():
 def test_a_person_goes_on_with_what_was_held():
     play = screen(Arena(seed=3), ScriptSource([InputFrame(frozenset({"right"}))] * 30))
     key(play, K.K_e)
-    assert "held" in play.apart.whose and play.scene.disc.velocity[0] == 60.0
+    assert "held" in play.step_inspector.whose and play.scene.disc.velocity[0] == 60.0
     play.close()
 
 
-def test_where_no_step_is_made_that_is_told():
+def test_where_no_step_is_made_that_is_reported():
     play = screen(Twice(), BotSource(), 3)
     key(play, K.K_e)
-    assert not play.apart.open and "makes no step" in play.news
+    assert not play.step_inspector.open and "makes no step" in play.news
     play.close()
 
 
@@ -313,11 +313,11 @@ def test_a_change_from_elsewhere_ends_it(play):
     play.session.source = BotSource(play.devices)
     play.advance(1.0)
     play.advance(1.1)
-    assert not play.apart.open and play.scene.values["rows"] == 5 and scene_digest(play.scene) != before
+    assert not play.step_inspector.open and play.scene.values["rows"] == 5 and scene_digest(play.scene) != before
 
 
 def test_the_panel_leads_there(play):
     play.panel_open = True
-    row = next(row for row in play_rows(play) if row.label == "One step, taken apart")
+    row = next(row for row in play_rows(play) if row.label == "Step inspector")
     row.press()
-    assert row.key == "E" and play.apart.open and not play.panel_open
+    assert row.key == "E" and play.step_inspector.open and not play.panel_open

@@ -89,7 +89,7 @@ def _broad_phase(world, touch):
     place = np.flatnonzero((ids == (touch.shape_a, touch.shape_b)).all(axis=1))
     tested = world.profile.counters["pairs_tested"]
     name = plain_name(world.broadphase.name)
-    where = f"pair {int(place[0]) + 1} of {len(ids)} whose boxes meet" if len(place) else "told again by the solver"
+    where = f"pair {int(place[0]) + 1} of {len(ids)} whose boxes meet" if len(place) else "found again by the solver"
     words = f"{where}, from {count_text(tested, 'test')} of boxes" if tested else where + ", known from steps before"
     return Part(f"broad phase, {name}", words + _stage(world, "broad_phase"))
 

@@ -39,7 +39,7 @@ def asking(world, query, origin, area, size):
     return ask_the_next
 
 
-def told(found):
+def rows_of(found):
     """Return an answer as rows (body id, x, y, normal x, normal y, fraction or distance), 0 for missing values."""
     rows = []
     for each in found:

@@ -38,7 +38,7 @@ class Done(NamedTuple):
     rows: list[tuple[str, int, int]]  # (table, rows before, rows now) of tables with another length
 
 
-class TakenApart:
+class StepInspector:
     """Inspector of one step. world: whose steps are inspected; before: the input of the step before; following(): that
     of this one.
 

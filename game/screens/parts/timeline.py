@@ -25,13 +25,13 @@ PAD_WAYS = {"dpad left": -1, "dpad right": 1}
 PAD_RUNS = {"left shoulder": -1, "right shoulder": 1}
 
 
-class Scrub:
+class Timeline:
     """Control of a Rewind: feed() takes events, turn() goes to the step. went: called after each move."""
 
     def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
         self.rewind, self.went = rewind, went
         self.control: object = None  # the held key or button
-        self.way, self.pace, self.since, self.before, self.owed = 0, 0.0, 0.0, 0.0, 0.0
+        self.way, self.since, self.before, self.owed = 0, 0.0, 0.0, 0.0
         self.asked: int | None = None  # a step chosen by mouse or tap
         self.dragging = False
         self.bar = pygame.Rect(0, 0, 0, 0)  # of the last picture

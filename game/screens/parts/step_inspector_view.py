@@ -13,7 +13,7 @@ from game.invariants.watch import WatchedWorld
 from game.overlays.stack import Overlays
 from game.run.rewind import Rewind
 from game.run.session import Session
-from game.run.taken_apart import Done, TakenApart, next_input
+from game.run.step_inspector import Done, StepInspector, next_input
 from game.screens.parts.lab_card import least_covering
 
 WIDTH, ROW, EDGE = 200, 7, 4  # [text px] of the card
@@ -55,15 +55,15 @@ SHOWN = {
 }
 
 
-class Apart:
-    """Inspector of a step: enter() and leave() it; feed() takes events in between, draw() shows strip and card.
+class StepInspectorView:
+    """View of the step inspector: enter() and leave() it; feed() takes events in between, draw() shows strip and card.
 
     rewind: has the input of the next step if it was made before; None: steps cannot be inspected.
     """
 
     def __init__(self, session: Session, rewind: Rewind | None, overlays: Overlays) -> None:
         self.session, self.rewind, self.overlays = session, rewind, overlays
-        self.step: TakenApart | None = None
+        self.step: StepInspector | None = None
         self.world = 0  # index in worlds()
         self.whose = ""  # origin of the input
         self.names: list[tuple[pygame.Rect, int]] = []  # (place, number) of each stage in the last picture
@@ -86,9 +86,9 @@ class Apart:
         session, worlds = self.session, self.worlds()
         self.world = world % len(worlds)
         following, self.whose = next_input(session, self.rewind)
-        step = TakenApart(session.scene, worlds[self.world], session.inputs.now, following)
+        step = StepInspector(session.scene, worlds[self.world], session.inputs.now, following)
         if not step.stages:
-            return "the next frame makes no step here: there is nothing to take apart"
+            return "the next frame makes no step here: there is nothing to inspect"
         self.step, self.corner = step, None
         step.go(1)
         return ""
@@ -202,7 +202,7 @@ class Apart:
         scale = frame.text_scale
         room = WIDTH * scale
         lines: list[tuple[str, Color, str, int]] = []
-        for text, ink, font, height in self._told():
+        for text, ink, font, height in self._paragraphs():
             wrapped = wrap(text, room - 2 * EDGE * scale, font, scale)
             lines += [("", ink, font, BETWEEN)] * bool(lines) + [(each, ink, font, height) for each in wrapped]
         area = frame.area.clip(frame.rect)
@@ -227,7 +227,7 @@ class Apart:
             self.corner = int(best.centerx > area.centerx)
         return pygame.Rect(corners[self.corner], area.top, *size)
 
-    def _told(self):
+    def _paragraphs(self):
         """Return (text, colour, font, height) of each paragraph of the card."""
         step = self.step
         assert step is not None

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from game.input.devices import DeviceSource
-from game.measure.knowing import know
-from game.measure.lanes import WARM_STEPS, LaneFigures, measure_lanes
+from game.measure.measured_runs import WARM_STEPS, RunFigures, measure_runs
 from game.measure.surveyor import Surveyor
+from game.measure.synchronous import measure_requests
 from game.measure.timing import RUNS, Cost
-from game.measure.worker import measure_stored_lanes
+from game.measure.worker import measure_stored_runs
+from game.measurement_requests import STEPS, Act, MeasuredRun, RunRequest
 from game.screens.parts.measuring import Measuring
-from game.wishes import STEPS, Act, Lane, Lanes
 from physics import Effects, Polygon, World
 from tests.game.arena import Arena
 
@@ -27,37 +27,37 @@ def pile(count):
     return world.snapshot()
 
 
-def lane_of(count, **more):
-    return Lane([pile(count)], "hash", **more)
+def run_of(count, **more):
+    return MeasuredRun([pile(count)], "hash", **more)
 
 
-class Wishing(Arena):
+class Requesting(Arena):
     """Wants to know what the piles in `piles` cost; counts how often it was asked to make one."""
 
     piles, made = (1, 2), 0
 
     def measured(self):
-        return Lanes(self.piles, self.make)
+        return RunRequest(self.piles, self.make)
 
     def make(self, name):
         self.made += 1
-        return lane_of(name, steps=3)
+        return run_of(name, steps=3)
 
 
-def test_every_lane_is_run_five_times_in_turns():
-    told = []
-    measure_lanes([lane_of(1), lane_of(12)], lambda *found: told.append(found), lambda: True)
-    assert [number for number, *_ in told[:2]] == [0, 1]
-    assert sorted(number for number, *_ in told) == [0] * RUNS + [1] * RUNS
-    least = {which: min(spent for number, spent, *_ in told if number == which) for which in (0, 1)}
+def test_every_measured_run_is_made_five_times_in_turns():
+    reported = []
+    measure_runs([run_of(1), run_of(12)], lambda *found: reported.append(found), lambda: True)
+    assert [number for number, *_ in reported[:2]] == [0, 1]
+    assert sorted(number for number, *_ in reported) == [0] * RUNS + [1] * RUNS
+    least = {which: min(spent for number, spent, *_ in reported if number == which) for which in (0, 1)}
     assert 0.0 < least[0] < least[1], "twelve boxes cost more than one"
 
 
 def test_a_stage_costs_less_than_the_step_and_an_unknown_one_nothing():
-    told = {}
-    lanes = [lane_of(8), lane_of(8, stage="broad_phase"), lane_of(8, stage="none of this name")]
-    measure_lanes(lanes, lambda number, spent, *_: told.setdefault(number, []).append(spent), lambda: True)
-    assert min(told[0]) > min(told[1]) > 0.0 and max(told[2]) == 0.0
+    reported = {}
+    measured_runs = [run_of(8), run_of(8, stage="broad_phase"), run_of(8, stage="none of this name")]
+    measure_runs(measured_runs, lambda number, spent, *_: reported.setdefault(number, []).append(spent), lambda: True)
+    assert min(reported[0]) > min(reported[1]) > 0.0 and max(reported[2]) == 0.0
 
 
 def counting(world, record):
@@ -70,15 +70,15 @@ ACTS = []
 
 def test_an_act_is_done_in_place_of_steps_in_a_world_that_was_stepped_once():
     ACTS.clear()
-    told, act = [], Act("tests.game.measure.test_lanes:counting", ("kept",))
-    measure_lanes([lane_of(2, steps=7, act=act)], lambda *found: told.append(found), lambda: True)
-    assert len(told) == RUNS and all(spent > 0.0 for _, spent, *_ in told)
+    reported, act = [], Act("tests.game.measure.test_measured_runs:counting", ("kept",))
+    measure_runs([run_of(2, steps=7, act=act)], lambda *found: reported.append(found), lambda: True)
+    assert len(reported) == RUNS and all(spent > 0.0 for _, spent, *_ in reported)
     assert ACTS == [("kept", 1)] * (WARM_STEPS + 1 + RUNS * 8), "one call of each run comes first"
 
 
 def test_an_overlap_and_a_way_are_those_of_the_steps_that_are_judged():
-    told, snapshot = [], pile(5)
-    measure_lanes([Lane([snapshot], "hash", judged=(3, 7))], lambda *found: told.append(found), lambda: True)
+    reported, snapshot = [], pile(5)
+    measure_runs([MeasuredRun([snapshot], "hash", judged=(3, 7))], lambda *found: reported.append(found), lambda: True)
     world, deepest, farthest = World(PILE), [], []
     world.restore(snapshot)
     for _ in range(7):
@@ -87,51 +87,55 @@ def test_an_overlap_and_a_way_are_those_of_the_steps_that_are_judged():
         deepest.append(max(0.0, -float(world.contacts["separation"].min())))
         ways = [world.bodies[name] - before[name] for name in ("center_x", "center_y")]
         farthest.append(float(np.hypot(*ways).max()))
-    assert {overlap for _, _, overlap, _ in told} == {max(deepest[2:])} and deepest[0] > max(deepest[2:]) > 0.0
-    assert [far for *_, far in told] == pytest.approx([max(farthest[2:])] * RUNS) and farthest[0] > max(farthest[2:])
+    assert {overlap for _, _, overlap, _ in reported} == {max(deepest[2:])} and deepest[0] > max(deepest[2:]) > 0.0
+    assert [far for *_, far in reported] == pytest.approx([max(farthest[2:])] * RUNS) and farthest[0] > max(
+        farthest[2:]
+    )
 
 
 def test_who_is_asked_for_something_else_stops():
-    told = []
-    measure_lanes([lane_of(1)] * 3, lambda *found: told.append(found), lambda: len(told) < 2)
-    assert len(told) == 2
+    reported = []
+    measure_runs([run_of(1)] * 3, lambda *found: reported.append(found), lambda: len(reported) < 2)
+    assert len(reported) == 2
 
 
-def test_a_process_measures_lanes_and_remembers_them_by_name():
+def test_a_process_measures_runs_and_remembers_them_by_name():
     surveyor = Surveyor()
     try:
-        surveyor.measure_lanes(Lanes([("pile", 1), ("pile", 4)], lambda name: lane_of(name[1])))
+        surveyor.measure_runs(RunRequest([("pile", 1), ("pile", 4)], lambda name: run_of(name[1])))
         surveyor.wait(120.0)
         assert not surveyor.trouble and not surveyor.busy
         found = dict(surveyor.figures)
         assert set(found) == {("pile", 1), ("pile", 4)} and all(map(surveyor.knows, found))
         assert all(figures.cost.pieces == STEPS and figures.cost.least > 0.0 for figures in found.values())
         asked = []
-        surveyor.measure_lanes(Lanes([("pile", 4), ("pile", 2)], lambda name: asked.append(name) or lane_of(name[1])))
+        surveyor.measure_runs(
+            RunRequest([("pile", 4), ("pile", 2)], lambda name: asked.append(name) or run_of(name[1]))
+        )
         surveyor.wait(120.0)
         assert asked == [("pile", 2)] and surveyor.figures.items() > found.items()
     finally:
         surveyor.stop()
 
 
-def test_what_a_worker_tells_is_what_the_lanes_are_made_of(tmp_path):
+def test_what_a_worker_reports_is_what_the_measured_runs_are_made_of(tmp_path):
     pile(2).save(tmp_path / "pile.npz")
-    act = Act("tests.game.measure.test_lanes:counting", ("far",))
-    stored = lane_of(2, steps=4, act=act)._replace(snapshots=[str(tmp_path / "pile.npz")] * 3)._asdict()
+    act = Act("tests.game.measure.test_measured_runs:counting", ("far",))
+    stored = run_of(2, steps=4, act=act)._replace(snapshots=[str(tmp_path / "pile.npz")] * 3)._asdict()
     stored = json.loads(json.dumps(stored))
     ACTS.clear()
     lines = []
-    measure_stored_lanes({"moment": "lanes 0", "lanes": [stored]}, lines.append, lambda: True)
-    told = [json.loads(line) for line in lines]
-    assert [each.get("lane") for each in told] == [0] * RUNS + [None]
-    assert told[-1] == {"moment": "lanes 0", "done": True} and ("far", 1) in ACTS
+    measure_stored_runs({"moment": "runs 0", "runs": [stored]}, lines.append, lambda: True)
+    reported = [json.loads(line) for line in lines]
+    assert [each.get("run") for each in reported] == [0] * RUNS + [None]
+    assert reported[-1] == {"moment": "runs 0", "done": True} and ("far", 1) in ACTS
     (tmp_path / "pile.npz").write_bytes(b"nothing")
     with pytest.raises(ValueError, match="no snapshot of this program"):
-        measure_stored_lanes({"moment": "lanes 1", "lanes": [stored]}, print, lambda: True)
+        measure_stored_runs({"moment": "runs 1", "runs": [stored]}, print, lambda: True)
 
 
 def test_a_screen_asks_once_for_each_name():
-    scene = Wishing()
+    scene = Requesting()
     measuring = Measuring(scene, DeviceSource())
     try:
         for piles in ((1, 2), (2, 3), (1, 3)):
@@ -147,14 +151,14 @@ def test_a_screen_asks_once_for_each_name():
 
 
 def test_where_nobody_plays_it_is_known_at_once():
-    scene = Wishing()
-    know(scene)
-    know(scene)
+    scene = Requesting()
+    measure_requests(scene)
+    measure_requests(scene)
     assert scene.made == 2 and all(figures.cost.runs == RUNS for figures in scene.figures.values())
-    assert not LaneFigures(Cost.of([1.0] * (RUNS - 1), 1)).sure
+    assert not RunFigures(Cost.of([1.0] * (RUNS - 1), 1)).sure
 
 
 def test_figures_are_no_part_of_a_scene():
-    plain, known = Wishing(), Wishing()
-    know(known)
+    plain, known = Requesting(), Requesting()
+    measure_requests(known)
     assert plain.state() == known.state() and known.measured().names == plain.measured().names

@@ -1,4 +1,4 @@
-"""The cost of a step of several measured runs (lanes): warmed up, in shuffled turns, five runs of 60 steps or more."""
+"""The cost of a step of several measured runs: warmed up, in shuffled turns, five runs of 60 steps or more."""
 
 from collections.abc import Callable, Sequence
 from random import Random
@@ -8,14 +8,14 @@ import numpy as np
 
 from game.measure.moment import Moment
 from game.measure.timing import RUNS, Cost
-from game.wishes import Lane, Recipe
+from game.measurement_requests import MeasuredRun, Recipe
 from physics import Snapshot
 
 WARM_STEPS = 2  # steps before the first run, which compile
 
 
-class LaneFigures(NamedTuple):
-    """The figures of one lane.
+class RunFigures(NamedTuple):
+    """The figures of one measured run.
 
     cost: seconds per step over the runs so far. overlap: the deepest overlap in the judged steps [px]. farthest: the
     farthest that a body moved in one step [px]. Both are None if not requested.
@@ -27,32 +27,39 @@ class LaneFigures(NamedTuple):
 
     @property
     def sure(self) -> bool:
-        """True if the lane has enough runs."""
+        """True if it has enough runs."""
         return self.cost.runs >= RUNS
 
 
-def measure_lanes(
-    lanes: Sequence[Lane], tell: Callable[[int, float, float | None, float | None], object], goes_on: Callable[[], bool]
+def measure_runs(
+    measured_runs: Sequence[MeasuredRun],
+    report: Callable[[int, float, float | None, float | None], object],
+    goes_on: Callable[[], bool],
 ) -> None:
-    """Measure run by run while goes_on(): tell(number, seconds per step, overlap, farthest) is called after each run.
+    """Measure run by run while goes_on(): report(number, seconds per step, overlap, farthest) is called after each run.
 
     The first turn keeps the given order. Overlaps and distances are measured before the first run, outside the timed
     part.
     """
-    made: dict[str, Snapshot] = {}  # by recipe: several lanes start from the same world
-    moments = [[Moment(_snapshot(each, made), lane.broadphase) for each in lane.snapshots] for lane in lanes]
-    order, chance = list(range(len(lanes))), Random(0)
+    made: dict[str, Snapshot] = {}  # by recipe: several runs start from the same world
+    moments = [
+        [Moment(_snapshot(each, made), measured_run.broadphase) for each in measured_run.snapshots]
+        for measured_run in measured_runs
+    ]
+    order, chance = list(range(len(measured_runs))), Random(0)
     seen: dict[int, tuple[float | None, float | None]] = {}
-    for run in range(RUNS):
+    for turn in range(RUNS):
         for number in order:
             if not goes_on():
                 return
-            lane, own = lanes[number], moments[number]
-            if run == 0:
-                own[0].time_run(own[0].here, WARM_STEPS, act=lane.act)
-                seen[number] = _judge(own[0], lane.judged)
-            spent = sum(moment.time_run(moment.here, lane.steps, lane.stage, lane.act) for moment in own) / len(own)
-            tell(number, spent, *seen[number])
+            measured_run, own = measured_runs[number], moments[number]
+            if turn == 0:
+                own[0].time_run(own[0].here, WARM_STEPS, act=measured_run.act)
+                seen[number] = _judge(own[0], measured_run.judged)
+            spent = sum(
+                moment.time_run(moment.here, measured_run.steps, measured_run.stage, measured_run.act) for moment in own
+            ) / len(own)
+            report(number, spent, *seen[number])
         chance.shuffle(order)
 
 

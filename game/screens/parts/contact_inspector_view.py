@@ -5,7 +5,7 @@ import pygame
 from game.drawing.canvas import SMALL, TEXT, wrap
 from game.drawing.colors import FOG, GOLD, NIGHT, PAPER, SKY, Color, faded
 from game.drawing.presenter import Frame, Lens
-from game.measure.why import NANO, Part, Touch, cost_of, explain, nearest, still_there
+from game.measure.contact_inspector import NANO, Part, Touch, cost_of, explain, nearest, still_there
 from game.scene import Scene
 from game.screens.parts.lab_card import least_covering
 from physics import World
@@ -14,8 +14,8 @@ REACH = 5.0  # [canvas px] around a contact in which a click selects it
 WIDTH, ROW, EDGE = 150, 7, 4  # [text px] of the card
 
 
-class Why:
-    """Card of a contact: feed() takes clicks, draw() shows it; it closes when time goes on."""
+class ContactInspectorView:
+    """View of the contact inspector, a card: feed() takes clicks, draw() shows it; it closes when time goes on."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Pace:
+class Difficulty:
     """Factors on the speed of bullets and dives, the time between volleys, and health; extra bullets in a volley."""
 
     speed: float = 1.0
@@ -13,4 +13,4 @@ class Pace:
     extra: int = 0
 
 
-EASY = Pace()
+EASY = Difficulty()

@@ -1,4 +1,4 @@
-"""Eleven lights of a scene, one per invariant, over all its worlds: green, red or grey. No light latches."""
+"""Invariant monitor of a scene: the state of each invariant over all its worlds. No state latches."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -7,14 +7,15 @@ from game.invariants.invariant import Broken
 from game.invariants.watch import Watch, WatchedWorld, all_invariants
 
 GREY, GREEN, RED = "grey", "green", "red"
-AFTERGLOW = 60  # frames that a light stays red after a break
+AFTERGLOW = 60  # frames for which a state stays red after a break
 NO_STEP = "no step was made yet"
 
 
 @dataclass
-class Light:
-    """State of one light. `reason`: why it is grey; `breaks`: frames with a break since the scene began; `last`: the
-    last break.
+class InvariantStatus:
+    """State of one invariant.
+
+    `reason`: why it is grey; `breaks`: frames with a break since the scene began; `last`: the last break.
     """
 
     id: str
@@ -29,25 +30,27 @@ class Light:
     def sentence(self) -> str:
         """State as a sentence."""
         if self.state == RED:
-            return self.last_told
-        told = f"{self.id} {self.word}: " + (f"not asked: {self.reason}" if self.state == GREY else "holds")
-        return f"{told}; {self.last_told}" if self.breaks else told
+            return self.last_report
+        text = f"{self.id} {self.word}: " + (f"not asked: {self.reason}" if self.state == GREY else "holds")
+        return f"{text}; {self.last_report}" if self.breaks else text
 
     @property
-    def last_told(self) -> str:
+    def last_report(self) -> str:
         """The last break in a line, "" if there was none."""
         return f"frame {self.last_frame}, {self.id}: {self.last.brief}" if self.last is not None else ""
 
 
-class Lights:
-    """Lights of a scene. Call take(world) for each of its worlds, and note() after each of its frames.
+class InvariantMonitor:
+    """Monitor of the invariants of a scene.
+
+    Call take(world) for each of its worlds, and note() after each of its frames.
 
     strict: the caller ends the run at `first`, and pairs of concave shapes are checked, too.
     """
 
     def __init__(self, strict: bool = False) -> None:
         self.strict = strict
-        self.lights = tuple(Light(each.id, each.word) for each in all_invariants())
+        self.statuses = tuple(InvariantStatus(each.id, each.word) for each in all_invariants())
         self.first: tuple[int, Broken] | None = None  # (frame, what)
         self.frame = 0
         self.seconds = 0.0  # of watching in the last frame
@@ -57,7 +60,7 @@ class Lights:
         world.watch = Watch(concave=self.strict)
 
     def note(self, frame: int, worlds: Iterable[WatchedWorld]) -> None:
-        """Update the lights after frame number `frame`."""
+        """Update the states after frame number `frame`."""
         self.frame, self.seconds = frame, 0.0
         answers = []
         for number, world in enumerate(worlds):
@@ -68,20 +71,20 @@ class Lights:
             self.seconds += seconds
             if found:
                 answers.append((number, found))
-        for light in self.lights:
-            self._follow(light, [(number, found[light.id]) for number, found in answers])
+        for status in self.statuses:
+            self._update(status, [(number, found[status.id]) for number, found in answers])
 
-    def _follow(self, light, answers):
+    def _update(self, status, answers):
         for number, answer in answers:
             if isinstance(answer, Broken):
-                light.last, light.last_frame = replace(answer, world=number), self.frame
-                light.breaks += 1
+                status.last, status.last_frame = replace(answer, world=number), self.frame
+                status.breaks += 1
                 if self.first is None:
-                    self.first = self.frame, light.last
+                    self.first = self.frame, status.last
                 break
-        if light.last is not None and self.frame - light.last_frame < AFTERGLOW:
-            light.state = RED
+        if status.last is not None and self.frame - status.last_frame < AFTERGLOW:
+            status.state = RED
         elif any(answer is None for _, answer in answers):
-            light.state = GREEN
+            status.state = GREEN
         elif answers:
-            light.state, light.reason = GREY, next(answer.reason for _, answer in answers if answer is not None)
+            status.state, status.reason = GREY, next(answer.reason for _, answer in answers if answer is not None)

@@ -14,11 +14,11 @@ from game.measure.moment import Moment
 from game.measure.rates import Rate
 from physics import TIERS, World, debug
 
-TRUTH = "mask"
+REFERENCE = "mask"
 Pairs = set[tuple[int, int]]  # ids of bodies
 
 
-class Jury:
+class ReferenceTier:
     """The reference tier against all others; call ask(world) once per step.
 
     `wrong`, `missed`: rates by tier, over all moments at which every tier was tested. lit: the tier whose errors are
@@ -27,27 +27,27 @@ class Jury:
 
     def __init__(self, lit: str, tiers: Sequence[str] = TIERS) -> None:
         self.lit, self.seen = lit, list[tuple[bool, list[Any]]]()
-        self.tiers = tuple(tier for tier in tiers if tier != TRUTH)
+        self.tiers = tuple(tier for tier in tiers if tier != REFERENCE)
         self.wrong = dict.fromkeys(self.tiers, Rate(0, 0))  # false hits, of all reported hits
         self.missed = dict.fromkeys(self.tiers, Rate(0, 0))  # missed hits, of all true hits
         self.moments = 0
         self._moment: Moment | None = None
-        self._said: dict[str, Pairs] = {}
+        self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
         """Test one more tier, at a new moment if all tiers are done. Return whether this was the last tier of the
         moment.
         """
         if self._moment is None:
-            self._moment, self._said = Moment(world.snapshot(), world.broadphase.name), {}
-        waiting = [tier for tier in (TRUTH, *self.tiers) if tier not in self._said]
-        self._said[waiting[0]] = self._verdict(self._moment, waiting[0])
+            self._moment, self._hits = Moment(world.snapshot(), world.broadphase.name), {}
+        waiting = [tier for tier in (REFERENCE, *self.tiers) if tier not in self._hits]
+        self._hits[waiting[0]] = self._verdict(self._moment, waiting[0])
         if len(waiting) > 1:
             return False
-        true = self._said[TRUTH]
+        true = self._hits[REFERENCE]
         for tier in self.tiers:
-            wrong, missed = self._said[tier] - true, true - self._said[tier]
-            self.wrong[tier] = _more(self.wrong[tier], len(wrong), len(self._said[tier]))
+            wrong, missed = self._hits[tier] - true, true - self._hits[tier]
+            self.wrong[tier] = _more(self.wrong[tier], len(wrong), len(self._hits[tier]))
             self.missed[tier] = _more(self.missed[tier], len(missed), len(true))
         self.moments, self._moment = self.moments + 1, None
         return True
@@ -55,17 +55,17 @@ class Jury:
     def _verdict(self, moment, tier):
         world = moment.world(moment.here._replace(tier=tier, narrowphase=True))
         world.step(0.0)
-        said = pairs_of(world)
+        hits = pairs_of(world)
         if tier == self.lit:
-            true = self._said[TRUTH]
-            self.seen = [(True, _outlines(world, pair)) for pair in sorted(said - true)]
-            self.seen += [(False, _outlines(world, pair)) for pair in sorted(true - said)]
-        return said
+            true = self._hits[REFERENCE]
+            self.seen = [(True, _outlines(world, pair)) for pair in sorted(hits - true)]
+            self.seen += [(False, _outlines(world, pair)) for pair in sorted(true - hits)]
+        return hits
 
     def state(self) -> tuple[int, ...]:
         """Return the numbers that belong to the digest of the scene."""
         rates = [*self.wrong.values(), *self.missed.values()]
-        return self.moments, len(self._said), *(number for rate in rates for number in rate)
+        return self.moments, len(self._hits), *(number for rate in rates for number in rate)
 
 
 def _more(rate, count, total):

@@ -4,7 +4,7 @@ import numpy as np
 import pygame
 import pytest
 
-from game.measure.why import Touch, cost_of, explain, nearest, still_there
+from game.measure.contact_inspector import Touch, cost_of, explain, nearest, still_there
 from game.run.session import Session
 from game.run.sources import BotSource
 from game.screens.play import Play
@@ -32,21 +32,27 @@ def test_the_way_of_a_box_at_rest_on_the_ground():
         world.step()
     touch = nearest(world, 4.0, 16.0, 2.0)
     assert touch is not None and (touch.body_a, touch.body_b) == (0, 1) and touch.x == pytest.approx(4.0, abs=0.5)
-    told = said(world, touch)
-    assert list(told) == ["broad phase, hash", "filter", "narrow phase", "warm start", "solver, soft step, 4 substeps"]
-    assert "pair 1 of 1" in told["broad phase, hash"]
-    assert told["filter"].startswith("0xffffffff is in 0xff, and 0x2 is in 0xffffffff")
+    reported = said(world, touch)
+    assert list(reported) == [
+        "broad phase, hash",
+        "filter",
+        "narrow phase",
+        "warm start",
+        "solver, soft step, 4 substeps",
+    ]
+    assert "pair 1 of 1" in reported["broad phase, hash"]
+    assert reported["filter"].startswith("0xffffffff is in 0xff, and 0x2 is in 0xffffffff")
     depth = -float(world.contacts["separation"].min())
-    assert "2 points" in told["narrow phase"] and "normal at -90 deg" in told["narrow phase"]
-    assert any(f"{abs(d):.3f} px" in told["narrow phase"] for d in world.contacts["separation"]), depth
-    assert "2 of 2 points known" in told["warm start"]
+    assert "2 points" in reported["narrow phase"] and "normal at -90 deg" in reported["narrow phase"]
+    assert any(f"{abs(d):.3f} px" in reported["narrow phase"] for d in world.contacts["separation"]), depth
+    assert "2 of 2 points known" in reported["warm start"]
     normal = float(world.contacts["normal_impulse"].sum())
-    assert f"pushed by {normal:.3g}" in told["solver, soft step, 4 substeps"]
+    assert f"pushed by {normal:.3g}" in reported["solver, soft step, 4 substeps"]
     mass = world.body(1).mass
     assert normal == pytest.approx(mass * 320.0 / 60.0, rel=0.02), "what it bears in a step is its weight"
 
 
-def test_what_has_just_come_is_new_and_what_is_not_declared_is_not_told():
+def test_what_has_just_come_is_new_and_what_is_not_declared_is_not_reported():
     world = World(Effects())
     world.add_body(PixelMask(np.ones((6, 6), bool)), kind="static")
     world.add_body(Circle(4.0), position=(6.0, 0.0))
@@ -77,8 +83,8 @@ def test_every_strategy_can_be_asked(name):
     world.add_bodies(Circle(4.0), [(0.0, 0.0), (6.0, 0.0), (100.0, 0.0)])
     for _ in range(3):
         world.step()
-        told = said(world, nearest(world, 3.0, 0.0, 5.0))
-        assert "pair 1 of 1" in told[f"broad phase, {name}"]
+        reported = said(world, nearest(world, 3.0, 0.0, 5.0))
+        assert "pair 1 of 1" in reported[f"broad phase, {name}"]
 
 
 def test_the_pair_alone_is_timed_on_a_thousand_of_it():
@@ -107,7 +113,7 @@ def words(driver):
 
 
 def place_of_a_contact(play):
-    world, lens = play.why.lenses[0]
+    world, lens = play.contact_inspector.lenses[0]
     contact = world.contacts[len(world.contacts) // 2]
     x, y = lens.points(float(contact["point_x"]), float(contact["point_y"]))
     return round(x), round(y)
@@ -117,8 +123,13 @@ def test_a_click_on_a_contact_opens_its_card_and_another_one_closes_it(frozen):
     driver, play = frozen
     driver.post(pygame.MOUSEBUTTONDOWN, pos=place_of_a_contact(play), button=1)
     driver.turns(2)
-    told = words(driver)
-    assert "touch?" in told and "narrow phase" in told and "this pair alone" in told and "warm start" in told
+    reported = words(driver)
+    assert (
+        "touch?" in reported
+        and "narrow phase" in reported
+        and "this pair alone" in reported
+        and "warm start" in reported
+    )
     frame = driver.app.arcade.picture.presenter.frame
     driver.post(pygame.MOUSEBUTTONDOWN, pos=(frame.area.x + 2, frame.area.y + 2), button=1)
     driver.turns(2)
@@ -129,10 +140,10 @@ def test_it_goes_when_time_goes_on(frozen):
     driver, play = frozen
     driver.post(pygame.MOUSEBUTTONDOWN, pos=place_of_a_contact(play), button=1)
     driver.turns(2)
-    assert play.why.chosen is not None
+    assert play.contact_inspector.chosen is not None
     driver.key(pygame.K_p)
     driver.turns(2)
-    assert play.why.chosen is None and "touch?" not in words(driver)
+    assert play.contact_inspector.chosen is None and "touch?" not in words(driver)
 
 
 def test_a_running_scene_is_not_asked(frozen):
@@ -141,7 +152,7 @@ def test_a_running_scene_is_not_asked(frozen):
     driver.turns(2)
     driver.post(pygame.MOUSEBUTTONDOWN, pos=place_of_a_contact(play), button=1)
     driver.turns(2)
-    assert play.why.chosen is None
+    assert play.contact_inspector.chosen is None
 
 
 def test_a_mask_that_rests_by_its_parts_is_explained():
@@ -155,8 +166,8 @@ def test_a_mask_that_rests_by_its_parts_is_explained():
         world.step()
     assert len(world.contacts) >= 2 and not (world.contacts["shape_b"] == world.reported_rows()["shape_b"][0]).any()
     touch = nearest(world, 18.0, 16.0, 6.0)
-    told = said(world, touch)
-    assert "pair 1 of 1" in told["broad phase, hash"] and "4 points" in told["narrow phase"]
+    reported = said(world, touch)
+    assert "pair 1 of 1" in reported["broad phase, hash"] and "4 points" in reported["narrow phase"]
     assert still_there(world, touch) and cost_of(world, touch).least > 0.0
 
 

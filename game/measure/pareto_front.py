@@ -7,16 +7,16 @@ Name = TypeVar("Name")
 TIE = 0.1  # costs that differ by less than this share are a tie, whatever their intervals
 
 
-def pareto(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
+def pareto_front(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
     """Return the names of the points on the Pareto front (no other point has less cost and less error), the cheapest
     first.
     """
-    front, least = [], float("inf")
+    found, least = [], float("inf")
     for name in sorted(points, key=lambda each: points[each]):
         if points[name][1] < least:
-            front.append(name)
+            found.append(name)
             least = points[name][1]
-    return front
+    return found
 
 
 def cheaper(a: tuple[float, float], b: tuple[float, float]) -> bool:

@@ -1,10 +1,10 @@
-"""Intervals, fronts and ties, against what can be counted by hand."""
+"""Intervals, Pareto fronts and ties, against what can be counted by hand."""
 
 from random import Random
 
 import pytest
 
-from game.measure.front import cheaper, pareto
+from game.measure.pareto_front import cheaper, pareto_front
 from game.measure.rates import Rate
 from game.measure.timing import Cost, timed_in_turns
 
@@ -24,16 +24,16 @@ def test_the_interval_of_nothing_is_everything():
     assert low == 0.0 and 0.03 < high < 0.04  # 3.7 %: Wilson's bound of none in a hundred
 
 
-def test_the_front_is_what_nobody_beats():
+def test_the_pareto_front_is_what_no_other_beats():
     chance = Random(2)
     points = {name: (chance.random(), chance.choice((0.0, chance.random()))) for name in range(60)}
-    front = pareto(points)
+    found = pareto_front(points)
     for name, (cost, error) in points.items():
         beaten = any(
             (c <= cost and e <= error) and (c, e) != (cost, error) for other, (c, e) in points.items() if other != name
         )
-        assert (name in front) != beaten
-    assert [points[name][0] for name in front] == sorted(points[name][0] for name in front)
+        assert (name in found) != beaten
+    assert [points[name][0] for name in found] == sorted(points[name][0] for name in found)
 
 
 def test_costs_that_overlap_or_differ_by_less_than_a_tenth_are_a_tie():

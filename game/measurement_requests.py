@@ -12,7 +12,7 @@ from physics import PixelMask, Snapshot, World
 STEPS = 60  # minimum per run: one second of play. Five runs of 60 give the 300 samples of a cost
 
 
-class Sprites(NamedTuple):
+class SpriteRequest(NamedTuple):
     """Request to measure two sprites at every tier, again after each change. Figures: {tier: TierFigures}."""
 
     first: PixelMask
@@ -41,10 +41,10 @@ class Act(NamedTuple):
         return resolve_name(self.maker)(world, *self.arguments)
 
 
-class Lane(NamedTuple):
+class MeasuredRun(NamedTuple):
     """Measured run: worlds in a given state, to be stepped. It measures the cost of `name`.
 
-    Figures: {name: LaneFigures}.
+    Figures: {name: RunFigures}.
     """
 
     snapshots: Sequence[Snapshot | Recipe]
@@ -55,8 +55,11 @@ class Lane(NamedTuple):
     judged: tuple[int, int] | None = None  # steps first, last: report deepest overlap and farthest way
 
 
-class Lanes(NamedTuple):
+class RunRequest(NamedTuple):
     """Request for measured runs. make(name) returns a run; it is called once per name, and the results are cached."""
 
     names: Sequence[Hashable]  # numbers, words or tuples of them: runs with the same name cost the same
-    make: Callable[[Hashable], Lane]
+    make: Callable[[Hashable], MeasuredRun]
+
+
+MeasurementRequest = SpriteRequest | RunRequest

@@ -1,0 +1,24 @@
+"""Synchronous measurement of a scene's requests, for runs without a player."""
+
+from game.measure.measured_runs import RunFigures, measure_runs
+from game.measure.tiers import measure_tiers
+from game.measure.timing import Cost
+from game.measurement_requests import RunRequest, SpriteRequest
+from game.scene import Scene
+
+
+def measure_requests(scene: Scene) -> None:
+    """Measure the scene's requests that have no figures yet, and store the results in its `figures`."""
+    request = scene.measured()
+    if isinstance(request, SpriteRequest) and not scene.figures:
+        measure_tiers(*request, lambda figures: scene.figures.update({figures.tier: figures}))
+    if isinstance(request, RunRequest):
+        names = [name for name in request.names if name not in scene.figures]
+        measured_runs, runs = [request.make(name) for name in names], {}
+
+        def take(number, spent, *seen):
+            runs.setdefault(number, []).append(spent)
+            steps = measured_runs[number].steps * len(measured_runs[number].snapshots)
+            scene.figures[names[number]] = RunFigures(Cost.of(runs[number], steps), *seen)
+
+        measure_runs(measured_runs, take, lambda: True)
