@@ -342,6 +342,13 @@ def make_finish_lanes(restitution: bool, friction: bool, rotation: bool) -> Call
         impacts_inout: scratch, as long as the contacts.
         """
         if restitution:
+            # The speeds of impacts are those at the start of the step, and so are the arms.
+            for block in range(count):
+                if blocks_inout.turns[block]:
+                    c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+                    for lane in range(lanes_of(blocks_inout.contact, block)):
+                        write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
+                        write_masses(lane, c)
             restore_bounces(contacts_inout, count, context, impacts_inout, motions_inout, blocks_inout, work_inout)
         if friction:
             limit_friction(count, motions_inout, blocks_inout)

@@ -79,7 +79,11 @@ def limit_energy(
         m = motions_inout[group.members[k]]
         if m.inverse_mass == 0.0:
             continue
-        work = (m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
+        # Along the motion, or along the velocities: overlaps are separated by motions without a velocity.
+        work = m.work + 0.5 * context.h * (
+            m.acceleration_x * (m.vx - m.start_vx) + m.acceleration_y * (m.vy - m.start_vy)
+        )
+        work = max(work, m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
         if m.inverse_inertia > 0.0:
             work += m.angular_acceleration * m.turn / m.inverse_inertia
         m.energy_now = kinetic_energy(m)
@@ -101,11 +105,12 @@ def limit_energy(
         for lane in range(lanes_of(blocks.contact, block)):
             if blocks.contact[block, lane] < 0:
                 continue
-            work = work_of_surfaces(blocks, block, lane, motions_inout)
-            if work != 0.0:
-                row_a = blocks.motion_a[block, lane]
-                row = row_a if links_islands[row_a] else blocks.motion_b[block, lane]
-                motions_inout[parents[row]].energy_excess -= work
+            row_a = blocks.motion_a[block, lane]
+            row = row_a if links_islands[row_a] else blocks.motion_b[block, lane]
+            root = motions_inout[parents[row]]
+            root.energy_excess -= work_of_surfaces(blocks, block, lane, motions_inout)
+            c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+            root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
     for k in range(len(group.members)):
         i = group.members[k]
         m = motions_inout[i]
@@ -126,7 +131,7 @@ def limit_energy(
         # Errors of the integrator alternate: what an island has lost before it may take back, slowly.
         allowed = min(root.reserve, SHARE_BACK * root.energy)
         root.energy_scale = 1.0
-        if root.energy_excess > allowed:
+        if root.anchored and root.energy_excess > allowed:
             found += 1
             share = 1.0 - (root.energy_excess - allowed) / root.energy_now if root.energy_now > 0.0 else 1.0
             root.energy_scale = math.sqrt(share) if share > 0.0 else 0.0

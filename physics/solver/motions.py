@@ -141,6 +141,10 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.cooldown = b.cooldown
             m.reserve = b.reserve
             m.island_mass = 0.0
+            m.work = 0.0
+            m.start_vx = m.vx
+            m.start_vy = m.vy
+            m.anchored = False
             lists_out.links_islands[k + 1] = m.is_dynamic
             lists_out.has_finite_mass[k + 1] = m.is_dynamic and b.inverse_mass > 0.0
             if m.moves:
@@ -199,6 +203,7 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
         for i in range(len(members)):
             m = motions_inout[members[i]]
             m.in_contact = False
+            m.work += h * (m.acceleration_x * m.vx + m.acceleration_y * m.vy)
             given_x = m.vx - m.free_vx
             given_y = m.vy - m.free_vy
             m.vx += h * m.acceleration_x
