@@ -130,6 +130,7 @@ def color_edges(
     edges,
     count,
     has_finite_mass,
+    is_fixed,
     # write
     taken_out,
     degrees_out,
@@ -137,7 +138,7 @@ def color_edges(
 ):
     """Assign to every edge, in order, the first colour that none of its dynamic nodes has yet.
 
-    has_finite_mass (nodes) bool; taken_out (nodes) int64 bits of the colours of a node, degrees_out (nodes) int64 its
+    has_finite_mass, is_fixed (nodes) bool: an impulse changes its velocity; it does not move in this step. taken_out (nodes) int64 bits of the colours of a node, degrees_out (nodes) int64 its
     number of edges; colors_out (count) int32, -1 where no colour was free. O(nodes + count).
     """
     for i in range(len(taken_out)):
@@ -152,7 +153,7 @@ def color_edges(
                 break
             if has_finite_mass[node]:
                 taken |= taken_out[node]
-            elif node == 0:
+            elif is_fixed[node]:
                 fixed = 1
             degrees_out[node] += 1
         color = free_color(taken, fixed)

@@ -226,7 +226,7 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             speed = max(a.squeeze_speed, b.squeeze_speed)
             most = math.inf
             if speed > 0.0:
-                if row_a == 0 or row_b == 0:
+                if not (a.moves and b.moves):
                     speed += max(a.squeeze_static, b.squeeze_static)
                 most = speed * max(c[at.MASS_1 + lane], c[at.MASS_2 + lane]) + context.h * max(
                     a.squeeze_force, b.squeeze_force

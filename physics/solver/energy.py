@@ -79,11 +79,7 @@ def limit_energy(
         m = motions_inout[group.members[k]]
         if m.inverse_mass == 0.0:
             continue
-        # Along the motion, or along the velocities: overlaps are separated by motions without a velocity.
-        work = m.work + 0.5 * context.h * (
-            m.acceleration_x * (m.vx - m.start_vx) + m.acceleration_y * (m.vy - m.start_vy)
-        )
-        work = max(work, m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
+        work = (m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
         if m.inverse_inertia > 0.0:
             work += m.angular_acceleration * m.turn / m.inverse_inertia
         m.energy_now = kinetic_energy(m)
@@ -110,7 +106,8 @@ def limit_energy(
             root = motions_inout[parents[row]]
             root.energy_excess -= work_of_surfaces(blocks, block, lane, motions_inout)
             c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-            root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
+            if c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] > 0.0:
+                root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
     for k in range(len(group.members)):
         i = group.members[k]
         m = motions_inout[i]

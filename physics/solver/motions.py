@@ -63,6 +63,7 @@ def write_fixed(motions_out, lists_out):
     m.is_character = False
     lists_out.has_finite_mass[0] = False
     lists_out.links_islands[0] = False
+    lists_out.is_fixed[0] = True
 
 
 class MotionLists(NamedTuple):
@@ -71,6 +72,7 @@ class MotionLists(NamedTuple):
     motion_of: np.ndarray  # (bodies) int32 the MOTION row of each body; 0: it does not move
     has_finite_mass: np.ndarray  # (motions) bool an impulse changes its velocity
     links_islands: np.ndarray  # (motions) bool
+    is_fixed: np.ndarray  # (motions) bool it does not move in this step
     by_kind: np.ndarray  # (2, motions) int32 the MOTION rows of dynamic bodies, and of kinematic ones
 
 
@@ -141,11 +143,9 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.cooldown = b.cooldown
             m.reserve = b.reserve
             m.island_mass = 0.0
-            m.work = 0.0
-            m.start_vx = m.vx
-            m.start_vy = m.vy
             m.anchored = False
             lists_out.links_islands[k + 1] = m.is_dynamic
+            lists_out.is_fixed[k + 1] = not m.moves
             lists_out.has_finite_mass[k + 1] = m.is_dynamic and b.inverse_mass > 0.0
             if m.moves:
                 work_inout[BODIES_INTEGRATED] += 1
@@ -203,7 +203,6 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
         for i in range(len(members)):
             m = motions_inout[members[i]]
             m.in_contact = False
-            m.work += h * (m.acceleration_x * m.vx + m.acceleration_y * m.vy)
             given_x = m.vx - m.free_vx
             given_y = m.vy - m.free_vy
             m.vx += h * m.acceleration_x
@@ -353,8 +352,8 @@ class Motions:
 
     def _grow(self, count, motion_of):
         self.rows = zeros_in_lines(count, MOTION)
-        finite, links = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
-        self.lists = MotionLists(motion_of, finite, links, np.zeros((2, count), np.int32))
+        flags = (np.zeros(count, np.bool_) for _ in range(3))
+        self.lists = MotionLists(motion_of, *flags, np.zeros((2, count), np.int32))
         self.used, self.island_bodies, self.kinematic = self.rows[:0], *self.lists.by_kind[:, :0]
 
     def gather(self, state: StepState) -> None:

@@ -87,14 +87,22 @@ def touches_slowly(separation, speed, limits):
 
 
 @subkernel
+def credit_overlap(overlap, motion_inout):
+    """Add the energy that lifts a body by an overlap [px] to what it may take."""
+    m = motion_inout
+    if m.inverse_mass > 0.0:
+        m.reserve += overlap * norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
+
+
+@subkernel
 def list_contact_edges(
     # read
     contacts,
     motion_of,
-    motions,
     dt,
     limits,
     # write
+    motions_inout,
     edges_out,
 ):
     """List the contacts to solve as edges between rows of MOTION. Return their number. O(contacts).
@@ -106,8 +114,8 @@ def list_contact_edges(
         c = contacts[i]
         row_a = motion_of[c.body_row_a]
         row_b = motion_of[c.body_row_b]
-        a = motions[row_a]
-        b = motions[row_b]
+        a = motions_inout[row_a]
+        b = motions_inout[row_b]
         if (
             c.sensor
             or a.inverse_mass + b.inverse_mass == 0.0
@@ -127,6 +135,10 @@ def list_contact_edges(
         edges_out.deep[found, 0] = sign * c.normal_x if is_deep else 0.0
         edges_out.deep[found, 1] = sign * c.normal_y if is_deep else 0.0
         edges_out.overlaps[found] = overlap
+        if overlap > 0.0 and not (c.persisted_1 or c.persisted_2):
+            # What is made inside another may be lifted out of it.
+            credit_overlap(overlap, a)
+            credit_overlap(overlap, b)
         found += 1
     return found
 
@@ -307,10 +319,10 @@ def list_and_color(
     lists: see MotionLists. See list_contact_edges, color_edges.
     """
     nodes = len(motions)
-    count = list_contact_edges(contacts, lists.motion_of, motions, dt, limits, plan_out.edges)
+    count = list_contact_edges(contacts, lists.motion_of, dt, limits, motions, plan_out.edges)
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
-    color_edges(plan_out.edges, count, lists.has_finite_mass, taken, degrees, plan_out.colors)
+    color_edges(plan_out.edges, count, lists.has_finite_mass, lists.is_fixed, taken, degrees, plan_out.colors)
     find_squeezed(plan_out.edges, count, lists, limits.push_speed, limits.deep, plan_out.parents[:nodes], motions)
     return count
 

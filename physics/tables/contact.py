@@ -174,10 +174,7 @@ MOTION = in_lines(
         ("estimate", np.float64),  # square of the substeps that would keep its contacts within the accuracy
         ("cooldown", np.float64),  # [s] > 0 while fewer substeps would do, < 0 while the most were too few
         ("energy", np.float64),  # kinetic energy before the step
-        ("work", np.float64),  # of its accelerations along the velocities between the substeps
         ("anchored", np.bool_),  # a contact of its island acts on a body of infinite mass
-        ("start_vx", np.float64),
-        ("start_vy", np.float64),
         ("energy_now", np.float64),
         ("energy_excess", np.float64),
         ("energy_scale", np.float64),
