@@ -88,8 +88,8 @@ def test_a_strategy_that_errs_is_named_with_the_pair(errs, used, wrong, monkeypa
 def test_a_strategy_that_misses_a_box_in_a_query_is_named(errs, used, monkeypatch):
     world = crowd(used)
     world.step()
-    near = BROADPHASES[errs].near
-    monkeypatch.setattr(BROADPHASES[errs], "near", lambda *asked: near(*asked) - 1)
+    near = BROADPHASES[errs].query_box
+    monkeypatch.setattr(BROADPHASES[errs], "query_box", lambda *asked: near(*asked) - 1)
     with pytest.raises(StrategiesDisagree, match=rf"slots near .*, {used} \d+: only"):
         for x in range(20, 160, 20):
             world.query_aabb((x - 30, 0), (x, 160))

@@ -118,6 +118,7 @@ ABOVE_ZERO = {
     "area",
     "1.0 + drag_rate * dt",
     "1.0 + drag_rate * h",
+    "1.0 + stiffness * spring.grip",
     "PART",
     "effective",
     "length",

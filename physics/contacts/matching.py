@@ -163,7 +163,7 @@ def copy_recycled(
 
 
 @inlined
-def refresh_rows(a, b, row_a, row_b, candidate, place, contact_inout):
+def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
     """Write the fields of a recycled contact that may have changed: its rows, candidate and place in the last step.
 
     a, b: its SHAPE rows.
@@ -244,7 +244,7 @@ def recycle_contacts(
         if not fits:
             continue  # the next candidate skips its rows
         for k in range(j, last):
-            refresh_rows(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
+            refresh_recycled(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
             begin_step(batch.geometry, p, q, a, b, previous_inout[k])
         j = last
         counts_out[kind] -= 1
