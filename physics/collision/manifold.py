@@ -182,6 +182,7 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.persisted_1 = False
     m.persisted_2 = False
     m.can_recycle = False
+    m.of_new_pair = False
     m.normal_impulse_1 = 0.0
     m.tangent_impulse_1 = 0.0
     m.normal_impulse_2 = 0.0

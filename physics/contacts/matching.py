@@ -128,6 +128,7 @@ def match_contacts(
                 while j < len(previous) and is_before(previous[j], c.shape_a, c.shape_b):
                     j += 1
                 reset_impulses(c)
+                c.of_new_pair = j == len(previous) or not is_of(previous[j], c.shape_a, c.shape_b)
                 write_cache(geometry.polygons, geometry.corners, bodies, shapes, c)
                 transfer_impulses(previous, j, c)
                 begin_step(geometry, bodies[c.body_row_a], bodies[c.body_row_b], shapes[c.row_a], shapes[c.row_b], c)
@@ -177,6 +178,7 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
     c.previous = place
     c.persisted_1 = True
     c.persisted_2 = True
+    c.of_new_pair = False
 
 
 @kernel

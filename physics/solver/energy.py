@@ -13,7 +13,7 @@ from physics.solver import lanes as at
 from physics.solver.lanes import SIZE, lanes_of
 
 RESERVE_TIME = 10.0  # [s] in which an island forgets the energy that it has lost
-SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
+SHARE_BACK = 1e-2  # share of its energy that an island may take back in a step
 
 
 @subkernel

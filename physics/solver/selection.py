@@ -135,7 +135,7 @@ def list_contact_edges(
         edges_out.deep[found, 0] = sign * c.normal_x if is_deep else 0.0
         edges_out.deep[found, 1] = sign * c.normal_y if is_deep else 0.0
         edges_out.overlaps[found] = overlap
-        if overlap > 0.0 and not (c.persisted_1 or c.persisted_2):
+        if overlap > 0.0 and c.of_new_pair:
             # What is made inside another may be lifted out of it.
             credit_overlap(overlap, a)
             credit_overlap(overlap, b)

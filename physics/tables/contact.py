@@ -87,6 +87,7 @@ CONTACT = in_lines(
         ("tangential_offset", np.float64),  # [px] B slides by it along (-ny, nx) before contact; see hull_pairs.py
         ("persisted_1", np.bool_),  # the same feature was in contact in the step before
         ("persisted_2", np.bool_),
+        ("of_new_pair", np.bool_),  # its pair had no contact in the step before
         ("can_recycle", np.bool_),  # in the next step, while both bodies keep the poses at the end of this one
         # Report.
         ("feature_1", np.int64),  # feature id of the corner, edge, tile or pixel; see collision/hulls.py
