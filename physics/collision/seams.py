@@ -1,0 +1,269 @@
+"""Ground made of pieces: contacts with a seam between two flush pieces are dropped."""
+
+import math
+
+from physics.collision.chains import link_at
+from physics.collision.hulls import ALL_EDGES, CIRCLE_CORNER, CORNERS, PART, Hull, distance_to_edge, extent_along, part_of
+from physics.collision.manifold import NOTHING, copy_manifold, hull_of
+from physics.collision.tiles import run_at, tile_at
+from physics.jit import kernel, subkernel
+from physics.math2d import heading, length_of
+from physics.tables.body import DYNAMIC
+from physics.tables.geometry import SLOPE
+from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
+
+# ---- seams -----------------------------------------------------------------------------------------------------------
+# Contacts of a dynamic body with several pieces of ground: grids, links of chains, static boxes, segments, parts.
+#
+#            body            a face contact with piece A supports the body: normal up, plane along the surface
+#        ____________
+#     -------+-------        piece B is no higher than that plane near the body: its side and its corner are inside
+#        A   |   B           the ground, and a contact with them is a ghost collision
+#
+# The plane of a face contact separates the body from A. Where it separates the body from another piece too, up to the
+# tolerance for passing bodies, that piece can push along the plane's normal only. Any other contact with it is dropped
+# if it lies ahead of the body, or if another piece that the body touches covers the place. A piece that stands higher
+# than the tolerance is felt, and so is an edge beside a gap.
+#
+# A pair of shapes does not show this: whether a corner is exposed depends on its neighbours. Source: Catto, Ghost
+# Collisions, box2d.org, 2020; Wild Magic and Bullet drop such contacts by the edges of a mesh, which are known there.
+
+PARALLEL = 0.996  # cosine of the normals of two faces that bear a body together (5 degrees)
+SAME_NORMAL = 1.0 - 1e-12
+WIDE = 4.0  # tolerances between the two points of a face contact that no seam explains
+NONE = -1
+
+
+@subkernel
+def ground_side(bodies, shapes, manifold):
+    """Return the side (0 or 1) of a CONTACT row that is ground under a dynamic hull, or NONE."""
+    m = manifold
+    a_moves = bodies[m.body_row_a].kind == DYNAMIC
+    if a_moves == (bodies[m.body_row_b].kind == DYNAMIC):
+        return NONE
+    if shapes[m.row_a].kind == MASK or shapes[m.row_b].kind == MASK:
+        return NONE
+    return 1 if a_moves else 0
+
+
+@subkernel
+def is_at_corner(shapes, manifold):
+    """Return whether a manifold's normal is not that of a face: corner against corner, or a disc on a corner."""
+    part = manifold.feature_1 % PART
+    disc = shapes[manifold.row_a].kind == CIRCLE or shapes[manifold.row_b].kind == CIRCLE
+    return part >= (CIRCLE_CORNER if disc else CORNERS)
+
+
+@subkernel
+def is_narrow(manifold, width):
+    """Return whether a manifold has one point, or two that are no further apart than a width [px]."""
+    m = manifold
+    return m.count == 1 or length_of(m.x_2 - m.x_1, m.y_2 - m.y_1) <= width
+
+
+@subkernel
+def piece_at(batch, row, feature, corners_out):
+    """Return the Hull of the piece of a SHAPE row that a feature names: a run of tiles, a link, or the whole shape."""
+    geometry = batch.geometry
+    s = batch.shapes[row]
+    p = batch.bodies[s.body_row]
+    part = part_of(feature)
+    if s.kind == TILES:
+        g = geometry.grids[s.geometry]
+        tile_row = part // g.columns
+        column = part % g.columns
+        if geometry.cells[g.offset + part].kind == SLOPE:
+            corners, _ = tile_at(geometry, s.geometry, p.x, p.y, tile_row, column, corners_out)
+        else:
+            corners, _ = run_at(geometry, s.geometry, p.x, p.y, tile_row, column, (column, column), corners_out)
+        return Hull(corners_out, corners, 0.0, ALL_EDGES)
+    if s.kind == CHAIN:
+        cosine, sine = heading(p.angle)
+        link_at(geometry.links, geometry.chains[s.geometry].offset + part, p.x, p.y, cosine, sine, corners_out)
+        return Hull(corners_out, 2, 0.0, ALL_EDGES)
+    return hull_of(geometry, batch.bodies, batch.shapes, row, corners_out)
+
+
+@subkernel
+def highest_within(hull, nx, ny, low, high):
+    """Return the greatest projection [px] of a Hull on (nx, ny) between two places along the tangent (-ny, nx).
+
+    It is -inf for a Hull that lies beside them.
+    """
+    corners = hull.corners
+    low -= hull.radius
+    high += hull.radius
+    best = -math.inf
+    for k in range(hull.count):
+        n = k + 1 if k + 1 < hull.count else 0
+        start = nx * corners[k, 1] - ny * corners[k, 0]
+        end = nx * corners[n, 1] - ny * corners[n, 0]
+        from_height = nx * corners[k, 0] + ny * corners[k, 1]
+        rise = nx * corners[n, 0] + ny * corners[n, 1] - from_height
+        if max(start, end) < low or min(start, end) > high:
+            continue
+        best = max(best, from_height) if low <= start <= high else best
+        span = end - start
+        for side in range(2):
+            bound = low if side == 0 else high
+            if span != 0.0 and min(start, end) <= bound <= max(start, end):
+                best = max(best, from_height + (bound - start) / span * rise)
+    return best + hull.radius
+
+
+@subkernel
+def distance_to_hull(hull, x, y):
+    """Return the distance [px] of a point from a Hull, 0 inside."""
+    corners = hull.corners
+    if hull.count == 1:
+        return max(0.0, length_of(x - corners[0, 0], y - corners[0, 1]) - hull.radius)
+    least = math.inf
+    inside = hull.count > 2
+    for k in range(hull.count):
+        n = k + 1 if k + 1 < hull.count else 0
+        ax = corners[k, 0]
+        ay = corners[k, 1]
+        bx = corners[n, 0]
+        by = corners[n, 1]
+        least = min(least, distance_to_edge(ax, ay, bx, by, x, y))
+        inside = inside and (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0.0
+    return 0.0 if inside else max(0.0, least - hull.radius)
+
+
+@subkernel
+def is_behind_plane(batch, seam, support, workspace):
+    """Return whether the plane of a face contact, `support`, separates a body from the piece of another contact, `seam`.
+
+    Both are CONTACT rows of the same dynamic body with pieces of ground. The tolerance is batch.graze.
+    """
+    shapes = batch.shapes
+    side = ground_side(batch.bodies, shapes, seam)
+    other_side = ground_side(batch.bodies, shapes, support)
+    ground = seam.row_a if side == 0 else seam.row_b
+    mover = seam.row_b if side == 0 else seam.row_a
+    if ground == (support.row_a if other_side == 0 else support.row_b) and part_of(seam.feature_1) == part_of(
+        support.feature_1
+    ):
+        return False
+    sign = 1.0 if other_side == 0 else -1.0
+    nx = sign * support.normal_x
+    ny = sign * support.normal_y
+    cosine = (nx * seam.normal_x + ny * seam.normal_y) * (1.0 if side == 0 else -1.0)
+    if cosine >= (SAME_NORMAL if is_at_corner(shapes, seam) else PARALLEL):
+        return False
+    # The surface of the supporting piece, and how deep the body is in it.
+    level = nx * support.x_1 + ny * support.y_1 - 0.5 * support.separation_1
+    deepest = support.separation_1
+    if support.count == 2:
+        level = max(level, nx * support.x_2 + ny * support.y_2 - 0.5 * support.separation_2)
+        deepest = min(deepest, support.separation_2)
+    hull = hull_of(batch.geometry, batch.bodies, shapes, mover, workspace.a)
+    if mover != (support.row_b if other_side == 0 else support.row_a):
+        lowest, _ = extent_along(hull.corners, hull.count, nx, ny)
+        if lowest - hull.radius < level + min(0.0, deepest) - batch.graze:
+            return False
+    body = batch.bodies[shapes[mover].body_row]
+    reach = hull.radius + batch.margin + batch.lookahead * length_of(body.vx, body.vy)
+    low, high = extent_along(hull.corners, hull.count, -ny, nx)
+    piece = piece_at(batch, ground, seam.feature_1, workspace.b)
+    return highest_within(piece, nx, ny, low - reach, high + reach) <= level + batch.graze
+
+
+@subkernel
+def is_covered_by(batch, seam, other, workspace):
+    """Return whether the piece of another contact covers the points of a contact, both CONTACT rows of one body."""
+    side = ground_side(batch.bodies, batch.shapes, seam)
+    other_side = ground_side(batch.bodies, batch.shapes, other)
+    ground = seam.row_a if side == 0 else seam.row_b
+    neighbour = other.row_a if other_side == 0 else other.row_b
+    if ground == neighbour and part_of(seam.feature_1) == part_of(other.feature_1):
+        return False
+    piece = piece_at(batch, neighbour, other.feature_1, workspace.b)
+    half = 0.5 if side == 0 else -0.5
+    for k in range(seam.count):
+        separation = seam.separation_1 if k == 0 else seam.separation_2
+        x = (seam.x_1 if k == 0 else seam.x_2) - half * separation * seam.normal_x
+        y = (seam.y_1 if k == 0 else seam.y_2) - half * separation * seam.normal_y
+        if distance_to_hull(piece, x, y) > batch.graze:
+            return False
+    return True
+
+
+@kernel
+def has_seams(
+    # read
+    batch,
+    manifolds,
+    count,
+):
+    """Return whether any of the manifolds may be a contact with a seam. O(manifolds)."""
+    for i in range(count):
+        m = manifolds[i]
+        if is_narrow(m, WIDE * batch.graze) and ground_side(batch.bodies, batch.shapes, m) != NONE:
+            return True
+    return False
+
+
+@kernel
+def drop_seams(
+    # read
+    batch,
+    previous,
+    count,
+    # write
+    workspace,
+    heads_out,
+    links_out,
+    manifolds_inout,
+):
+    """Drop the contacts of dynamic bodies with seams of their ground. Return how many manifolds are left, in order.
+
+    previous: CONTACT rows of the last step; those of candidates without a kind are recycled. heads_out (bodies,),
+    links_out (count + previous,): scratch, a list of the contacts of each body. O(manifolds · those of a body).
+    """
+    bodies = batch.bodies
+    shapes = batch.shapes
+    for row in range(len(bodies)):
+        heads_out[row] = NONE
+    for i in range(count + len(previous)):
+        m = manifolds_inout[i] if i < count else previous[i - count]
+        if i >= count:
+            pair = m.candidate
+            if pair < 0 or pair >= batch.count or batch.kinds[pair] != NOTHING:
+                continue
+            a = batch.candidates[pair, 0]
+            b = batch.candidates[pair, 1]
+            if m.row_a != a or m.row_b != b or shapes[a].id != m.shape_a or shapes[b].id != m.shape_b:
+                continue
+        side = ground_side(bodies, shapes, m)
+        if side != NONE:
+            row = m.body_row_b if side == 0 else m.body_row_a
+            links_out[i] = heads_out[row]
+            heads_out[row] = i
+    kept = 0
+    for i in range(count):
+        m = manifolds_inout[i]
+        side = NONE
+        if is_narrow(m, WIDE * batch.graze):
+            side = ground_side(bodies, shapes, m)
+        if side != NONE:
+            head = heads_out[m.body_row_b if side == 0 else m.body_row_a]
+            ahead = (min(m.separation_1, m.separation_2) if m.count == 2 else m.separation_1) > batch.graze
+            behind = False
+            covered = ahead
+            j = head
+            while j != NONE and not (behind and covered):
+                if j != i:
+                    o = manifolds_inout[j] if j < count else previous[j - count]
+                    if not behind and o.count > 0 and not is_at_corner(shapes, o):
+                        behind = is_behind_plane(batch, m, o, workspace)
+                    covered = covered or is_covered_by(batch, m, o, workspace)
+                j = links_out[j]
+            if behind and covered:
+                m.count = 0
+    for i in range(count):
+        if manifolds_inout[i].count > 0:
+            if kept < i:
+                copy_manifold(manifolds_inout, i, kept, manifolds_inout)
+            kept += 1
+    return kept
