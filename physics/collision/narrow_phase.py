@@ -304,7 +304,7 @@ class NarrowPhase:
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
         self.counts, self.deep = np.zeros(DRAWN_PAIRS + 1, np.int64), np.zeros(64, bool)
-        self.heads, self.links = np.zeros(64, np.int64), np.zeros(64, np.int64)
+        self.heads, self.links = np.zeros((2, 64), np.int64), np.zeros((2, 64), np.int64)
         self.raw, self.ordered, self.last_raw, self.last_ordered = (zeros_in_lines(64, CONTACT) for _ in range(4))
 
     def collide(
@@ -444,11 +444,13 @@ class NarrowPhase:
 
     def _drop_seams(self, batch, previous, found) -> int:
         """Drop the contacts with seams of the ground. Return how many manifolds are left."""
-        if len(self.heads) < len(batch.bodies):
-            self.heads = np.zeros(2 * len(batch.bodies), np.int64)
-        if len(self.links) < found + len(previous):
-            self.links = np.zeros(2 * (found + len(previous)), np.int64)
-        return drop_seams(batch, previous, found, self.workspace, self.heads, self.links, self.raw)
+        bodies, rows = len(batch.bodies), found + len(previous)
+        if self.heads.shape[1] < bodies:
+            self.heads = np.zeros((2, 2 * bodies), np.int64)
+        if self.links.shape[1] < max(rows, batch.count):
+            self.links = np.zeros((2, 2 * max(rows, batch.count)), np.int64)
+        heads, links = self.heads, self.links
+        return drop_seams(batch, previous, found, self.workspace, heads[0], links[0], heads[1], links[1], self.raw)
 
     def room_for(self, count: int) -> np.ndarray:
         """Return room for so many contacts, which `complete` finds there if it is told their number."""

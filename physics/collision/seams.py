@@ -2,14 +2,14 @@
 
 import math
 
-from physics.collision.chains import link_at
-from physics.collision.hulls import ALL_EDGES, CIRCLE_CORNER, CORNERS, PART, Hull, distance_to_edge, extent_along, part_of
+from physics.collision.chains import link_at, misses_box
+from physics.collision.hulls import ALL_EDGES, CIRCLE_CORNER, CORNERS, PART, Hull, distance_to_edge, extent_along, part_feature, part_of
 from physics.collision.manifold import NOTHING, copy_manifold, hull_of
 from physics.collision.tiles import run_at, tile_at
 from physics.jit import kernel, subkernel
-from physics.math2d import heading, length_of
+from physics.math2d import heading, length_of, turned
 from physics.tables.body import DYNAMIC
-from physics.tables.geometry import SLOPE
+from physics.tables.geometry import BLOCK_LINKS, EMPTY, SLOPE
 from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 
 # ---- seams -----------------------------------------------------------------------------------------------------------
@@ -55,10 +55,19 @@ def is_at_corner(shapes, manifold):
 
 
 @subkernel
-def is_narrow(manifold, width):
-    """Return whether a manifold has one point, or two that are no further apart than a width [px]."""
+def may_be_seam(shapes, manifold, graze):
+    """Return whether a manifold is neither a wide face in contact nor a disc on a face.
+
+    It has one point, near points, or one that is ahead.
+    """
     m = manifold
-    return m.count == 1 or length_of(m.x_2 - m.x_1, m.y_2 - m.y_1) <= width
+    if shapes[m.row_a].kind == CIRCLE or shapes[m.row_b].kind == CIRCLE:
+        return is_at_corner(shapes, m)
+    return (
+        m.count == 1
+        or max(m.separation_1, m.separation_2) > graze
+        or length_of(m.x_2 - m.x_1, m.y_2 - m.y_1) <= WIDE * graze
+    )
 
 
 @subkernel
@@ -141,9 +150,11 @@ def is_behind_plane(batch, seam, support, workspace):
     other_side = ground_side(batch.bodies, shapes, support)
     ground = seam.row_a if side == 0 else seam.row_b
     mover = seam.row_b if side == 0 else seam.row_a
-    if ground == (support.row_a if other_side == 0 else support.row_b) and part_of(seam.feature_1) == part_of(
-        support.feature_1
-    ):
+    own = ground == (support.row_a if other_side == 0 else support.row_b)
+    if own and part_of(seam.feature_1) == part_of(support.feature_1):
+        return False
+    # A disc over the joint of two pieces touches both of their corners, and neither is the surface beside it.
+    if is_at_corner(shapes, support) and length_of(seam.x_1 - support.x_1, seam.y_1 - support.y_1) <= 2.0 * batch.graze:
         return False
     sign = 1.0 if other_side == 0 else -1.0
     nx = sign * support.normal_x
@@ -170,23 +181,92 @@ def is_behind_plane(batch, seam, support, workspace):
 
 
 @subkernel
-def is_covered_by(batch, seam, other, workspace):
-    """Return whether the piece of another contact covers the points of a contact, both CONTACT rows of one body."""
-    side = ground_side(batch.bodies, batch.shapes, seam)
-    other_side = ground_side(batch.bodies, batch.shapes, other)
-    ground = seam.row_a if side == 0 else seam.row_b
-    neighbour = other.row_a if other_side == 0 else other.row_b
-    if ground == neighbour and part_of(seam.feature_1) == part_of(other.feature_1):
+def is_on_piece(batch, row, x, y, own_part, workspace):
+    """Return whether a point is on a ground shape or within batch.graze of it, beside its piece `own_part`, or NONE."""
+    geometry = batch.geometry
+    near = batch.graze
+    s = batch.shapes[row]
+    p = batch.bodies[s.body_row]
+    if s.kind == TILES:
+        g = geometry.grids[s.geometry]
+        for k in range(4):
+            column = math.floor((x - p.x + (near if k % 2 == 0 else -near)) / g.tile_size)
+            tile_row = math.floor((y - p.y + (near if k < 2 else -near)) / g.tile_size)
+            if column < 0 or column >= g.columns or tile_row < 0 or tile_row >= g.rows:
+                continue
+            cell = geometry.cells[g.offset + tile_row * g.columns + column]
+            if cell.kind == EMPTY:
+                continue
+            part = tile_row * g.columns + (column if cell.kind == SLOPE else cell.first)
+            if part != own_part:
+                piece = piece_at(batch, row, part_feature(part, 0), workspace.b)
+                if distance_to_hull(piece, x, y) <= near:
+                    return True
         return False
-    piece = piece_at(batch, neighbour, other.feature_1, workspace.b)
+    if s.kind == CHAIN:
+        span = geometry.chains[s.geometry]
+        cosine, sine = heading(p.angle)
+        u, v = turned(x - p.x, y - p.y, cosine, -sine)
+        for block in range(span.blocks):
+            box = geometry.link_blocks[span.first_block + block]
+            if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, u - near, v - near, u + near, v + near):
+                continue
+            for part in range(block * BLOCK_LINKS, min(span.count, (block + 1) * BLOCK_LINKS)):
+                k = geometry.links[span.offset + part]
+                if part != own_part and distance_to_edge(k.ax, k.ay, k.bx, k.by, u, v) <= near:
+                    return True
+        return False
+    if s.kind == MASK or own_part != NONE:
+        return False
+    return distance_to_hull(hull_of(geometry, batch.bodies, batch.shapes, row, workspace.b), x, y) <= near
+
+
+@subkernel
+def is_covered(batch, seam, first, others, workspace):
+    """Return whether other pieces cover the points of a contact, a CONTACT row.
+
+    first: a candidate of its dynamic body; others (candidates,): the next one of each.
+    """
+    shapes = batch.shapes
+    side = ground_side(batch.bodies, shapes, seam)
+    ground = seam.row_a if side == 0 else seam.row_b
     half = 0.5 if side == 0 else -0.5
-    for k in range(seam.count):
-        separation = seam.separation_1 if k == 0 else seam.separation_2
-        x = (seam.x_1 if k == 0 else seam.x_2) - half * separation * seam.normal_x
-        y = (seam.y_1 if k == 0 else seam.y_2) - half * separation * seam.normal_y
-        if distance_to_hull(piece, x, y) > batch.graze:
+    for point in range(seam.count):
+        separation = seam.separation_1 if point == 0 else seam.separation_2
+        x = (seam.x_1 if point == 0 else seam.x_2) - half * separation * seam.normal_x
+        y = (seam.y_1 if point == 0 else seam.y_2) - half * separation * seam.normal_y
+        found = False
+        pair = first
+        while pair != NONE and not found:
+            a = batch.candidates[pair, 0]
+            b = batch.candidates[pair, 1]
+            row = b if batch.bodies[shapes[a].body_row].kind == DYNAMIC else a
+            if not shapes[row].sensor:
+                found = is_on_piece(
+                    batch, row, x, y, part_of(seam.feature_1) if row == ground else NONE, workspace
+                )
+            pair = others[pair]
+        if not found:
             return False
     return True
+
+
+@subkernel
+def list_ground(batch, heads_out, links_out):
+    """Write the candidates of every dynamic body with ground as a list: heads_out (bodies,), links_out (candidates,).
+
+    O(candidates).
+    """
+    for row in range(len(batch.bodies)):
+        heads_out[row] = NONE
+    for pair in range(batch.count):
+        a = batch.shapes[batch.candidates[pair, 0]].body_row
+        b = batch.shapes[batch.candidates[pair, 1]].body_row
+        a_moves = batch.bodies[a].kind == DYNAMIC
+        if a_moves != (batch.bodies[b].kind == DYNAMIC):
+            row = a if a_moves else b
+            links_out[pair] = heads_out[row]
+            heads_out[row] = pair
 
 
 @kernel
@@ -199,7 +279,7 @@ def has_seams(
     """Return whether any of the manifolds may be a contact with a seam. O(manifolds)."""
     for i in range(count):
         m = manifolds[i]
-        if is_narrow(m, WIDE * batch.graze) and ground_side(batch.bodies, batch.shapes, m) != NONE:
+        if may_be_seam(batch.shapes, m, batch.graze) and ground_side(batch.bodies, batch.shapes, m) != NONE:
             return True
     return False
 
@@ -214,12 +294,15 @@ def drop_seams(
     workspace,
     heads_out,
     links_out,
+    ground_heads_out,
+    ground_links_out,
     manifolds_inout,
 ):
     """Drop the contacts of dynamic bodies with seams of their ground. Return how many manifolds are left, in order.
 
     previous: CONTACT rows of the last step; those of candidates without a kind are recycled. heads_out (bodies,),
-    links_out (count + previous,): scratch, a list of the contacts of each body. O(manifolds · those of a body).
+    links_out (count + previous,): scratch, a list of the contacts of each body;
+    ground_heads_out (bodies,), ground_links_out (candidates,): of its candidates. O(manifolds · those of a body).
     """
     bodies = batch.bodies
     shapes = batch.shapes
@@ -241,25 +324,26 @@ def drop_seams(
             links_out[i] = heads_out[row]
             heads_out[row] = i
     kept = 0
+    listed = False
     for i in range(count):
         m = manifolds_inout[i]
         side = NONE
-        if is_narrow(m, WIDE * batch.graze):
+        if may_be_seam(shapes, m, batch.graze):
             side = ground_side(bodies, shapes, m)
         if side != NONE:
             head = heads_out[m.body_row_b if side == 0 else m.body_row_a]
             ahead = (min(m.separation_1, m.separation_2) if m.count == 2 else m.separation_1) > batch.graze
             behind = False
-            covered = ahead
             j = head
-            while j != NONE and not (behind and covered):
-                if j != i:
-                    o = manifolds_inout[j] if j < count else previous[j - count]
-                    if not behind and o.count > 0 and not is_at_corner(shapes, o):
-                        behind = is_behind_plane(batch, m, o, workspace)
-                    covered = covered or is_covered_by(batch, m, o, workspace)
+            while j != NONE and not behind:
+                o = manifolds_inout[j] if j < count else previous[j - count]
+                behind = j != i and o.count > 0 and is_behind_plane(batch, m, o, workspace)
                 j = links_out[j]
-            if behind and covered:
+            body = m.body_row_b if side == 0 else m.body_row_a
+            if behind and not ahead and not listed:
+                list_ground(batch, ground_heads_out, ground_links_out)
+                listed = True
+            if behind and (ahead or is_covered(batch, m, ground_heads_out[body], ground_links_out, workspace)):
                 m.count = 0
     for i in range(count):
         if manifolds_inout[i].count > 0:
