@@ -223,7 +223,7 @@ def is_on_piece(batch, row, x, y, own_part, workspace):
 
 @subkernel
 def is_covered(batch, seam, first, others, workspace):
-    """Return whether other pieces cover the points of a contact, a CONTACT row.
+    """Return whether other pieces cover the points at which a contact, a CONTACT row, touches.
 
     first: a candidate of its dynamic body; others (candidates,): the next one of each.
     """
@@ -233,6 +233,8 @@ def is_covered(batch, seam, first, others, workspace):
     half = 0.5 if side == 0 else -0.5
     for point in range(seam.count):
         separation = seam.separation_1 if point == 0 else seam.separation_2
+        if separation > batch.graze:
+            continue
         x = (seam.x_1 if point == 0 else seam.x_2) - half * separation * seam.normal_x
         y = (seam.y_1 if point == 0 else seam.y_2) - half * separation * seam.normal_y
         found = False
@@ -284,6 +286,29 @@ def has_seams(
     return False
 
 
+@subkernel
+def is_recycled(batch, contact):
+    """Return whether a CONTACT row of the last step belongs to a candidate that this step does not test again."""
+    pair = contact.candidate
+    if pair < 0 or pair >= batch.count or batch.kinds[pair] != NOTHING:
+        return False
+    a = batch.candidates[pair, 0]
+    b = batch.candidates[pair, 1]
+    if contact.row_a != a or contact.row_b != b:
+        return False
+    return batch.shapes[a].id == contact.shape_a and batch.shapes[b].id == contact.shape_b
+
+
+@subkernel
+def link_contact(batch, contact, place, heads_inout, links_inout):
+    """Put a place in front of the list of its CONTACT row's dynamic body, if it stands on ground."""
+    side = ground_side(batch.bodies, batch.shapes, contact)
+    if side != NONE:
+        row = contact.body_row_b if side == 0 else contact.body_row_a
+        links_inout[place] = heads_inout[row]
+        heads_inout[row] = place
+
+
 @kernel
 def drop_seams(
     # read
@@ -308,21 +333,11 @@ def drop_seams(
     shapes = batch.shapes
     for row in range(len(bodies)):
         heads_out[row] = NONE
-    for i in range(count + len(previous)):
-        m = manifolds_inout[i] if i < count else previous[i - count]
-        if i >= count:
-            pair = m.candidate
-            if pair < 0 or pair >= batch.count or batch.kinds[pair] != NOTHING:
-                continue
-            a = batch.candidates[pair, 0]
-            b = batch.candidates[pair, 1]
-            if m.row_a != a or m.row_b != b or shapes[a].id != m.shape_a or shapes[b].id != m.shape_b:
-                continue
-        side = ground_side(bodies, shapes, m)
-        if side != NONE:
-            row = m.body_row_b if side == 0 else m.body_row_a
-            links_out[i] = heads_out[row]
-            heads_out[row] = i
+    for i in range(count):
+        link_contact(batch, manifolds_inout[i], i, heads_out, links_out)
+    for i in range(len(previous)):
+        if is_recycled(batch, previous[i]):
+            link_contact(batch, previous[i], count + i, heads_out, links_out)
     kept = 0
     listed = False
     for i in range(count):
@@ -336,8 +351,10 @@ def drop_seams(
             behind = False
             j = head
             while j != NONE and not behind:
-                o = manifolds_inout[j] if j < count else previous[j - count]
-                behind = j != i and o.count > 0 and is_behind_plane(batch, m, o, workspace)
+                if j >= count:
+                    behind = is_behind_plane(batch, m, previous[j - count], workspace)
+                elif j != i and manifolds_inout[j].count > 0:
+                    behind = is_behind_plane(batch, m, manifolds_inout[j], workspace)
                 j = links_out[j]
             body = m.body_row_b if side == 0 else m.body_row_a
             if behind and not ahead and not listed:
