@@ -212,3 +212,15 @@ def test_grids_and_chains_do_not_meet_each_other():
     for other in (FLAT, grid):
         assert len(collide(FLAT, (0, 0, 0), other, (0, 0, 0))) == 0
     assert len(collide(grid, (0, 0, 0), FLAT, (0, 0, 0))) == 0
+
+
+@pytest.mark.parametrize("shape", [Capsule((-6, 0), (6, 0), 6), Capsule((-2, 0), (9, 0), 4)], ids=["even", "uneven"])
+@pytest.mark.parametrize("turned", [False, True])
+def test_a_chain_without_ghosts_is_level_where_a_round_body_leaves_its_first_link(shape, turned):
+    """The corner between two links is judged by the end that is touched: near it, a normal may lean to the open end."""
+    chain = Chain([(-160, 0), (0, 0), (160, 0)])
+    radius = shape.radius
+    for x in np.linspace(-16, 16, 321):
+        for depth in (-0.3, 0.0, 0.1):
+            found = collide(chain, shape, pose_b=(float(x), depth - radius, math.pi if turned else 0.0), margin=0.5)
+            assert len(found) >= 1 and found.normal == pytest.approx((0.0, -1.0), abs=1e-9), (x, depth)
