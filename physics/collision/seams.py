@@ -3,7 +3,17 @@
 import math
 
 from physics.collision.chains import link_at, misses_box
-from physics.collision.hulls import ALL_EDGES, CIRCLE_CORNER, CORNERS, PART, Hull, distance_to_edge, extent_along, part_feature, part_of
+from physics.collision.hulls import (
+    ALL_EDGES,
+    CIRCLE_CORNER,
+    CORNERS,
+    PART,
+    Hull,
+    distance_to_edge,
+    extent_along,
+    part_feature,
+    part_of,
+)
 from physics.collision.manifold import NOTHING, copy_manifold, hull_of
 from physics.collision.tiles import run_at, tile_at
 from physics.jit import kernel, subkernel
@@ -26,7 +36,7 @@ from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 # than the tolerance is felt, and so is an edge beside a gap.
 #
 # A pair of shapes does not show this: whether a corner is exposed depends on its neighbours. Source: Catto, Ghost
-# Collisions, box2d.org, 2020; Wild Magic and Bullet drop such contacts by the edges of a mesh, which are known there.
+# Collisions, box2d.org, 2020, where a chain's neighbours are known; here they are found among the candidates.
 
 PARALLEL = 0.996  # cosine of the normals of two faces that bear a body together (5 degrees)
 SAME_NORMAL = 1.0 - 1e-12
@@ -141,7 +151,7 @@ def distance_to_hull(hull, x, y):
 
 @subkernel
 def is_behind_plane(batch, seam, support, workspace):
-    """Return whether the plane of a face contact, `support`, separates a body from the piece of another contact, `seam`.
+    """Return whether the plane of a contact, `support`, separates a body from the piece of another contact, `seam`.
 
     Both are CONTACT rows of the same dynamic body with pieces of ground. The tolerance is batch.graze.
     """
@@ -244,9 +254,7 @@ def is_covered(batch, seam, first, others, workspace):
             b = batch.candidates[pair, 1]
             row = b if batch.bodies[shapes[a].body_row].kind == DYNAMIC else a
             if not shapes[row].sensor:
-                found = is_on_piece(
-                    batch, row, x, y, part_of(seam.feature_1) if row == ground else NONE, workspace
-                )
+                found = is_on_piece(batch, row, x, y, part_of(seam.feature_1) if row == ground else NONE, workspace)
             pair = others[pair]
         if not found:
             return False

@@ -5,7 +5,21 @@ import math
 import numpy as np
 import pytest
 
-from physics import JIT, Bounds, Capsule, Chain, Circle, Effects, Material, PixelMask, Polygon, Segment, TileGrid, World, collide
+from physics import (
+    JIT,
+    Bounds,
+    Capsule,
+    Chain,
+    Circle,
+    Effects,
+    Material,
+    PixelMask,
+    Polygon,
+    Segment,
+    TileGrid,
+    World,
+    collide,
+)
 
 shapely = pytest.importorskip("shapely")
 from tests.physics.test_hull_manifolds import hull_of, surface_gap  # noqa: E402

@@ -123,9 +123,7 @@ def raised(kind, step):
             ((0, -step), (Chain([(0, 20), (0, 0), (80, 0), (160, 0)]),)),
         ],
         "masks": [((-80, 16), (slab,)), ((80, 16 - step), (slab,))],
-        "boxes of one body": [
-            ((0, 0), (Polygon.box(160, 32, (-80, 16)), Polygon.box(160, 32, (80, 16 - step)))),
-        ],
+        "boxes of one body": [((0, 0), (Polygon.box(160, 32, (-80, 16)), Polygon.box(160, 32, (80, 16 - step))))],
     }[kind]
 
 
@@ -148,11 +146,7 @@ def test_e16_a_step_lower_than_the_slop_is_passed_and_a_step_of_two_slops_is_fel
 @pytest.mark.parametrize("name", ["box", "mask"])
 def test_e16_boxes_whose_corners_touch_pass_each_other(measured, kind, name, velocity):
     world = World(gravity=(0, 0))
-    shape = {
-        "box": Polygon.box(32, 32, (16, 16)),
-        "grid": TileGrid(np.ones((2, 2), bool), 16),
-        "mask": SLAB,
-    }[kind]
+    shape = {"box": Polygon.box(32, 32, (16, 16)), "grid": TileGrid(np.ones((2, 2), bool), 16), "mask": SLAB}[kind]
     world.add_body(shape, position=(32, 16) if kind == "mask" else (16, 0), kind="static")
     body = world.add_body(SHAPES[name][0], position=(8, 40), velocity=velocity)
     for _ in range(20 if JIT else 3):
