@@ -380,7 +380,7 @@ class NarrowPhase:
             orders += parts
         if counts[PARTED] and (counts[POLYGONS] or again):
             found = drop_opposed(batch.bodies, found, batch.margin, self._deep_for(found), self.raw)
-        if batch.graze > 0.0 and has_seams(batch, self.raw, found):
+        if batch.graze > 0.0 and has_seams(batch, self.raw, found, workspace):
             found = self._drop_seams(batch, self.raw[:0] if previous is None else previous, found)
         if orders < 2:
             return self.raw[:found]

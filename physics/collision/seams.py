@@ -65,22 +65,6 @@ def is_at_corner(shapes, manifold):
 
 
 @subkernel
-def may_be_seam(shapes, manifold, graze):
-    """Return whether a manifold is neither a wide face in contact nor a disc on a face.
-
-    It has one point, near points, or one that is ahead.
-    """
-    m = manifold
-    if shapes[m.row_a].kind == CIRCLE or shapes[m.row_b].kind == CIRCLE:
-        return is_at_corner(shapes, m)
-    return (
-        m.count == 1
-        or max(m.separation_1, m.separation_2) > graze
-        or length_of(m.x_2 - m.x_1, m.y_2 - m.y_1) <= WIDE * graze
-    )
-
-
-@subkernel
 def piece_at(batch, row, feature, corners_out):
     """Return the Hull of the piece of a SHAPE row that a feature names: a run of tiles, a link, or the whole shape."""
     geometry = batch.geometry
@@ -101,6 +85,28 @@ def piece_at(batch, row, feature, corners_out):
         link_at(geometry.links, geometry.chains[s.geometry].offset + part, p.x, p.y, cosine, sine, corners_out)
         return Hull(corners_out, 2, 0.0, ALL_EDGES)
     return hull_of(geometry, batch.bodies, batch.shapes, row, corners_out)
+
+
+@subkernel
+def may_be_seam(batch, side, manifold, corners_out):
+    """Return whether a contact with ground on a side is at an end of its piece, or ahead of the body.
+
+    A wide face in contact is at no end, nor is a disc on a face. corners_out (16, 2): scratch.
+    """
+    m = manifold
+    row = m.row_a if side == 0 else m.row_b
+    if batch.shapes[row].kind == CIRCLE or batch.shapes[m.row_b if side == 0 else m.row_a].kind == CIRCLE:
+        return is_at_corner(batch.shapes, m)
+    near = WIDE * batch.graze
+    if max(m.separation_1, m.separation_2 if m.count == 2 else m.separation_1) > batch.graze:
+        return True
+    if m.count == 2 and length_of(m.x_2 - m.x_1, m.y_2 - m.y_1) > near:
+        return False
+    piece = piece_at(batch, row, m.feature_1, corners_out)
+    for k in range(piece.count):
+        if length_of(piece.corners[k, 0] - m.x_1, piece.corners[k, 1] - m.y_1) <= near + piece.radius:
+            return True
+    return False
 
 
 @subkernel
@@ -285,11 +291,13 @@ def has_seams(
     batch,
     manifolds,
     count,
+    # write
+    workspace,
 ):
     """Return whether any of the manifolds may be a contact with a seam. O(manifolds)."""
     for i in range(count):
-        m = manifolds[i]
-        if may_be_seam(batch.shapes, m, batch.graze) and ground_side(batch.bodies, batch.shapes, m) != NONE:
+        side = ground_side(batch.bodies, batch.shapes, manifolds[i])
+        if side != NONE and may_be_seam(batch, side, manifolds[i], workspace.a):
             return True
     return False
 
@@ -350,10 +358,8 @@ def drop_seams(
     listed = False
     for i in range(count):
         m = manifolds_inout[i]
-        side = NONE
-        if may_be_seam(shapes, m, batch.graze):
-            side = ground_side(bodies, shapes, m)
-        if side != NONE:
+        side = ground_side(bodies, shapes, m)
+        if side != NONE and may_be_seam(batch, side, m, workspace.a):
             head = heads_out[m.body_row_b if side == 0 else m.body_row_a]
             ahead = (min(m.separation_1, m.separation_2) if m.count == 2 else m.separation_1) > batch.graze
             behind = False
