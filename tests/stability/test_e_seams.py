@@ -153,3 +153,16 @@ def test_e16_boxes_whose_corners_touch_pass_each_other(measured, kind, name, vel
         world.step()
     measured("E16", "change of the velocity at aligned corners", math.dist(body.velocity, velocity))
     measured("E16", "spin at aligned corners", abs(body.angular_velocity))
+
+
+@pytest.mark.parametrize("gap", [1.0, 4.0])
+def test_both_edges_of_a_gap_are_felt(gap):
+    """Corners that no piece covers: a disc rests between them, without friction, and stays."""
+    world = World(Effects.rigid_bodies().with_(sleeping=False))
+    for x in (-100.0 - 0.5 * gap, 0.5 * gap):
+        world.add_body(Polygon.box(100, 32, (50, 16)), position=(x, 0), kind="static", material=SMOOTH)
+    disc = world.add_body(Circle(8.0), position=(0.1, -8.0), material=SMOOTH)
+    for _ in range(240 if JIT else 20):
+        world.step()
+        assert abs(disc.position.x) < 0.2
+    assert (np.abs(world.contacts["normal_x"]) > 0.05).sum() == 2
