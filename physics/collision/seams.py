@@ -17,7 +17,7 @@ from physics.collision.hulls import (
 from physics.collision.manifold import NOTHING, copy_manifold, hull_of
 from physics.collision.tiles import run_at, tile_at
 from physics.jit import kernel, subkernel
-from physics.math2d import heading, length_of, turned
+from physics.math2d import norm, rotate, rotation_of
 from physics.tables.body import DYNAMIC
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, SLOPE
 from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
@@ -81,7 +81,7 @@ def piece_at(batch, row, feature, corners_out):
             corners, _ = run_at(geometry, s.geometry, p.x, p.y, tile_row, column, (column, column), corners_out)
         return Hull(corners_out, corners, 0.0, ALL_EDGES)
     if s.kind == CHAIN:
-        cosine, sine = heading(p.angle)
+        cosine, sine = rotation_of(p.angle)
         link_at(geometry.links, geometry.chains[s.geometry].offset + part, p.x, p.y, cosine, sine, corners_out)
         return Hull(corners_out, 2, 0.0, ALL_EDGES)
     return hull_of(geometry, batch.bodies, batch.shapes, row, corners_out)
@@ -100,11 +100,11 @@ def may_be_seam(batch, side, manifold, corners_out):
     near = WIDE * batch.graze
     if max(m.separation_1, m.separation_2 if m.count == 2 else m.separation_1) > batch.graze:
         return True
-    if m.count == 2 and length_of(m.x_2 - m.x_1, m.y_2 - m.y_1) > near:
+    if m.count == 2 and norm(m.x_2 - m.x_1, m.y_2 - m.y_1) > near:
         return False
     piece = piece_at(batch, row, m.feature_1, corners_out)
     for k in range(piece.count):
-        if length_of(piece.corners[k, 0] - m.x_1, piece.corners[k, 1] - m.y_1) <= near + piece.radius:
+        if norm(piece.corners[k, 0] - m.x_1, piece.corners[k, 1] - m.y_1) <= near + piece.radius:
             return True
     return False
 
@@ -141,7 +141,7 @@ def distance_to_hull(hull, x, y):
     """Return the distance [px] of a point from a Hull, 0 inside."""
     corners = hull.corners
     if hull.count == 1:
-        return max(0.0, length_of(x - corners[0, 0], y - corners[0, 1]) - hull.radius)
+        return max(0.0, norm(x - corners[0, 0], y - corners[0, 1]) - hull.radius)
     least = math.inf
     inside = hull.count > 2
     for k in range(hull.count):
@@ -170,7 +170,7 @@ def is_behind_plane(batch, seam, support, workspace):
     if own and part_of(seam.feature_1) == part_of(support.feature_1):
         return False
     # A disc over the joint of two pieces touches both of their corners, and neither is the surface beside it.
-    if is_at_corner(shapes, support) and length_of(seam.x_1 - support.x_1, seam.y_1 - support.y_1) <= 2.0 * batch.graze:
+    if is_at_corner(shapes, support) and norm(seam.x_1 - support.x_1, seam.y_1 - support.y_1) <= 2.0 * batch.graze:
         return False
     sign = 1.0 if other_side == 0 else -1.0
     nx = sign * support.normal_x
@@ -190,7 +190,7 @@ def is_behind_plane(batch, seam, support, workspace):
         if lowest - hull.radius < level + min(0.0, deepest) - batch.graze:
             return False
     body = batch.bodies[shapes[mover].body_row]
-    reach = hull.radius + batch.margin + batch.lookahead * length_of(body.vx, body.vy)
+    reach = hull.radius + batch.margin + batch.lookahead * norm(body.vx, body.vy)
     low, high = extent_along(hull.corners, hull.count, -ny, nx)
     piece = piece_at(batch, ground, seam.feature_1, workspace.b)
     return highest_within(piece, nx, ny, low - reach, high + reach) <= level + batch.graze
@@ -221,8 +221,8 @@ def is_on_piece(batch, row, x, y, own_part, workspace):
         return False
     if s.kind == CHAIN:
         span = geometry.chains[s.geometry]
-        cosine, sine = heading(p.angle)
-        u, v = turned(x - p.x, y - p.y, cosine, -sine)
+        cosine, sine = rotation_of(p.angle)
+        u, v = rotate(x - p.x, y - p.y, cosine, -sine)
         for block in range(span.blocks):
             box = geometry.link_blocks[span.first_block + block]
             if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, u - near, v - near, u + near, v + near):
