@@ -324,6 +324,19 @@ class Body(Handle):
         self._stir(row)
 
     @property
+    def allow_sleep(self) -> bool:
+        """Whether its island may sleep. A dynamic body with False wakes its island, and keeps it awake."""
+        return self._value("allow_sleep")
+
+    @allow_sleep.setter
+    def allow_sleep(self, value: bool) -> None:
+        self.world._unlocked()
+        row, value = self._row, checks.flag("allow_sleep", value)
+        row["allow_sleep"] = value
+        if not value:
+            self._stir(row)
+
+    @property
     def bullet(self) -> bool:
         """Whether the body is swept against moving bodies, too. Raises ValueError for True without the effect
         continuous.

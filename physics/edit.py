@@ -442,6 +442,7 @@ class Wanted(NamedTuple):
     continuous: str
     fixed_rotation: bool
     gravity_scale: float
+    allow_sleep: bool
     tier: str | None
     user: Any
 
@@ -464,6 +465,7 @@ def add_rows(
     swept = checked_continuous(world, wanted.continuous)
     fixed_rotation = checks.flag("fixed_rotation", wanted.fixed_rotation)
     gravity_scale = checks.number("gravity_scale", wanted.gravity_scale)
+    allow_sleep = checks.flag("allow_sleep", wanted.allow_sleep)
     own_mass = 0.0 if wanted.mass is None else checks.number("mass", wanted.mass, above=0.0)
     spin = checks.number("angular_velocity", wanted.angular_velocity)
     world._needs("rotation", f"angular_velocity={spin}", spin != 0.0)
@@ -495,6 +497,7 @@ def add_rows(
     for name in ("x", "y", "angle"):
         rows["previous_" + name] = rows["still_" + name] = rows[name]
     rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, swept, fixed_rotation
+    rows["allow_sleep"] = allow_sleep
     rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1
     rows["active"] = not world.sleeps  # so the next step includes them
     if wanted.kind != "dynamic":

@@ -87,7 +87,7 @@ def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geo
 # ---- snapshot --------------------------------------------------------------------------------------------------------
 # Snapshots of a world, in memory and as `.npz` files without pickle.
 
-VERSION = 13
+VERSION = 14
 ABANDONED = 3600.0  # [s] without a write after which a file counts as abandoned
 SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # settings that a snapshot restores
 DAMAGE = (
@@ -359,7 +359,7 @@ def _targets(arrays) -> dict:
 # The digest of a world: two worlds with equal digests continue equally.
 
 # Increased by every change that changes the digest of some world: older recordings still play, and diverge.
-PHYSICS_VERSION = 5
+PHYSICS_VERSION = 6
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
 CLOCK = ("still_x", "still_y", "still_angle", "sleep_time")
 ASKED = ("substeps", "cooldown")  # only with substeps by load
@@ -425,6 +425,9 @@ def digest(world: WorldState) -> str:
     if world.stacks and world.span not in (0.0, world.dt):
         found.update(b"span" + np.float64(world.span).tobytes())
     # State that only the next step reads; an empty one adds nothing.
+    restless = world.bodies["id"][~world.bodies["allow_sleep"]]
+    if len(restless):
+        found.update(b"allow_sleep" + restless.tobytes())
     targets = world._targets
     for identity in sorted(targets):
         found.update(

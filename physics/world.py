@@ -165,10 +165,12 @@ class World(WorldState):
         continuous: str = "auto",
         fixed_rotation: bool = False,
         gravity_scale: float = 1.0,
+        allow_sleep: bool = True,
         tier: str | None = None,
         user: Any = None,
     ) -> Body:
-        """Add one body and return it. mass replaces the mass that follows from the densities of the shapes.
+        """Add one body and return it. mass replaces the mass that follows from the densities of the shapes. A dynamic
+        body with allow_sleep=False keeps its island awake.
 
         Raises TypeError or ValueError naming the argument. The world is then unchanged.
         """
@@ -189,6 +191,7 @@ class World(WorldState):
                 continuous,
                 fixed_rotation,
                 gravity_scale,
+                allow_sleep,
                 tier,
                 user,
             ),
@@ -211,6 +214,7 @@ class World(WorldState):
         continuous: str = "auto",
         fixed_rotation: bool = False,
         gravity_scale: float = 1.0,
+        allow_sleep: bool = True,
         tier: str | None = None,
         user: Any = None,
     ) -> np.ndarray:
@@ -240,6 +244,7 @@ class World(WorldState):
                 continuous,
                 fixed_rotation,
                 gravity_scale,
+                allow_sleep,
                 tier,
                 user,
             ),

@@ -107,6 +107,7 @@ class Writer:
             more.append(f"continuous={self.rng.choice(('off', 'ray', 'swept', 'toi'))!r}")
         more += [f"mass={v.number(0.1, 500.0)}"] if v.chance(0.1) else []
         more += ["fixed_rotation=True"] if v.chance(0.1) else []
+        more += ["allow_sleep=False"] if v.chance(0.05) else []
         more += [f"gravity_scale={v.number(-1.0, 2.0)}"] if v.chance(0.1) else []
         return f"b{self._name()} = world.add_body({', '.join(shapes + more)})"
 
