@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics import carving, checks, edit, step
 from physics.carving import Carved
@@ -386,6 +387,16 @@ class Body(Handle):
         The new shapes get new ids, except masks that replace as many masks: their contacts continue.
         """
         edit.set_shapes(self.world, self.id, shapes)
+
+    def set_cells(self, cells: ArrayLike, solid: ArrayLike) -> None:
+        """Make cells of the body's TileGrid solid or empty.
+
+        cells (n, 2) int (column, row); solid: a bool, or one for each cell. The shape keeps its id. Only bodies that
+        touch a changed cell wake, and no event begins or ends for the others. A one-way cell or a slope becomes solid
+        or empty, too. Raises TypeError, and ValueError for a cell outside of the grid, or for a body without a
+        TileGrid or with several.
+        """
+        edit.exchange_cells(self.world, self.id, cells, solid)
 
     def add_shape(self, shape: Shape) -> int:
         """Append a shape, recompute the mass, and return the id of the shape. A tier ends."""

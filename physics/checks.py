@@ -81,13 +81,13 @@ def position(name: str, value: Any) -> Vec2:
     return Vec2(x, y)
 
 
-def ids(name: str, value: Any) -> np.ndarray:
-    """Return a flat int64 array of ids, each once. Raises TypeError or ValueError."""
+def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
+    """Return a flat int64 array of ids, each once unless repeats are allowed. Raises TypeError or ValueError."""
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be whole numbers (got {shown(value)})")
     array = array.astype(np.int64).ravel()
-    if len(np.unique(array)) != len(array):
+    if not repeats and len(np.unique(array)) != len(array):
         raise ValueError(f"{name} must name each body once (got {array.tolist()})")
     return array
 

@@ -257,12 +257,11 @@ class World(WorldState):
         self._remove([self._identity("body", body)])
 
     def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
-        """Remove many bodies, given as Bodies or ids, in one pass over the tables.
+        """Remove many bodies, given as Bodies or ids, in one pass over the tables. A body may be named more than once.
 
-        Raises KeyError for a body that is not in the world, ValueError for a body that is named twice, TypeError.
-        Nothing is removed then.
+        Raises KeyError for a body that is not in the world, TypeError. Nothing is removed then.
         """
-        self._remove(self._identities("ids", ids))
+        self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
     def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
         """Report that columns of these bodies were written: dynamic bodies wake, and the boxes are refreshed in the
