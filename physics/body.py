@@ -28,6 +28,15 @@ class Body(Handle):
 
     __slots__ = ()
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set an attribute. Raises AttributeError for an unknown one, naming the nearest."""
+        try:
+            object.__setattr__(self, name, value)
+        except AttributeError:
+            if not hasattr(type(self), name):
+                checks.known_attribute(self, name, strict=True)
+            raise
+
     # --- pose -------------------------------------------------------------------------------------------------------
 
     @property

@@ -21,7 +21,7 @@ from physics.shapes.shape import Filter, Material, Shape
 from physics.shapes.values import TileGrid
 from physics.solver.substeps import forget_loads
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
-from physics.tables.shape import MASK, PART, PIXELS, TILES, WHOLE, WHOLE_MASK
+from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
 from physics.tables.table import rows_of
 from physics.world_state import WorldState
 
@@ -200,10 +200,10 @@ def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> 
     """
     world._unlocked()
     at, used = world._row_number(identity), list(world._shapes_of[identity])
-    places = [k for k, shape in enumerate(used) if shape._kind == TILES]
-    if len(places) != 1:
+    grids = [(k, shape) for k, shape in enumerate(used) if isinstance(shape, TileGrid)]
+    if len(grids) != 1:
         raise ValueError(f"set_cells needs a body with one TileGrid; body {identity} has {checks.shown(tuple(used))}")
-    before = used[places[0]]
+    place, before = grids[0]
     cells, solid = checked_cells(cells, solid, *before.solid.shape)
     columns, rows = cells.T
     wanted = before.solid.copy()
@@ -215,7 +215,7 @@ def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> 
         return
     slopes = np.where(changed[:, :, None], 0.0, before.slopes)
     after = TileGrid(wanted, before.tile_size, before.one_way & ~changed, slopes).with_values_of(before)
-    shape_id = shape_ids(world, identity)[places[0]]
+    shape_id = shape_ids(world, identity)[place]
     touching = rows_at_cells(world, at, before.tile_size, changed, world.tolerances.slop)
     _wake_at_cells(world, at, touching)
     near = world.shapes["id"][rows_at_cells(world, at, before.tile_size, changed, world.tolerances.speculative)]
@@ -228,7 +228,7 @@ def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> 
     if len(kept.contacts):  # those of the other contacts stay as they are
         kept.contacts, kept.others = found[goes], np.intersect1d(kept.others, near)
         world.contact_rows = found[~goes]
-    used[places[0]] = after
+    used[place] = after
     world.shapes["geometry"][own] = world.library.add(after)[1]
     world._shapes_of[identity] = tuple(used)
     world._tidy_library()
@@ -452,8 +452,10 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
 
 
 def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError for shapes that are sensors in a world without the effect sensors."""
+    """Raise ValueError for shapes that are sensors, or open from below, in a world without that effect."""
     world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
+    for shape in shapes:
+        world._needs("one_way", f"{type(shape).__name__} with one_way", bool(np.any(getattr(shape, "one_way", False))))
 
 
 def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
