@@ -12,7 +12,7 @@ from physics.checks import Pair, Pose
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
 from physics.islands import sleep
-from physics.math2d import Vec2, turned
+from physics.math2d import Vec2, rotate
 from physics.queries.casts import bounds_of
 from physics.shapes.shape import Filter, Material, Shape
 from physics.tables.body import CONTINUOUS, DYNAMIC, KINDS, STATIC
@@ -73,7 +73,7 @@ class Body(Handle):
         row = self._row
         x, y = checks.vector("point", point)
         angle = row["angle"].item()
-        u, v = turned(x, y, math.cos(angle), math.sin(angle))
+        u, v = rotate(x, y, math.cos(angle), math.sin(angle))
         return Vec2(row["x"].item() + u, row["y"].item() + v)
 
     def to_local(self, point: Pair) -> Vec2:
@@ -81,7 +81,7 @@ class Body(Handle):
         row = self._row
         x, y = checks.vector("point", point)
         angle = row["angle"].item()
-        return Vec2(*turned(x - row["x"].item(), y - row["y"].item(), math.cos(angle), -math.sin(angle)))
+        return Vec2(*rotate(x - row["x"].item(), y - row["y"].item(), math.cos(angle), -math.sin(angle)))
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
         """Teleport the body to a position [px] and an angle [rad]; nothing in between is swept."""
@@ -230,7 +230,7 @@ class Body(Handle):
         world, row = self.world, self._row
         told = world.contacts
         told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
-        asleep = contacts_of(with_areas(world, world.sleepers.naming(self.id, int(row["island"]))))
+        asleep = contacts_of(with_areas(world, world.sleeping_set.naming(self.id, int(row["island"]))))
         both = np.concatenate([told, asleep])
         return both[np.lexsort((both["shape_b"], both["shape_a"]))]
 
@@ -313,7 +313,7 @@ class Body(Handle):
         """Whether the shapes that have no own value are sensors, which report contacts and do not respond. Sensors
         count in the mass.
         """
-        return self._given["sensor"].item()
+        return self._definitions["sensor"].item()
 
     @sensor.setter
     def sensor(self, value: bool) -> None:
@@ -442,9 +442,9 @@ class Body(Handle):
         return Vec2(columns[first].item(row), columns[second].item(row))
 
     @property
-    def _given(self) -> np.void:
+    def _definitions(self) -> np.void:
         """The GIVEN row."""
-        return self.world._given.rows[self.world._row_number(self.id)]
+        return self.world._definitions.rows[self.world._row_number(self.id)]
 
     def _must_exist(self) -> None:
         """Raise KeyError for a removed body."""

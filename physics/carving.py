@@ -6,8 +6,8 @@ from typing import NamedTuple
 import numpy as np
 
 from physics import checks, edit
-from physics.edit import exchange_mask
-from physics.math2d import turned
+from physics.edit import replace_mask
+from physics.math2d import rotate
 from physics.raster.pixel_tiles import Cut, Loose, Tool, cut, find_in_hull, find_in_pixels
 from physics.shapes.kinds import mass_of, with_area
 from physics.shapes.library import weigh
@@ -70,7 +70,7 @@ def _tool_in(mask, frame, shape, pose):
     radius = shape.radius if shape._is_convex else 0.0
     x, y, angle = pose
     cosine, sine = math.cos(angle), math.sin(angle)
-    seen = [_in_raster(mask, frame, x + u, y + v) for u, v in (turned(*corner, cosine, sine) for corner in corners)]
+    seen = [_in_raster(mask, frame, x + u, y + v) for u, v in (rotate(*corner, cosine, sine) for corner in corners)]
     across, down = zip(*seen, strict=True)
     box = min(across) - radius, min(down) - radius, max(across) + radius, max(down) + radius
     if not shape._is_convex:
@@ -81,7 +81,7 @@ def _tool_in(mask, frame, shape, pose):
 
 def _in_raster(mask, frame, x, y):
     """Return a world point in the raster of a body's mask [px]."""
-    u, v = turned(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
+    u, v = rotate(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
     return u + mask.origin[0], v + mask.origin[1]
 
 
@@ -90,11 +90,11 @@ def _mask_tool(mask, frame, shape, pose) -> Tool:
     turn = frame[2] - pose[2]
     cosine, sine = math.cos(turn), math.sin(turn)
     # The mask's raster corner in the world, and from there in the tool's raster.
-    u, v = turned(-mask.origin[0], -mask.origin[1], math.cos(frame[2]), math.sin(frame[2]))
+    u, v = rotate(-mask.origin[0], -mask.origin[1], math.cos(frame[2]), math.sin(frame[2]))
     x, y = _in_raster(shape, pose, frame[0] + u, frame[1] + v)
 
     def find(words, left, top, found):
-        along, down = turned(float(left), float(top), cosine, sine)
+        along, down = rotate(float(left), float(top), cosine, sine)
         return find_in_pixels(words, shape.solid, x + along, y + down, cosine, sine, found)
 
     return find
@@ -114,7 +114,7 @@ def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Giv
     for at, each in cuts.items():
         mask = shapes[at]
         if at not in empty and isinstance(mask, PixelMask):
-            exchange_mask(world, identity, at, ids[at], mask.with_tiles(each.tiles), each.changed)
+            replace_mask(world, identity, at, ids[at], mask.with_tiles(each.tiles), each.changed)
     for at in empty:
         edit.remove_shape(world, identity, ids[at])
     if given.share:
@@ -137,7 +137,7 @@ class _Given(NamedTuple):
 
 
 def _motion_and_weight(world, identity) -> _Given:
-    row, given = world._body_row(identity), world._given.rows[world._row_number(identity)]
+    row, given = world._body_row(identity), world._definitions.rows[world._row_number(identity)]
     share, density = 0.0, given["density"].item()
     if given["mass"] > 0.0:
         share = given["mass"].item() / weigh(world._shapes_of[identity], density, 0.0).mass
@@ -145,10 +145,10 @@ def _motion_and_weight(world, identity) -> _Given:
     return _Given(center, (row["vx"].item(), row["vy"].item()), row["angular_velocity"].item(), share, density)
 
 
-def _values_of(world, identity) -> edit.Wanted:
+def _values_of(world, identity) -> edit.BodyDef:
     """Return the values of a fragment's body, except its mass."""
-    row, given = world._body_row(identity), world._given.rows[world._row_number(identity)]
-    return edit.Wanted(
+    row, given = world._body_row(identity), world._definitions.rows[world._row_number(identity)]
+    return edit.BodyDef(
         kind="dynamic",
         angular_velocity=row["angular_velocity"].item(),
         mass=None,
@@ -165,7 +165,7 @@ def _values_of(world, identity) -> edit.Wanted:
     )
 
 
-def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.Wanted) -> int:
+def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.BodyDef) -> int:
     """Add a body of the pixels of a piece, at their place and with their velocity, and return its id."""
     # The origin lies on the mask's grid, near the middle of the piece: its pixels stay on whole pixels.
     height, width = loose.solid.shape
@@ -174,10 +174,10 @@ def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wa
     origin = (mask.origin[0] - loose.left + shift_x, mask.origin[1] - loose.top + shift_y)
     # A fragment of a one-way mask is solid from all sides.
     piece = mask.like(loose.solid, origin).with_(mask.material, mask.filter, mask.sensor, one_way=False)
-    u, v = turned(float(shift_x), float(shift_y), math.cos(frame[2]), math.sin(frame[2]))
+    u, v = rotate(float(shift_x), float(shift_y), math.cos(frame[2]), math.sin(frame[2]))
     x, y = frame[0] + u, frame[1] + v
     weight = piece.mass_of(given.density if mask.material is None else mask.material.density)
-    cx, cy = turned(*weight.center, math.cos(frame[2]), math.sin(frame[2]))
+    cx, cy = rotate(*weight.center, math.cos(frame[2]), math.sin(frame[2]))
     dx, dy = x + cx - given.center[0], y + cy - given.center[1]
     velocity = (given.velocity[0] - given.spin * dy, given.velocity[1] + given.spin * dx)
     heavy = wanted._replace(mass=weight.mass * given.share or None)

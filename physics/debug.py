@@ -311,7 +311,7 @@ def contact_points(world: World) -> np.ndarray:
     parts = [
         _points(world, found[~found["sensor"]], None),
         _points(world, sensed, SENSOR),
-        _points(world, world.sleepers.contacts(), ASLEEP),
+        _points(world, world.sleeping_set.contacts(), ASLEEP),
     ]
     return np.concatenate(parts)
 

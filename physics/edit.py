@@ -51,7 +51,7 @@ def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[
     rows = _append_rows(world, first_row, bodies, pieces)
     for i, piece in enumerate(pieces):
         each = rows[i :: len(pieces)]
-        each["owner"] = each["id"] - i + piece.owner
+        each["parent"] = each["id"] - i + piece.parent
     return rows["id"][rows["role"] != PART]
 
 
@@ -66,14 +66,14 @@ def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
     world._next_shape += n * k
     owners = np.repeat(np.arange(first_row, first_row + n), k)
     rows["id"], rows["body"], rows["body_row"] = ids, world.bodies["id"][owners], owners
-    given = world._given.rows[owners]
+    given = world._definitions.rows[owners]
     for i, (shape, role, inner, _, tile) in enumerate(pieces):
         each = rows[i::k]
         each["role"], each["inner"], each["tile"] = role, inner, tile
         each["kind"], each["geometry"], each["wrapped"] = world.library.add(shape)
         each["radius"], each["local_x"], each["local_y"] = rounding_of(shape)
         each["snap"] = shape.snap
-        say(each, given[i::k], shape)
+        write_own_values(each, given[i::k], shape)
     _enter(world, rows)
     return rows
 
@@ -114,7 +114,7 @@ def _enter(world, rows):
         world.pairs.set_awake(rows["proxy"][world.bodies["active"][owners]], True)
 
 
-def say(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
+def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
     """Write the values that a body (GIVEN rows) or a shape itself gives to SHAPE rows."""
     for name in (*MATERIAL, "membership", "mask", "sensor"):
         rows[name] = given[name]
@@ -157,7 +157,7 @@ def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
 # Replacement of one mask of a body by another: after carving, and for the next frame of an animation.
 
 
-def exchange_mask(
+def replace_mask(
     world: WorldState, identity: int, place: int, shape_id: int, mask: PixelMask, changed: Sequence[int] | None = None
 ) -> None:
     """Replace a mask of a body by another one. Its id stays, and so do the parts of its outline that are equal.
@@ -181,14 +181,14 @@ def exchange_mask(
         world._drop_shapes(keep)
     world._shapes_of[identity] = tuple(used)
     if any(getattr(mask, name) != getattr(before, name) for name in ("material", "filter", "sensor", "snap")):
-        _say_again(world, at, shape_id, mask)
+        _rewrite_own_values(world, at, shape_id, mask)
     world._tidy_library()
     append_parts(world, world.shapes[own], fresh)
-    given = world._given.rows[at]
+    given = world._definitions.rows[at]
     set_mass(body, weigh(used, float(given["density"]), float(given["mass"])), used, world.effects.response)
     refresh_centers(np.array([at]), world.bodies)
     new = np.arange(len(world.shapes) - len(fresh.shapes), len(world.shapes))
-    _rejoin(world, at, np.append(own, new) if still else rows_of_owner(world, shape_id))
+    _rejoin(world, at, np.append(own, new) if still else rows_of_parent(world, shape_id))
     kept.transfer(world, new)
 
 
@@ -286,7 +286,7 @@ def _wake_at_cells(world, at, rows):
     dynamic = bodies["kind"] == DYNAMIC
     sleep.wake(world, bodies["island"][dynamic & ~bodies["awake"]].tolist())
     others = bodies["id"][~dynamic]
-    told = [table[["body_a", "body_b"]] for table in (world.sleepers.touching, world.sleepers.sensing)]
+    told = [table[["body_a", "body_b"]] for table in (world.sleeping_set.touching, world.sleeping_set.sensing)]
     mine = world.bodies["id"][at]
     met = [np.where(each["body_a"] == mine, each["body_b"], -1) for each in told]
     met += [np.where(each["body_b"] == mine, each["body_a"], -1) for each in told]
@@ -294,9 +294,9 @@ def _wake_at_cells(world, at, rows):
     sleep.disturb(world, touched.tolist())
 
 
-def rows_of_owner(world: WorldState, shape_id: int) -> np.ndarray:
+def rows_of_parent(world: WorldState, shape_id: int) -> np.ndarray:
     """Return the SHAPE rows of a shape and of its parts."""
-    return np.flatnonzero(world.shapes["owner"] == shape_id)
+    return np.flatnonzero(world.shapes["parent"] == shape_id)
 
 
 def _differences(world, shape_id, before, mask, changed):
@@ -306,7 +306,7 @@ def _differences(world, shape_id, before, mask, changed):
         return np.zeros(0, np.int64), NONE
     if changed is not None and all(is_tiled(each) and not each.one_way for each in (mask, before)):
         return _differences_in_tiles(world, shape_id, before, mask, changed)
-    parts = np.flatnonzero((shapes["owner"] == shape_id) & (shapes["role"] == PART))
+    parts = np.flatnonzero((shapes["parent"] == shape_id) & (shapes["role"] == PART))
     known = {world.library.shape_of(shapes[row]): row for row in parts.tolist()}
     fresh = []
     for tile, each in mask._response_parts():
@@ -336,12 +336,12 @@ def _differences_in_tiles(world, shape_id, before, mask, changed):
     return parts[goes], NewParts(new.tiles[fresh], new.inner[fresh], polygons(new.corners, new.counts, fresh))
 
 
-def _say_again(world, at, shape_id, mask):
+def _rewrite_own_values(world, at, shape_id, mask):
     """Write the own values of a mask to its rows."""
-    rows = rows_of_owner(world, shape_id)
+    rows = rows_of_parent(world, shape_id)
     shapes, pairs = world.shapes, world.pairs
     some = shapes[rows]
-    say(some, world._given.rows[at], mask)
+    write_own_values(some, world._definitions.rows[at], mask)
     shapes[rows] = some
     shapes["snap"][rows] = mask.snap & (some["role"] != PART)
     pairs.set_filter(some["proxy"], Filter(*(some[name][0].item() for name in ("membership", "mask"))))
@@ -357,7 +357,7 @@ def _rejoin(world, at, touched):
     elif world.sleeps and not world.bodies["active"][at]:
         # Bodies that are not awake get no swept AABB in the next step, so they get one here.
         count = write_rectangles(world, touched)
-        world.pairs.again.append(world.pairs.changed[:count].copy())
+        world.pairs.can_recycle.append(world.pairs.changed[:count].copy())
     world.queries.seen = ()
     sleep.forget(world)
 
@@ -378,8 +378,8 @@ def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular
 def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
     """Set the mass of a body, in place of the mass by its densities."""
     at = world._row_number(identity)
-    world._given.rows["mass"][at] = mass
-    used, density = world._shapes_of[identity], float(world._given.rows["density"][at])
+    world._definitions.rows["mass"][at] = mass
+    used, density = world._shapes_of[identity], float(world._definitions.rows["density"][at])
     set_mass(world.bodies[at : at + 1], weigh(used, density, mass), used, world.effects.response)
     refresh_centers(np.array([at]), world.bodies)
 
@@ -387,7 +387,7 @@ def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
 def refresh_mass(world: WorldState, identity: int) -> None:
     """Recompute mass and inertia of a body after its shapes, kind or material changed. Its neighbours wake."""
     at = world._row_number(identity)
-    given, used = world._given.rows[at], world._shapes_of[identity]
+    given, used = world._definitions.rows[at], world._shapes_of[identity]
     mass = weigh(used, float(given["density"]), float(given["mass"]))
     set_mass(world.bodies[at : at + 1], mass, used, world.effects.response)
     refresh_pose(world, identity)
@@ -420,7 +420,7 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
     masks = [each for each in shapes if isinstance(each, PixelMask)]
     if len(before) == len(shapes) == len(masks) and all(each._kind == MASK for each in before):
         for place, (shape_id, mask) in enumerate(zip(ids, masks, strict=True)):
-            exchange_mask(world, identity, place, shape_id, mask)
+            replace_mask(world, identity, place, shape_id, mask)
     else:
         kept = KeptImpulses(world, np.flatnonzero(world.shapes["body"] == identity))
         world._drop_shapes(world.shapes["body"] != identity)
@@ -447,7 +447,7 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
     rest = tuple(shape for each, shape in zip(ids, world._shapes_of[identity], strict=True) if each != shape_id)
     _check(world, identity, rest, [shape_id])
     sleep.disturb(world, [identity])
-    world._drop_shapes(world.shapes["owner"] != shape_id)
+    world._drop_shapes(world.shapes["parent"] != shape_id)
     _add(world, identity, rest, ())
 
 
@@ -476,7 +476,7 @@ def _check(world, identity, shapes, gone):
     check_shapes(shapes, int(row["kind"]), [row["angle"].item()])
     check_grid_stands(shapes, row["angular_velocity"].item())
     check_own_values(world, shapes)
-    check_weight(world, shapes, int(row["kind"]), world._given.rows["mass"][world._row_number(identity)].item())
+    check_weight(world, shapes, int(row["kind"]), world._definitions.rows["mass"][world._row_number(identity)].item())
 
 
 def _add(world, identity, shapes, new) -> np.ndarray:
@@ -534,7 +534,7 @@ def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
 # so that wrong ones leave the world unchanged.
 
 
-class Wanted(NamedTuple):
+class BodyDef(NamedTuple):
     """The arguments of World.add_body but shapes and motion."""
 
     kind: str
@@ -558,7 +558,7 @@ def add_rows(
     positions: Points,
     velocities: Points,
     angles: Sequence[float] | np.ndarray,
-    wanted: Wanted,
+    wanted: BodyDef,
 ) -> np.ndarray:
     """Check the arguments of new bodies, append BODY, GIVEN and SHAPE rows, and return the ids. Raises TypeError,
     ValueError.
@@ -590,7 +590,7 @@ def add_rows(
     if n == 0:
         return ids
     world._next_body += n
-    given = world._given.append(n)
+    given = world._definitions.append(n)
     given["mass"], given["sensor"] = own_mass, sensor
     write_material(given, material)
     given["membership"], given["mask"] = filter.membership, filter.mask
@@ -606,7 +606,7 @@ def add_rows(
     rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1
     rows["active"] = not world.sleeps  # so the next step includes them
     if wanted.kind != "dynamic":
-        world.awake.stir(ids.tolist())
+        world.awake.mark_dirty(ids.tolist())
     set_mass(rows, mass, used, world.effects.response)
     refresh_centers(np.arange(n), rows)
     add_shapes(world, world._bodies.count - n, n, used)
@@ -676,13 +676,13 @@ def _own_rows(world, identity, own) -> np.ndarray:
 
 def material_of(world: WorldState, identity: int) -> Material:
     """Return the material of those shapes of a body that have none of their own."""
-    given = world._given.rows[world._row_number(identity)]
+    given = world._definitions.rows[world._row_number(identity)]
     return Material(*(given[name].item() for name in MATERIAL))
 
 
 def filter_of(world: WorldState, identity: int) -> Filter:
     """Return the filter of those shapes of a body that have none of their own."""
-    given = world._given.rows[world._row_number(identity)]
+    given = world._definitions.rows[world._row_number(identity)]
     return Filter(given["membership"].item(), given["mask"].item())
 
 
@@ -691,7 +691,7 @@ def set_material(world: WorldState, identity: int, value: Material) -> None:
     world._unlocked()
     value = checked_material(value)
     at = world._row_number(identity)
-    write_material(world._given.rows[at : at + 1], value)
+    write_material(world._definitions.rows[at : at + 1], value)
     for row in _own_rows(world, identity, "own_material"):
         write_material(world.shapes[row : row + 1], value)
     refresh_mass(world, identity)
@@ -701,7 +701,7 @@ def set_filter(world: WorldState, identity: int, value: Filter) -> None:
     """Set the filter of a body's shapes that have none of their own. Raises TypeError."""
     world._unlocked()
     value = checked_filter(value)
-    given = world._given.rows[world._row_number(identity)]
+    given = world._definitions.rows[world._row_number(identity)]
     given["membership"], given["mask"] = value.membership, value.mask
     rows = _own_rows(world, identity, "own_filter")
     world.shapes["membership"][rows], world.shapes["mask"][rows] = value.membership, value.mask
@@ -713,7 +713,7 @@ def set_sensor(world: WorldState, identity: int, value: bool) -> None:
     """Set whether a body's shapes that have no own value are sensors. Raises TypeError, ValueError."""
     world._unlocked()
     value = checked_sensor(world, value)
-    world._given.rows["sensor"][world._row_number(identity)] = value
+    world._definitions.rows["sensor"][world._row_number(identity)] = value
     rows = _own_rows(world, identity, "own_sensor")
     world.shapes["sensor"][rows] = value
     world.pairs.set_sensor(world.shapes, rows)
@@ -768,7 +768,7 @@ def set_kind(world: WorldState, identity: int, kind: str) -> None:
     row = world._body_row(identity)
     if kind != "kinematic" and (world.characters.rows["body"] == identity).any():
         raise ValueError(f"kind must be 'kinematic' for the body of a character (got {kind!r}, body {identity})")
-    shapes, own_mass = world._shapes_of[identity], world._given.rows["mass"][world._row_number(identity)].item()
+    shapes, own_mass = world._shapes_of[identity], world._definitions.rows["mass"][world._row_number(identity)].item()
     check_shapes(shapes, KINDS.index(kind), [row["angle"].item()])
     check_weight(world, shapes, KINDS.index(kind), own_mass)
     row["kind"] = KINDS.index(kind)
@@ -789,6 +789,6 @@ def restore(world: WorldState, identity: int) -> None:
     if row["quarantined"]:
         row["quarantined"], row["awake"] = False, True
         world.awake.start_over()
-        world.awake.stir([identity])
+        world.awake.mark_dirty([identity])
         own = np.flatnonzero(world.shapes["body"] == identity)
         world.pairs.add_proxies(world.shapes, own, np.full(len(own), row["kind"] == STATIC))

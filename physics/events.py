@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.collision.manifold import by_owner
+from physics.collision.manifold import by_parent
 from physics.jit import copy_row, kernel, subkernel
 from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
 from physics.tables.step_state import CONTACTS, StepState, stage
@@ -90,7 +90,7 @@ def compare_pairs(
     # read
     before,
     contacts,
-    parked,
+    fell_asleep,
     sensors,
     persisting,
     slop,
@@ -132,12 +132,16 @@ def compare_pairs(
             new = not old or (p.shape_a == m.shape_a and p.shape_b == m.shape_b)
         if not new:
             p = before[i]
-            while asleep < len(parked) and (
-                parked[asleep].shape_a < p.shape_a
-                or (parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b < p.shape_b)
+            while asleep < len(fell_asleep) and (
+                fell_asleep[asleep].shape_a < p.shape_a
+                or (fell_asleep[asleep].shape_a == p.shape_a and fell_asleep[asleep].shape_b < p.shape_b)
             ):
                 asleep += 1
-            if asleep < len(parked) and parked[asleep].shape_a == p.shape_a and parked[asleep].shape_b == p.shape_b:
+            if (
+                asleep < len(fell_asleep)
+                and fell_asleep[asleep].shape_a == p.shape_a
+                and fell_asleep[asleep].shape_b == p.shape_b
+            ):
                 copy_row(p, comparison_inout.aside[counts[4]])
                 counts[4] += 1
             else:
@@ -232,7 +236,13 @@ class Pairs:
         return self.last.now[: self.count]
 
     def compare(
-        self, contacts: np.ndarray, parked: np.ndarray, sensors: bool, persisting: bool, slop: float, hit_speed: float
+        self,
+        contacts: np.ndarray,
+        fell_asleep: np.ndarray,
+        sensors: bool,
+        persisting: bool,
+        slop: float,
+        hit_speed: float,
     ) -> Changes | None:
         """Read the contacts of a step and return the changes. Return None, and change nothing, where a child shape
         touches.
@@ -240,7 +250,9 @@ class Pairs:
         if self.count + len(contacts) > len(self.compared.keep):
             self._grow(2 * (self.count + len(contacts)))
         compared, changes = self.compared, self.changes
-        if not compare_pairs(self.rows, contacts, parked, int(sensors), int(persisting), slop, hit_speed, compared):
+        if not compare_pairs(
+            self.rows, contacts, fell_asleep, int(sensors), int(persisting), slop, hit_speed, compared
+        ):
             return None
         # The pairs that touch now are those of the step before in the next comparison.
         self.compared, self.last = self.last, compared
@@ -303,29 +315,29 @@ class Events:
         "bodies",
         "contact_rows",
         "sensed",
-        "parked",
+        "fell_asleep",
         "touching",
         "sensing",
-        "sleepers",
+        "sleeping_set",
         "events",
         "reported",
     ),
-    writes=("touching", "sensing", "sleepers", "events", "reported", "work"),
+    writes=("touching", "sensing", "sleeping_set", "events", "reported", "work"),
 )
 def report_events(state: StepState) -> None:
     """Compare the pairs that touch with those of the step before, and report the changes."""
     contacts, events, tolerances, effects = state.contact_rows, state.events, state.tolerances, state.effects
-    parked, keys = state.parked or (NOTHING, None)
+    fell_asleep, keys = state.fell_asleep or (NOTHING, None)
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed
     compared = order = None
     if keys is None:
-        compared = state.touching.compare(contacts, parked, *usual)
+        compared = state.touching.compare(contacts, fell_asleep, *usual)
     if compared is None:
-        whole, order = by_owner(contacts)
-        parked, parked_order = by_owner(parked)
+        whole, order = by_parent(contacts)
+        fell_asleep, parked_order = by_parent(fell_asleep)
         if keys is not None and parked_order is not None:
             keys = keys[parked_order]
-        compared = state.touching.compare(whole, parked, *usual)
+        compared = state.touching.compare(whole, fell_asleep, *usual)
     events.begin, events.persist, events.end, events.hits = (
         compared.begin,
         compared.persist,
@@ -345,7 +357,7 @@ def report_events(state: StepState) -> None:
             keep = keep & ~contacts["sensor"]
     if keys is not None:
         if len(compared.aside):
-            state.sleepers.keep_touching(compared.aside, parked, keys)
-        state.sleepers.keep_told(state)
+            state.sleeping_set.keep_touching(compared.aside, fell_asleep, keys)
+        state.sleeping_set.keep_reported(state)
     state.reported = (contacts, keep)
     state.work[CONTACTS] = compared.points

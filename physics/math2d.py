@@ -31,7 +31,7 @@ def unit(x, y, fallback_x, fallback_y):
 
 
 @subkernel
-def length_of(x, y):
+def norm(x, y):
     """Return the length of a vector, without overflow."""
     largest = max(abs(x), abs(y))
     if largest == 0.0:
@@ -42,13 +42,13 @@ def length_of(x, y):
 
 
 @subkernel
-def turned(x, y, cosine, sine):
+def rotate(x, y, cosine, sine):
     """Return the vector rotated by the angle with this cosine and sine."""
     return cosine * x - sine * y, sine * x + cosine * y
 
 
 @inlined
-def heading(angle):
+def rotation_of(angle):
     """Return cosine and sine of an angle [rad].
 
     A small angle, such as the rotation of one substep, takes as many terms of the series as determine the last digit: 6

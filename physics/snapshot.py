@@ -21,7 +21,7 @@ import numpy as np
 from physics import checks
 from physics.edit import MATERIAL
 from physics.islands.awake import Awake
-from physics.islands.sleep import Island, Sleepers
+from physics.islands.sleep import Island, SleepingSet
 from physics.math2d import Vec2
 from physics.settings import tolerances
 from physics.shapes.kinds import SHAPES
@@ -30,7 +30,7 @@ from physics.shapes.mask import PixelMask
 from physics.shapes.shape import Filter, Material, Shape
 from physics.shapes.values import Chain, Convex, TileGrid
 from physics.step import PUSHING, SOLVERS
-from physics.tables.body import BODY, GIVEN
+from physics.tables.body import BODY, BODY_DEF
 from physics.tables.character import CHARACTER
 from physics.tables.contact import CONTACT, EVENT
 from physics.tables.shape import MASK, PART, SHAPE
@@ -111,7 +111,7 @@ DAMAGE = (
 )
 TABLES = {
     "bodies": BODY,
-    "given": GIVEN,
+    "given": BODY_DEF,
     "shapes": SHAPE,
     "characters": CHARACTER,
     "touching": EVENT,
@@ -211,19 +211,19 @@ def take(world: WorldState) -> Snapshot:
     library = world.library
     arrays = {
         "bodies": world.bodies.copy(),
-        "given": world._given.rows.copy(),
+        "given": world._definitions.rows.copy(),
         "shapes": world.shapes.copy(),
         "characters": world.characters.rows.copy(),
         "touching": world.touching.rows.copy(),
         "sensing": world.sensing.rows.copy(),
         "reported": world.reported_rows().copy(),
         "contact_rows": world.contact_rows.copy(),
-        "resting_touching": world.sleepers.touching.copy(),
-        "resting_sensing": world.sleepers.sensing.copy(),
-        "stirred": np.unique(np.array(world.awake.stirred, np.int64)),
+        "resting_touching": world.sleeping_set.touching.copy(),
+        "resting_sensing": world.sleeping_set.sensing.copy(),
+        "dirty": np.unique(np.array(world.awake.dirty, np.int64)),
         "aimed": np.array([*world._targets], np.int64),
         "targets": np.array([*world._targets.values()], np.float64).reshape(-1, 3),
-        **_islands_apart(world.sleepers.islands),
+        **_islands_apart(world.sleeping_set.islands),
     }
     tiers = [[identity, tier, library.add(world._sources[identity][0])[1]] for identity, tier in world._tiers.items()]
     facts = {
@@ -269,7 +269,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     world.library, world._shapes_of, world._sources, world.random = unpacked
     for table, name in (
         (world._bodies, "bodies"),
-        (world._given, "given"),
+        (world._definitions, "given"),
         (world._shapes, "shapes"),
         (world.characters, "characters"),
     ):
@@ -279,11 +279,11 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     world.sensing.restore(arrays["sensing"])
     world.report_contacts(arrays["reported"].copy())
     world.contact_rows = arrays["contact_rows"].copy()
-    world.sleepers = _sleepers(arrays)
+    world.sleeping_set = _sleepers(arrays)
     if not world.sleeps:
         world.bodies["active"] = True
     world.awake = Awake(world.sleeps)
-    world.awake.stir(arrays["stirred"].tolist())
+    world.awake.mark_dirty(arrays["dirty"].tolist())
     world._next_body, world._next_shape = facts["next_body"], facts["next_shape"]
     world._targets = _targets(arrays)
     world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
@@ -307,16 +307,16 @@ def _islands_apart(islands) -> dict:
     return apart
 
 
-def _sleepers(arrays) -> Sleepers:
+def _sleepers(arrays) -> SleepingSet:
     """Return the sleeping islands from flat arrays."""
-    sleepers, fields = Sleepers(), ("bodies", "contacts", "touching")
+    sleeping_set, fields = SleepingSet(), ("bodies", "contacts", "touching")
     parts = {
         name: np.split(arrays["island_" + name], np.cumsum(arrays[f"island_{name}_counts"])[:-1]) for name in fields
     }
     for number, key in enumerate(arrays["island_keys"].tolist()):
-        sleepers.put(key, Island(*(parts[name][number].copy() for name in fields)))
-    sleepers.touching, sleepers.sensing = arrays["resting_touching"].copy(), arrays["resting_sensing"].copy()
-    return sleepers
+        sleeping_set.put(key, Island(*(parts[name][number].copy() for name in fields)))
+    sleeping_set.touching, sleeping_set.sensing = arrays["resting_touching"].copy(), arrays["resting_sensing"].copy()
+    return sleeping_set
 
 
 def _unpack(arrays, facts, geometry):
@@ -332,7 +332,7 @@ def _unpack(arrays, facts, geometry):
     random = np.random.default_rng()
     random.bit_generator.state = facts["random"]
     _sleepers(arrays)
-    checks.ids("stirred", arrays["stirred"])
+    checks.ids("dirty", arrays["dirty"])
     for name in ("next_body", "next_shape"):
         checks.whole(name, facts[name], 0, 2**62)
     if len(arrays["given"]) != len(arrays["bodies"]) or not set(_targets(arrays)) <= shapes_of.keys():

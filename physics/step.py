@@ -10,7 +10,7 @@ from physics import checks, events
 from physics.broadphase.pair_list import broad_phase
 from physics.broadphase.proxies import motion_rectangles
 from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts, sweep_piles
-from physics.character.carry import bear_characters, carry_characters
+from physics.character.carry import apply_character_weight, carry_characters
 from physics.character.solids import new_scratch
 from physics.checks import Pair
 from physics.collision.narrow_phase import NarrowPhase, detect_ended
@@ -134,19 +134,19 @@ IGNORED = {"blocking": IGNORED_BY_BLOCKING, "projection": IGNORED_BY_PROJECTION}
     reads=(*quarantine.reads, *motion_rectangles.reads),
     writes=(*quarantine.writes, *motion_rectangles.writes),
 )
-def sound_rectangles(state: StepState) -> None:
+def swept_aabbs_of_finite_bodies(state: StepState) -> None:
     """Write the swept AABBs of the bodies that are still finite."""
     quarantine(state)
     motion_rectangles(state)
 
 
 @stage("rest", reads=rest.reads, writes=rest.writes)
-def rest_exactly(state: StepState) -> None:
+def evaluate_contacts_before_sleep(state: StepState) -> None:
     """Evaluate the contacts of an island before it sleeps at the final poses, so that they are valid when it wakes."""
     rest(state)
-    if state.parked is not None:
-        for key in np.unique(state.parked[1]).tolist():
-            island = state.sleepers.islands[key]
+    if state.fell_asleep is not None:
+        for key in np.unique(state.fell_asleep[1]).tolist():
+            island = state.sleeping_set.islands[key]
             update_contacts(state.bodies, island.contacts)
 
 
@@ -174,7 +174,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
         stages = (
             (list_awake, e.sleeping),
             (quarantine, True),
-            (bear_characters, characters),
+            (apply_character_weight, characters),
             (motion_rectangles, True),
             (broad_phase, True),
             (find_contacts, True),
@@ -185,14 +185,14 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (carry_characters, characters),
             (update_contacts_at_final_poses, True),
             (sense, e.sensors),
-            (rest_exactly, e.sleeping),
+            (evaluate_contacts_before_sleep, e.sleeping),
             (events.report_events, True),
         )
     else:
         stages = (
-            (bear_characters, e.stacking and characters),  # under another solver for the moment
+            (apply_character_weight, e.stacking and characters),  # under another solver for the moment
             (integrate_velocities, forces),
-            (sound_rectangles, True),
+            (swept_aabbs_of_finite_bodies, True),
             (broad_phase, True),
             (foresee_impacts, e.continuous),
             (integrate_positions, True),
@@ -268,12 +268,17 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.substeps = 0 if world.substeps == "auto" else world.substeps
     state.bodies, state.shapes, state.characters = world.bodies, world.shapes, world.characters.rows
     state.queries, state.steps = world.queries, world.steps
-    state.library, state.pairs, state.awake, state.sleepers = world.library, world.pairs, world.awake, world.sleepers
+    state.library, state.pairs, state.awake, state.sleeping_set = (
+        world.library,
+        world.pairs,
+        world.awake,
+        world.sleeping_set,
+    )
     state.contact_rows = world.contact_rows
     state.touching, state.sensing = world.touching, world.sensing
     state.sensed, state.swept_sensors = world.sensed, NO_CONTACTS
-    state.impacts, state.changed_count, state.unsound = NO_IMPACTS, 0, 0
-    state.ghosts = state.parked = state.kept_forces = None
+    state.impacts, state.changed_count, state.non_finite_count = NO_IMPACTS, 0, 0
+    state.ghosts = state.fell_asleep = state.kept_forces = None
     if dt == 0.0:
         state.kept_forces = world.bodies[[*FORCES]].copy()
     state.events, state.reported, state.work = events.Events(), (NO_CONTACTS, None), world.profile.work
@@ -289,7 +294,7 @@ def finish(world: WorldState, state: StepState) -> None:
     world.ghosts, world.events = state.ghosts, state.events
     world.report_contacts(*state.reported)
     if len(world.awake.fresh):
-        world.bodies["stirred"][world.awake.fresh] = False
+        world.bodies["dirty"][world.awake.fresh] = False
         world.awake.fresh = world.awake.fresh[:0]
     arrive(world, state.dt)
     if state.kept_forces is not None:

@@ -19,7 +19,7 @@ from physics.effects import Effects
 from physics.events import Events, Pairs
 from physics.islands import sleep
 from physics.islands.awake import Awake
-from physics.islands.sleep import Sleepers
+from physics.islands.sleep import SleepingSet
 from physics.jit import tiers
 from physics.math2d import Vec2
 from physics.queries import casts
@@ -31,7 +31,7 @@ from physics.shapes.library import Library
 from physics.shapes.shape import Filter, Material, Shape
 from physics.snapshot import Snapshot, digest
 from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, plans, step_length
-from physics.tables.body import BODY, DYNAMIC, GIVEN
+from physics.tables.body import BODY, BODY_DEF, DYNAMIC
 from physics.tables.character import CHARACTER
 from physics.tables.contact import CONTACT
 from physics.tables.shape import SHAPE
@@ -104,13 +104,13 @@ class World(WorldState):
         self._set_restitution_speed(restitution_speed)
         self._substeps, self._accuracy = checked_substeps(substeps), checked_accuracy(accuracy)
         self._solver = self._checked_solver(own_solver(effects) if solver is None else solver)
-        self._bodies, self._given, self._shapes, self.characters = map(Table, (BODY, GIVEN, SHAPE, CHARACTER))
+        self._bodies, self._definitions, self._shapes, self.characters = map(Table, (BODY, BODY_DEF, SHAPE, CHARACTER))
         self.library = Library()
         self._stepping = False
         self._next_body = self._next_shape = self._carved_pixels = 0
         self._users, self._shapes_of, self._tiers, self._sources, self._targets = {}, {}, {}, {}, {}
         # Caches that later steps read.
-        self.pairs, self.awake, self.sleepers = PairList(), Awake(False), Sleepers()
+        self.pairs, self.awake, self.sleeping_set = PairList(), Awake(False), SleepingSet()
         self.contact_rows = np.zeros(0, CONTACT)
         self.sensed = self.ghosts = self.workspace = None
         self.touching, self.sensing = Pairs(), Pairs()
@@ -193,7 +193,7 @@ class World(WorldState):
             [checks.position("position", position)],
             [checks.vector("velocity", velocity)],
             [checks.number("angle", angle)],
-            edit.Wanted(
+            edit.BodyDef(
                 kind,
                 angular_velocity,
                 mass,
@@ -246,7 +246,7 @@ class World(WorldState):
             positions,
             velocities,
             angles,
-            edit.Wanted(
+            edit.BodyDef(
                 kind,
                 angular_velocity,
                 mass,
@@ -392,10 +392,10 @@ class World(WorldState):
         """Set whether later steps process only the awake bodies, or all."""
         self.awake = Awake(sleeping)
         self.bodies["active"] = not sleeping
-        self.awake.stir(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
+        self.awake.mark_dirty(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
         self.pairs.let_sleep(sleeping)
         self._broadphase = self._broadphase.fresh()  # it receives all present proxies, and none of removed ones
-        self.sleepers.return_all(self)
+        self.sleeping_set.return_all(self)
 
     @property
     def substeps(self) -> int | str:

@@ -15,7 +15,7 @@ from physics.effects import Effects
 from physics.events import Events, Pairs
 from physics.islands import sleep
 from physics.islands.awake import Awake
-from physics.islands.sleep import Sleepers
+from physics.islands.sleep import SleepingSet
 from physics.math2d import Vec2
 from physics.queries.index import QueryIndex
 from physics.settings import Tolerances
@@ -113,7 +113,7 @@ class WorldState:
     random: np.random.Generator
     pairs: PairList
     awake: Awake
-    sleepers: Sleepers
+    sleeping_set: SleepingSet
     contact_rows: np.ndarray
     sensed: np.ndarray | None
     ghosts: np.ndarray | None
@@ -142,7 +142,7 @@ class WorldState:
     _plans: tuple[Any, Any]  # Plans of step.py, without characters, and with
     _stepping: bool
     _bodies: Table
-    _given: Table  # GIVEN, beside the bodies
+    _definitions: Table  # GIVEN, beside the bodies
     _shapes: Table
     _next_body: int
     _next_shape: int
@@ -185,7 +185,7 @@ class WorldState:
     @property
     def sleeping_contacts(self) -> np.ndarray:
         """CONTACT_POINT rows of the pairs that sleep, as they were when they fell asleep."""
-        return contacts_of(with_areas(self, self.sleepers.contacts()))
+        return contacts_of(with_areas(self, self.sleeping_set.contacts()))
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
         """Store the CONTACT rows that `contacts` reports, of which the flagged ones count. The points are listed on
@@ -227,7 +227,7 @@ class WorldState:
         self.pairs.add_proxies(self.shapes, rows, self.bodies["kind"][self.shapes["body_row"][rows]] == STATIC)
         # Bodies that are not awake get no swept AABB in the next step, so they get one here.
         changed = write_rectangles(self, rows)
-        self.pairs.again.append(self.pairs.changed[:changed].copy())
+        self.pairs.can_recycle.append(self.pairs.changed[:changed].copy())
 
     @property
     def effects(self) -> Effects:
@@ -315,7 +315,7 @@ class WorldState:
         forget_loads(self, ids)
         self._drop_shapes(keep[self.shapes["body_row"]])
         self._bodies.keep(keep)
-        self._given.keep(keep)
+        self._definitions.keep(keep)
         self.awake.keep_rows(keep)
         self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
         gone = set(ids.tolist())

@@ -47,7 +47,7 @@ NUMBERS = (
 COLUMNS = (
     "x", "y", "angle", "vx", "vy", "angular_velocity", "force_x", "torque", "mass", "inverse_mass", "inertia",
     "inverse_inertia", "gravity_scale", "center_x", "local_center_x", "extent", "sleep_time", "previous_x",
-    "previous_angle", "smallest_half", "thin_half", "fraction", "still_x", "settled_x", "cooldown",
+    "previous_angle", "min_half_extent", "inradius", "fraction", "still_x", "settled_x", "cooldown",
 )  # fmt: skip
 RING = np.ones((12, 12), bool)
 RING[4:8, 4:8] = False

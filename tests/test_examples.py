@@ -211,7 +211,7 @@ def test_its_mass_is_shapelys(twins):
     assert found.mass == pytest.approx(2.0 * figure.area, rel=1e-5)
     assert found.center == pytest.approx(figure.centroid.coords[0], abs=1e-6)
     assert found.inertia == pytest.approx(2.0 * second_moment(figure), rel=1e-5)
-    assert found == mass_of(twin, 2.0) and shape.smallest_half == twin.smallest_half
+    assert found == mass_of(twin, 2.0) and shape.min_half_extent == twin.min_half_extent
     both = (shape.with_(material=Material(density=5.0)), Circle(4.0))
     assert mass_of(both, 1.0) == mass_of((twin.with_(material=Material(density=5.0)), Circle(4.0)), 1.0)
 

@@ -107,7 +107,7 @@ def follow(world: World, steps: int, divided: int = 1) -> Way:
 
 def failures_of(world: World) -> Counter[str]:
     """Return the counts of failures in the last step; absent keys are 0."""
-    return +Counter(cap_hits=world.profile.counters["cap_hits"], put_aside=len(world.events.quarantined))
+    return +Counter(cap_hits=world.profile.counters["cap_hits"], disable_body=len(world.events.quarantined))
 
 
 def here_of(world: World, tier: str | None) -> Setting:

@@ -13,7 +13,7 @@ from game.drawing.number_text import count_text, plain_name
 from game.measure.pair_batch import PairBatch
 from game.measure.timing import LEAST_PAIRS, Cost, timed_in_turns
 from physics import World
-from physics.collision.manifold import by_owner
+from physics.collision.manifold import by_parent
 
 MICRO, NANO = 1e6, 1e9
 
@@ -58,9 +58,9 @@ def still_there(world: World, touch: Touch) -> bool:
 
 def explain(world: World, touch: Touch) -> list[Part]:
     """Return the stages of a touching pair in the last step. Raises ValueError for a pair that does not touch."""
-    rows, _ = by_owner(world.reported_rows())
+    rows, _ = by_parent(world.reported_rows())
     # all contacts of their child shapes
-    mine = rows[(rows["owner_a"] == touch.shape_a) & (rows["owner_b"] == touch.shape_b)]
+    mine = rows[(rows["owner_a"] == touch.shape_a) & (rows["parent_b"] == touch.shape_b)]
     if not len(mine):
         raise ValueError(f"touch must be of a pair that touches (got {touch})")
     parts = [_broad_phase(world, touch), _filter(world, touch), _narrow_phase(world, touch, mine)]

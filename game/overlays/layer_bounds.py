@@ -87,7 +87,7 @@ def _states(world, shapes):
     state = np.where(shapes["kind"] == 0, STILL, ALONE)
     state[shapes["sensor"].astype(bool)] = SENSOR
     told = world.reported_rows()
-    touching = np.concatenate((told["owner_a"], told["owner_b"]))
+    touching = np.concatenate((told["owner_a"], told["parent_b"]))
     for among, value in ((world.candidates.ravel(), PAIRED), (touching, TOUCHING)):
         rows = np.minimum(np.searchsorted(ids, among), len(ids) - 1)
         state[rows[ids[rows] == among]] = value  # a shape removed since the step has no row

@@ -91,6 +91,6 @@ class BruteForce:
         """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
 
-    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
+    def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         return near_in_all(proxies, *box, slots, work)

@@ -19,15 +19,15 @@ from physics.broadphase.tree_nodes import (
     ROOT_MOVING,
     SIZE,
     WIDTH,
-    find_in_fours,
-    find_in_trees,
+    find_pairs_in_bvh4,
+    find_pairs_in_trees,
     insert_leaf,
-    near_in_fours,
-    near_in_trees,
+    query_bvh4,
+    query_trees,
     rebuild,
     remove_leaf,
     take_node,
-    write_fours,
+    write_bvh4,
     write_stale,
 )
 from physics.jit import kernel
@@ -134,7 +134,7 @@ class DynamicTree:
         self.leaf_of = np.zeros(0, np.int64)
         self.nodes = np.zeros(0, NODE)
         # BVH4 nodes, see tree_nodes.py; empty where nodes have two boxes.
-        self.fours, self.kin, self.stale = np.zeros(0), np.zeros(0, np.int64), np.zeros(0, np.int64)
+        self.bvh4, self.kin, self.stale = np.zeros(0), np.zeros(0, np.int64), np.zeros(0, np.int64)
         self.state = np.array([-1, 0, 0, -1, -1], np.int64)
         self.stack = np.zeros(STACK, np.int64)
         self.leaves, self.spans, self.twice = np.zeros(0, np.int64), np.zeros((0, 4), np.int64), np.zeros((2, 0))
@@ -157,7 +157,7 @@ class DynamicTree:
             nodes[: len(self.nodes)] = self.nodes
             self.nodes = nodes
             if self.width == WIDTH:
-                self.fours = np.concatenate([self.fours, np.zeros(len(nodes) * SIZE - len(self.fours))])
+                self.bvh4 = np.concatenate([self.bvh4, np.zeros(len(nodes) * SIZE - len(self.bvh4))])
                 self.stale = np.zeros(len(nodes), np.int64)
                 self.kin = np.concatenate([self.kin, np.full(len(nodes) * WIDTH - len(self.kin), NONE)])
         loose, loose_still = self._rebuilds(arena) if len(arena.changed) > REBUILD_FROM else (False, False)
@@ -175,7 +175,7 @@ class DynamicTree:
             arena.work,
         )
         if self.width == WIDTH:
-            write_stale(self.nodes, self.stale, self.state, self.fours, self.kin)
+            write_stale(self.nodes, self.stale, self.state, self.bvh4, self.kin)
         if len(self.spans) < len(self.leaf_of):
             self.leaves, self.spans = np.zeros(len(self.leaf_of), np.int64), np.zeros((len(self.leaf_of), 4), np.int64)
             self.twice = np.zeros((2, len(self.nodes)))
@@ -183,7 +183,7 @@ class DynamicTree:
             if wanted and moved:
                 rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
                 if self.width == WIDTH:
-                    write_fours(self.nodes, still, self.fours, self.kin)
+                    write_bvh4(self.nodes, still, self.bvh4, self.kin)
 
     def _rebuilds(self, arena):
         """Return for the moving and the static tree whether to rebuild it: most of its proxies have changed.
@@ -199,17 +199,19 @@ class DynamicTree:
         """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
         proxies, changed = arena.proxies, arena.changed
         if self.width == WIDTH:
-            return lambda pairs, work: find_in_fours(
-                proxies, changed, self.nodes, self.fours, self.kin, self.state, self.stack, pairs, work
+            return lambda pairs, work: find_pairs_in_bvh4(
+                proxies, changed, self.nodes, self.bvh4, self.kin, self.state, self.stack, pairs, work
             )
-        return lambda pairs, work: find_in_trees(proxies, changed, self.nodes, self.state, self.stack, pairs, work)
+        return lambda pairs, work: find_pairs_in_trees(
+            proxies, changed, self.nodes, self.state, self.stack, pairs, work
+        )
 
-    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
+    def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         roots = self.state[ROOT_MOVING:]
         if self.width == WIDTH:
-            return near_in_fours(self.nodes, self.fours, self.kin, roots, *box, self.stack, slots, work)
-        return near_in_trees(self.nodes, roots, *box, self.stack, slots, work)
+            return query_bvh4(self.nodes, self.bvh4, self.kin, roots, *box, self.stack, slots, work)
+        return query_trees(self.nodes, roots, *box, self.stack, slots, work)
 
     @property
     def height(self) -> int:

@@ -48,7 +48,7 @@ class PairList:
         self.rows = self.candidates[:0]
         self.known_ids = self.owners = self.candidates[:0]  # None until they are read; owners as in SHAPE
         self.everything = False  # the strategy is new: pass it all proxies
-        self.again = []  # slots whose pairs have to be searched again, besides those with changed boxes
+        self.can_recycle = []  # slots whose pairs have to be searched again, besides those with changed boxes
         self.sensors = 0  # number of sensor proxies
         self.moved = False  # shape rows have moved since the last update
         self.resting = False  # pairs may have lost their last awake side
@@ -83,7 +83,7 @@ class PairList:
     def name(self, shapes: np.ndarray) -> np.ndarray:
         """Return the (n, 2) owner ids of the candidates, read while the given SHAPE rows are still valid."""
         if self.owners is None:
-            self.owners = shapes["owner"][self.rows]
+            self.owners = shapes["parent"][self.rows]
         return self.owners
 
     def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:
@@ -131,7 +131,7 @@ class PairList:
         if awake:
             known = slots[self.proxies["row"][slots] >= 0]  # a new proxy is listed with its swept AABB
             self.proxies["changed"][known] = True
-            self.again.append(known)
+            self.can_recycle.append(known)
         else:
             self.resting = True
 
@@ -199,7 +199,7 @@ class PairList:
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
         """Update the candidates with `changed_count` slots in `self.changed`, and the freed ones."""
-        news = changed_count or self.freed or self.again or self.everything or self.moved or self.resting
+        news = changed_count or self.freed or self.can_recycle or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
             self._take_in(strategy, shapes, changed_count, work)
         work[CANDIDATES] = self.count
@@ -218,9 +218,9 @@ class PairList:
             self.rows = self.known_ids = self.owners = self.candidates[:0]
         else:
             arena.changed = self.changed[:changed_count]
-            if len(freed) or self.again:
-                arena.changed = np.unique(np.concatenate([arena.changed, freed, *self.again]))
-        self.again = []
+            if len(freed) or self.can_recycle:
+                arena.changed = np.unique(np.concatenate([arena.changed, freed, *self.can_recycle]))
+        self.can_recycle = []
         if len(arena.changed) or (self.resting and self.count):
             if len(arena.changed):
                 strategy.update(arena)

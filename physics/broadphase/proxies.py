@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of
+from physics.math2d import norm
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, STEPS_AHEAD
 from physics.shapes.library import add_missing_rasters
 from physics.shapes.placement import drawn_beyond, is_drawn_when_asked, refresh_boxes, snapped
@@ -134,7 +134,7 @@ class Strategy(Protocol):
         """Return the function that lists the pairs of the changed proxies."""
         ...
 
-    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
+    def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         ...
 
@@ -398,8 +398,8 @@ def update_rectangles(
         room = max(fat, abs(ahead_x), abs(ahead_y))
         if room > 0.0:
             # A swept AABB left from a fast step would be far too large.
-            slack = 4.0 * room + length_of(upper_x - lower_x, upper_y - lower_y)
-            fits = fits and length_of(p.upper_x - p.lower_x, p.upper_y - p.lower_y) <= slack
+            slack = 4.0 * room + norm(upper_x - lower_x, upper_y - lower_y)
+            fits = fits and norm(p.upper_x - p.lower_x, p.upper_y - p.lower_y) <= slack
         else:
             fits = (
                 fits and p.lower_x == lower_x and p.lower_y == lower_y and p.upper_x == upper_x and p.upper_y == upper_y

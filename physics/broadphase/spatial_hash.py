@@ -541,7 +541,7 @@ class SpatialHashGrid:
             arena.proxies, arena.changed, self.base, *self._state(), self.chains, self.near_entries, pairs, work
         )
 
-    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
+    def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         return near_in_cells(
             self.base,

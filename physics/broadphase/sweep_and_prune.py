@@ -299,7 +299,7 @@ class Axis:
         sort_boxes(proxies, order, len(order), self.axis, self.boxes, self.next_changed)
         self.highest = None
 
-    def near(self, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
+    def query_box(self, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
@@ -391,6 +391,6 @@ class SweepAndPrune:
 
         return both
 
-    def near(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
+    def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
-        return self.sorted[0].near(box, slots, work)
+        return self.sorted[0].query_box(box, slots, work)

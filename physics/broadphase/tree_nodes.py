@@ -328,7 +328,7 @@ def write_stale(
 
 
 @kernel
-def write_fours(
+def write_bvh4(
     # read
     nodes,
     still,
@@ -343,7 +343,7 @@ def write_fours(
 
 
 @inlined
-def push_met(fours, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_out):
+def push_met(bvh4, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_out):
     """Push those of a BVH4 node's children that overlap a closed box [px] on a stack. Return its new depth.
 
     There is no branch: the next child overwrites one that does not overlap.
@@ -351,10 +351,10 @@ def push_met(fours, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_ou
     for lane in range(WIDTH):
         k = at * SIZE + lane
         meets = (
-            (fours[k + LOWER_X] <= upper_x)
-            & (fours[k + UPPER_X] >= lower_x)
-            & (fours[k + LOWER_Y] <= upper_y)
-            & (fours[k + UPPER_Y] >= lower_y)
+            (bvh4[k + LOWER_X] <= upper_x)
+            & (bvh4[k + UPPER_X] >= lower_x)
+            & (bvh4[k + LOWER_Y] <= upper_y)
+            & (bvh4[k + UPPER_Y] >= lower_y)
         )
         stack_out[depth] = kin[at * WIDTH + lane]
         depth += int(meets)
@@ -500,7 +500,7 @@ def rebuild(
 
 
 @kernel
-def find_in_trees(
+def find_pairs_in_trees(
     # read
     proxies,
     changed,
@@ -546,7 +546,7 @@ def find_in_trees(
 
 
 @kernel
-def near_in_trees(
+def query_trees(
     # read
     nodes,
     roots,
@@ -583,12 +583,12 @@ def near_in_trees(
 
 
 @kernel
-def find_in_fours(
+def find_pairs_in_bvh4(
     # read
     proxies,
     changed,
     nodes,
-    fours,
+    bvh4,
     kin,
     state,
     # write
@@ -596,7 +596,7 @@ def find_in_fours(
     pairs_out,
     work_inout,
 ):
-    """List the same pairs as find_in_trees, four boxes at a time. O(changed · log n + pairs)."""
+    """List the same pairs as find_pairs_in_trees, four boxes at a time. O(changed · log n + pairs)."""
     found = 0
     for i in range(len(changed)):
         a = changed[i]
@@ -618,15 +618,15 @@ def find_in_fours(
                     found = write_pair(a, b, found, pairs_out)
                 continue
             work_inout[NODES_VISITED] += 1
-            depth = push_met(fours, kin, at, p.lower_x, p.lower_y, p.upper_x, p.upper_y, depth, stack_inout)
+            depth = push_met(bvh4, kin, at, p.lower_x, p.lower_y, p.upper_x, p.upper_y, depth, stack_inout)
     return found
 
 
 @kernel
-def near_in_fours(
+def query_bvh4(
     # read
     nodes,
-    fours,
+    bvh4,
     kin,
     roots,
     lower_x,
@@ -638,7 +638,7 @@ def near_in_fours(
     slots_out,
     work_inout,
 ):
-    """List the same slots as near_in_trees, four boxes at a time. Return their number. O(log n + found)."""
+    """List the same slots as query_trees, four boxes at a time. Return their number. O(log n + found)."""
     found = 0
     depth = 0
     for k in range(len(roots)):
@@ -661,5 +661,5 @@ def near_in_fours(
             found += 1
             continue
         work_inout[NODES_VISITED] += 1
-        depth = push_met(fours, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_inout)
+        depth = push_met(bvh4, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_inout)
     return found

@@ -6,7 +6,7 @@ from physics.ccd.rotational import stands_deep, sweep_rotational
 from physics.ccd.time_of_impact import MISS, has_closed_form, write_impact
 from physics.collision.manifold import open_manifold
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of, turned
+from physics.math2d import norm, rotate
 from physics.tables.body import AUTO, DYNAMIC, KINEMATIC, OFF, RAY, STATIC, SWEPT, TOI
 from physics.tables.shape import CHAIN, MASK, TILES
 from physics.tables.step_state import TOI_CALLS
@@ -32,11 +32,11 @@ def list_paths(
     for k in range(len(rows)):
         i = rows[k]
         b = bodies[i]
-        u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.previous_angle), math.sin(b.previous_angle))
+        u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.previous_angle), math.sin(b.previous_angle))
         paths_out[i, 0] = b.previous_x + u
         paths_out[i, 1] = b.previous_y + v
         paths_out[i, 2] = b.previous_angle
-        u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+        u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
         paths_out[i, 3] = b.x + u
         paths_out[i, 4] = b.y + v
         paths_out[i, 5] = b.previous_angle if b.continuous == RAY or b.continuous == SWEPT else b.angle
@@ -51,7 +51,7 @@ def asks_straight(body):
 @subkernel
 def way_of(bodies, paths, row):
     """Return the greatest distance [px] that any point of a body moves."""
-    moved = length_of(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
+    moved = norm(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
     return moved + bodies[row].extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
 
 
@@ -85,26 +85,26 @@ def find_fast(
         if b.kind == STATIC or b.quarantined or not b.awake or b.continuous == OFF:
             continue
         moved = way_of(bodies, paths, i)
-        if moved > 0.0 and (b.continuous != AUTO or moved > b.thin_half):
+        if moved > 0.0 and (b.continuous != AUTO or moved > b.inradius):
             fast_out[i] = True
             found += 1
-        elif b.kind == DYNAMIC and carried > 0.0 and moved + carried > b.thin_half:
+        elif b.kind == DYNAMIC and carried > 0.0 and moved + carried > b.inradius:
             found += 1
     return found, straight
 
 
 @subkernel
-def outruns(bodies, paths, row, other):
+def is_fast(bodies, paths, row, other):
     """Return whether a kinematic body (other) and a dynamic one have a relative motion above half its size."""
     b = bodies[row]
     if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
         return False
     dx = (paths[row, 3] - paths[row, 0]) - (paths[other, 3] - paths[other, 0])
     dy = (paths[row, 4] - paths[row, 1]) - (paths[other, 4] - paths[other, 1])
-    far = length_of(paths[row, 0] - paths[other, 0], paths[row, 1] - paths[other, 1]) + b.extent
-    turned = far * min(abs(paths[other, 5] - paths[other, 2]), 2.0)
-    turned += b.extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
-    return length_of(dx, dy) + turned > b.thin_half
+    far = norm(paths[row, 0] - paths[other, 0], paths[row, 1] - paths[other, 1]) + b.extent
+    rotate = far * min(abs(paths[other, 5] - paths[other, 2]), 2.0)
+    rotate += b.extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
+    return norm(dx, dy) + rotate > b.inradius
 
 
 @kernel
@@ -282,8 +282,8 @@ def find_rotational_impacts(
         rest_where_it_is(bodies, a.body_row, paths_inout, fast_inout)
         rest_where_it_is(bodies, b.body_row, paths_inout, fast_inout)
         fast = fast_inout[a.body_row] or fast_inout[b.body_row]
-        fast = fast or outruns(bodies, paths_inout, a.body_row, b.body_row)
-        if not (fast or outruns(bodies, paths_inout, b.body_row, a.body_row)):
+        fast = fast or is_fast(bodies, paths_inout, a.body_row, b.body_row)
+        if not (fast or is_fast(bodies, paths_inout, b.body_row, a.body_row)):
             continue
         p = bodies[a.body_row]
         q = bodies[b.body_row]
@@ -315,7 +315,7 @@ def find_rotational_impacts(
             continue
         m = shapes[mover].body_row
         o = shapes[other].body_row
-        room_left = 0.25 * bodies[m].smallest_half
+        room_left = 0.25 * bodies[m].min_half_extent
         stops = stacking or goes_on(bodies, paths_inout, m, o, fraction, nx, ny) > room_left
         if not stops and (shapes[other].kind == TILES or shapes[other].kind == CHAIN):
             # The part that it may pass need not be all of the ground: a ball that rolls down a wall has a floor.
@@ -362,7 +362,7 @@ def move_back(
             b.angle = b.previous_angle
         else:
             b.angle = b.previous_angle + turn
-            u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+            u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
 

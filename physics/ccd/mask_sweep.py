@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.ccd.impacts import cut_path, outruns, rest_where_it_is, stands_still
+from physics.ccd.impacts import cut_path, is_fast, rest_where_it_is, stands_still
 from physics.ccd.rotational import (
     depth_at_start,
     gap_at_start,
@@ -25,7 +25,7 @@ from physics.ccd.rotational import (
 from physics.ccd.time_of_impact import ANGLE, CENTER_X, CENTER_Y, MISS, MOVE_X, MOVE_Y, TURN, reach_of, write_impact
 from physics.distance.gjk import AX, AY, NX, NY
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of, turned
+from physics.math2d import norm, rotate
 from physics.shapes.library import Library
 from physics.shapes.placement import exact_aabb, rounding
 from physics.tables.body import DYNAMIC, RAY
@@ -119,12 +119,12 @@ def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, work
     turns = r.motion_b[TURN] != 0.0
     cosine = math.cos(r.motion_b[ANGLE])
     sine = math.sin(r.motion_b[ANGLE])
-    x, y = turned(
+    x, y = rotate(
         r.motion_a[CENTER_X] - r.motion_b[CENTER_X], r.motion_a[CENTER_Y] - r.motion_b[CENTER_Y], cosine, -sine
     )
     move_x = r.motion_a[MOVE_X] - r.motion_b[MOVE_X]
     move_y = r.motion_a[MOVE_Y] - r.motion_b[MOVE_Y]
-    dx, dy = turned(move_x, move_y, cosine, -sine)
+    dx, dy = rotate(move_x, move_y, cosine, -sine)
     deepest = 0.0
     for k in range(first, first + pieces):
         if are_squares:
@@ -137,9 +137,7 @@ def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, work
             if apart <= 0.0:
                 deepest = max(deepest, depth_at_start(count, radius, n, radius_b, workspace))
             continue
-        travel = (
-            length_of(move_x, move_y) + abs(r.motion_a[TURN]) * reach + abs(r.motion_b[TURN]) * reach_of(r.local_b, n)
-        )
+        travel = norm(move_x, move_y) + abs(r.motion_a[TURN]) * reach + abs(r.motion_b[TURN]) * reach_of(r.local_b, n)
         if apart > travel * min(1.0, best_out[0]):
             continue
         fraction, _ = sweep_part(count, radius, n, radius_b, 0.0, depth, 0.0, workspace)
@@ -160,7 +158,7 @@ def middle_of_mask(geometry, shape, body, angle):
     """
     raster = geometry.raster_of[shape.geometry, 0]
     left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
-    u, v = turned(0.5 * (left + right), 0.5 * (top + bottom), math.cos(angle), -math.sin(angle))
+    u, v = rotate(0.5 * (left + right), 0.5 * (top + bottom), math.cos(angle), -math.sin(angle))
     return u - body.local_center_x, v - body.local_center_y
 
 
@@ -320,8 +318,8 @@ def find_shared_areas(
         rest_where_it_is(bodies, a.body_row, paths_inout, fast_inout)
         rest_where_it_is(bodies, b.body_row, paths_inout, fast_inout)
         fast = fast_inout[a.body_row] or fast_inout[b.body_row]
-        fast = fast or outruns(bodies, paths_inout, a.body_row, b.body_row)
-        if not (fast or outruns(bodies, paths_inout, b.body_row, a.body_row)):
+        fast = fast or is_fast(bodies, paths_inout, a.body_row, b.body_row)
+        if not (fast or is_fast(bodies, paths_inout, b.body_row, a.body_row)):
             continue
         p = bodies[a.body_row]
         q = bodies[b.body_row]

@@ -28,7 +28,7 @@ from physics.collision.hulls import ALL_EDGES, Hull, part_feature
 from physics.collision.tiles import tile_at
 from physics.distance.gjk import FIRST_A, FIRST_B, NX, NY, copy_part
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of, turned
+from physics.math2d import norm, rotate
 from physics.shapes.placement import hull_at, is_hull, rounding
 from physics.tables.body import DYNAMIC, RAY
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY
@@ -85,7 +85,7 @@ def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
     if shapes[row].kind != BOUNDS:
         return hull_at(geometry, shapes, row, -b.local_center_x, -b.local_center_y, 0.0, corners_out)
     angle = motion_inout[ANGLE]
-    u, v = turned(b.local_center_x, b.local_center_y, math.cos(angle), math.sin(angle))
+    u, v = rotate(b.local_center_x, b.local_center_y, math.cos(angle), math.sin(angle))
     motion_inout[ANGLE] = 0.0
     motion_inout[TURN] = 0.0
     return hull_at(geometry, shapes, row, -u, -v, angle, corners_out)
@@ -166,7 +166,7 @@ def sweep_part(count, radius, other_count, other_radius, half, depth, slack, wor
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     size = reach + radius + reach_of(workspace.advance.local_b, other_count) + other_radius
-    path = length_of(other[MOVE_X] - motion[MOVE_X], other[MOVE_Y] - motion[MOVE_Y])
+    path = norm(other[MOVE_X] - motion[MOVE_X], other[MOVE_Y] - motion[MOVE_Y])
     sink = max(slack, TOUCHING_BAND * (size + path))
     if half > 0.0:
         sink = min(sink, 0.5 * half)
@@ -200,7 +200,7 @@ def feet_of(count, radius, local_y, workspace):
     sine = math.sin(motion[ANGLE])
     feet = -math.inf
     for k in range(count):
-        u, v = turned(workspace.mover[k, 0], workspace.mover[k, 1], cosine, sine)
+        u, v = rotate(workspace.mover[k, 0], workspace.mover[k, 1], cosine, sine)
         feet = max(feet, v + radius)
     return feet + motion[CENTER_Y] - workspace.advance.motion_b[CENTER_Y] + local_y
 
@@ -314,11 +314,11 @@ def is_before(link, local_x, local_y, middle, fraction, core, workspace):
     middle_y = 0.0
     if not core:
         angle = motion[ANGLE] + fraction * motion[TURN]
-        middle_x, middle_y = turned(middle[0], middle[1], math.cos(angle), math.sin(angle))
+        middle_x, middle_y = rotate(middle[0], middle[1], math.cos(angle), math.sin(angle))
     angle = other[ANGLE] + fraction * other[TURN]
     x = motion[CENTER_X] - other[CENTER_X] + fraction * (motion[MOVE_X] - other[MOVE_X]) + middle_x
     y = motion[CENTER_Y] - other[CENTER_Y] + fraction * (motion[MOVE_Y] - other[MOVE_Y]) + middle_y
-    u, v = turned(x, y, math.cos(angle), -math.sin(angle))
+    u, v = rotate(x, y, math.cos(angle), -math.sin(angle))
     u += local_x
     v += local_y
     if ahead_of(link.ax, link.ay, link.bx, link.by, u, v) < 0.0:
@@ -352,7 +352,7 @@ def depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, wor
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
     reach = reach_of(workspace.mover, count) + radius
-    x, y = turned(
+    x, y = rotate(
         motion[CENTER_X] - other[CENTER_X],
         motion[CENTER_Y] - other[CENTER_Y],
         math.cos(other[ANGLE]),
@@ -377,7 +377,7 @@ def starts_across(geometry, chain, local_x, local_y, count, radius, slack, works
     """Return whether the mover starts deeper than slack [px] across a one-way surface, and so passes it."""
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
-    u, v = turned(local_x, local_y, math.cos(other[ANGLE]), math.sin(other[ANGLE]))
+    u, v = rotate(local_x, local_y, math.cos(other[ANGLE]), math.sin(other[ANGLE]))
     place_at(workspace.mover, count, motion, 0.0, motion[CENTER_X], motion[CENTER_Y], workspace.advance.a)
     return lies_across(
         geometry,
@@ -500,7 +500,7 @@ def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_w
     work_inout[TOI_CALLS] += 1
     a = bodies[s.body_row]
     b = bodies[o.body_row]
-    half = a.smallest_half
+    half = a.min_half_extent
     radius = rounding(shapes, row)
     write_motion(motions, s.body_row, workspace.advance.motion_a)
     write_motion(motions, o.body_row, workspace.advance.motion_b)
@@ -541,7 +541,7 @@ def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_w
     else:
         feature = -1
         n = write_local(geometry, bodies, shapes, other, workspace.advance.motion_b, workspace.advance.local_b)
-        core_b = CORE * b.smallest_half if b.kind == DYNAMIC else 0.0
+        core_b = CORE * b.min_half_extent if b.kind == DYNAMIC else 0.0
         fraction, nx, ny = sweep_hull(count, radius, half, core_b, n, rounding(shapes, other), slack, workspace)
     work_inout[GJK_ITERATIONS] += int(workspace.advance.totals[0])
     work_inout[CAP_HITS] += int(workspace.advance.totals[1])
@@ -564,7 +564,7 @@ def begin_sweep(motion_a, motion_b, workspace, impact_out):
     impact_out[0] = MISS
     impact_out[1] = 1.0
     impact_out[2] = 0.0
-    return length_of(motion_b[MOVE_X] - motion_a[MOVE_X], motion_b[MOVE_Y] - motion_a[MOVE_Y])
+    return norm(motion_b[MOVE_X] - motion_a[MOVE_X], motion_b[MOVE_Y] - motion_a[MOVE_Y])
 
 
 @subkernel
@@ -577,11 +577,11 @@ def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
     place_at(r.local_b, b_count, r.motion_b, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.b)
     spread = 0.0
     for k in range(1, a_count):
-        spread = max(spread, length_of(r.a[k, 0] - r.a[0, 0], r.a[k, 1] - r.a[0, 1]))
+        spread = max(spread, norm(r.a[k, 0] - r.a[0, 0], r.a[k, 1] - r.a[0, 1]))
     wide = 0.0
     for k in range(1, b_count):
-        wide = max(wide, length_of(r.b[k, 0] - r.b[0, 0], r.b[k, 1] - r.b[0, 1]))
-    return length_of(r.b[0, 0] - r.a[0, 0], r.b[0, 1] - r.a[0, 1]) - spread - wide - a_radius - b_radius
+        wide = max(wide, norm(r.b[k, 0] - r.b[0, 0], r.b[k, 1] - r.b[0, 1]))
+    return norm(r.b[0, 0] - r.a[0, 0], r.b[0, 1] - r.a[0, 1]) - spread - wide - a_radius - b_radius
 
 
 @kernel

@@ -19,12 +19,12 @@ from physics.ccd.rotational import BEFORE, new_rotational_workspace, sweep_rotat
 from physics.ccd.time_of_impact import find_impacts, stop_at_impacts
 from physics.collision.hull_pairs import measure_approach
 from physics.collision.manifold import new_workspace
-from physics.collision.narrow_phase import detect, touch_where_they_are
+from physics.collision.narrow_phase import detect, place_swept_contacts
 from physics.contacts.cache import write_caches
 from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.islands.sleep import in_order, order_of
 from physics.jit import kernel
-from physics.math2d import turned
+from physics.math2d import rotate
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.contact import CONTACT
@@ -98,7 +98,7 @@ def push_ahead(
                 u = x - (cuts_out[pusher, 3] - left * (cuts_out[pusher, 3] - cuts_out[pusher, 0]))
                 v = y - (cuts_out[pusher, 4] - left * (cuts_out[pusher, 4] - cuts_out[pusher, 1]))
                 turn = left * (cuts_out[pusher, 5] - cuts_out[pusher, 2])
-                w, z = turned(u, v, math.cos(turn), math.sin(turn))
+                w, z = rotate(u, v, math.cos(turn), math.sin(turn))
                 dx = cuts_out[pusher, 3] + w - x - left * moves_inout[row, 0]
                 dy = cuts_out[pusher, 4] + z - y - left * moves_inout[row, 1]
                 ahead = nx * dx + ny * dy
@@ -455,7 +455,7 @@ def _tell(state, met):
     new = solid[~np.isin(keys, known)]
     if len(new):
         # The contact of the next step reports the impact with its impulse.
-        touch_where_they_are(state, new)
+        place_swept_contacts(state, new)
         new["speed_1"] = new["speed_2"] = 0.0
         write_caches(state.library.tables, state.bodies, state.shapes, new)
         both = joined([state.contact_rows, new])

@@ -20,7 +20,7 @@ from physics.distance.gjk import (
     separate,
 )
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of, turned, unit
+from physics.math2d import norm, rotate, unit
 from physics.shapes.placement import corners_at, is_hull
 from physics.tables.body import AUTO, DYNAMIC, OFF, RAY, STATIC, TOI
 from physics.tables.shape import BOUNDS, CIRCLE, POLYGON, TILES
@@ -41,7 +41,7 @@ def sweep_circles(x, y, dx, dy, radius):
     """
     nx, ny = unit(x, y, 1.0, 0.0)
     approach = x * dx + y * dy
-    if length_of(x, y) <= radius:
+    if norm(x, y) <= radius:
         return (0.0 if approach < 0.0 else MISS), nx, ny
     if approach >= 0.0:
         return MISS, nx, ny
@@ -196,7 +196,7 @@ def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_
     """
     s = shapes[row]
     if s.kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
+        u, v = rotate(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
         radius = 0.0 if ray else s.radius
         fraction, nx, ny = sweep_circle_polygon(target, target_count, ALL_EDGES, x + u, y + v, dx, dy, radius)
         if fraction == 0.0 and s.radius > 0.0:
@@ -229,7 +229,7 @@ def is_fast(body, dt, only_straight):
     if body.continuous == AUTO and only_straight == 1:
         return False
     if body.continuous == AUTO:
-        return length_of(body.vx, body.vy) * dt > body.thin_half
+        return norm(body.vx, body.vy) * dt > body.inradius
     return True
 
 
@@ -248,14 +248,14 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
         dx -= dt * q.vx
         dy -= dt * q.vy
     if o.kind == CIRCLE:
-        u, v = turned(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
+        u, v = rotate(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
         if s.kind == CIRCLE:
-            w, z = turned(s.local_x, s.local_y, math.cos(p.angle), math.sin(p.angle))
+            w, z = rotate(s.local_x, s.local_y, math.cos(p.angle), math.sin(p.angle))
             radius = o.radius + (0.0 if ray else s.radius)
             x = p.x + w - q.x - u
             y = p.y + z - q.y - v
             fraction, nx, ny = sweep_circles(x, y, dx, dy, radius)
-            if fraction == 0.0 and length_of(x, y) < radius - slack:
+            if fraction == 0.0 and norm(x, y) < radius - slack:
                 return MISS, nx, ny
             return fraction, nx, ny
         count = corners_at(geometry, shapes, row, p.x, p.y, p.angle, scratch.a)
@@ -363,7 +363,7 @@ def find_impacts(
         if rest.kind != STATIC:
             dx -= rest.vx
             dy -= rest.vy
-        stops = -(nx * dx + ny * dy) * dt > 0.25 * body.smallest_half
+        stops = -(nx * dx + ny * dy) * dt > 0.25 * body.min_half_extent
         found = write_impact(i, fraction, nx, ny, -1, from_a, stops, found, impacts_out)
     return found
 
@@ -451,7 +451,7 @@ def place_at(local, count, motion, fraction, x, y, corners_out):
     center_x = (motion[CENTER_X] - x) + fraction * motion[MOVE_X]
     center_y = (motion[CENTER_Y] - y) + fraction * motion[MOVE_Y]
     for k in range(count):
-        u, v = turned(local[k, 0], local[k, 1], cosine, sine)
+        u, v = rotate(local[k, 0], local[k, 1], cosine, sine)
         corners_out[k, 0] = center_x + u
         corners_out[k, 1] = center_y + v
 
@@ -480,7 +480,7 @@ def reach_of(local, count):
     """Return the distance [px] of the furthest corner from the centre of rotation of a hull."""
     reach = 0.0
     for k in range(count):
-        reach = max(reach, length_of(local[k, 0], local[k, 1]))
+        reach = max(reach, norm(local[k, 0], local[k, 1]))
     return reach
 
 
@@ -493,7 +493,7 @@ def along(corners, motion, fraction, k, x, y, nx, ny):
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
     turn = motion[TURN]
     speed = nx * (motion[MOVE_X] - turn * arm_y) + ny * (motion[MOVE_Y] + turn * arm_x)
-    return nx * corners[k, 0] + ny * corners[k, 1], speed, turn * turn * length_of(arm_x, arm_y)
+    return nx * corners[k, 0] + ny * corners[k, 1], speed, turn * turn * norm(arm_x, arm_y)
 
 
 @subkernel
@@ -617,7 +617,7 @@ def advance(a_count, a_radius, b_count, b_radius, workspace):
     turn_b = abs(workspace.motion_b[TURN])
     reach_a = reach_of(workspace.local_a, a_count)
     reach_b = reach_of(workspace.local_b, b_count)
-    path = length_of(
+    path = norm(
         workspace.motion_b[MOVE_X] - workspace.motion_a[MOVE_X], workspace.motion_b[MOVE_Y] - workspace.motion_a[MOVE_Y]
     )
     size = reach_a + reach_b + a_radius + b_radius

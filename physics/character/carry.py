@@ -25,11 +25,20 @@ from physics.character.solids import (
     settle,
     walk_for,
 )
-from physics.character.walk import depth_in, drop_onto, foot_of, is_crushed, press, tell_weight, way_aside, whole_pixels
+from physics.character.walk import (
+    depth_in,
+    drop_onto,
+    foot_of,
+    is_crushed,
+    press,
+    way_aside,
+    whole_pixels,
+    write_weight,
+)
 from physics.collision.hulls import ALL_EDGES
 from physics.islands.sleep import disturb
 from physics.jit import kernel, subkernel
-from physics.math2d import turned
+from physics.math2d import rotate
 from physics.shapes.placement import aabb_at, refresh_aabbs
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.shape import PIXELS
@@ -83,10 +92,10 @@ def find_stirred(
 def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
     """Return (near, spans) of a Walk for this step: the shape rows that may carry, push or stop each character."""
     rows, pairs = state.characters, state.pairs.rows
-    stirred = np.zeros(len(rows), bool)
-    motion = find_stirred(state.bodies, state.shapes, rows, pairs, len(pairs), stirred)
+    dirty = np.zeros(len(rows), bool)
+    motion = find_stirred(state.bodies, state.shapes, rows, pairs, len(pairs), dirty)
     near, spans, start = [], np.zeros((len(rows), 2), np.int64), 0
-    for me in np.flatnonzero(stirred).tolist():
+    for me in np.flatnonzero(dirty).tolist():
         if not near:
             state.queries.begin(state)
         row = rows[me]
@@ -172,7 +181,7 @@ def carry_riders(along_x, walk_inout):
     """Carry the riders of a carried character, and their riders: a stack of any height."""
     characters = walk_inout.characters
     for _ in range(len(characters)):
-        again = False
+        repeated = False
         for me in range(len(characters)):
             c = characters[me]
             under = character_of(characters, c.riding) if c.riding >= 0 and c.carried == 0 else -1
@@ -183,8 +192,8 @@ def carry_riders(along_x, walk_inout):
             c.carried = carried_by(u.carried, stopped)
             if stopped > 0 and along_x == 0 and u.carried < 0:
                 c.squeezed = True
-            again = again or c.carried != 0
-        if not again:
+            repeated = repeated or c.carried != 0
+        if not repeated:
             return
 
 
@@ -228,7 +237,7 @@ def take_back(characters_inout, bodies_inout):
 @subkernel
 def motion_under(c, body):
     """Return the distance [px] that the point under a character's feet moved with its ground in the step."""
-    u, v = turned(
+    u, v = rotate(
         c.foot_x - body.previous_x,
         c.foot_y - body.previous_y,
         math.cos(body.angle - body.previous_angle),
@@ -533,7 +542,7 @@ def carry_characters(state: StepState) -> None:
     before = bodies[own][["x", "y"]]
     if state.effects.stacking:
         if state.effects.gravity and state.dt > 0.0:
-            tell_weight(characters, state.dt * math.hypot(*state.gravity), state.contact_rows)
+            write_weight(characters, state.dt * math.hypot(*state.gravity), state.contact_rows)
         take_back(characters, bodies)
     else:
         note_feet(shapes, characters)
@@ -558,7 +567,7 @@ def carry_characters(state: StepState) -> None:
         "characters",
         "contact_rows",
         "awake",
-        "sleepers",
+        "sleeping_set",
         "pairs",
         "touching",
         "sensing",
@@ -567,7 +576,7 @@ def carry_characters(state: StepState) -> None:
         "characters",
         "contact_rows",
         "awake",
-        "sleepers",
+        "sleeping_set",
         "pairs",
         "touching",
         "sensing",
@@ -575,14 +584,14 @@ def carry_characters(state: StepState) -> None:
         *(f"bodies.{name}" for name in ("force_x", "force_y", "torque")),
     ),
 )
-def bear_characters(state: StepState) -> None:
+def apply_character_weight(state: StepState) -> None:
     """Apply the weight of characters to their ground before a step, and wake it when they came, left or walked."""
     characters, bodies = state.characters, state.bodies
     if state.effects.sleeping:
         own = bodies[characters["body_row"]]
         new = characters["riding"] != characters["pressed"]
-        stirred = new | (own["x"] != own["previous_x"]) | (own["y"] != own["previous_y"])
-        ids = np.union1d(characters["riding"][stirred], characters["pressed"][new])
+        dirty = new | (own["x"] != own["previous_x"]) | (own["y"] != own["previous_y"])
+        ids = np.union1d(characters["riding"][dirty], characters["pressed"][new])
         rows = rows_of(bodies, ids)
         disturb(state, ids[(rows >= 0) & (bodies["kind"][rows] == DYNAMIC)])
     characters["pressed"] = characters["riding"]

@@ -18,7 +18,7 @@ from physics.shapes.values import Convex, Polygon
 
 LONGEST = 1e6  # [px] greatest move, which is walked pixel by pixel
 PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it pushes ten times its own mass over ground with friction 0.6
-GIVEN = [
+BODY_DEF = [
     "vx",
     "vy",
     "angular_velocity",
@@ -158,13 +158,13 @@ class Character:
         squeezed = bool(rows["squeezed"][me])
         way = self._walk(me, dx, dy)
         asleep = _asleep(world, way.near)
-        before = world.bodies[asleep][GIVEN]
+        before = world.bodies[asleep][BODY_DEF]
         if walk(me, dx, dy, way, world.workspace.walked):
             reach = int(max(rows["width"][me], rows["height"][me]))
             lead_out(me, reach, self._walk(me, reach, reach), world.workspace.walked)
         if len(asleep):
             # It was pushed from the next pixel: it may be a hair away, where no contact would wake it.
-            disturb(world, world.bodies["id"][asleep[before != world.bodies[asleep][GIVEN]]])
+            disturb(world, world.bodies["id"][asleep[before != world.bodies[asleep][BODY_DEF]]])
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
         return Moved(

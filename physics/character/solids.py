@@ -25,9 +25,9 @@ from physics.collision.hulls import (
 )
 from physics.collision.manifold import POINTS
 from physics.collision.tiles import pushing_edges_on_tile, run_at, tile_at
-from physics.dynamics.non_finite import is_sound_walk
+from physics.dynamics.non_finite import is_finite_character
 from physics.jit import kernel, subkernel
-from physics.math2d import turned
+from physics.math2d import rotate
 from physics.shapes.placement import aabb_at, corners_at, hull_at, rounding
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY, SLOPE, Geometry
@@ -207,7 +207,7 @@ def meet(walk, row, count, radius):
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     if s.kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+        u, v = rotate(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
         walk.scratch.points[0] = 0.0
         return meet_disc(walk.scratch, count, radius, b.x + u, b.y + v, s.radius)
     corners = corners_at(walk.geometry, walk.shapes, row, b.x, b.y, b.angle, walk.scratch.theirs)
@@ -549,7 +549,7 @@ def character_of(characters, body):
 @kernel
 def can_walk(me, characters):
     """Return whether a character can be moved: its numbers are finite and in range."""
-    return is_sound_walk(characters[me])
+    return is_finite_character(characters[me])
 
 
 @kernel
@@ -761,10 +761,10 @@ def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
     for k in range(1, rows[0] + 1):
         row = rows[k] if rows[k] >= 0 else -1 - rows[k]
         s = walk.shapes[row]
-        if s.owner != owner:
+        if s.parent != owner:
             if left_by >= 0:
                 return BLOCKED, left_by, 0.0
-            owner = s.owner
+            owner = s.parent
             told = False
         walk.scratch.points[0] = 0.0
         what, rise = in_shape(walk, me, row, left, top, way_x, way_y, give)

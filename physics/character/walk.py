@@ -508,7 +508,7 @@ def is_between(manifold, first, second):
 
 
 @kernel
-def tell_weight(
+def write_weight(
     # read
     characters,
     weight_rate,

@@ -9,7 +9,7 @@ import numpy as np
 
 from physics.collision.chains import BACKING, link_at
 from physics.collision.hulls import ALL_EDGES, Hull, part_of
-from physics.collision.manifold import by_owner, copy_manifold
+from physics.collision.manifold import by_parent, copy_manifold
 from physics.collision.masks import offset_line
 from physics.collision.masks_exact import collide_mask_part, collide_mask_shape, exact_mask_area
 from physics.collision.narrow_phase import no_work
@@ -97,13 +97,13 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
     the whole pair; against tiles and chains it reports the area in its own run or link. Without contact response a step
     only tests whether two masks overlap. In that case their point, normal and depth are computed here too.
     """
-    whole, _ = by_owner(manifolds)
+    whole, _ = by_parent(manifolds)
     shapes = tables.shapes
     if not tables.library.masks or not len(whole):
         return whole
     if not tables.effects.response:
         return _told_in_full(tables, whole) if tables.effects.narrowphase else whole
-    row_a, row_b = rows_of(shapes, whole["owner_a"]), rows_of(shapes, whole["owner_b"])
+    row_a, row_b = rows_of(shapes, whole["parent_a"]), rows_of(shapes, whole["parent_b"])
     masked = ((shapes["role"][row_a] == PIXELS) | (shapes["role"][row_b] == PIXELS)) & (row_a >= 0) & (row_b >= 0)
     some = whole[masked]
     if not len(some):

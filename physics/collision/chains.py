@@ -33,7 +33,7 @@ from physics.collision.manifold import (
 from physics.collision.masks import offset_line
 from physics.collision.masks_exact import collide_mask_part, tested_aabb
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import length_of, turned, unit
+from physics.math2d import norm, rotate, unit
 from physics.shapes.placement import hull_at, rounding
 from physics.tables.geometry import BLOCK_LINKS
 from physics.tables.shape import BOUNDS, CHAIN, MASK
@@ -64,7 +64,7 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
     for end in range(4):
         u = k.ax if end == 0 else (k.bx if end == 1 else (k.before_x if end == 2 else k.after_x))
         v = k.ay if end == 0 else (k.by if end == 1 else (k.before_y if end == 2 else k.after_y))
-        u, v = turned(u, v, cosine, sine)
+        u, v = rotate(u, v, cosine, sine)
         corners_out[end, 0] = x + u
         corners_out[end, 1] = y + v
 
@@ -91,7 +91,7 @@ def is_convex(points, i, j, k):
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
     ey = points[k, 1] - points[j, 1]
-    return dx * ey - dy * ex > STRAIGHT * length_of(dx, dy) * length_of(ex, ey)
+    return dx * ey - dy * ex > STRAIGHT * norm(dx, dy) * norm(ex, ey)
 
 
 @subkernel
@@ -101,7 +101,7 @@ def is_gentle_hollow(points, i, j, k):
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
     ey = points[k, 1] - points[j, 1]
-    size = length_of(dx, dy) * length_of(ex, ey)
+    size = norm(dx, dy) * norm(ex, ey)
     return -0.5 * size < dx * ey - dy * ex < 0.0 and dx * ex + dy * ey > 0.0
 
 
@@ -170,7 +170,7 @@ def collide_link_circle(link, points, x, y, radius):
         dx = x - points[corner, 0]
         dy = y - points[corner, 1]
         nx, ny = unit(dx, dy, nx, ny)
-        height = length_of(dx, dy)
+        height = norm(dx, dy)
     separation = height - radius
     middle = height - 0.5 * separation
     return True, nx, ny, x - middle * nx, y - middle * ny, separation, CIRCLE_CORNER + corner if corner >= 0 else 0
@@ -258,7 +258,7 @@ def keep_owned(link, points, x, y, count, manifold_out):
     ny = manifold_out[2]
     if dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0 or owns_start(link, points, x, y):
         return count
-    length = length_of(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1])
+    length = norm(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1])
     kept = 0
     for k in range(count):
         at = 3 + 4 * k
@@ -349,7 +349,7 @@ BACKING = 2.0  # [px] thickness of a link for masks, behind its front: a line ha
 @subkernel
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
     """Return the AABB [px], in the space of a body at (x, y), of a box in the world."""
-    middle_x, middle_y = turned(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
+    middle_x, middle_y = rotate(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
     half_x = 0.5 * (max_x - min_x)
     half_y = 0.5 * (max_y - min_y)
     reach_x = abs(cosine) * half_x + abs(sine) * half_y
@@ -484,7 +484,7 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
     max_x = -math.inf
     max_y = -math.inf
     for k in range(hull.count):
-        u, v = turned(hull.corners[k, 0] - x, hull.corners[k, 1] - y, cosine, -sine)
+        u, v = rotate(hull.corners[k, 0] - x, hull.corners[k, 1] - y, cosine, -sine)
         min_x = min(min_x, u - hull.radius)
         min_y = min(min_y, v - hull.radius)
         max_x = max(max_x, u + hull.radius)
@@ -507,7 +507,7 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
         beyond = min_x - (max_x - min_x) if end == 0 else max_x + (max_x - min_x)
         if (beyond < u) == (end == 0) and min_y <= v <= max_y:
             for k in range(2):
-                du, dv = turned(u if k == 0 else beyond, v, cosine, sine)
+                du, dv = rotate(u if k == 0 else beyond, v, cosine, sine)
                 line_out[k, 0] = x + du
                 line_out[k, 1] = y + dv
             if line_separation(line_out, hull) < -most:

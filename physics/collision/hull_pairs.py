@@ -32,7 +32,7 @@ from physics.collision.manifold import (
     sides_by_kind,
 )
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import length_of
+from physics.math2d import norm
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import BOUNDS, CIRCLE
 
@@ -63,7 +63,7 @@ def center_velocity(a, b):
     x = a.center_x if a.extent < b.extent else b.center_x
     y = a.center_y if a.extent < b.extent else b.center_y
     vx, vy = relative_velocity(a, b, x, y, x, y)
-    return vx, vy, length_of(vx, vy)
+    return vx, vy, norm(vx, vy)
 
 
 @subkernel
@@ -93,9 +93,9 @@ def closing_speed(a, b, x, y, nx, ny, tangential):
 def approach(a, b, manifold_inout):
     """Write the closing speed of both points of a CONTACT row of two bodies, BODY rows, before any response."""
     m = manifold_inout
-    m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.lead)
+    m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.tangential_offset)
     if m.count == 2:
-        m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y, m.lead)
+        m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y, m.tangential_offset)
 
 
 @kernel
@@ -124,7 +124,7 @@ def needs_ccd(body, distance):
 
     A body that moves so far is left to continuous collision detection, or passes through where there is none.
     """
-    return body.kind != STATIC and distance > body.thin_half
+    return body.kind != STATIC and distance > body.inradius
 
 
 @subkernel
@@ -133,7 +133,7 @@ def speculative_distance(a, b, speed, margin, lookahead):
 
     It is the margin, or the distance closed in `lookahead` [s], also if one of the two is stopped.
     """
-    distance = lookahead * max(speed, length_of(a.vx, a.vy), length_of(b.vx, b.vy))
+    distance = lookahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if needs_ccd(a, distance) or needs_ccd(b, distance) else max(margin, distance)
 
 
@@ -277,7 +277,7 @@ def move_manifold_back(time, vx, vy, points_inout):
 def set_tangential_offset(before, found, offset, manifolds_out):
     """Write the tangential offset [px] to the manifold added since there were `before`, if one was added."""
     if before < found <= len(manifolds_out):
-        manifolds_out[before].lead = offset
+        manifolds_out[before].tangential_offset = offset
 
 
 @inlined

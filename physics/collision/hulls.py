@@ -7,7 +7,7 @@ import numpy as np
 
 from physics.distance.gjk import support
 from physics.jit import subkernel
-from physics.math2d import length_of, unit
+from physics.math2d import norm, unit
 from physics.tables.shape import TURNS
 
 # ---- features --------------------------------------------------------------------------------------------------------
@@ -250,7 +250,7 @@ def collide_circles(ax, ay, a_radius, bx, by, b_radius):
     dx = bx - ax
     dy = by - ay
     nx, ny = unit(dx, dy, 1.0, 0.0)
-    distance = length_of(dx, dy)
+    distance = norm(dx, dy)
     separation = distance - (a_radius + b_radius)
     along = 0.5 * (a_radius + (distance - b_radius))
     return nx, ny, ax + along * nx, ay + along * ny, separation
@@ -294,7 +294,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
             corner = best if from_start < 0.0 else following
             dx = x - corners[corner, 0]
             dy = y - corners[corner, 1]
-            distance = length_of(dx, dy)
+            distance = norm(dx, dy)
             nx, ny = unit(dx, dy, nx, ny)
             if not is_normal_at_corner(corners, count, edges, corner, nx, ny):
                 return False, 0.0, -1.0, x, y, 0.0, 0
@@ -366,7 +366,7 @@ def collide_aabb_corners(a, b, margin, manifold_out):
     ay = a.max_y if below else a.min_y
     dx = (b.min_x if right else b.max_x) - ax
     dy = (b.min_y if below else b.max_y) - ay
-    distance = length_of(dx, dy)
+    distance = norm(dx, dy)
     if distance > margin:
         return 0
     nx, ny = unit(dx, dy, 0.0, -1.0)
@@ -461,7 +461,7 @@ def nearest_on_edge(ax, ay, bx, by, x, y):
 def distance_to_edge(ax, ay, bx, by, x, y):
     """Return the distance [px] of a point from an edge."""
     t = nearest_on_edge(ax, ay, bx, by, x, y)
-    return length_of(x - ax - t * (bx - ax), y - ay - t * (by - ay))
+    return norm(x - ax - t * (bx - ax), y - ay - t * (by - ay))
 
 
 @subkernel
@@ -505,7 +505,7 @@ def nearest_corners(a, a_count, b, b_count):
     best_j = 0
     for i in range(a_count):
         for j in range(b_count):
-            distance = length_of(b[j, 0] - a[i, 0], b[j, 1] - a[i, 1])
+            distance = norm(b[j, 0] - a[i, 0], b[j, 1] - a[i, 1])
             if distance < best:
                 best = distance
                 best_i = i
@@ -521,7 +521,7 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
     dx = b.corners[j, 0] - x
     dy = b.corners[j, 1] - y
     nx, ny = unit(dx, dy, 0.0, -1.0)
-    distance = length_of(dx, dy)
+    distance = norm(dx, dy)
     manifold_out[0] = 0.0
     if distance - a.radius - b.radius > limit:
         return 0
@@ -712,7 +712,7 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
             1 if height < 0.0 else 0,
         )
     nx, ny = unit(x - px, y - py, side_x, side_y)
-    return nx, ny, px, py, length_of(x - px, y - py) - radius, CIRCLE_CORNER if t == 0.0 else CIRCLE_CORNER + 1
+    return nx, ny, px, py, norm(x - px, y - py) - radius, CIRCLE_CORNER if t == 0.0 else CIRCLE_CORNER + 1
 
 
 @subkernel

@@ -8,7 +8,7 @@ import numpy as np
 
 from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, part_of
 from physics.jit import copy_head, inlined, kernel, subkernel
-from physics.math2d import heading, turned
+from physics.math2d import rotate, rotation_of
 from physics.shapes.placement import polygon_at
 from physics.tables.contact import CONTACT, CONTACT_POINT, MANIFOLD_BYTES
 from physics.tables.geometry import Geometry
@@ -17,7 +17,7 @@ from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 # ---- owners ----------------------------------------------------------------------------------------------------------
 # Manifolds as reported: they name the shapes that touch, not their parts.
 
-SIDES = ("body_", "shape_", "owner_", "body_row_", "row_")
+SIDES = ("body_", "shape_", "parent_", "body_row_", "row_")
 
 
 @kernel
@@ -30,7 +30,7 @@ def are_whole(manifolds):
     return True
 
 
-def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
+def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     """Return (CONTACT rows that name the owners of touching parts, in owner order; their original rows or None).
 
     None means that the rows are unchanged. Parts are internal, and may have been created later than the other shape. A
@@ -38,19 +38,19 @@ def by_owner(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
     """
     if are_whole(manifolds):
         return manifolds, None
-    a, b = manifolds["owner_a"], manifolds["owner_b"]
+    a, b = manifolds["parent_a"], manifolds["parent_b"]
     order = np.lexsort((np.maximum(a, b), np.minimum(a, b)))
     found = manifolds[order]
-    found["shape_a"], found["shape_b"], found["of_child"] = found["owner_a"], found["owner_b"], False
-    turned = np.flatnonzero(found["owner_a"] > found["owner_b"])
-    if len(turned):
+    found["shape_a"], found["shape_b"], found["of_child"] = found["parent_a"], found["parent_b"], False
+    swapped = np.flatnonzero(found["parent_a"] > found["parent_b"])
+    if len(swapped):
         for name in SIDES:
-            found[name + "a"][turned], found[name + "b"][turned] = (
-                found[name + "b"][turned],
-                found[name + "a"][turned],
+            found[name + "a"][swapped], found[name + "b"][swapped] = (
+                found[name + "b"][swapped],
+                found[name + "a"][swapped],
             )
         for name in ("normal_x", "normal_y"):
-            found[name][turned] = 0.0 - found[name][turned]
+            found[name][swapped] = 0.0 - found[name][swapped]
     return found, order
 
 
@@ -164,9 +164,9 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.body_b = b.body
     m.shape_a = a.id
     m.shape_b = b.id
-    m.owner_a = a.owner
-    m.owner_b = b.owner
-    m.of_child = a.owner != a.id or b.owner != b.id
+    m.parent_a = a.parent
+    m.parent_b = b.parent
+    m.of_child = a.parent != a.id or b.parent != b.id
     m.body_row_a = a.body_row
     m.body_row_b = b.body_row
     m.row_a = row_a
@@ -176,12 +176,12 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     m.count = 0
     m.normal_x = nx
     m.normal_y = ny
-    m.lead = 0.0
+    m.tangential_offset = 0.0
     m.sensor = a.sensor or b.sensor
     m.swept = False
     m.persisted_1 = False
     m.persisted_2 = False
-    m.again = False
+    m.can_recycle = False
     m.normal_impulse_1 = 0.0
     m.tangent_impulse_1 = 0.0
     m.normal_impulse_2 = 0.0
@@ -250,7 +250,7 @@ def circle_at(bodies, shapes, row):
     """Return the world centre of a CIRCLE [px], and its radius [px]."""
     s = shapes[row]
     b = bodies[s.body_row]
-    u, v = turned(s.local_x, s.local_y, *heading(b.angle))
+    u, v = rotate(s.local_x, s.local_y, *rotation_of(b.angle))
     return b.x + u, b.y + v, s.radius
 
 
@@ -392,8 +392,8 @@ def write_contacts(
             c = contacts_out[found]
             c.body_a = m.body_a
             c.body_b = m.body_b
-            c.shape_a = m.owner_a
-            c.shape_b = m.owner_b
+            c.shape_a = m.parent_a
+            c.shape_b = m.parent_b
             c.normal_x = m.normal_x
             c.normal_y = m.normal_y
             c.point_x = m.x_1 if k == 0 else m.x_2
@@ -409,7 +409,7 @@ def write_contacts(
 
 def contacts_of(manifolds: np.ndarray) -> np.ndarray:
     """Return the points of CONTACT rows as CONTACT_POINT rows, in the order of the owners."""
-    manifolds, _ = by_owner(manifolds)
+    manifolds, _ = by_parent(manifolds)
     contacts = np.zeros(int(manifolds["count"].sum()), CONTACT_POINT)
     write_contacts(manifolds, contacts)
     return contacts

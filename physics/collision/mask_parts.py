@@ -178,7 +178,7 @@ def find_deep(
     for i in range(count):
         m = manifolds[i]
         flags_out[i] = (
-            (m.owner_a != m.shape_a or m.owner_b != m.shape_b)
+            (m.parent_a != m.shape_a or m.parent_b != m.shape_b)
             and depth_of(m) > deep
             and (bodies[m.body_row_a].kind == DYNAMIC or bodies[m.body_row_b].kind == DYNAMIC)
         )
@@ -205,8 +205,8 @@ def drop_opposed_rows(
         end = first + 1
         while (
             end < count
-            and manifolds_inout[order[end]].owner_a == head.owner_a
-            and manifolds_inout[order[end]].owner_b == head.owner_b
+            and manifolds_inout[order[end]].parent_a == head.parent_a
+            and manifolds_inout[order[end]].parent_b == head.parent_b
         ):
             end += 1
         for k in range(first, end):
@@ -239,7 +239,7 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
     used = manifolds[:count]
-    return drop_opposed_rows(np.lexsort((used["owner_b"], used["owner_a"])), flags, used)
+    return drop_opposed_rows(np.lexsort((used["parent_b"], used["parent_a"])), flags, used)
 
 
 def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
@@ -267,13 +267,13 @@ def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, wo
     if not len(due):
         return found[:0]
     before = previous[previous["separation_1"] < 0.0]
-    normals = {(a, b): (x, y) for a, b, x, y in before[["owner_a", "owner_b", "normal_x", "normal_y"]].tolist()}
+    normals = {(a, b): (x, y) for a, b, x, y in before[["parent_a", "parent_b", "normal_x", "normal_y"]].tolist()}
     added, count = np.zeros(len(due), CONTACT), 0
     for pair in pairs[due].tolist():
         candidates, rows = queued[parts == pair], over[touching == pair]
         overlapping = np.unique(np.concatenate([candidates, found["candidate"][rows]])).astype(np.int64)
         starts, faces = np.zeros(len(overlapping) + 1, np.int64), np.zeros((FACES * len(overlapping), 4))
-        a, b = shapes["owner"][batch.candidates[candidates[0]]].tolist()
+        a, b = shapes["parent"][batch.candidates[candidates[0]]].tolist()
         last_x, last_y = (0.0, 0.0) if len(rows) else normals.get((a, b), (0.0, 0.0))
         if write_fallback(batch, overlapping, last_x, last_y, workspace, starts, faces, added[count:]):
             count += not _is_found(added[count], found[rows])
@@ -282,7 +282,7 @@ def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, wo
 
 def _pair_keys(shapes, pairs):
     """Return one number for each pair of owners of two SHAPE rows, increasing in the order of the owners."""
-    owners = rows_of(shapes, shapes["owner"][pairs].ravel()).reshape(-1, 2)
+    owners = rows_of(shapes, shapes["parent"][pairs].ravel()).reshape(-1, 2)
     return owners[:, 0] * len(shapes) + owners[:, 1]
 
 

@@ -10,7 +10,7 @@ from physics.collision.hulls import Hull, distance_to_edge, edge_normal, extent_
 from physics.collision.manifold import MASKS, add_manifold, make_pass
 from physics.jit import inlined, subkernel
 from physics.jit.plain import word
-from physics.math2d import length_of, unit
+from physics.math2d import norm, unit
 from physics.raster.bits import (
     first_pixel,
     is_set,
@@ -151,7 +151,7 @@ def mask_contact(pair, remainders):
         float(b.set_bottom + dy - a.set_top),
     )
     nx, ny = unit(slope_x, slope_y, 0.0, 0.0)
-    if length_of(slope_x, slope_y) == 0.0:
+    if norm(slope_x, slope_y) == 0.0:
         nx, ny = center_normal(a, b, dx, dy)
         if b.set_left + b.set_right + 2 * dx == a.set_left + a.set_right and (
             b.set_top + b.set_bottom + 2 * dy == a.set_top + a.set_bottom
@@ -469,7 +469,7 @@ def square_distance(corners, count, x, y):
             gap = min(gap, distance_to_edge(ax, ay, corners[n, 0], corners[n, 1], px, py))
         beside = max(max(x - ax, ax - x - 1.0), 0.0)
         above = max(max(y - ay, ay - y - 1.0), 0.0)
-        gap = min(gap, length_of(beside, above))
+        gap = min(gap, norm(beside, above))
     return gap
 
 
@@ -490,8 +490,8 @@ def direction_to_core(corners, count, x, y):
         t = nearest_on_edge(corners[k, 0], corners[k, 1], corners[n, 0], corners[n, 1], x, y)
         px = corners[k, 0] + t * (corners[n, 0] - corners[k, 0]) - x
         py = corners[k, 1] + t * (corners[n, 1] - corners[k, 1]) - y
-        if length_of(px, py) < best:
-            best = length_of(px, py)
+        if norm(px, py) < best:
+            best = norm(px, py)
             dx = px
             dy = py
     return unit(dx, dy, 0.0, -1.0)

@@ -9,7 +9,7 @@ from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, edge_normal, 
 from physics.collision.manifold import MASK_HULL, MASKS_EXACT, add_manifold, hull_of, make_pass, sides_by_kind
 from physics.collision.masks import PlacedRaster, collide_mask_hull, hull_bounds, least_overlap
 from physics.jit import inlined, subkernel
-from physics.math2d import cosine_and_sine, length_of, turned, unit
+from physics.math2d import cosine_and_sine, norm, rotate, unit
 from physics.raster.bits import is_set
 from physics.raster.exact import (
     ROUNDED,
@@ -160,7 +160,7 @@ def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
     cosine, sine = cosine_and_sine(p.angle - b.angle, max(abs(p.angle), abs(b.angle)))
     count = 1
     if o.kind == CIRCLE:
-        u, v = turned(o.local_x, o.local_y, cosine, sine)
+        u, v = rotate(o.local_x, o.local_y, cosine, sine)
         corners_out[0, 0] = x + u
         corners_out[0, 1] = y + v
     else:
@@ -191,7 +191,7 @@ def collide_in_raster(rasters, words, mask, hull, depths_out):
 def out_of_mask(geometry, body, shape, nx, ny, x, y):
     """Return a normal and a point in the raster of a mask that is not snapped, transformed to the world."""
     cosine, sine = cosine_and_sine(body.angle, body.angle)
-    wx, wy = turned(nx, ny, cosine, sine)
+    wx, wy = rotate(nx, ny, cosine, sine)
     px, py = out_of_raster(geometry.rasters[raster_of_shape(geometry, shape)], body, cosine, sine, x, y)
     return wx, wy, px, py
 
@@ -291,13 +291,13 @@ def area_normal(pair, area):
     above, _, _ = shared_at(pair, pair.u, pair.v - 1.0)
     below, _, _ = shared_at(pair, pair.u, pair.v + 1.0)
     nx, ny = unit(before - behind, above - below, 1.0, 0.0)
-    return nx, ny, length_of(before - behind, above - below) > NOISE * area
+    return nx, ny, norm(before - behind, above - below) > NOISE * area
 
 
 @subkernel
 def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
     """Return the move [px] along a normal in the world that ends the overlap; > most if none up to it does."""
-    rx, ry = turned(nx, ny, turn_cosine, -turn_sine)
+    rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
     return squares_way_out(
         pair.rasters, pair.words, pair.frame, pair.other, pair.u, pair.v, pair.cosine, pair.sine, rx, ry, most
     )
@@ -316,7 +316,7 @@ def exact_contact(pair, a, b, turn_cosine, turn_sine):
     area = max(area, slack * slack)
     axis_x, axis_y, least = least_overlap(a.max_x - b.min_x, b.max_x - a.min_x, a.max_y - b.min_y, b.max_y - a.min_y)
     nx, ny, is_sloped = area_normal(pair, area)
-    nx, ny = turned(nx, ny, turn_cosine, turn_sine)
+    nx, ny = rotate(nx, ny, turn_cosine, turn_sine)
     if not is_sloped:
         nx, ny, is_sloped = boxes_normal(a, b)
     depth = math.inf

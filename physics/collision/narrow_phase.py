@@ -125,7 +125,7 @@ def collide_boxes(
 # The kind of each candidate pair, and which pairs a pass reads.
 
 # Counters after the kinds of pairs: pairs with a part, and pairs with a mask whose raster is drawn for the test.
-PARTED, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
+WITH_CHILD, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
 
 
 @inlined
@@ -172,7 +172,7 @@ def boxes_apart(a, b, margin):
 
 
 @inlined
-def kind_asked(bodies, a, b, margin, ahead, which):
+def kind_asked(bodies, a, b, margin, lookahead, which):
     """Return the kind of a candidate pair of SHAPE rows, NOTHING if this pass does not read it. which: see classify."""
     if not is_wanted(which, a, b):
         return NOTHING
@@ -182,14 +182,14 @@ def kind_asked(bodies, a, b, margin, ahead, which):
     if which == SENSORS:
         margin += drawn_beyond(bodies[a.body_row], a) + drawn_beyond(bodies[b.body_row], b)
     if boxes_apart(a, b, margin):
-        if ahead <= 0.0 or kind > POLYGONS:
+        if lookahead <= 0.0 or kind > POLYGONS:
             return NOTHING
         p = bodies[a.body_row]
         q = bodies[b.body_row]
-        if ahead * closing_speed_bound(p, q) <= margin:
+        if lookahead * closing_speed_bound(p, q) <= margin:
             return NOTHING
         _, _, speed = center_velocity(p, q)
-        if boxes_apart(a, b, speculative_distance(p, q, speed, margin, ahead)):
+        if boxes_apart(a, b, speculative_distance(p, q, speed, margin, lookahead)):
             return NOTHING
     if which == SOLIDS and not may_change(bodies[a.body_row], bodies[b.body_row]):
         return NOTHING
@@ -197,9 +197,9 @@ def kind_asked(bodies, a, b, margin, ahead, which):
 
 
 @inlined
-def is_of_part(a, b):
+def is_of_child(a, b):
     """Return whether a side of a pair of SHAPE rows is a part of another shape."""
-    return a.owner != a.id or b.owner != b.id
+    return a.parent != a.id or b.parent != b.id
 
 
 @kernel
@@ -210,7 +210,7 @@ def classify(
     candidates,
     count,
     margin,
-    ahead,
+    lookahead,
     which,
     # write
     kind_out,
@@ -221,7 +221,7 @@ def classify(
 
     counts_out[PARTED]: pairs with a part of another shape; counts_out[DRAWN_PAIRS]: pairs with a mask drawn for the
     test. which: ALL, NO_SENSORS, SENSORS, or SOLIDS. SOLIDS are pairs whose contact can change, with boxes within
-    `margin` [px], or that meet within `ahead` [s]. All other pairs are NOTHING.
+    `margin` [px], or that meet within `lookahead` [s]. All other pairs are NOTHING.
     """
     for i in range(len(counts_out)):
         counts_out[i] = 0
@@ -229,11 +229,11 @@ def classify(
     for i in range(count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        kind = kind_asked(bodies, a, b, margin, ahead, which)
+        kind = kind_asked(bodies, a, b, margin, lookahead, which)
         kind_out[i] = kind
         counts_out[kind] += 1
         if kind != NOTHING:
-            counts_out[PARTED] += int(is_of_part(a, b))
+            counts_out[WITH_CHILD] += int(is_of_child(a, b))
             counts_out[DRAWN_PAIRS] += int(is_drawn_when_asked(a) or is_drawn_when_asked(b))
             sensors += int(a.sensor or b.sensor)
     work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
@@ -317,7 +317,7 @@ class NarrowPhase:
         bias: float = 0.0,
         previous: np.ndarray | None = None,
         graze: float = 0.0,
-        ahead: float = 0.0,
+        lookahead: float = 0.0,
     ) -> np.ndarray:
         """Return the manifolds of the candidate pairs, in their order: a view that the call after the next one
         overwrites.
@@ -325,16 +325,16 @@ class NarrowPhase:
         The masks among them are drawn at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2)
         int64 shape rows; margin [px]: largest gap of a contact; work: counters; which: see classify; bias [px]: see
         hulls.collide_hulls. previous: manifolds of the last step, which report the bodies on one-way ground. graze
-        [px], ahead [s]: see Batch.
+        [px], lookahead [s]: see Batch.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
         count = len(candidates)
-        margin, bias, graze, ahead = float(margin), float(bias), float(graze), float(ahead)
-        batch = self.batch_of(library, bodies, shapes, candidates, margin, bias, graze, ahead)
+        margin, bias, graze, lookahead = float(margin), float(bias), float(graze), float(lookahead)
+        batch = self.batch_of(library, bodies, shapes, candidates, margin, bias, graze, lookahead)
         if self.boxes_only:
             return self.find_boxes(batch, which, work)
-        classify(bodies, shapes, candidates, count, margin, ahead, which, self.kinds, self.counts, work)
+        classify(bodies, shapes, candidates, count, margin, lookahead, which, self.kinds, self.counts, work)
         if self.counts[DRAWN_PAIRS]:
             draw_masks(library, np.unique(candidates[self.kinds[:count] != NOTHING]), bodies, shapes)
             batch = batch._replace(geometry=library.tables)
@@ -349,22 +349,22 @@ class NarrowPhase:
         margin: float,
         bias: float,
         graze: float,
-        ahead: float,
+        lookahead: float,
     ) -> Batch:
         """Return the input of the passes over these candidates, with room for their kinds; see collide and Batch."""
         count = len(candidates)
         self._make_room_for_pairs(count)
-        return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, ahead)
+        return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, lookahead)
 
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
         """Return the contacts of the candidates from their AABBs alone; see is_asked."""
         found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
         return self.raw[:found]  # a larger table than before, where there was no room
 
-    def complete(self, batch: Batch, previous: np.ndarray | None, again: int, work: np.ndarray) -> np.ndarray:
+    def complete(self, batch: Batch, previous: np.ndarray | None, recycled: int, work: np.ndarray) -> np.ndarray:
         """Return the manifolds of all pairs whose kinds are counted, in the order of the candidates.
 
-        again: number of manifolds that are in self.raw already.
+        recycled: number of manifolds that are in self.raw already.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -372,11 +372,11 @@ class NarrowPhase:
             workspace = self._remember(batch, previous) if remembered else workspace
             if counts[SURFACE_ANY]:
                 admit_to_surfaces(batch, remembered, workspace, self.kinds, counts)
-        counts, found, orders = counts.tolist(), again, int(again > 0)
+        counts, found, orders = counts.tolist(), recycled, int(recycled > 0)
         if any(counts[:NOTHING]):
-            found, parts = self._detect(batch, workspace, previous, counts, again, work)
+            found, parts = self._detect(batch, workspace, previous, counts, recycled, work)
             orders += parts
-        if counts[PARTED] and (counts[POLYGONS] or again):
+        if counts[WITH_CHILD] and (counts[POLYGONS] or recycled):
             found = drop_opposed(batch.bodies, found, batch.margin, self._deep_for(found), self.raw)
         if orders < 2:
             return self.raw[:found]
@@ -385,8 +385,8 @@ class NarrowPhase:
         place_in_order(self.raw, found, batch.count, self.kinds, self.ordered)
         return self.ordered[:found]
 
-    def _detect(self, batch, workspace, previous, counts, again, work) -> tuple[int, int]:
-        """Add the manifolds of the pairs whose kinds are counted after the first `again`.
+    def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
+        """Add the manifolds of the pairs whose kinds are counted after the first `recycled`.
 
         Return their number, with the first ones, and the number of runs added, each in the order of the candidates.
         """
@@ -396,7 +396,7 @@ class NarrowPhase:
             self.workspace = self.workspace._replace(fallback=workspace.fallback)
 
         def run_all():
-            found = again
+            found = recycled
             workspace.fallback[0] = 0
             for run in used:
                 found = run(batch, workspace, self.raw, found, work)
@@ -495,7 +495,7 @@ def detect(state: StepState) -> np.ndarray:
     return manifolds
 
 
-def touch_where_they_are(state: StepState, met: np.ndarray) -> None:
+def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
     """Write points, normals and separations of manifolds found by a sweep, at the poses it has set."""
     found = state.workspace.narrow.collide(
         state.library,

@@ -4,7 +4,7 @@ import math
 
 from physics.collision.hulls import CIRCLE_CORNER, CORNERS, PART
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import heading, length_of, turned, unit
+from physics.math2d import norm, rotate, rotation_of, unit
 from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE, RECYCLE_WANDER
 from physics.shapes.library import add_missing_rasters
 from physics.shapes.placement import is_hull, refresh_boxes
@@ -71,14 +71,14 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
     first."""
     span = polygons[shape.geometry]
     c = table[span.offset + (corner if corner < span.count else 0)]
-    return length_of(c.x - local_x, c.y - local_y) <= SAME * body.extent
+    return norm(c.x - local_x, c.y - local_y) <= SAME * body.extent
 
 
 @subkernel
 def core_in_body(body, cosine, sine, x, y, nx, ny, inside, behind):
     """Return a point in body space, moved by `inside` [px] along the normal and `behind` [px] against the tangent
     (-ny, nx)."""
-    return turned(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, cosine, -sine)
+    return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, cosine, -sine)
 
 
 @subkernel
@@ -135,16 +135,16 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
     c.radius_a = core_radius(s)
     c.radius_b = core_radius(o)
     c.frame = frame_of(s, o, c.feature_1, c.radius_a + c.radius_b)
-    a_cosine, a_sine = heading(a.angle)
-    b_cosine, b_sine = heading(b.angle)
+    a_cosine, a_sine = rotation_of(a.angle)
+    b_cosine, b_sine = rotation_of(b.angle)
     nx = c.normal_x
     ny = c.normal_y
     c.local_nx = nx
     c.local_ny = ny
     if c.frame == WITH_A:
-        c.local_nx, c.local_ny = turned(nx, ny, a_cosine, -a_sine)
+        c.local_nx, c.local_ny = rotate(nx, ny, a_cosine, -a_sine)
     elif c.frame == WITH_B:
-        c.local_nx, c.local_ny = turned(nx, ny, b_cosine, -b_sine)
+        c.local_nx, c.local_ny = rotate(nx, ny, b_cosine, -b_sine)
     c.angle_a = a.angle
     c.angle_b = b.angle
     c.held_nx = nx
@@ -157,7 +157,9 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
     c.held_ay_2 = 0.0
     half = 0.5 * c.separation_1
     c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, c.x_1, c.y_1, nx, ny, -(half + c.radius_a), 0.0)
-    c.local_bx_1, c.local_by_1 = core_in_body(b, b_cosine, b_sine, c.x_1, c.y_1, nx, ny, half + c.radius_b, c.lead)
+    c.local_bx_1, c.local_by_1 = core_in_body(
+        b, b_cosine, b_sine, c.x_1, c.y_1, nx, ny, half + c.radius_b, c.tangential_offset
+    )
     c.base_1 = c.separation_1
     c.share_1 = share_of(polygons, table, a, b, c, s, o, False)
     c.local_ax_2 = 0.0
@@ -171,7 +173,9 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
         c.held_ay_2 = c.y_2 - a.center_y
         half = 0.5 * c.separation_2
         c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, c.x_2, c.y_2, nx, ny, -(half + c.radius_a), 0.0)
-        c.local_bx_2, c.local_by_2 = core_in_body(b, b_cosine, b_sine, c.x_2, c.y_2, nx, ny, half + c.radius_b, c.lead)
+        c.local_bx_2, c.local_by_2 = core_in_body(
+            b, b_cosine, b_sine, c.x_2, c.y_2, nx, ny, half + c.radius_b, c.tangential_offset
+        )
         c.base_2 = c.separation_2
         c.share_2 = share_of(polygons, table, a, b, c, s, o, True)
 
@@ -213,8 +217,8 @@ def cores_at(a, a_cosine, a_sine, b, b_cosine, b_sine, local_ax, local_ay, local
 
     a, b: BODY rows, with cosine and sine of their angles; local [px]: the cores in the body spaces.
     """
-    ax, ay = turned(local_ax, local_ay, a_cosine, a_sine)
-    bx, by = turned(local_bx, local_by, b_cosine, b_sine)
+    ax, ay = rotate(local_ax, local_ay, a_cosine, a_sine)
+    bx, by = rotate(local_bx, local_by, b_cosine, b_sine)
     ax += a.x
     ay += a.y
     return ax, ay, (b.x + bx) - ax, (b.y + by) - ay
@@ -269,7 +273,7 @@ def update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, contact_ino
     """
     c = contact_inout
     two = c.count == 2
-    c.lead = 0.0
+    c.tangential_offset = 0.0
     ax_1, ay_1, dx_1, dy_1 = cores_at(
         a, a_cosine, a_sine, b, b_cosine, b_sine, c.local_ax_1, c.local_ay_1, c.local_bx_1, c.local_by_1
     )
@@ -285,12 +289,12 @@ def update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, contact_ino
     if c.frame == CORES:
         nx, ny = unit(dx_1, dy_1, c.normal_x, c.normal_y)
         # Relative to the normal at detection: a body that rolls around a corner leaves it.
-        rolled = length_of(nx - c.local_nx, ny - c.local_ny) * max(c.radius_a, c.radius_b)
+        rolled = norm(nx - c.local_nx, ny - c.local_ny) * max(c.radius_a, c.radius_b)
     else:
         if c.frame == WITH_A:
-            nx, ny = turned(nx, ny, a_cosine, a_sine)
+            nx, ny = rotate(nx, ny, a_cosine, a_sine)
         elif c.frame == WITH_B:
-            nx, ny = turned(nx, ny, b_cosine, b_sine)
+            nx, ny = rotate(nx, ny, b_cosine, b_sine)
         moved = max(abs(dy_1 * nx - dx_1 * ny), abs(dy_2 * nx - dx_2 * ny))
     c.normal_x = nx + 0.0
     c.normal_y = ny + 0.0
@@ -337,10 +341,10 @@ def update_contacts(
         # The contacts of a pair, and often those of a body, are adjacent.
         if c.body_row_a != row_a:
             row_a = c.body_row_a
-            a_cosine, a_sine = heading(a.angle)
+            a_cosine, a_sine = rotation_of(a.angle)
         if c.body_row_b != row_b:
             row_b = c.body_row_b
-            b_cosine, b_sine = heading(b.angle)
+            b_cosine, b_sine = rotation_of(b.angle)
         update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, 0.0, c)
 
 
@@ -410,7 +414,7 @@ def is_unmoved(body):
 
     Moving a body through the API clears the flag; a direct write to the table shows in the pose.
     """
-    return body.followed and is_settled(body)
+    return body.has_current_contacts and is_settled(body)
 
 
 # ---- final poses -----------------------------------------------------------------------------------------------------
@@ -444,16 +448,16 @@ def update_and_flag(
         # The contacts of a pair, and often those of a body, are adjacent.
         if c.body_row_a != row_a:
             row_a = c.body_row_a
-            a_cosine, a_sine = heading(a.angle)
-            a.followed = is_settled(a)
+            a_cosine, a_sine = rotation_of(a.angle)
+            a.has_current_contacts = is_settled(a)
         if c.body_row_b != row_b:
             row_b = c.body_row_b
-            b_cosine, b_sine = heading(b.angle)
-            b.followed = is_settled(b)
+            b_cosine, b_sine = rotation_of(b.angle)
+            b.has_current_contacts = is_settled(b)
         fits = can_recycle(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, distance, RECYCLE_WANDER * distance, c)
         if not fits:
             update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, 0.0, c)
-        c.again = fits and not c.swept
+        c.can_recycle = fits and not c.swept
 
 
 @kernel
@@ -481,7 +485,7 @@ def update_final_poses(
     writes=(
         "contact_rows",
         "library",
-        "bodies.followed",
+        "bodies.has_current_contacts",
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
 )

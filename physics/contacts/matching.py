@@ -7,11 +7,20 @@ import numpy as np
 
 from physics.collision.hull_pairs import approach
 from physics.collision.manifold import NOTHING, Batch, is_before, is_of, mixed
-from physics.collision.narrow_phase import BIAS, GRAZE, PARTED, SOLIDS, NarrowPhase, is_of_part, kind_asked, no_work
+from physics.collision.narrow_phase import (
+    BIAS,
+    GRAZE,
+    SOLIDS,
+    WITH_CHILD,
+    NarrowPhase,
+    is_of_child,
+    kind_asked,
+    no_work,
+)
 from physics.contacts.cache import can_recycle, is_finite, is_unmoved, reset_impulses, write_cache
 from physics.islands.sleep import order_of
 from physics.jit import copy_head, copy_row, inlined, kernel, subkernel
-from physics.math2d import heading
+from physics.math2d import rotation_of
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.contact import CONTACT, MANIFOLD_BYTES
 from physics.tables.shape import CHAIN, MASK, PIXELS
@@ -206,7 +215,7 @@ def recycle_contacts(
         counts_out[kind] += 1
         if kind == NOTHING:
             continue
-        counts_out[PARTED] += int(is_of_part(a, b))
+        counts_out[WITH_CHILD] += int(is_of_child(a, b))
         while j < len(previous_inout) and is_before(previous_inout[j], a.id, b.id):
             stale_out[stale] = j
             stale += 1
@@ -223,11 +232,11 @@ def recycle_contacts(
         fits, last = True, j
         while last < len(previous_inout) and is_of(previous_inout[last], a.id, b.id):
             c = previous_inout[last]
-            if fits and not (unmoved and c.again and is_finite(c)):
+            if fits and not (unmoved and c.can_recycle and is_finite(c)):
                 c.row_a = candidates[i, 0]
                 c.row_b = candidates[i, 1]
-                p_cosine, p_sine = heading(p.angle)
-                q_cosine, q_sine = heading(q.angle)
+                p_cosine, p_sine = rotation_of(p.angle)
+                q_cosine, q_sine = rotation_of(q.angle)
                 fits = not c.swept and can_recycle(
                     shapes, p, p_cosine, p_sine, q, q_cosine, q_sine, distance, math.inf, c
                 )
@@ -244,7 +253,7 @@ def recycle_contacts(
         stale_out[stale] = k
         stale += 1
     work_inout[NARROW_TESTS] += batch.count - counts_out[NOTHING]
-    asking = counts_out[PARTED]
+    asking = counts_out[WITH_CHILD]
     for kind in range(NOTHING):
         asking += counts_out[kind]
     return stale, asking
@@ -295,7 +304,7 @@ class ContactCache:
             return None
         stale = self.stale[:stale_count]
         recycled = 0
-        if stale_count < len(previous) and narrow.counts[PARTED]:
+        if stale_count < len(previous) and narrow.counts[WITH_CHILD]:
             # The contact of a part depends on those of the other parts of its shape: all contacts are sorted together.
             recycled = len(previous) - stale_count
             copy_recycled(previous, stale, narrow.room_for(recycled))

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of, unit
+from physics.math2d import norm, unit
 
 # ---- gjk -------------------------------------------------------------------------------------------------------------
 # Distance of two convex hulls by the algorithm of Gilbert, Johnson and Keerthi (GJK) in two dimensions.
@@ -102,10 +102,10 @@ def edge_distance(a, b, p, q, simplex):
     y = simplex[p, 3]
     region = region_of(x, y, ex, ey)
     if region < 0:
-        return length_of(x, y)
+        return norm(x, y)
     if region > 0:
-        return length_of(simplex[q, 2], simplex[q, 3])
-    length = length_of(ex, ey)
+        return norm(simplex[q, 2], simplex[q, 3])
+    length = norm(ex, ey)
     return abs(ex * y - ey * x) / length
 
 
@@ -238,7 +238,7 @@ def write_nearest(a, b, state, simplex, gap_out):
         write_edge_gap(a, b, i, j, int(simplex[1, 0]), int(simplex[1, 1]), state[NORMAL_X], state[NORMAL_Y], gap_out)
         return
     write_edge_gap(a, b, i, j, i, j, state[NORMAL_X], state[NORMAL_Y], gap_out)
-    gap_out[SEPARATION] = length_of(simplex[0, 2], simplex[0, 3])
+    gap_out[SEPARATION] = norm(simplex[0, 2], simplex[0, 3])
 
 
 @subkernel
@@ -433,7 +433,7 @@ def box_gap(boxes_a, i, boxes_b, j):
     """Return the distance [px] of two boxes (min_x, min_y, max_x, max_y), 0 when they overlap."""
     across = max(0.0, max(boxes_a[i, 0] - boxes_b[j, 2], boxes_b[j, 0] - boxes_a[i, 2]))
     down = max(0.0, max(boxes_a[i, 1] - boxes_b[j, 3], boxes_b[j, 1] - boxes_a[i, 3]))
-    return length_of(across, down)
+    return norm(across, down)
 
 
 @subkernel

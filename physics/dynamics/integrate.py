@@ -9,7 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.math2d import heading, turned
+from physics.math2d import rotate, rotation_of
 from physics.shapes.library import add_missing_rasters
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.body import DYNAMIC, STATIC
@@ -88,11 +88,11 @@ def make_position_pass(rotation: bool) -> Callable:
             work_inout[BODIES_INTEGRATED] += 1
             h = dt * b.fraction
             if rotation and b.angular_velocity != 0.0:
-                u, v = turned(b.local_center_x, b.local_center_y, *heading(b.angle))
+                u, v = rotate(b.local_center_x, b.local_center_y, *rotation_of(b.angle))
                 center_x = b.x + u + h * b.vx
                 center_y = b.y + v + h * b.vy
                 b.angle += h * b.angular_velocity
-                u, v = turned(b.local_center_x, b.local_center_y, *heading(b.angle))
+                u, v = rotate(b.local_center_x, b.local_center_y, *rotation_of(b.angle))
                 b.x = center_x - u
                 b.y = center_y - v
             else:
@@ -108,7 +108,7 @@ def put_center(u, v, body_inout):
     b = body_inout
     b.center_x = b.x + u
     b.center_y = b.y + v
-    b.followed = False
+    b.has_current_contacts = False
     if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
         b.settled_x = b.x
         b.settled_y = b.y
@@ -125,7 +125,7 @@ def refresh_center(body_inout):
         u = math.nan
         v = math.nan
     elif b.angle != 0.0:
-        u, v = turned(u, v, *heading(b.angle))
+        u, v = rotate(u, v, *rotation_of(b.angle))
     put_center(u, v, b)
 
 
@@ -166,7 +166,7 @@ def integrate_velocities(state: StepState) -> None:
         "work",
         "library",
         *(f"bodies.{name}" for name in ("x", "y", "angle", "previous_x", "previous_y", "previous_angle")),
-        *(f"bodies.{name}" for name in ("center_x", "center_y", "followed")),
+        *(f"bodies.{name}" for name in ("center_x", "center_y", "has_current_contacts")),
         *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
         *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),

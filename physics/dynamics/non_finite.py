@@ -28,7 +28,7 @@ READS = (
     "bodies",
     "shapes",
     "awake",
-    "sleepers",
+    "sleeping_set",
     "pairs",
     "contact_rows",
     "touching",
@@ -44,7 +44,7 @@ WRITES = (
     "events",
     "pairs",
     "awake",
-    "sleepers",
+    "sleeping_set",
     "contact_rows",
     "touching",
     "sensing",
@@ -53,13 +53,13 @@ WRITES = (
     "bodies.island",
     *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "awake", "active", "quarantined")),
     *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-    "bodies.followed",
+    "bodies.has_current_contacts",
     *(f"bodies.{name}" for name in REST),
 )
 
 
 @subkernel
-def put_aside(body_inout):
+def disable_body(body_inout):
     """Quarantine a body at its present pose: at rest and without forces."""
     b = body_inout
     b.previous_x = b.x
@@ -76,13 +76,13 @@ def put_aside(body_inout):
 
 
 @subkernel
-def is_somewhere(body):
+def is_within_limits(body):
     """Return whether the pose of a body is one that a double resolves."""
     return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
 
 
 @subkernel
-def is_sound(body, gravity_x, gravity_y, speed_limit, dt):
+def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
     """Return whether a step of dt [s] can use a body.
 
     All numbers read must be finite, and a double must resolve the pose at the end of its motion; otherwise the fault
@@ -93,7 +93,7 @@ def is_sound(body, gravity_x, gravity_y, speed_limit, dt):
     vy = b.vy + dt * (b.inverse_mass * b.force_y + b.gravity_scale * gravity_y)
     spin = b.angular_velocity + dt * b.inverse_inertia * b.torque
     # x - x == 0 only for finite x.
-    sizes = b.mass + b.inertia + b.smallest_half + b.thin_half + b.fraction
+    sizes = b.mass + b.inertia + b.min_half_extent + b.inradius + b.fraction
     return (
         abs(b.vx) < speed_limit
         and abs(b.vy) < speed_limit
@@ -132,20 +132,20 @@ def take_broken_bodies(
         b = bodies_inout[rows[k]]
         if b.quarantined:
             continue
-        there = is_somewhere(b)
-        if not there or not is_sound(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
+        there = is_within_limits(b)
+        if not there or not is_finite_in_step(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
             broken_out[found] = rows[k]
             found += 1
             if not there:
                 b.x = b.settled_x
                 b.y = b.settled_y
                 b.angle = b.settled_angle
-            put_aside(b)
+            disable_body(b)
     return found
 
 
 @subkernel
-def is_sound_walk(character):
+def is_finite_character(character):
     """Return whether all numbers of a character are finite (x - x == 0 only for finite x) and within the position
     limit."""
     c = character
@@ -179,7 +179,7 @@ def take_broken_shapes(
         if not b.quarantined:
             broken_out[found] = s.body_row
             found += 1
-            put_aside(b)
+            disable_body(b)
     return found
 
 
@@ -209,7 +209,7 @@ def take_turned_grids(
         broken_out[found] = s.body_row
         found += 1
         b.angle = 0.0
-        put_aside(b)
+        disable_body(b)
     return found
 
 
@@ -229,10 +229,10 @@ def take_broken_characters(
     found = first
     for k in range(len(characters)):
         b = bodies_inout[characters[k].body_row]
-        if not b.quarantined and not is_sound_walk(characters[k]):
+        if not b.quarantined and not is_finite_character(characters[k]):
             broken_out[found] = characters[k].body_row
             found += 1
-            put_aside(b)
+            disable_body(b)
     return found
 
 
@@ -297,10 +297,10 @@ def quarantine(state: StepState) -> None:
         _take_out(state, dict(zip(broken[: len(reasons)].tolist(), reasons.tolist(), strict=True)))
 
 
-@stage("quarantine_solved", reads=(*READS, "unsound", "workspace"), writes=(*WRITES, "workspace"))
+@stage("quarantine_solved", reads=(*READS, "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
     """Disable the bodies that a solver did not keep finite, with their contacts, before sweeps and reports."""
-    if not state.unsound:
+    if not state.non_finite_count:
         return
     broken, course = state.workspace.rows_for(len(state.bodies)), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
     found = take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)

@@ -33,7 +33,7 @@ def is_active(body):
 @subkernel
 def wakes(body, other):
     """Return whether a body wakes a sleeping one on contact: it may move, or was edited."""
-    return other.kind == DYNAMIC and not other.awake and (body.stirred or is_active(body))
+    return other.kind == DYNAMIC and not other.awake and (body.dirty or is_active(body))
 
 
 @kernel
@@ -70,7 +70,7 @@ class Awake:
         self.bodies = self.shapes = NONE
         self.dynamic = NONE  # rows of the awake dynamic bodies
         self.kinematic = NONE  # rows of all kinematic bodies
-        self.stirred = []  # ids of bodies that were added or edited since the last step
+        self.dirty = []  # ids of bodies that were added or edited since the last step
         self.fresh = NONE  # rows of these in the step
         self.numbers = NONE  # 0, 1, 2 …
         self.order, self.starts = NONE, np.zeros(1, np.int64)  # shape rows by body row
@@ -81,10 +81,10 @@ class Awake:
         """Mark the lists to be built again: tables were replaced, rows dropped, or kinds of bodies changed."""
         self.stale = True
 
-    def stir(self, ids: list[int]) -> None:
+    def mark_dirty(self, ids: list[int]) -> None:
         """Add bodies, by id, to the rows of the next step, because they were added or edited."""
         if self.sleeping:
-            self.stirred += ids
+            self.dirty += ids
 
     def all_rows(self, bodies: np.ndarray, shapes: np.ndarray) -> None:
         """Set the lists to all rows: for worlds without sleeping."""
@@ -152,8 +152,8 @@ class Awake:
     def may_move(self, bodies: np.ndarray, before: np.ndarray) -> np.ndarray:
         """Return the body rows whose pose may differ from when the rows of `before` were awake, at most one step
         ago."""
-        stirred = rows_of(bodies, np.array(self.stirred, np.int64))
-        return np.unique(np.concatenate([before, self.bodies, self.dynamic, self.kinematic, stirred[stirred >= 0]]))
+        dirty = rows_of(bodies, np.array(self.dirty, np.int64))
+        return np.unique(np.concatenate([before, self.bodies, self.dynamic, self.kinematic, dirty[dirty >= 0]]))
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
         """Return the shape rows of these body rows, ascending."""
@@ -186,8 +186,8 @@ class Awake:
 
 @stage(
     "awake",
-    reads=("bodies", "shapes", "characters", "awake", "sleepers", "pairs", "touching", "sensing"),
-    writes=("awake", "sleepers", "pairs", "touching", "sensing", "bodies.active", "bodies.stirred"),
+    reads=("bodies", "shapes", "characters", "awake", "sleeping_set", "pairs", "touching", "sensing"),
+    writes=("awake", "sleeping_set", "pairs", "touching", "sensing", "bodies.active", "bodies.dirty"),
 )
 def list_awake(state: StepState) -> None:
     """List the rows of this step, and update non-dynamic bodies that begin or cease to move."""
@@ -197,14 +197,14 @@ def list_awake(state: StepState) -> None:
     moving = moving[: list_active(bodies, awake.kinematic, moving)]
     wanted = [awake.dynamic, moving]
     if len(awake.fresh):
-        bodies["stirred"] = False  # left by a step that raised an error
+        bodies["dirty"] = False  # left by a step that raised an error
         awake.fresh = NONE
-    if awake.stirred:
-        stirred = rows_of(bodies, np.array(awake.stirred, np.int64))
-        awake.fresh = stirred[stirred >= 0]
-        bodies["stirred"][awake.fresh] = True
+    if awake.dirty:
+        dirty = rows_of(bodies, np.array(awake.dirty, np.int64))
+        awake.fresh = dirty[dirty >= 0]
+        bodies["dirty"][awake.fresh] = True
         wanted.append(awake.fresh)
-        awake.stirred = []
+        awake.dirty = []
     if len(state.characters):
         wanted.append(state.characters["body_row"])
     rows = np.unique(np.concatenate(wanted)) if sum(map(len, wanted)) > len(awake.dynamic) else awake.dynamic
@@ -215,7 +215,7 @@ def list_awake(state: StepState) -> None:
     ended = np.setdiff1d(awake.bodies, rows, assume_unique=True)
     if len(begun):
         awake.include(state, begun)
-        state.sleepers.return_told(state, bodies["id"][begun])
+        state.sleeping_set.return_reported(state, bodies["id"][begun])
     if len(ended):
         awake.exclude(state, ended)
-        state.sleepers.keep_told(state)
+        state.sleeping_set.keep_reported(state)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import length_of
+from physics.math2d import norm
 from physics.tables.body import DYNAMIC
 from physics.tables.table import join_trees, root_of
 
@@ -274,8 +274,8 @@ def keep_free_awake(
             if away * away < 2.0 * g.press[root] * fall.slop:
                 vx -= away * g.nx[root]
                 vy -= away * g.ny[root]
-            way += length_of(vx, vy) * fall.velocity_reach
-            way += length_of(g.ax[root], g.ay[root]) * fall.acceleration_reach
+            way += norm(vx, vy) * fall.velocity_reach
+            way += norm(g.ax[root], g.ay[root]) * fall.acceleration_reach
         if way > fall.slop:
             least_out[islands[i]] = 0.0
 

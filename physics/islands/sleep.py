@@ -10,7 +10,7 @@ from physics.islands.awake import is_active, list_active, wakes
 from physics.islands.free_motion import free_fall, is_free, keep_awake_what_moves_freely, new_groups
 from physics.islands.graph import MOST_NODES, NO_NODE, join, new_edges, write_pair
 from physics.jit import inlined, kernel
-from physics.math2d import length_of
+from physics.math2d import norm
 from physics.settings import SLEEP_TIME
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.contact import CONTACT, EVENT
@@ -29,7 +29,7 @@ class Island(NamedTuple):
     touching: np.ndarray  # EVENT rows: its touching pairs
 
 
-class Sleepers:
+class SleepingSet:
     """The sleeping set of a world: islands by the lowest id of their bodies, and touching pairs of bodies at rest."""
 
     def __init__(self) -> None:
@@ -84,9 +84,11 @@ class Sleepers:
             self.put(key, Island(island.bodies, m[~goes], t[~told]))
         return found
 
-    def keep_touching(self, rows: np.ndarray, parked: np.ndarray, keys: np.ndarray) -> None:
+    def keep_touching(self, rows: np.ndarray, fell_asleep: np.ndarray, keys: np.ndarray) -> None:
         """Store the touching pairs, EVENT rows, of islands that have just fallen asleep."""
-        place = np.searchsorted(parked["shape_a"] << 32 | parked["shape_b"], rows["shape_a"] << 32 | rows["shape_b"])
+        place = np.searchsorted(
+            fell_asleep["shape_a"] << 32 | fell_asleep["shape_b"], rows["shape_a"] << 32 | rows["shape_b"]
+        )
         owners = keys[place]
         order = np.argsort(owners, kind="stable")
         names, starts = np.unique(owners[order], return_index=True)
@@ -105,7 +107,7 @@ class Sleepers:
         """Return the CONTACT rows of all islands in the order of shape ids."""
         return in_order(joined([np.zeros(0, CONTACT), *(each.contacts for each in self.islands.values())]))
 
-    def keep_told(self, tables: WorldTables) -> None:
+    def keep_reported(self, tables: WorldTables) -> None:
         """Store the touching and sensed pairs that have no side in the step any longer."""
         self.touching = np.concatenate([self.touching, tables.touching.take_resting(tables.bodies)])
         self.sensing = np.concatenate([self.sensing, tables.sensing.take_resting(tables.bodies)])
@@ -116,7 +118,7 @@ class Sleepers:
             getattr(tables, name).give_back(getattr(self, name))
             setattr(self, name, np.zeros(0, EVENT))
 
-    def return_told(self, tables: WorldTables, ids: np.ndarray) -> None:
+    def return_reported(self, tables: WorldTables, ids: np.ndarray) -> None:
         """Return the stored pairs that refer to one of these bodies to the step."""
         for name in ("touching", "sensing"):
             kept = getattr(self, name)
@@ -151,21 +153,21 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
     The bodies take part in the next step, and their sleep time begins at 0.
     """
-    awake, sleepers = tables.awake, tables.sleepers
+    awake, sleeping_set = tables.awake, tables.sleeping_set
     if not awake.sleeping:
         return
     ids = [int(each) for each in ids]
-    sleepers.return_told(tables, ids)
-    awake.stir(ids)
+    sleeping_set.return_reported(tables, ids)
+    awake.mark_dirty(ids)
     rows = rows_of(tables.bodies, ids)
     tables.bodies["sleep_time"][rows[rows >= 0]] = 0.0
     keys = set()
     for identity, row in zip(ids, rows.tolist(), strict=True):
-        keys |= sleepers.links.get(identity, set())
+        keys |= sleeping_set.links.get(identity, set())
         own = int(tables.bodies["island"][row]) if row >= 0 else -1
-        if own in sleepers.islands and row >= 0 and not tables.bodies["awake"][row]:
+        if own in sleeping_set.islands and row >= 0 and not tables.bodies["awake"][row]:
             keys.add(own)
-            keys |= _islands_beside(tables, sleepers.islands[own].contacts, identity)
+            keys |= _islands_beside(tables, sleeping_set.islands[own].contacts, identity)
     wake(tables, keys)
 
 
@@ -174,16 +176,16 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
 
     Return False, with nothing changed, if other pairs of the body may be affected: then call disturb.
     """
-    sleepers = tables.sleepers
+    sleeping_set = tables.sleeping_set
     row = rows_of(tables.bodies, [identity])[0]
     if not tables.awake.sleeping or tables.bodies["active"][row]:
         return False
-    for kept in (sleepers.touching, sleepers.sensing):
+    for kept in (sleeping_set.touching, sleeping_set.sensing):
         if len(kept) and ((kept["body_a"] == identity) | (kept["body_b"] == identity)).any():
             return False
     keys, some = [], set(shapes.tolist())
-    for key in sleepers.links.get(identity, ()):
-        named = sleepers.islands[key].contacts
+    for key in sleeping_set.links.get(identity, ()):
+        named = sleeping_set.islands[key].contacts
         if not (some.isdisjoint(named["shape_a"].tolist()) and some.isdisjoint(named["shape_b"].tolist())):
             keys.append(key)
     wake(tables, keys)
@@ -196,28 +198,28 @@ def _islands_beside(tables, manifolds, identity):
     others = np.union1d(own["body_a"], own["body_b"])
     rows = rows_of(tables.bodies, others)
     asleep = ~tables.bodies["awake"][rows] & (rows >= 0)
-    return {key for key in tables.bodies["island"][rows[asleep]].tolist() if key in tables.sleepers.islands}
+    return {key for key in tables.bodies["island"][rows[asleep]].tolist() if key in tables.sleeping_set.islands}
 
 
 def wake_all(tables: WorldTables) -> None:
     """Wake all islands, after a change of gravity or of the solver."""
-    wake(tables, list(tables.sleepers.islands))
+    wake(tables, list(tables.sleeping_set.islands))
 
 
 def wake(tables: WorldTables, keys: Iterable[int]) -> None:
     """Wake islands: return their bodies, and the contacts that refer to these, to the step."""
-    sleepers = tables.sleepers
-    keys = [key for key in sorted(keys) if key in sleepers.islands]
+    sleeping_set = tables.sleeping_set
+    keys = [key for key in sorted(keys) if key in sleeping_set.islands]
     if not keys:
         return
     bodies, parts, told = tables.bodies, [], []
-    woken = [sleepers.take(key) for key in keys]
+    woken = [sleeping_set.take(key) for key in keys]
     ids = np.concatenate([island.bodies for island in woken])
     for island in woken:
         parts.append(island.contacts)
         told.append(island.touching)
-    for identity in sorted(set(ids.tolist()) & sleepers.links.keys()):
-        for contacts, touching in sleepers.take_naming(identity):
+    for identity in sorted(set(ids.tolist()) & sleeping_set.links.keys()):
+        for contacts, touching in sleeping_set.take_naming(identity):
             parts.append(contacts)
             told.append(touching)
     rows = rows_of(bodies, ids)
@@ -226,7 +228,7 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
     bodies["sleep_time"][rows] = 0.0
     bodies["island"][rows] = -1
     tables.touching.give_back(joined(told))
-    sleepers.return_told(tables, ids)
+    sleeping_set.return_reported(tables, ids)
     tables.awake.include(tables, rows)
     _bring_back(tables, joined(parts))
 
@@ -327,7 +329,7 @@ def find_run_over(
             row = shapes[pairs[i, 1 - side]].body_row
             if b.kind != KINEMATIC or not b.active or bodies[row].kind != DYNAMIC or bodies[row].awake:
                 continue
-            if dt * (length_of(b.vx, b.vy) + b.extent * abs(b.angular_velocity)) > b.thin_half:
+            if dt * (norm(b.vx, b.vy) + b.extent * abs(b.angular_velocity)) > b.inradius:
                 rows_out[found] = row
                 found += 1
     return found
@@ -335,11 +337,11 @@ def find_run_over(
 
 @stage(
     "wake",
-    reads=("bodies", "shapes", "contact_rows", "awake", "sleepers", "pairs", "touching", "sensing", "dt"),
+    reads=("bodies", "shapes", "contact_rows", "awake", "sleeping_set", "pairs", "touching", "sensing", "dt"),
     writes=(
         "contact_rows",
         "awake",
-        "sleepers",
+        "sleeping_set",
         "pairs",
         "touching",
         "sensing",
@@ -351,17 +353,17 @@ def find_run_over(
 )
 def wake_disturbed(state: StepState) -> None:
     """Wake the islands that a moving body touches, and those on a body at rest that has begun to move."""
-    sleepers, bodies = state.sleepers, state.bodies
-    if not sleepers.islands:
+    sleeping_set, bodies = state.sleeping_set, state.bodies
+    if not sleeping_set.islands:
         return
     keys = set()
     rows = state.awake.bodies
     fixed = rows[bodies["kind"][rows] != DYNAMIC]
-    if len(fixed) and sleepers.links:
+    if len(fixed) and sleeping_set.links:
         moving = np.empty(len(fixed), np.int64)
         moving = moving[: list_active(bodies, fixed, moving)]
         for identity in bodies["id"][moving].tolist():
-            keys |= sleepers.links.get(identity, set())
+            keys |= sleeping_set.links.get(identity, set())
     near = np.empty(2 * len(state.contact_rows), np.int64)
     near = near[: find_disturbed(bodies, state.contact_rows, state.dt, near)]
     keys |= set(bodies["island"][near].tolist())
@@ -481,7 +483,7 @@ def advance_sleep_times(
         if not is_free(b):
             continue
         before = b.sleep_time
-        far = length_of(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
+        far = norm(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
         b.sleep_time = 0.0 if far or not b.allow_sleep else before + dt
         # A body that creeps more slowly than this stays near a reference pose that follows it.
         times = b.sleep_time / patience
@@ -501,7 +503,7 @@ def advance_sleep_times(
         root = parents_inout[rows[k]]
         if is_free(b):
             least_out[root] = min(least_out[root], b.sleep_time)
-            speed = length_of(b.vx, b.vy) + abs(b.angular_velocity) * b.extent
+            speed = norm(b.vx, b.vy) + abs(b.angular_velocity) * b.extent
             excess_out[root] += speed * speed - slow * slow
             ready = ready or b.sleep_time >= patience
     return islands, ready
@@ -566,7 +568,7 @@ class IslandWorkspace:
         "shapes",
         "contact_rows",
         "awake",
-        "sleepers",
+        "sleeping_set",
         "pairs",
         "tolerances",
         "gravity",
@@ -578,9 +580,9 @@ class IslandWorkspace:
     writes=(
         "contact_rows",
         "awake",
-        "sleepers",
+        "sleeping_set",
         "pairs",
-        "parked",
+        "fell_asleep",
         "work",
         "workspace",
         "bodies.awake",
@@ -636,7 +638,7 @@ def rest(state: StepState) -> None:
         return
     slept = awake.dynamic[~bodies["awake"][awake.dynamic]]
     awake.exclude(state, slept)
-    state.parked = _park(state, slept)
+    state.fell_asleep = _park(state, slept)
 
 
 def _park(state, slept):
@@ -653,11 +655,11 @@ def _park(state, slept):
     touching = (m["separation_1"] <= slop) | (m["normal_impulse_1"] > 0.0)
     touching |= (m["count"] == 2) & ((m["separation_2"] <= slop) | (m["normal_impulse_2"] > 0.0))
     kept = parking & touching
-    parked, new = m[kept], new[kept]
-    parked["again"] = False  # the other side may move meanwhile
+    fell_asleep, new = m[kept], new[kept]
+    fell_asleep["can_recycle"] = False  # the other side may move meanwhile
     # A body that is not dynamic is in no island, even if it was in one before its kind changed.
     sides = [
-        np.where(bodies["kind"][parked[side]] == DYNAMIC, bodies["island"][parked[side]], -1)
+        np.where(bodies["kind"][fell_asleep[side]] == DYNAMIC, bodies["island"][fell_asleep[side]], -1)
         for side in ("body_row_a", "body_row_b")
     ]
     keys = np.where(new, *sides)
@@ -666,16 +668,16 @@ def _park(state, slept):
     by_island, by_key = np.argsort(islands, kind="stable"), np.argsort(keys, kind="stable")
     names, starts = np.unique(islands[by_island], return_index=True)
     members = np.split(bodies["id"][slept][by_island], starts[1:])
-    own = parked[by_key]
+    own = fell_asleep[by_key]
     cuts = np.searchsorted(keys[by_key], names)
     ends = [*cuts[1:].tolist(), len(own)]
     untold = np.zeros(0, EVENT)
-    put_aside = [
+    disable_body = [
         Island(ids, own[start:end], untold) for ids, start, end in zip(members, cuts.tolist(), ends, strict=True)
     ]
-    foreign = [(sides[k] != keys, parked[name]) for k, name in enumerate(("body_a", "body_b"))]
+    foreign = [(sides[k] != keys, fell_asleep[name]) for k, name in enumerate(("body_a", "body_b"))]
     named = np.concatenate([ids[outside] for outside, ids in foreign]).tolist()
     owners = np.concatenate([keys[outside] for outside, _ in foreign]).tolist()
-    state.sleepers.put_many(names.tolist(), put_aside, named, owners)
+    state.sleeping_set.put_many(names.tolist(), disable_body, named, owners)
     state.contact_rows = m[~parking]
-    return parked, keys
+    return fell_asleep, keys

@@ -342,7 +342,7 @@ def ray_cast_all(
         if first and len(hits) and hits[:, 1].min() * pieces < piece + 1:
             break
     hits = hits[np.lexsort((hits[:, 0], hits[:, 1]))]
-    _, nearest = np.unique(world.shapes["owner"][hits[:, 0].astype(np.int64)], return_index=True)
+    _, nearest = np.unique(world.shapes["parent"][hits[:, 0].astype(np.int64)], return_index=True)
     hits = hits[np.sort(nearest)]  # the first hit of a mask's parts
     return [
         _hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
@@ -409,7 +409,7 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
         row, fraction, nx, ny = hits[np.lexsort((hits[:, 0], hits[:, 1]))][0].tolist()
         x, y = pose[0] + fraction * dx, pose[1] + fraction * dy
         workspace = new_gap_workspace()
-        met = rows[world.shapes["owner"][rows] == world.shapes["owner"][int(row)]]
+        met = rows[world.shapes["parent"][rows] == world.shapes["parent"][int(row)]]
         other = _outline_at(world, met, x, y, probe, (0.0, 0.0), box[3])
         separate_parts(probe, other, np.zeros((16, 2)), np.zeros((16, 2)), workspace, np.zeros(2))
         gap = workspace.gap.tolist()
@@ -442,11 +442,11 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
         )
     moving, still = np.array([0.0, 0.0, 0.0, dx, dy, 0.0]), np.zeros(6)
     sweep_by = sweep_unions if shape._kind == MASK else advance_parts
-    for owner in np.unique(s["owner"][~alone]).tolist():
-        same = rows[~alone & (s["owner"] == owner)]
+    for owner in np.unique(s["parent"][~alone]).tolist():
+        same = rows[~alone & (s["parent"] == owner)]
         impact, totals = np.zeros(3), np.zeros(2)
         other = _outline_at(world, same, x, y, probe, (dx, dy), feet)
-        sweep = sweep_unions if of_masks[~alone & (s["owner"] == owner)].any() else sweep_by
+        sweep = sweep_unions if of_masks[~alone & (s["parent"] == owner)].any() else sweep_by
         sweep(probe, other, moving, still, workspace, impact, totals)
         work[TOI_CALLS] += 1
         work[GJK_ITERATIONS] += int(totals[0])
@@ -616,4 +616,6 @@ def _beyond_drawn(world):
 
 def _hit(world, row, fraction, nx, ny, point):
     shape = world.shapes[int(row)]
-    return RayHit(world.body(int(shape["body"])), int(shape["owner"]), Vec2(*point), Vec2(nx + 0.0, ny + 0.0), fraction)
+    return RayHit(
+        world.body(int(shape["body"])), int(shape["parent"]), Vec2(*point), Vec2(nx + 0.0, ny + 0.0), fraction
+    )

@@ -29,7 +29,7 @@ ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates: cas
 
 
 @subkernel
-def is_somewhere(body):
+def is_within_limits(body):
     """Return whether queries can find a body: it is simulated, and its pose is finite. Another one is quarantined by
     the next step.
     """
@@ -56,7 +56,7 @@ def find_moved(
     for n in range(len(rows)):
         k = rows[n]
         b = bodies[k]
-        if not is_somewhere(b):
+        if not is_within_limits(b):
             continue
         if poses_inout[k, 0] != b.x or poses_inout[k, 1] != b.y or poses_inout[k, 2] != b.angle:
             poses_inout[k, 0] = b.x
@@ -89,7 +89,7 @@ def find_loose(
     for n in range(len(rows)):
         row = rows[n]
         s = shapes[row]
-        if not is_somewhere(bodies[s.body_row]):
+        if not is_within_limits(bodies[s.body_row]):
             if s.proxy >= 0:
                 row_of_slot_inout[s.proxy] = -1
             continue
@@ -250,7 +250,7 @@ class QueryIndex:
     def _watched(self, awake, bodies):
         """Return the body rows that may have moved. The result is cached while the lists of awake bodies stay."""
         lists = (self.awake, awake.bodies, awake.dynamic, awake.kinematic)
-        if awake.stirred or not is_same(lists, self.lists):
+        if awake.dirty or not is_same(lists, self.lists):
             self.lists, self.watched = lists, awake.may_move(bodies, self.awake)
         return self.watched
 
@@ -271,7 +271,7 @@ class QueryIndex:
         self.asked.append(box)
         found = 0
         if self.asks_broadphase(world):
-            found = world.broadphase.near(world.pairs.proxies, box, self.slots, self.work)
+            found = world.broadphase.query_box(world.pairs.proxies, box, self.slots, self.work)
         count = rows_meeting(
             world.shapes, self.row_of_slot, self.slots, found, self.loose, self.loose_count, *box, self.rows, self.work
         )

@@ -6,7 +6,7 @@ from physics.ccd.time_of_impact import MISS, cast_on_polygon, sweep_circle_polyg
 from physics.collision.hulls import ALL_EDGES, Hull, collide_hull_circle, distance_to_edge, edge_normal
 from physics.collision.tiles import tile_at
 from physics.jit import subkernel
-from physics.math2d import cosine_and_sine, turned, unit
+from physics.math2d import cosine_and_sine, rotate, unit
 from physics.raster.bits import is_set
 from physics.shapes.placement import corners_at, into_raster, raster_at, raster_of_shape, rounding, snapped
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY, SLOPE, SOLID
@@ -141,8 +141,8 @@ def cast_on_chain(chains, links, blocks, chain, x, y, cosine, sine, dx, dy, bloc
     links per block. A ray of zero length tests whether its point is on the line. O(blocks + links near the ray).
     """
     span = chains[chain]
-    x, y = turned(x, y, cosine, -sine)
-    dx, dy = turned(dx, dy, cosine, -sine)
+    x, y = rotate(x, y, cosine, -sine)
+    dx, dy = rotate(dx, dy, cosine, -sine)
     point = dx == 0.0 and dy == 0.0
     best = MISS
     best_x = 0.0
@@ -165,7 +165,7 @@ def cast_on_chain(chains, links, blocks, chain, x, y, cosine, sine, dx, dy, bloc
                 best = fraction
                 best_x = nx
                 best_y = ny
-    best_x, best_y = turned(best_x, best_y, cosine, sine)
+    best_x, best_y = rotate(best_x, best_y, cosine, sine)
     return best, best_x, best_y
 
 
@@ -337,7 +337,7 @@ def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
     point = dx == 0.0 and dy == 0.0
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
     if s.kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
+        u, v = rotate(s.local_x, s.local_y, math.cos(b.angle), math.sin(b.angle))
         return cast_on_disc(x - b.x - u, y - b.y - v, dx, dy, s.radius)
     if s.kind == TILES:
         if point_in_tiles(geometry, s.geometry, x - b.x, y - b.y, corners_inout):

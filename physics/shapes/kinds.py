@@ -46,8 +46,8 @@ class Bounds(EqualByValue):
         return self.shape.bounds
 
     @property
-    def smallest_half(self) -> float:
-        return self.shape.smallest_half
+    def min_half_extent(self) -> float:
+        return self.shape.min_half_extent
 
     def mass_of(self, density: float) -> Mass:
         return self.shape.mass_of(density)

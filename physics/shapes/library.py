@@ -472,9 +472,9 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
     turns = moves & (mass.inertia > 0.0) & ~rows["fixed_rotation"]
     rows["inverse_mass"] = np.where(moves, 1.0 / mass.mass if mass.mass > 0.0 else 0.0, 0.0)
     rows["inverse_inertia"] = np.where(turns, 1.0 / mass.inertia if mass.inertia > 0.0 else 0.0, 0.0)
-    rows["smallest_half"] = min((shape.smallest_half for shape in shapes), default=0.0)
-    halves = (shape._thinnest_half if in_parts else shape.smallest_half for shape in shapes)
-    rows["thin_half"] = min(halves, default=0.0)
+    rows["min_half_extent"] = min((shape.min_half_extent for shape in shapes), default=0.0)
+    halves = (shape._thinnest_half if in_parts else shape.min_half_extent for shape in shapes)
+    rows["inradius"] = min(halves, default=0.0)
     rows["extent"] = max((shape.reach(*mass.center) for shape in shapes), default=0.0)
 
 
@@ -531,7 +531,7 @@ def list_parts(shapes, owner, wanted, rows_out):
     count = 0
     for k in range(len(shapes)):
         s = shapes[k]
-        if s.owner == owner and s.role == PART and wanted[s.tile]:
+        if s.parent == owner and s.role == PART and wanted[s.tile]:
             rows_out[count] = k
             count += 1
     return count

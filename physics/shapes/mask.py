@@ -303,7 +303,7 @@ class PixelMask(Shape):
         return tuple(part.shape for part in outline_of(self))
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         if self.bounds is None:
             return 0.5
         return min(self.bounds[2] - self.bounds[0], self.bounds[3] - self.bounds[1]) / 2.0
@@ -325,7 +325,7 @@ class PixelMask(Shape):
         1 px walls at half their size per step. Parts thinner than a pixel count as 1 px, because they lie beside a
         thicker one.
         """
-        return min((max(0.5, part.shape.smallest_half) for part in outline_of(self)), default=self.smallest_half)
+        return min((max(0.5, part.shape.min_half_extent) for part in outline_of(self)), default=self.min_half_extent)
 
     def reach(self, x: float, y: float) -> float:
         if self.bounds is None:

@@ -3,7 +3,7 @@
 import math
 
 from physics.jit import kernel, subkernel
-from physics.math2d import cosine_and_sine, heading, turned
+from physics.math2d import cosine_and_sine, rotate, rotation_of
 from physics.settings import DRAWN, MASK_ANGLE_BUCKETS
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 
@@ -26,12 +26,12 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
         return x, y, x, y
     cosine, sine = cosine_and_sine(angle, angle)
     first = corners[r.hull]
-    min_x, min_y = turned(first.x, first.y, cosine, sine)
+    min_x, min_y = rotate(first.x, first.y, cosine, sine)
     max_x = min_x
     max_y = min_y
     for k in range(r.hull + 1, r.hull + r.hull_count):
         corner = corners[k]
-        u, v = turned(corner.x, corner.y, cosine, sine)
+        u, v = rotate(corner.x, corner.y, cosine, sine)
         min_x = min(min_x, u)
         max_x = max(max_x, u)
         min_y = min(min_y, v)
@@ -42,14 +42,14 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
 @subkernel
 def into_raster(raster, body, cosine, sine, x, y):
     """Return a world point [px] in the raster of a mask; cosine, sine: rotation of its body."""
-    u, v = turned(x - body.x, y - body.y, cosine, -sine)
+    u, v = rotate(x - body.x, y - body.y, cosine, -sine)
     return u + raster.origin_x, v + raster.origin_y
 
 
 @subkernel
 def out_of_raster(raster, body, cosine, sine, x, y):
     """Return a point of the raster in the world [px]; cosine, sine: rotation of the mask's body."""
-    u, v = turned(x - raster.origin_x, y - raster.origin_y, cosine, sine)
+    u, v = rotate(x - raster.origin_x, y - raster.origin_y, cosine, sine)
     return body.x + u, body.y + v
 
 
@@ -90,7 +90,7 @@ def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
     x, y = into_raster(frame, frame_body, cosine, sine, body.x, body.y)
     angle = body.angle - frame_body.angle
     cosine, sine = cosine_and_sine(angle, max(abs(body.angle), abs(frame_body.angle)))
-    u, v = turned(other.origin_x, other.origin_y, cosine, sine)
+    u, v = rotate(other.origin_x, other.origin_y, cosine, sine)
     return x - u, y - v, cosine, sine
 
 
@@ -182,7 +182,7 @@ def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
     span = polygons[polygon]
     for k in range(span.count):
         corner = table[span.offset + k]
-        u, v = turned(corner.x, corner.y, cosine, sine)
+        u, v = rotate(corner.x, corner.y, cosine, sine)
         corners_out[k, 0] = x + u
         corners_out[k, 1] = y + v
     return span.count
@@ -196,12 +196,12 @@ def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
     """
     span = polygons[polygon]
     first = table[span.offset]
-    min_x, min_y = turned(first.x, first.y, cosine, sine)
+    min_x, min_y = rotate(first.x, first.y, cosine, sine)
     max_x = min_x
     max_y = min_y
     for k in range(1, span.count):
         corner = table[span.offset + k]
-        u, v = turned(corner.x, corner.y, cosine, sine)
+        u, v = rotate(corner.x, corner.y, cosine, sine)
         min_x = min(min_x, u)
         max_x = max(max_x, u)
         min_y = min(min_y, v)
@@ -240,7 +240,7 @@ def chain_aabb(geometry, chain, cosine, sine):
     for k in range(span.offset, span.offset + span.count):
         link = geometry.links[k]
         for end in range(2):
-            u, v = turned(link.ax if end == 0 else link.bx, link.ay if end == 0 else link.by, cosine, sine)
+            u, v = rotate(link.ax if end == 0 else link.bx, link.ay if end == 0 else link.by, cosine, sine)
             min_x = min(min_x, u)
             min_y = min(min_y, v)
             max_x = max(max_x, u)
@@ -259,12 +259,12 @@ def aabb_at(geometry, shapes, row, x, y, angle):
     if kind == BOUNDS:
         kind = s.wrapped
     if kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, *heading(angle))
+        u, v = rotate(s.local_x, s.local_y, *rotation_of(angle))
         return x + u - s.radius, y + v - s.radius, x + u + s.radius, y + v + s.radius
     if kind == POLYGON or kind == CAPSULE or kind == SEGMENT:
-        return polygon_aabb(geometry.polygons, geometry.corners, s.geometry, s.radius, x, y, *heading(angle))
+        return polygon_aabb(geometry.polygons, geometry.corners, s.geometry, s.radius, x, y, *rotation_of(angle))
     if kind == CHAIN:
-        min_x, min_y, max_x, max_y = chain_aabb(geometry, s.geometry, *heading(angle))
+        min_x, min_y, max_x, max_y = chain_aabb(geometry, s.geometry, *rotation_of(angle))
         return x + min_x, y + min_y, x + max_x, y + max_y
     if kind == TILES:
         g = geometry.grids[s.geometry]
@@ -285,7 +285,7 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
     """
     s = shapes[row]
     if s.kind == CIRCLE:
-        u, v = turned(s.local_x, s.local_y, *heading(angle))
+        u, v = rotate(s.local_x, s.local_y, *rotation_of(angle))
         corners_out[0, 0] = x + u
         corners_out[0, 1] = y + v
         return 1
@@ -299,7 +299,7 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
     Returns their number.
     """
     if shapes[row].kind != BOUNDS:
-        cosine, sine = heading(angle)
+        cosine, sine = rotation_of(angle)
         return polygon_at(geometry.polygons, geometry.corners, shapes[row].geometry, x, y, cosine, sine, corners_out)
     min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, x, y, angle)
     corners_out[0, 0] = min_x
@@ -433,14 +433,14 @@ def refresh_boxes(
                     rasters, table, raster_of[s.geometry, 0], b.x, b.y, b.angle
                 )
         elif s.kind == CIRCLE:
-            x, y = turned(s.local_x, s.local_y, *heading(b.angle))
+            x, y = rotate(s.local_x, s.local_y, *rotation_of(b.angle))
             s.min_x = b.x + x - s.radius
             s.min_y = b.y + y - s.radius
             s.max_x = b.x + x + s.radius
             s.max_y = b.y + y + s.radius
         elif s.kind == POLYGON:
             s.min_x, s.min_y, s.max_x, s.max_y = polygon_aabb(
-                polygons, table, s.geometry, s.radius, b.x, b.y, *heading(b.angle)
+                polygons, table, s.geometry, s.radius, b.x, b.y, *rotation_of(b.angle)
             )
         else:
             s.min_x, s.min_y, s.max_x, s.max_y = aabb_at(geometry, shapes_inout, row, b.x, b.y, b.angle)

@@ -181,14 +181,14 @@ class Shape:
         return None
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         """Inradius [px]: from the centre of mass to the nearest point of its surface; 0 of lines."""
         return 0.0
 
     @property
     def _thinnest_half(self) -> float:
         """Inradius at its thinnest part [px], where it responds by parts."""
-        return self.smallest_half
+        return self.min_half_extent
 
     def reach(self, x: float, y: float) -> float:
         """Return the distance [px] from (x, y) to its furthest point."""

@@ -53,7 +53,7 @@ class Convex(EqualByValue):
         return min(xs) - r, min(ys) - r, max(xs) + r, max(ys) + r
 
     @cached_property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         if len(self.points) < 3:
             return self.radius
         points = np.array(self.points)
@@ -262,7 +262,7 @@ class TileGrid(Shape):
         return not (self.solid.any() or self.one_way.any() or (self.slopes > 0.0).any())
 
     @property
-    def smallest_half(self) -> float:
+    def min_half_extent(self) -> float:
         return self.tile_size / 2.0
 
     def reach(self, x: float, y: float) -> float:

@@ -17,7 +17,7 @@ from physics.contacts.cache import update_contacts, write_caches
 from physics.dynamics.integrate import place_shapes
 from physics.islands.sleep import in_order
 from physics.jit import kernel, subkernel
-from physics.math2d import turned
+from physics.math2d import rotate
 from physics.solver.projection import PushSet
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.step_state import SOLVER_ROWS, StepState, stage
@@ -58,7 +58,7 @@ def stay_behind(
                 b.x = b.previous_x
                 b.y = b.previous_y
                 b.angle = b.previous_angle
-                u, v = turned(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+                u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
                 b.center_x = b.x + u
                 b.center_y = b.y + v
                 m.swept = True

@@ -57,7 +57,7 @@ def sticks(a, b, contact, distance):
     y = b.center_y - a.center_y - c.apart_y
     return (
         c.count == 2
-        and c.lead == 0.0
+        and c.tangential_offset == 0.0
         and (c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0)
         and c.radius_a == 0.0
         and c.radius_b == 0.0
@@ -128,8 +128,8 @@ def make_write_point(second: bool) -> Callable:
         y = m.y_2 if second else m.y_1
         ax = x - p.center_x
         ay = y - p.center_y
-        bx = x - q.center_x + m.lead * ny  # the present position of B's point
-        by = y - q.center_y - m.lead * nx
+        bx = x - q.center_x + m.tangential_offset * ny  # the present position of B's point
+        by = y - q.center_y - m.tangential_offset * nx
         if sticking:
             ax = m.held_ax_2 if second else m.held_ax_1
             ay = m.held_ay_2 if second else m.held_ay_1

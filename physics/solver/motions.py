@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from physics.dynamics.integrate import put_center, refresh_center
-from physics.dynamics.non_finite import is_somewhere, is_sound
+from physics.dynamics.non_finite import is_finite_in_step, is_within_limits
 from physics.jit import kernel, subkernel
-from physics.math2d import heading, length_of, turned
+from physics.math2d import norm, rotate, rotation_of
 from physics.shapes.library import add_missing_rasters
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.contact import MOTION
@@ -230,7 +230,7 @@ def make_substep_positions(rotation: bool) -> Callable:
                 m.dy -= 0.5 * h * h * m.acceleration_y
                 turn -= 0.5 * h * m.angular_acceleration
             if m.pseudo_vx != 0.0 or m.pseudo_vy != 0.0 or m.pseudo_w != 0.0:
-                fast = length_of(m.pseudo_vx, m.pseudo_vy)
+                fast = norm(m.pseudo_vx, m.pseudo_vy)
                 share = push_speed / fast if fast > push_speed else 1.0
                 m.dx += h * share * m.pseudo_vx
                 m.dy += h * share * m.pseudo_vy
@@ -240,7 +240,7 @@ def make_substep_positions(rotation: bool) -> Callable:
                 m.pseudo_w = 0.0
             if rotation and turn != 0.0:
                 m.turn += h * turn
-                m.cosine, m.sine = heading(m.turn)
+                m.cosine, m.sine = rotation_of(m.turn)
 
     return integrate_substep_positions
 
@@ -255,13 +255,13 @@ def move_kinematic(kinematic, time, motions_inout):
         m.dx = time * m.vx
         m.dy = time * m.vy
         m.turn = time * m.angular_velocity
-        m.cosine, m.sine = heading(m.turn)
+        m.cosine, m.sine = rotation_of(m.turn)
 
 
 @subkernel
 def is_usable(body, speed_limit):
     """Return whether the next step can use the state of a body. Quarantined bodies are not tested again."""
-    return body.quarantined or (is_somewhere(body) and is_sound(body, 0.0, 0.0, speed_limit, 0.0))
+    return body.quarantined or (is_within_limits(body) and is_finite_in_step(body, 0.0, 0.0, speed_limit, 0.0))
 
 
 @kernel
@@ -278,7 +278,7 @@ def scatter_motions(
 
     Return the number of bodies whose state no step can use. speed_limit [px/s]. O(rows).
     """
-    unsound = 0
+    non_finite_count = 0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
         m = motions[k + 1]
@@ -292,7 +292,7 @@ def scatter_motions(
         b.fraction = 1.0
         if not m.moves:
             refresh_center(b)
-            unsound += int(not is_usable(b, speed_limit))
+            non_finite_count += int(not is_usable(b, speed_limit))
             continue
         b.vx = m.vx
         b.vy = m.vy
@@ -307,12 +307,12 @@ def scatter_motions(
             refresh_center(b)
         else:
             b.angle += m.turn
-            u, v = turned(b.local_center_x, b.local_center_y, *heading(b.angle))
+            u, v = rotate(b.local_center_x, b.local_center_y, *rotation_of(b.angle))
             b.x = b.center_x - u
             b.y = b.center_y - v
             put_center(u, v, b)
-        unsound += int(not is_usable(b, speed_limit))
-    return unsound
+        non_finite_count += int(not is_usable(b, speed_limit))
+    return non_finite_count
 
 
 GATHER = {(g, w, r): make_gather(gravity=g, wind=w, rotation=r) for g in BOTH for w in BOTH for r in BOTH}
@@ -353,7 +353,7 @@ class Motions:
     def scatter(self, state: StepState) -> None:
         """Write the bodies back."""
         rows, bodies, limit = state.awake.bodies, state.bodies, state.tolerances.speed_limit
-        state.unsound = scatter_motions(rows, self.used, limit, self.lists.motion_of, bodies)
+        state.non_finite_count = scatter_motions(rows, self.used, limit, self.lists.motion_of, bodies)
         # A body that was rotated has an angle for which no raster was drawn ahead.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 
@@ -379,13 +379,13 @@ READS = (
 WRITES = (
     "contact_rows",
     "library",
-    "unsound",
+    "non_finite_count",
     "work",
     "workspace",
     *(f"bodies.{name}" for name in ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "center_y")),
     *(f"bodies.previous_{name}" for name in ("x", "y", "angle")),
     *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-    "bodies.followed",
+    "bodies.has_current_contacts",
     *(f"bodies.{name}" for name in ("force_x", "force_y", "torque", "fraction", "substeps", "eased")),
 )
 

@@ -12,7 +12,7 @@ from physics.collision.manifold import mixed
 from physics.contacts.cache import update_contacts, write_caches
 from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.jit import kernel, subkernel
-from physics.math2d import length_of
+from physics.math2d import norm
 from physics.settings import PROJECTION_PASSES
 from physics.tables.body import DYNAMIC, OFF
 from physics.tables.contact import PUSH
@@ -89,7 +89,7 @@ def limit_pushes(
         r = pushes[i]
         for side in range(2):
             row = r.body_row_a if side == 0 else r.body_row_b
-            reach_out[row] = (push_speed + length_of(bodies[row].vx, bodies[row].vy)) * dt
+            reach_out[row] = (push_speed + norm(bodies[row].vx, bodies[row].vy)) * dt
     for i in range(len(pushes)):
         r = pushes[i]
         for side in range(2):
@@ -315,7 +315,7 @@ def _hold_back(state, rows, before):
     """Move back bodies that were pushed through a wall. before (n, 2) [px]: the positions of these rows before."""
     bodies = state.bodies
     moves, ways = _moves(bodies, rows, before)
-    far = ways > CORE * bodies["smallest_half"][rows]
+    far = ways > CORE * bodies["min_half_extent"][rows]
     far &= (bodies["kind"][rows] == DYNAMIC) & (bodies["continuous"][rows] != OFF)
     if not far.any():
         return

@@ -12,7 +12,7 @@ import math
 from collections.abc import Callable
 from typing import NamedTuple
 
-from physics.jit import inlined, kernel, separate, subkernel
+from physics.jit import inlined, kernel, noalias, subkernel
 from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes
@@ -57,7 +57,7 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
     """Return one pass over the lanes of a world with these effects, with the block solver for two points."""
     friction_1, friction_2 = make_friction(False, rotation, False), make_friction(True, rotation, False)
 
-    @separate
+    @noalias
     def solve_sequential(
         # read, scalars
         count,
@@ -192,7 +192,7 @@ def make_push_pass(rotation: bool) -> Callable:
     """Return one pass of push-out over the lanes of a world with this effect."""
     push_first, push_second = make_push_point(False, rotation), make_push_point(True, rotation)
 
-    @separate
+    @noalias
     def push_overlaps(
         # read, scalars
         count,

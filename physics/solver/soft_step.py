@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping
 
-from physics.jit import inlined, kernel, separate, subkernel
+from physics.jit import inlined, kernel, noalias, subkernel
 from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes
@@ -113,7 +113,7 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
 def make_warm_lanes(rotation: bool) -> Callable:
     """Return the pass over blocks that applies the impulses with which a substep starts."""
 
-    @separate
+    @noalias
     def warm_lanes(
         # read
         count,
@@ -190,7 +190,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
     rubs = friction and last
     friction_1, friction_2 = make_friction(False, rotation, True), make_friction(True, rotation, True)
 
-    @separate
+    @noalias
     def solve_soft(
         # read, scalars
         count,

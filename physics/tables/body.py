@@ -26,17 +26,17 @@ BODY = in_lines(
         ("kind", np.int64),  # STATIC KINEMATIC DYNAMIC
         ("awake", np.bool_),
         ("active", np.bool_),  # in the rows that a step visits; every row is active in a world without sleeping
-        ("stirred", np.bool_),  # dirty: added or edited before this step, in a world with sleeping
+        ("dirty", np.bool_),  # dirty: added or edited before this step, in a world with sleeping
         ("quarantined", np.bool_),  # disabled after its pose or velocity became non-finite
         ("bullet", np.bool_),  # swept against moving bodies too
         ("fixed_rotation", np.bool_),
         ("allow_sleep", np.bool_),  # False: its island stays awake
-        ("followed", np.bool_),  # its contacts were updated to its present pose; see collision/cache.py
+        ("has_current_contacts", np.bool_),  # its contacts were updated to its present pose; see collision/cache.py
         ("inverse_mass", np.float64),  # 0: infinite mass
         ("inverse_inertia", np.float64),  # 0: infinite inertia
         ("extent", np.float64),  # [px] distance from the centre of mass to the furthest point of its shapes
-        ("smallest_half", np.float64),  # [px] inradius: from the middle of a shape to its surface, the least of all
-        ("thin_half", np.float64),  # [px] the same of its thinnest part; the measure of a fast body
+        ("min_half_extent", np.float64),  # [px] inradius: from the middle of a shape to its surface, the least of all
+        ("inradius", np.float64),  # [px] the same of its thinnest part; the measure of a fast body
         ("previous_x", np.float64),  # [px] pose before the step, for interpolated drawing and for rollback
         ("previous_y", np.float64),
         ("previous_angle", np.float64),
@@ -62,7 +62,7 @@ BODY = in_lines(
         ("substeps", np.int64),  # adaptive substeps of its island in the next step; 0: not known yet
     ]
 )
-GIVEN = np.dtype(
+BODY_DEF = np.dtype(
     [  # beside BODY, row by row: values of the body for its shapes without values of their own
         ("density", np.float64),
         ("friction", np.float64),

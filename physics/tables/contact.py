@@ -84,15 +84,21 @@ CONTACT = in_lines(
         ("tangent_impulse_1", np.float64),
         ("normal_impulse_2", np.float64),
         ("tangent_impulse_2", np.float64),
-        ("lead", np.float64),  # [px] tangential offset: B slides along (-ny, nx) before contact; see hull_pairs.py
+        (
+            "tangential_offset",
+            np.float64,
+        ),  # [px] tangential offset: B slides along (-ny, nx) before contact; see hull_pairs.py
         ("persisted_1", np.bool_),  # the same feature was in contact in the step before
         ("persisted_2", np.bool_),
-        ("again", np.bool_),  # can be recycled in the next step while both bodies keep the poses at the end of this one
+        (
+            "can_recycle",
+            np.bool_,
+        ),  # can be recycled in the next step while both bodies keep the poses at the end of this one
         # Report.
         ("feature_1", np.int64),  # feature id of the corner, edge, tile or pixel; see collision/hulls.py
         ("feature_2", np.int64),
-        ("owner_a", np.int64),  # parent ids: the shapes that these are parts of
-        ("owner_b", np.int64),
+        ("parent_a", np.int64),  # parent ids: the shapes that these are parts of
+        ("parent_b", np.int64),
         ("area_1", np.float64),  # [px2] area shared by two masks; 0 for other shapes
         ("area_2", np.float64),
         # Contact cache. Warm start: read and stored by the solver.

@@ -52,7 +52,7 @@ SHAPE = in_lines(
         ("own_material", np.bool_),  # its own material, in place of its body's; likewise filter and sensor
         ("own_filter", np.bool_),
         ("own_sensor", np.bool_),
-        ("owner", np.int64),  # parent id: the shape that this is a part of; else its own id
+        ("parent", np.int64),  # parent id: the shape that this is a part of; else its own id
         ("role", np.int64),  # WHOLE PIXELS PART
         ("geometry", np.int64),  # row of the corners, grids (TILES), masks (MASK) or chains (CHAIN); -1: none
         ("radius", np.float64),  # [px] of a circle or capsule, or rounding of a polygon

@@ -70,7 +70,7 @@ class WorldTables(Protocol):
 
     contact_rows: np.ndarray  # CONTACT rows in the order of shape ids
     awake: Any  # islands.awake.Awake
-    sleepers: Any  # islands.sleep.Sleepers
+    sleeping_set: Any  # islands.sleep.Sleepers
     pairs: Any  # broadphase.pair_list.PairList
     touching: Any  # events.Pairs
     sensing: Any
@@ -138,7 +138,7 @@ STAGE_FIELDS = (
     "library",  # corners, tiles and pixels of the shapes
     # the awake bodies and shapes: the rows that a pass visits
     "awake",
-    "sleepers",
+    "sleeping_set",
     # from boxes to manifolds
     "queries",  # the queries of shapes by boxes
     "pairs",  # the pair list: proxies and candidates
@@ -146,10 +146,10 @@ STAGE_FIELDS = (
     "impacts",  # (n, 8) candidate, fraction, normal, stops, feature, point or nan; computed before the bodies move
     "contact_rows",  # CONTACT rows in the order of shape ids; those of the step before until the narrow phase
     "sensed",  # CONTACT rows of sensor contacts; None where they are among `contact_rows`
-    "unsound",  # number of bodies that a solver left non-finite or beyond the speed limit
+    "non_finite_count",  # number of bodies that a solver left non-finite or beyond the speed limit
     "swept_sensors",  # CONTACT rows of sensors met during the sweep
     "ghosts",  # (n, 8) bodies stopped by a sweep: id, path, fraction; None without any
-    "parked",  # CONTACT rows of islands that fell asleep in this step
+    "fell_asleep",  # CONTACT rows of islands that fell asleep in this step
     # reports
     "touching",  # the touching pairs
     "sensing",  # the pairs with a sensor
@@ -185,17 +185,17 @@ class StepState:
     characters: np.ndarray
     library: Any  # shapes.library.Library
     awake: Any  # islands.awake.Awake
-    sleepers: Any  # islands.sleep.Sleepers
+    sleeping_set: Any  # islands.sleep.Sleepers
     queries: Any  # queries.index.QueryIndex
     pairs: Any  # broadphase.pair_list.PairList
     changed_count: int
     impacts: np.ndarray
     contact_rows: np.ndarray
     sensed: np.ndarray | None
-    unsound: int
+    non_finite_count: int
     swept_sensors: np.ndarray
     ghosts: np.ndarray | None
-    parked: tuple[np.ndarray, np.ndarray] | None
+    fell_asleep: tuple[np.ndarray, np.ndarray] | None
     touching: Any  # events.Pairs
     sensing: Any
     events: Any  # events.Events

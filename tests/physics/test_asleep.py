@@ -211,11 +211,11 @@ def test_many_islands_fall_asleep_in_one_step():
     ids = world.add_bodies(BOX, [(30.0 * k - 4500.0, -8.0) for k in range(300)])
     for _ in range(60):
         world.step()
-    assert len(world.sleepers.islands) == 300 and not world.bodies["awake"][world.rows(ids)].any()
+    assert len(world.sleeping_set.islands) == 300 and not world.bodies["awake"][world.rows(ids)].any()
     assert len(world.sleeping_contacts) == 600
     world.body(int(ids[7])).apply_impulse((1e5, 0.0))
     world.step()
-    assert len(world.sleepers.islands) == 299 and len(world.awake.dynamic) == 1
+    assert len(world.sleeping_set.islands) == 299 and len(world.awake.dynamic) == 1
 
 
 def test_what_was_in_an_island_and_now_stands_is_ground():
@@ -225,7 +225,7 @@ def test_what_was_in_an_island_and_now_stands_is_ground():
     world.step()
     boxes[2].set_kind("static")
     fall_asleep(world, boxes[:2])
-    assert boxes[2].id in world.sleepers.links
+    assert boxes[2].id in world.sleeping_set.links
     boxes[0].wake()
     world.step()
     fall_asleep(world, boxes[:2])

@@ -80,7 +80,7 @@ def state(world):
         world.broadphase,
         world._next_body,
         world._next_shape,
-        world._given.rows.tobytes(),
+        world._definitions.rows.tobytes(),
         dict(world._targets),
         world.time,
         str(world.random.bit_generator.state),

@@ -35,7 +35,7 @@ def heap(effects, solver="soft_step", shapes=SHAPES, **arguments):
 def ask_again(world):
     """Have every contact asked anew in the next step."""
     world.contact_rows["again"] = False
-    for island in world.sleepers.islands.values():
+    for island in world.sleeping_set.islands.values():
         island.contacts["again"] = False
 
 
@@ -135,7 +135,7 @@ def test_contacts_that_sleep_are_asked_when_they_wake():
         world.step()
         if not any(body.awake for body in bodies):
             break
-    asleep = [island.contacts for island in world.sleepers.islands.values()]
+    asleep = [island.contacts for island in world.sleeping_set.islands.values()]
     assert sum(map(len, asleep)) >= 12 and not any(rows["again"].any() for rows in asleep)
 
 
@@ -148,7 +148,7 @@ def test_contacts_sleep_exactly_where_they_stand():
         world.step()
         if not any(body.awake for body in bodies):
             break
-    islands = list(world.sleepers.islands.values())
+    islands = list(world.sleeping_set.islands.values())
     assert sum(len(island.contacts) for island in islands) >= 12
     for island in islands:
         rows = world.rows(island.contacts["body_a"]), world.rows(island.contacts["body_b"])

@@ -232,7 +232,7 @@ def test_kernels_of_absent_stages_are_not_compiled():
         "collide_mask_pair",
         "collide_polygon_pair",
         "collide_grid_pair",
-        "find_in_trees",
+        "find_pairs_in_trees",
         "find_in_cells",
         "sweep_one",
         "cast_ray_at_rows",

@@ -141,7 +141,7 @@ def test_boxes_far_away_have_the_same_manifold():
 @pytest.mark.parametrize("sign", [-1, 1])
 def test_nearly_parallel_sides_keep_two_points_and_their_features(shape, sign):
     """B2, over all orders of magnitude, lying on each other with the overhang on either side."""
-    thick = 2 * shape.smallest_half
+    thick = 2 * shape.min_half_extent
     for shift in (0.0, 3.0, -3.0):
         features = set()
         for exponent in range(-12, -2):

@@ -90,7 +90,7 @@ def twins(request, monkeypatch):
 
 def test_it_is_weighed_and_measured_as_its_twin(twins):
     new, old = twins
-    assert mass_of(new, 3.0) == mass_of(old, 3.0) and new.smallest_half == old.smallest_half
+    assert mass_of(new, 3.0) == mass_of(old, 3.0) and new.min_half_extent == old.min_half_extent
     assert new.reach(5.0, 6.0) == old.reach(5.0, 6.0) and new.bounds == old.bounds
 
 

@@ -154,7 +154,7 @@ def test_lines_have_no_mass_and_sizes_count_the_radius():
     both = mass_of((Circle(2, (3, 3)), Segment((0, 0), (5, 5))), 1.0)
     assert both == mass_of(Circle(2, (3, 3)), 1.0)
     assert [
-        each.smallest_half
+        each.min_half_extent
         for each in (
             Capsule((0, 0), (9, 0), 2),
             Polygon(Polygon.box(8, 4).points, 1),

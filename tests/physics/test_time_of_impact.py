@@ -222,7 +222,7 @@ def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
         s["kind"], s["geometry"], s["wrapped"] = library.add(shape)
         s["radius"], s["local_x"], s["local_y"] = rounding_of(shape)
         s["body_row"] = row
-    bodies["smallest_half"] = mover.smallest_half
+    bodies["min_half_extent"] = mover.min_half_extent
     motions = np.array([motion, motion_b], np.float64)
     found = sweep(library.tables, bodies, shapes, motions, slack, True, new_rotational_workspace(), work)
     assert work[CAP_HITS] == 0 and work[GJK_ITERATIONS] >= 0

@@ -14,4 +14,4 @@ def test_a_body_that_is_put_aside_in_the_first_step_is_told():
     world.bodies["vx"][1] = np.nan
     moment = Moment(world.snapshot(), "brute")
     error = References(moment).errors(moment.here)["verdict"]
-    assert error.failures == {"put_aside": 1}
+    assert error.failures == {"disable_body": 1}

@@ -37,6 +37,6 @@ def test_a_triangle_does_not_fall_through_a_link(solver):
 @pytest.mark.parametrize("offset", [(0.0, 0.0), (300.0, -7.0)])
 def test_half_is_measured_from_the_centre_of_mass(offset):
     moved = [(x + offset[0], y + offset[1]) for x, y in TRIANGLE]
-    assert Polygon(moved).smallest_half == pytest.approx(SIDE * math.sqrt(0.75) / 3.0)
-    assert Polygon(moved, radius=2.0).smallest_half > 2.0 + SIDE / 4.0
-    assert Polygon.box(8, 6, offset, 0.3).smallest_half == pytest.approx(3.0)
+    assert Polygon(moved).min_half_extent == pytest.approx(SIDE * math.sqrt(0.75) / 3.0)
+    assert Polygon(moved, radius=2.0).min_half_extent > 2.0 + SIDE / 4.0
+    assert Polygon.box(8, 6, offset, 0.3).min_half_extent == pytest.approx(3.0)

@@ -15,7 +15,7 @@ from game.report.piles import BOX, EFFECTS, pyramid, world_of
 from physics import Circle
 
 NUDGE = 1e-9  # [px] between the bullets of two runs
-PARTED, STEPS = 1.0, 180  # [px] distance that a player can see; steps of a run
+WITH_CHILD, STEPS = 1.0, 180  # [px] distance that a player can see; steps of a run
 WAYS = (("sequential_impulse", 4), ("soft_step", 2), ("soft_step", 4), ("soft_step", 8), ("soft_step", "auto"))
 SPEED = 40.0 * BOX  # [px/s]
 
@@ -35,7 +35,7 @@ def measure(seeds: int) -> list[Row]:
     for solver, substeps in WAYS:
         ways = np.array([_way(_world(solver, substeps, NUDGE * seed)) for seed in range(seeds + 1)])
         gaps = np.sqrt(((ways[1:] - ways[0]) ** 2).sum(axis=3).mean(axis=2))  # (seeds, steps)
-        parted = np.where((gaps > PARTED).any(axis=1), (gaps > PARTED).argmax(axis=1), STEPS) / 60.0
+        parted = np.where((gaps > WITH_CHILD).any(axis=1), (gaps > WITH_CHILD).argmax(axis=1), STEPS) / 60.0
         label = f"{solver}, {substeps}"
         steps[label] = _world(solver, substeps, 0.0).step
         rows[label] = {

@@ -51,7 +51,7 @@ def _of_pairs(world, pairs):
 def touching(world: World) -> np.ndarray:
     """Return (n, 4) boxes around two touching shapes."""
     told = world.reported_rows()
-    return _of_pairs(world, np.stack([told["owner_a"], told["owner_b"]], axis=1))
+    return _of_pairs(world, np.stack([told["owner_a"], told["parent_b"]], axis=1))
 
 
 def candidates(world: World) -> np.ndarray:

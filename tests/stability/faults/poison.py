@@ -39,7 +39,7 @@ WRITTEN_ANEW = {
     "contact_rows": set(floats_of(CONTACT)),  # found anew; forces that are none are forgotten
 }
 # Large, and yet of use: a mass that is told has its inverse beside it.
-QUIETLY = {("bodies", name, "1e308") for name in ("mass", "inertia", "smallest_half", "thin_half", "fraction")}
+QUIETLY = {("bodies", name, "1e308") for name in ("mass", "inertia", "min_half_extent", "inradius", "fraction")}
 MASK = PixelMask(np.ones((8, 10), bool))
 
 
