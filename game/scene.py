@@ -204,9 +204,17 @@ class Scene:
     ) -> WatchedWorld:
         """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds.
 
-        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ...
+        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... A scene that is measured
+        without one of its effects has its world without the setting of this effect.
         """
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
+        for name, acts in (
+            ("gravity", effects.gravity),
+            ("drag", effects.drag or effects.wind),
+            ("wind", effects.wind),
+        ):
+            if not acts:
+                settings.pop(name, None)
         strategy = BROADPHASES[broadphase or self.broadphase]()
         settings.setdefault("seed", self.seed + len(self.worlds))
         if self.substeps is not None:

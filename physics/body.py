@@ -4,6 +4,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from physics import carving, checks, edit, step
 from physics.carving import Carved
@@ -26,6 +27,15 @@ class Body(Handle):
     """
 
     __slots__ = ()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set an attribute. Raises AttributeError for an unknown one, naming the nearest."""
+        try:
+            object.__setattr__(self, name, value)
+        except AttributeError:
+            if not hasattr(type(self), name):
+                checks.known_attribute(self, name, strict=True)
+            raise
 
     # --- pose -------------------------------------------------------------------------------------------------------
 
@@ -324,6 +334,19 @@ class Body(Handle):
         self._stir(row)
 
     @property
+    def allow_sleep(self) -> bool:
+        """Whether its island may sleep. A dynamic body with False wakes its island, and keeps it awake."""
+        return self._value("allow_sleep")
+
+    @allow_sleep.setter
+    def allow_sleep(self, value: bool) -> None:
+        self.world._unlocked()
+        row, value = self._row, checks.flag("allow_sleep", value)
+        row["allow_sleep"] = value
+        if not value:
+            self._stir(row)
+
+    @property
     def bullet(self) -> bool:
         """Whether the body is swept against moving bodies, too. Raises ValueError for True without the effect
         continuous.
@@ -373,6 +396,16 @@ class Body(Handle):
         The new shapes get new ids, except masks that replace as many masks: their contacts continue.
         """
         edit.set_shapes(self.world, self.id, shapes)
+
+    def set_cells(self, cells: ArrayLike, solid: ArrayLike) -> None:
+        """Make cells of the body's TileGrid solid or empty.
+
+        cells (n, 2) int (column, row); solid: a bool, or one for each cell. The shape keeps its id. Only bodies that
+        touch a changed cell wake, and no event begins or ends for the others. A one-way cell or a slope becomes solid
+        or empty, too. Raises TypeError, and ValueError for a cell outside of the grid, or for a body without a
+        TileGrid or with several.
+        """
+        edit.exchange_cells(self.world, self.id, cells, solid)
 
     def add_shape(self, shape: Shape) -> int:
         """Append a shape, recompute the mass, and return the id of the shape. A tier ends."""

@@ -159,6 +159,7 @@ def _values_of(world, identity) -> edit.BodyDef:
         continuous=CONTINUOUS[int(row["continuous"])],
         fixed_rotation=bool(row["fixed_rotation"]),
         gravity_scale=row["gravity_scale"].item(),
+        allow_sleep=bool(row["allow_sleep"]),
         tier=None,
         user=None,
     )

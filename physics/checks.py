@@ -1,5 +1,6 @@
 """Checks of arguments. Every message names the argument, its value and the values that are allowed."""
 
+import difflib
 import math
 import numbers
 from collections.abc import Sequence
@@ -15,6 +16,7 @@ Pair = Sequence[float] | np.ndarray  # (x, y)
 Pose = Sequence[float] | np.ndarray  # (x, y, angle), or (x, y) at angle 0
 Points = Sequence[Pair] | np.ndarray  # (n, 2)
 
+NEAR_NAME = 0.7  # similarity of names that may be a slip, as difflib measures it
 LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 
 
@@ -45,6 +47,18 @@ def number(
     ):
         raise ValueError(f"{name} must be {allowed} (got {shown(value)})")
     return value
+
+
+def known_attribute(thing: Any, name: str, strict: bool) -> None:
+    """Raise AttributeError for an attribute that does not exist, naming the nearest one that does.
+
+    strict: also where no name is near.
+    """
+    public = [each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")]
+    near = difflib.get_close_matches(name, sorted(public), 1, NEAR_NAME)
+    if near or strict:
+        hint = f": did you mean {near[0]}?" if near else ""
+        raise AttributeError(f"{type(thing).__name__} has no attribute {name}{hint}")
 
 
 class NoSuchId(KeyError, ValueError):
@@ -81,13 +95,13 @@ def position(name: str, value: Any) -> Vec2:
     return Vec2(x, y)
 
 
-def ids(name: str, value: Any) -> np.ndarray:
-    """Return a flat int64 array of ids, each once. Raises TypeError or ValueError."""
+def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
+    """Return a flat int64 array of ids, each once unless repeats are allowed. Raises TypeError or ValueError."""
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be whole numbers (got {shown(value)})")
     array = array.astype(np.int64).ravel()
-    if len(np.unique(array)) != len(array):
+    if not repeats and len(np.unique(array)) != len(array):
         raise ValueError(f"{name} must name each body once (got {array.tolist()})")
     return array
 

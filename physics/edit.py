@@ -18,8 +18,9 @@ from physics.shapes.library import find_equal, rounding_of, rows_in_tiles, set_m
 from physics.shapes.mask import PixelMask
 from physics.shapes.outline import is_tiled, keep_tiles, polygons, tiled_parts
 from physics.shapes.shape import Filter, Material, Shape
+from physics.shapes.values import TileGrid
 from physics.solver.substeps import forget_loads
-from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, OFF, STATIC
+from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
 from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
 from physics.tables.table import rows_of
 from physics.world_state import WorldState
@@ -191,6 +192,108 @@ def replace_mask(
     kept.transfer(world, new)
 
 
+def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> None:
+    """Make cells of a body's TileGrid solid or empty. Its shape id stays, and only what touches a changed cell wakes.
+
+    cells (n, 2) int (column, row); solid: a bool, or (n,) bools. Contacts keep their impulses. O(cells of the grid).
+    Raises TypeError, ValueError, RuntimeError during a step.
+    """
+    world._unlocked()
+    at, used = world._row_number(identity), list(world._shapes_of[identity])
+    grids = [(k, shape) for k, shape in enumerate(used) if isinstance(shape, TileGrid)]
+    if len(grids) != 1:
+        raise ValueError(f"set_cells needs a body with one TileGrid; body {identity} has {checks.shown(tuple(used))}")
+    place, before = grids[0]
+    cells, solid = checked_cells(cells, solid, *before.solid.shape)
+    columns, rows = cells.T
+    wanted = before.solid.copy()
+    wanted[rows, columns] = solid
+    changed = np.zeros(wanted.shape, bool)
+    other = before.one_way | (before.slopes > 0.0).any(axis=2)
+    changed[rows, columns] = ((before.solid != wanted) | other)[rows, columns]
+    if not changed.any():
+        return
+    slopes = np.where(changed[:, :, None], 0.0, before.slopes)
+    after = TileGrid(wanted, before.tile_size, before.one_way & ~changed, slopes).with_values_of(before)
+    shape_id = shape_ids(world, identity)[place]
+    touching = rows_at_cells(world, at, before.tile_size, changed, world.tolerances.slop)
+    _wake_at_cells(world, at, touching)
+    near = world.shapes["id"][rows_at_cells(world, at, before.tile_size, changed, world.tolerances.speculative)]
+    own = rows_of(world.shapes, [shape_id])
+    found = world.contact_rows
+    goes = ((found["shape_a"] == shape_id) & np.isin(found["shape_b"], near)) | (
+        (found["shape_b"] == shape_id) & np.isin(found["shape_a"], near)
+    )
+    kept = KeptImpulses(world, own)
+    if len(kept.contacts):  # those of the other contacts stay as they are
+        kept.contacts, kept.others = found[goes], np.intersect1d(kept.others, near)
+        world.contact_rows = found[~goes]
+    used[place] = after
+    world.shapes["geometry"][own] = world.library.add(after)[1]
+    world._shapes_of[identity] = tuple(used)
+    world._tidy_library()
+    _rejoin(world, at, own)
+    kept.transfer(world, own)
+
+
+def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return cells (n, 2) int64 within a grid, and (n,) bools. Raises TypeError, ValueError."""
+    found = checks.columns("cells", cells)
+    if found.size and np.asarray(cells).dtype.kind not in "iu":
+        raise TypeError(f"cells must be whole numbers (column, row) (got {checks.shown(cells)})")
+    found = found.astype(np.int64)
+    bad = np.flatnonzero(((found < 0) | (found >= (columns, rows))).any(axis=1))
+    if len(bad):
+        raise ValueError(
+            f"cells[{bad[0]}] must be (column, row) within 0..{columns - 1} and 0..{rows - 1} "
+            f"(got {tuple(found[bad[0]].tolist())})"
+        )
+    flags = np.asarray(solid)
+    if flags.dtype != np.bool_:
+        raise TypeError(f"solid must be a bool, or one for each of cells (got {checks.shown(solid)})")
+    if flags.shape not in ((), (len(found),)):
+        raise ValueError(f"solid must be a bool or have shape ({len(found)},), as cells has (got {flags.shape})")
+    return found, np.broadcast_to(flags, len(found))
+
+
+def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, margin: float) -> np.ndarray:
+    """Return the SHAPE rows of other bodies whose AABB, enlarged by a margin [px], meets a marked cell of a grid.
+
+    at: row of the grid's body; size [px] of a tile; cells [row, column] bool.
+    """
+    body, marked = world.bodies[at], np.argwhere(cells)
+    origin = np.array([body["x"], body["y"]])
+    lower, upper = (origin + size * (each[::-1] + k) for k, each in enumerate((marked.min(axis=0), marked.max(axis=0))))
+    world.queries.begin(world)
+    rows = world.queries.rows_in(world, lower - margin, upper + margin)
+    rows = rows[world.shapes["body_row"][rows] != at]
+    shapes, sums = world.shapes[rows], np.pad(np.cumsum(np.cumsum(cells, axis=0), axis=1), ((1, 0), (1, 0)))
+    spans = []
+    for axis, count in enumerate(cells.shape[::-1]):
+        name = "xy"[axis]
+        first = np.ceil((shapes[f"min_{name}"] - margin - origin[axis]) / size) - 1.0  # closed: its edge counts
+        last = np.floor((shapes[f"max_{name}"] + margin - origin[axis]) / size) + 1.0
+        spans += [np.clip(each, 0, count).astype(np.int64) for each in (first, last)]
+    left, right, top, bottom = spans
+    return rows[sums[bottom, right] - sums[top, right] - sums[bottom, left] + sums[top, left] > 0]
+
+
+def _wake_at_cells(world, at, rows):
+    """Wake the islands of the dynamic bodies at changed cells, and return the pairs of the others there to the step."""
+    if not world.sleeps:
+        return
+    bodies = world.bodies[np.unique(world.shapes["body_row"][rows])]
+    dynamic = bodies["kind"] == DYNAMIC
+    sleep.wake(world, bodies["island"][dynamic & ~bodies["awake"]].tolist())
+    others = bodies["id"][~dynamic]
+    told = [table[["body_a", "body_b"]] for table in (world.sleeping_set.touching, world.sleeping_set.sensing)]
+    mine = world.bodies["id"][at]
+    met = [np.where(each["body_a"] == mine, each["body_b"], -1) for each in told]
+    met += [np.where(each["body_b"] == mine, each["body_a"], -1) for each in told]
+    touched = others[np.isin(others, np.concatenate(met)) | (bodies["kind"][~dynamic] == KINEMATIC)]
+    sleep.disturb(world, touched.tolist())
+
+
 def rows_of_parent(world: WorldState, shape_id: int) -> np.ndarray:
     """Return the SHAPE rows of a shape and of its parts."""
     return np.flatnonzero(world.shapes["parent"] == shape_id)
@@ -349,8 +452,10 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
 
 
 def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError for shapes that are sensors in a world without the effect sensors."""
+    """Raise ValueError for shapes that are sensors, or open from below, in a world without that effect."""
     world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
+    for shape in shapes:
+        world._needs("one_way", f"{type(shape).__name__} with one_way", bool(np.any(getattr(shape, "one_way", False))))
 
 
 def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: float) -> None:
@@ -442,6 +547,7 @@ class BodyDef(NamedTuple):
     continuous: str
     fixed_rotation: bool
     gravity_scale: float
+    allow_sleep: bool
     tier: str | None
     user: Any
 
@@ -464,6 +570,7 @@ def add_rows(
     swept = checked_continuous(world, wanted.continuous)
     fixed_rotation = checks.flag("fixed_rotation", wanted.fixed_rotation)
     gravity_scale = checks.number("gravity_scale", wanted.gravity_scale)
+    allow_sleep = checks.flag("allow_sleep", wanted.allow_sleep)
     own_mass = 0.0 if wanted.mass is None else checks.number("mass", wanted.mass, above=0.0)
     spin = checks.number("angular_velocity", wanted.angular_velocity)
     world._needs("rotation", f"angular_velocity={spin}", spin != 0.0)
@@ -495,6 +602,7 @@ def add_rows(
     for name in ("x", "y", "angle"):
         rows["previous_" + name] = rows["still_" + name] = rows[name]
     rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, swept, fixed_rotation
+    rows["allow_sleep"] = allow_sleep
     rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1
     rows["active"] = not world.sleeps  # so the next step includes them
     if wanted.kind != "dynamic":

@@ -22,6 +22,8 @@ from physics import checks
 from physics.edit import MATERIAL
 from physics.islands.awake import Awake
 from physics.islands.sleep import Island, SleepingSet
+from physics.math2d import Vec2
+from physics.settings import tolerances
 from physics.shapes.kinds import SHAPES
 from physics.shapes.library import Geometries, Library
 from physics.shapes.mask import PixelMask
@@ -87,9 +89,10 @@ def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geo
 # ---- snapshot --------------------------------------------------------------------------------------------------------
 # Snapshots of a world, in memory and as `.npz` files without pickle.
 
-VERSION = 14
+VERSION = 15
 ABANDONED = 3600.0  # [s] without a write after which a file counts as abandoned
-SETTINGS = ("solver", "dt", "substeps", "accuracy", "gravity", "drag", "wind")  # settings that a snapshot restores
+SETTINGS = ("solver", "dt", "substeps", "accuracy", "restitution_speed", "gravity", "drag", "wind")  # it restores these
+FIELDS = ("gravity", "drag", "wind")  # they stay, and are inert, in a world whose effects were replaced
 DAMAGE = (
     ValueError,
     TypeError,
@@ -257,8 +260,11 @@ def restore(world: WorldState, taken: Snapshot) -> None:
         )
     # All data has been checked: nothing fails from here on.
     for name in SETTINGS:
-        if getattr(world, name) != facts[name]:
-            setattr(world, name, facts[name])
+        value = facts[name]
+        if name in FIELDS:
+            vars(world)["_" + name] = value if name == "drag" else Vec2(*value)
+        elif getattr(world, name) != value:
+            setattr(world, name, value)
     world.time, world.span = facts["time"], facts["span"]
     world.library, world._shapes_of, world._sources, world.random = unpacked
     for table, name in (
@@ -333,7 +339,7 @@ def _unpack(arrays, facts, geometry):
         raise ValueError("what is said of bodies is said of others")
     for name in ("gravity", "wind"):
         checks.vector(name, facts[name])
-    for name in ("drag", "time", "span"):
+    for name in ("drag", "time", "span", "restitution_speed"):
         checks.number(name, facts[name], low=0.0)
     for name in ("dt", "pixels_per_meter", "accuracy"):
         checks.number(name, facts[name], above=0.0)
@@ -359,7 +365,7 @@ def _targets(arrays) -> dict:
 # The digest of a world: two worlds with equal digests continue equally.
 
 # Increased by every change that changes the digest of some world: older recordings still play, and diverge.
-PHYSICS_VERSION = 5
+PHYSICS_VERSION = 6
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
 CLOCK = ("still_x", "still_y", "still_angle", "sleep_time")
 ASKED = ("substeps", "cooldown")  # only with substeps by load
@@ -425,6 +431,12 @@ def digest(world: WorldState) -> str:
     if world.stacks and world.span not in (0.0, world.dt):
         found.update(b"span" + np.float64(world.span).tobytes())
     # State that only the next step reads; an empty one adds nothing.
+    speed = world.tolerances.restitution_speed
+    if speed != tolerances(world.tolerances.pixels_per_meter).restitution_speed:
+        found.update(b"restitution_speed" + np.float64(speed + 0.0).tobytes())
+    restless = world.bodies["id"][~world.bodies["allow_sleep"]]
+    if len(restless):
+        found.update(b"allow_sleep" + restless.tobytes())
     targets = world._targets
     for identity in sorted(targets):
         found.update(

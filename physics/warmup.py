@@ -106,6 +106,8 @@ def _runs(effects, broadphase, solver, pieces):
     pieces = PIECES if pieces is None else tuple(pieces)
     if "masks" in pieces or "exact masks" in pieces:
         runs.append(("outlines", _fit))
+    if not effects.one_way:
+        pieces = tuple(each for each in pieces if each != "one-way masks")
     for piece in pieces:
         if piece in PAIRS and effects.narrowphase:
             runs += [

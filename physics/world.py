@@ -1,6 +1,7 @@
 """World: the tables of a simulation and the stages that advance them. Start reading at `step`."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from time import perf_counter
 from typing import Any
 
@@ -51,8 +52,9 @@ class World(WorldState):
 
     effects: the declared effects, None for Effects.rigid_bodies(). broadphase: an instance of one of the four
     strategies, None for SpatialHashGrid(). solver: one of SOLVERS, None for soft_step with the effect stacking and for
-    projection without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s]. dt [s]. seed: of
-    `world.random`.
+    projection without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s]. dt [s].
+    restitution_speed [px/s]: slower impacts do not bounce; None: 1 m/s. seed: of `world.random`. Gravity, drag and wind
+    other than 0 need their effects.
 
     substeps: the number of substeps of the stacking solvers, or "auto". With "auto" each island takes 4 to 32 substeps,
     as many as keep its contacts from sagging by more than accuracy [px] (None: 1 mm). An island that leans takes up to
@@ -79,6 +81,7 @@ class World(WorldState):
         dt: float = 1 / 60,
         substeps: int | str = "auto",
         accuracy: float | None = None,
+        restitution_speed: float | None = None,
         seed: int = 0,
     ) -> None:
         effects = Effects.rigid_bodies() if effects is None else effects
@@ -95,6 +98,10 @@ class World(WorldState):
         self._wind = checks.vector("wind", wind)
         self.random = np.random.default_rng(checks.whole("seed", seed, 0, 2**63 - 1))
         self._effects = effects
+        if gravity is not None:
+            self._needs_fields(gravity=self._gravity)
+        self._needs_fields(drag=self._drag, wind=self._wind)
+        self._set_restitution_speed(restitution_speed)
         self._substeps, self._accuracy = checked_substeps(substeps), checked_accuracy(accuracy)
         self._solver = self._checked_solver(own_solver(effects) if solver is None else solver)
         self._bodies, self._definitions, self._shapes, self.characters = map(Table, (BODY, BODY_DEF, SHAPE, CHARACTER))
@@ -113,12 +120,18 @@ class World(WorldState):
         self.broadphase = SpatialHashGrid() if broadphase is None else broadphase
         self._plan()
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        """Set an attribute. Raises AttributeError for an unknown one; a subclass may have attributes of its own."""
+        if "profile" in self.__dict__ and name not in self.__dict__ and not hasattr(type(self), name):
+            checks.known_attribute(self, name, type(self) is World)
+        object.__setattr__(self, name, value)
+
     def __getstate__(self):
         return {name: value for name, value in vars(self).items() if name not in ("workspace", "_plans")}
 
     def __setstate__(self, state):
-        vars(self).update(state)
-        self.workspace, self._plans = Workspace(self._effects, self._solver), plans(self._effects, self._solver)
+        effects, solver = state["_effects"], state["_solver"]
+        vars(self).update(state, workspace=Workspace(effects, solver), _plans=plans(effects, solver))
 
     # --- the step ------------------------------------------------------------------------------------------------
 
@@ -165,10 +178,12 @@ class World(WorldState):
         continuous: str = "auto",
         fixed_rotation: bool = False,
         gravity_scale: float = 1.0,
+        allow_sleep: bool = True,
         tier: str | None = None,
         user: Any = None,
     ) -> Body:
-        """Add one body and return it. mass replaces the mass that follows from the densities of the shapes.
+        """Add one body and return it. mass replaces the mass that follows from the densities of the shapes. A dynamic
+        body with allow_sleep=False keeps its island awake.
 
         Raises TypeError or ValueError naming the argument. The world is then unchanged.
         """
@@ -189,6 +204,7 @@ class World(WorldState):
                 continuous,
                 fixed_rotation,
                 gravity_scale,
+                allow_sleep,
                 tier,
                 user,
             ),
@@ -211,6 +227,7 @@ class World(WorldState):
         continuous: str = "auto",
         fixed_rotation: bool = False,
         gravity_scale: float = 1.0,
+        allow_sleep: bool = True,
         tier: str | None = None,
         user: Any = None,
     ) -> np.ndarray:
@@ -240,6 +257,7 @@ class World(WorldState):
                 continuous,
                 fixed_rotation,
                 gravity_scale,
+                allow_sleep,
                 tier,
                 user,
             ),
@@ -252,12 +270,11 @@ class World(WorldState):
         self._remove([self._identity("body", body)])
 
     def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
-        """Remove many bodies, given as Bodies or ids, in one pass over the tables.
+        """Remove many bodies, given as Bodies or ids, in one pass over the tables. A body may be named more than once.
 
-        Raises KeyError for a body that is not in the world, ValueError for a body that is named twice, TypeError.
-        Nothing is removed then.
+        Raises KeyError for a body that is not in the world, TypeError. Nothing is removed then.
         """
-        self._remove(self._identities("ids", ids))
+        self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
     def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
         """Report that columns of these bodies were written: dynamic bodies wake, and the boxes are refreshed in the
@@ -286,7 +303,8 @@ class World(WorldState):
         return snapshot.take(self)
 
     def restore(self, taken: Snapshot) -> None:
-        """Restore a snapshot: bodies, time, random numbers, and solver, dt, substeps, accuracy, gravity, drag and wind.
+        """Restore a snapshot: bodies, time, random numbers, and solver, dt, substeps, accuracy, restitution_speed,
+        gravity, drag and wind.
 
         The broad phase stays, and so does the `user` of bodies that exist already. Raises ValueError when the snapshot
         does not fit this version's tables, this world's effects or its pixels_per_meter.
@@ -431,7 +449,9 @@ class World(WorldState):
     @gravity.setter
     def gravity(self, value: Pair) -> None:
         self._unlocked()
-        self._gravity = self._felt(self._gravity, checks.vector("gravity", value), self._effects.gravity)
+        gravity = checks.vector("gravity", value)
+        self._needs_fields(gravity=gravity)
+        self._gravity = self._felt(self._gravity, gravity, self._effects.gravity)
 
     def _felt(self, before, now, felt):
         """Return the new value of a force field. Wake all sleeping bodies if the value changed and acts on them."""
@@ -457,8 +477,9 @@ class World(WorldState):
     @drag.setter
     def drag(self, value: float) -> None:
         self._unlocked()
-        felt = self._effects.drag or self._effects.wind
-        self._drag = self._felt(self._drag, checks.number("drag", value, low=0.0), felt)
+        felt, drag = self._effects.drag or self._effects.wind, checks.number("drag", value, low=0.0)
+        self._needs_fields(drag=drag)
+        self._drag = self._felt(self._drag, drag, felt)
 
     @property
     def wind(self) -> Vec2:
@@ -468,7 +489,33 @@ class World(WorldState):
     @wind.setter
     def wind(self, value: Pair) -> None:
         self._unlocked()
-        self._wind = self._felt(self._wind, checks.vector("wind", value), self._effects.wind)
+        wind = checks.vector("wind", value)
+        self._needs_fields(wind=wind)
+        self._wind = self._felt(self._wind, wind, self._effects.wind)
+
+    def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
+        """Raise ValueError for a force field other than 0 without its effect. Wind acts through drag, too."""
+        self._needs("gravity", f"gravity={gravity}", bool(gravity and any(gravity)))
+        self._needs("drag", f"drag={drag}", drag != 0.0 and not self._effects.wind)
+        self._needs("wind", f"wind={wind}", bool(wind and any(wind)))
+
+    @property
+    def restitution_speed(self) -> float:
+        """Speed [px/s] of an impact above which it bounces; None sets 1 m/s. It can be set between steps."""
+        return self.tolerances.restitution_speed
+
+    @restitution_speed.setter
+    def restitution_speed(self, value: float | None) -> None:
+        self._unlocked()
+        self._set_restitution_speed(value)
+
+    def _set_restitution_speed(self, value: float | None) -> None:
+        if value is None:
+            speed = tolerances(self.tolerances.pixels_per_meter).restitution_speed
+        else:
+            speed = checks.number("restitution_speed", value, low=0.0)
+        limits = self.tolerances.limits._replace(bounce_speed=speed)
+        self.tolerances = replace(self.tolerances, restitution_speed=speed, limits=limits)
 
     # --- queries: see queries/casts.py for what each returns --------------------------------------------------------
 

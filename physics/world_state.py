@@ -274,16 +274,18 @@ class WorldState:
             raise checks.NoSuchId(f"{name} must be a Body or the id of one (got {value})")
         return int(value)
 
-    def _identities(self, name: str, value: Any) -> np.ndarray:
-        """Return the ids of one body or of many as a flat array, each once. Raises TypeError, ValueError."""
+    def _identities(self, name: str, value: Any, repeats: bool = False) -> np.ndarray:
+        """Return the ids of one body or of many as a flat array, each once unless repeats are allowed. Raises
+        TypeError, ValueError.
+        """
         if isinstance(value, (Handle, int, np.integer)):
             value = [value]
         if isinstance(value, np.ndarray) and value.dtype != np.object_:
-            return checks.ids(name, value)
+            return checks.ids(name, value, repeats)
         if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
             raise TypeError(f"{name} must be Bodies or ids (got {checks.shown(value)})")
         each = [self._identity(f"{name}[{k}]", one) for k, one in enumerate(value)]
-        return checks.ids(name, np.array(each, np.int64))
+        return checks.ids(name, np.array(each, np.int64), repeats)
 
     def _tidy_library(self) -> None:
         """Drop unused geometry once it may be half of all."""

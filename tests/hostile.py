@@ -71,12 +71,19 @@ STILL = (
 )
 
 
+def air(effects):
+    """The arguments of a world with drag and wind, where they are declared."""
+    return {"drag": 0.1, "wind": (5.0, 0.0)} if effects.drag and effects.wind else {}
+
+
 def crowded(kind, strategy, solver=None, seed=0, walkers=True):
     """A world with shapes of all kinds, most of which touch something; walkers: characters where bodies are pushed."""
     effects, solvers = KINDS[kind]
     rng = np.random.default_rng(seed)
-    world = World(effects, STRATEGIES[strategy](), solver or solvers[0], drag=0.1, wind=(5.0, 0.0))
+    world = World(effects, STRATEGIES[strategy](), solver or solvers[0], **air(effects))
     for number, shape in enumerate(STILL):
+        if not effects.one_way and np.any(getattr(shape, "one_way", False)):
+            continue
         world.add_body(shape, position=(50.0 * number - 100.0, 40.0), kind="static")
     world.add_body(Polygon.box(30.0, 6.0), position=(-90.0, 20.0), kind="kinematic", velocity=(20.0, 0.0))
     world.add_body(Circle(9.0), position=(0.0, 20.0), kind="static", sensor=True)

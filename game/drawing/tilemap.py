@@ -1,8 +1,9 @@
 """Levels made with Tiled (.tmj): tile layers, tile properties, objects. An error names file, place and reason.
 
-It reads finite orthogonal maps of one embedded tileset, with layer data as CSV or base64 (plain, zlib, gzip). It
-refuses infinite maps, external tilesets and other encodings, and says how to change them in Tiled. Packed data is
-unpacked only up to the bytes that the map can hold.
+It reads finite orthogonal maps of one embedded tileset, with layer data as CSV or base64 (plain, zlib, gzip), layers in
+groups, and the offsets of both: for objects any, for tiles a number of whole tiles. It refuses infinite maps, external
+tilesets, other encodings, and keys that move or hide what is drawn (parallax, opacity, tint, rotation ...), by name.
+Packed data is unpacked only up to the bytes that the map can hold.
 """
 
 import base64
@@ -24,6 +25,12 @@ LARGEST = 10_000  # tiles along a side; a larger number is a damaged file
 MOST_TILES = 2**22  # in all layers together: each takes 40 bytes while it is read, 16 from then on
 LARGEST_PICTURE = 4096  # [px] of a tileset's picture each way: 64 MB
 PACKINGS = {"zlib": zlib.MAX_WBITS, "gzip": zlib.MAX_WBITS | 16}  # compression -> zlib window bits: the header
+OFFSETS = ("offsetx", "offsety")  # [px] of a layer or a group
+DEEPEST = 20  # groups within groups
+# Keys that move, turn or hide what is drawn, which are not read: only these values are.
+LAYER_DEFAULTS = {"visible": True, "opacity": 1, "parallaxx": 1, "parallaxy": 1, "tintcolor": None, "x": 0, "y": 0}
+OBJECT_DEFAULTS = {"visible": True, "opacity": 1, "rotation": 0, "template": None}
+TILESET_DEFAULTS = {"tileoffset": None, "margin": 0, "spacing": 0}
 KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 
@@ -176,18 +183,15 @@ class _Reader:
             self.fail("tileheight", "tiles must be square")
         first, count, tileset = self.tileset(data)
         layers, flips, things, held = {}, {}, [], 0
-        for index, layer in enumerate(self.listing(data, "map", "layers")):
-            place = f"layers[{index}]"
-            if not isinstance(layer, dict):
-                self.fail(place, "is not an object")
-            name = str(layer.get("name", index))
-            if layer.get("type") == "tilelayer":
+        for place, name, layer, offset in self.flat_layers(data, "map", "", (0.0, 0.0)):
+            if layer["type"] == "tilelayer":
                 held += columns * rows
                 if held > MOST_TILES:
                     self.fail(place, f"the layers up to this one hold {held} tiles; at most {MOST_TILES} are read")
-                layers[name], flips[name] = self.tiles(layer, place, (rows, columns), first, count)
-            elif layer.get("type") == "objectgroup":
-                things += self.things(layer, place)
+                found = self.tiles(layer, place, (rows, columns), first, count)
+                layers[name], flips[name] = self.shifted(found, place, offset, size)
+            else:
+                things += self.things(layer, place, offset, tileset)
         return TileMap(
             self.path,
             columns,
@@ -201,6 +205,54 @@ class _Reader:
             tuple(things),
             self.properties(data, "map"),
         )
+
+    def flat_layers(self, data, place, prefix, offset, depth=0):
+        """Yield (place, name, layer, offset [px]) of the tile and object layers, also of those in groups, in order."""
+        for index, layer in enumerate(self.listing(data, place, "layers")):
+            here = f"{prefix}layers[{index}]"
+            if not isinstance(layer, dict):
+                self.fail(here, "is not an object")
+            self.refuse(layer, here, LAYER_DEFAULTS)
+            kind = layer.get("type")
+            if kind not in ("tilelayer", "objectgroup", "group"):
+                self.fail(f"{here}.type", f"must be tilelayer, objectgroup or group (got {kind!r:.60})")
+            x, y = (each + self.number(layer, here, name) for each, name in zip(offset, OFFSETS, strict=True))
+            if kind != "group":
+                yield here, str(layer.get("name", index)), layer, (x, y)
+            elif depth == DEEPEST:
+                self.fail(here, f"groups may hold groups {DEEPEST} deep")
+            else:
+                yield from self.flat_layers(layer, here, f"{here}.", (x, y), depth + 1)
+
+    def refuse(self, data, place, defaults):
+        """Raise FileError for a key that moves, turns or hides what is drawn, at another value than its default."""
+        for name, default in defaults.items():
+            value = data.get(name, default)
+            if type(value) not in (type(default), int, float) or value != default:
+                usual = "absent" if default is None else repr(default).lower()
+                self.fail(f"{place}.{name}", f"is not supported: must be {usual} (got {value!r:.60})")
+
+    def shifted(self, found, place, offset, size):
+        """Return (tiles, flips) moved by the offset [px] of their layer, which is a number of whole tiles."""
+        if offset == (0.0, 0.0):
+            return found
+        for name, each in zip(OFFSETS, offset, strict=True):
+            if each % size:
+                self.fail(
+                    f"{place}.{name}", f"must be a multiple of the tile size {size}, with its groups (got {each:g})"
+                )
+        columns, rows = (int(each // size) for each in offset)
+        tiles, flips = found
+        height, width = tiles.shape
+        at_row, at_column = np.nonzero(tiles >= 0)
+        to_row, to_column = at_row + rows, at_column + columns
+        out = np.flatnonzero((to_row < 0) | (to_row >= height) | (to_column < 0) | (to_column >= width))
+        if len(out):
+            column, row = int(at_column[out[0]]), int(at_row[out[0]])
+            self.fail(place, f"its offset moves the tile at column {column} row {row} out of the map")
+        moved, turned = np.full_like(tiles, -1), np.zeros_like(flips)
+        moved[to_row, to_column], turned[to_row, to_column] = tiles[at_row, at_column], flips[at_row, at_column]
+        return moved, turned
 
     def whole(self, data, place, name, largest):
         value = data.get(name)
@@ -226,6 +278,7 @@ class _Reader:
             self.fail("tilesets", f"must hold one tileset (holds {len(tilesets)})")
         if "source" in tilesets[0]:
             self.fail("tilesets[0].source", "the tileset is in a file of its own; embed it in Tiled (Embed Tileset)")
+        self.refuse(tilesets[0], "tilesets[0]", TILESET_DEFAULTS)
         first = self.whole(tilesets[0], "tilesets[0]", "firstgid", LARGEST)
         return first, self.whole(tilesets[0], "tilesets[0]", "tilecount", LARGEST), tilesets[0]
 
@@ -293,14 +346,22 @@ class _Reader:
                     self.fail(f"{place}.{side}", f"must be 0..1 (got {properties[side]!r:.60})")
         return found
 
-    def things(self, layer, place):
+    def things(self, layer, place, offset, tileset):
+        """Return the objects of a layer. A tile object's origin is its bottom left corner, any other's its top left."""
         found = []
         for index, entry in enumerate(self.listing(layer, place, "objects")):
             here = f"{place}.objects[{index}]"
             if not isinstance(entry, dict):
                 self.fail(here, "is not an object")
+            self.refuse(entry, here, OBJECT_DEFAULTS)
             kind = entry.get("type") or entry.get("class") or ""
             x, y, width, height = (self.number(entry, here, name) for name in ("x", "y", "width", "height"))
+            if "gid" in entry:
+                if tileset.get("objectalignment", "unspecified") not in ("unspecified", "bottomleft"):
+                    self.fail(
+                        "tilesets[0].objectalignment", "must be bottomleft: tile objects are placed by that corner"
+                    )
+                y -= height
             name, properties = str(entry.get("name", "")), self.properties(entry, here)
-            found.append(Thing(str(kind), name, x, y, width, height, properties, here))
+            found.append(Thing(str(kind), name, x + offset[0], y + offset[1], width, height, properties, here))
         return found

@@ -177,10 +177,18 @@ def collide_link_circle(link, points, x, y, radius):
 
 
 @subkernel
-def classify_normal(link, points, nx, ny):
+def is_towards_end(points, nx, ny):
+    """Return whether a direction goes along a link, towards b."""
+    return dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
+
+
+@subkernel
+def classify_normal(link, points, towards_end, nx, ny):
     """Return the verdict on a normal from a link to a hull: ADMIT, SNAP to the link's normal, or SKIP (a
-    neighbour's)."""
-    towards_end = dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
+    neighbour's).
+
+    towards_end: the neighbour that may have the normal is the one at b, otherwise at a: the end that is touched.
+    """
     has_neighbour = link.has_after if towards_end else link.has_before
     own_x, own_y = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     if not has_neighbour:
@@ -208,7 +216,7 @@ def neighbour_separates(points, nx, ny, hull, x, y, face):
 
     face [px]: the separation of this link's face.
     """
-    towards_end = dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
+    towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2
     j = 3 if towards_end else 0
     if height_over(points, i, j, x, y) < 0.0:
@@ -256,7 +264,7 @@ def keep_owned(link, points, x, y, count, manifold_out):
     """Drop the points at a corner that the previous link reports. Return how many are left."""
     nx = manifold_out[1]
     ny = manifold_out[2]
-    if dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0 or owns_start(link, points, x, y):
+    if is_towards_end(points, nx, ny) or owns_start(link, points, x, y):
         return count
     length = norm(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1])
     kept = 0
@@ -303,7 +311,7 @@ def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out)
     if other > face + bias or (apart and not is_over_face):
         following = edge + 1 if edge + 1 < count else 0
         nx, ny = unit(corners[edge, 1] - corners[following, 1], corners[following, 0] - corners[edge, 0], 0.0, -1.0)
-        verdict = classify_normal(link, points, nx, ny)
+        verdict = classify_normal(link, points, is_towards_end(points, nx, ny), nx, ny)
         if is_second and verdict == SKIP:
             verdict = ADMIT
         if other <= face + bias:
@@ -324,7 +332,7 @@ def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out)
         if apart:
             i, j, _ = nearest_corners(points, 2, corners, count)
             nx, ny = unit(corners[j, 0] - points[i, 0], corners[j, 1] - points[i, 1], 0.0, -1.0)
-            at_corner = classify_normal(link, points, nx, ny)
+            at_corner = classify_normal(link, points, i == 1, nx, ny)
             if at_corner == ADMIT or (is_second and at_corner == SKIP):
                 found = corner_manifold(face_hull, i, hull, j, margin, manifold_out)
                 return found if is_second else keep_owned(link, points, x, y, found, manifold_out)

@@ -14,6 +14,7 @@ from physics.collision.hulls import (
     collide_hull_circle,
     collide_hulls,
     edge_normal,
+    extent_along,
     find_max_separation,
     move_corners,
     path_misses,
@@ -367,12 +368,22 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 
 
 @subkernel
+def overlaps_narrowly(a, b, most, manifold):
+    """Return whether two Hulls with a face manifold share at most `most` [px] of that face: the ends of two sides."""
+    if manifold[0] == 2.0:
+        return norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most
+    low, high = extent_along(a.corners, a.count, -manifold[2], manifold[1])
+    least, greatest = extent_along(b.corners, b.count, -manifold[2], manifold[1])
+    return min(high, greatest) - max(low, least) + a.radius + b.radius <= most
+
+
+@subkernel
 def is_grazing(a, b, graze, p, q, manifold):
     """Return whether two Hulls with a manifold do not meet in this step.
 
     Either corners pass each other, or a body passes a side that it would overlap by at most `graze` [px]. A side that
-    ends slightly above the floor beside it must not stop a body; the small overlap is pushed out upwards. p, q: BODY
-    rows of A and B.
+    ends slightly above the floor beside it must not stop a body; the small overlap is pushed out upwards. Two faces
+    that share no more than `graze` [px] are corners too. p, q: BODY rows of A and B.
     """
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
     corners = manifold[0] == 1.0 and manifold[6] >= CORNERS
@@ -381,7 +392,9 @@ def is_grazing(a, b, graze, p, q, manifold):
     vx, vy = relative_velocity(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
     along = vx * manifold[1] + vy * manifold[2]
     # Only a motion along the normal passes a side: a surface that a body slides on is touched all the time.
-    return (corners or 2.0 * along * along > vx * vx + vy * vy) and path_misses(a, b, graze, vx, vy)
+    passes = corners or 2.0 * along * along > vx * vx + vy * vy
+    passes = passes or (along < 0.0 and overlaps_narrowly(a, b, graze, manifold))
+    return passes and path_misses(a, b, graze, vx, vy)
 
 
 @inlined

@@ -3,6 +3,7 @@
 import math
 from typing import Any
 
+from physics.collision.hull_pairs import is_grazing
 from physics.collision.hulls import (
     ALL_EDGES,
     Hull,
@@ -308,6 +309,14 @@ def make_grid_pass(one_way: bool) -> Any:
                             deepest,
                             workspace.points,
                         )
+                        # Ends of two faces that pass each other, as in collide_polygon_pair.
+                        if (
+                            batch.graze > 0.0
+                            and kind != ONE_WAY
+                            and workspace.points[0] > 0.0
+                            and is_grazing(Hull(tile, corners, 0.0, edges), hull, batch.graze, p, q, workspace.points)
+                        ):
+                            continue
                         found = add_points(
                             shapes, candidates, pair, sign, workspace.points, feature, manifolds_out, found
                         )

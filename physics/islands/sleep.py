@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.islands.awake import is_active, list_active, wakes
+from physics.islands.free_motion import free_fall, is_free, keep_awake_what_moves_freely, new_groups
 from physics.islands.graph import MOST_NODES, NO_NODE, join, new_edges, write_pair
 from physics.jit import inlined, kernel
 from physics.math2d import norm
@@ -379,6 +380,7 @@ def wake_disturbed(state: StepState) -> None:
 # The criterion is the distance a body has moved, not its speed: in a heap some bodies tremble without moving away.
 # Source: Jolt Physics, Body::UpdateSleepStateInternal, tests whether three points of a body stay within spheres. Here
 # the displacement of the furthest point since the start of the clock is bounded. Speed and time: Box2D v3.2, solver.c.
+# A body that no friction holds must stay in place for a minute more: see free_motion.py.
 
 COUNTED = 2.0**62  # more sleep periods than this are not an exact integer in a kernel
 
@@ -447,7 +449,7 @@ def start_islands(rows, parents_out):
 
 
 @kernel
-def fall_asleep(
+def advance_sleep_times(
     # read
     rows,
     edges,
@@ -461,12 +463,11 @@ def fall_asleep(
     excess_out,
     bodies_inout,
 ):
-    """Put islands to sleep. Return (islands of awake dynamic bodies, bodies that fell asleep). O(rows + count).
+    """Advance the sleep times of the awake bodies. Return (islands of awake dynamic bodies, whether one may be ready).
 
-    No body of the island may have moved further in `patience` [s] than at speed `slow` [px/s], and the mean square
-    speed of the island must not exceed that of `slow` now. So a few bodies may tremble, and an island that has just
-    begun to fall, or was pushed, stays awake. Bodies of an edge that keeps them awake stay so. rows: the awake ones;
-    edges, count, parents_inout: see graph.join; least_out, excess_out (bodies): scratch.
+    A body starts again when it has moved further than in `patience` [s] at speed `slow` [px/s]. rows: the awake bodies;
+    edges, count, parents_inout: see graph.join. least_out, excess_out (bodies): at the root of each island the least
+    sleep time, and the sum of the squares of the speeds beyond that of `slow`. O(rows + count).
     """
     distance = slow * patience
     islands = 0
@@ -478,11 +479,11 @@ def fall_asleep(
         parents_inout[i] = root_of(i, parents_inout)
         if b.kind == DYNAMIC and b.awake and parents_inout[i] == i:
             islands += 1
-        if b.kind != DYNAMIC or not b.awake or b.quarantined:
+        if not is_free(b):
             continue
         before = b.sleep_time
         far = norm(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
-        b.sleep_time = 0.0 if far else before + dt
+        b.sleep_time = 0.0 if far or not b.allow_sleep else before + dt
         # A body that creeps more slowly than this stays near a reference pose that follows it.
         times = b.sleep_time / patience
         if far or (abs(times) < COUNTED and math.floor(times) > math.floor(before / patience)):
@@ -491,25 +492,44 @@ def fall_asleep(
             b.still_angle = b.angle
         b.island = bodies_inout[parents_inout[i]].id
     for i in range(count):
-        if not edges.keeps_awake[i]:
-            continue
         for k in range(MOST_NODES):
-            if edges.nodes[i, k] < 0:
+            if edges.nodes[i, k] < 0 or not edges.keeps_awake[i]:
                 break
             bodies_inout[edges.nodes[i, k]].sleep_time = 0.0
+    ready = False
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
         root = parents_inout[rows[k]]
-        if b.kind == DYNAMIC and b.awake and not b.quarantined:
+        if is_free(b):
             least_out[root] = min(least_out[root], b.sleep_time)
             speed = norm(b.vx, b.vy) + abs(b.angular_velocity) * b.extent
             excess_out[root] += speed * speed - slow * slow
+            ready = ready or b.sleep_time >= patience
+    return islands, ready
+
+
+@kernel
+def fall_asleep(
+    # read
+    rows,
+    parents,
+    least,
+    excess,
+    patience,
+    # write
+    bodies_inout,
+):
+    """Put the islands to sleep whose bodies have all stayed in place for `patience` [s]. Return the number of bodies.
+
+    The mean square speed of the island must not exceed that of the greatest sleep speed. So a few bodies may tremble,
+    and an island that has just begun to fall, or was pushed, stays awake. rows: the awake bodies; parents, least,
+    excess: see advance_sleep_times. O(rows).
+    """
     slept = 0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
-        root = parents_inout[rows[k]]
-        calm = least_out[root] >= patience and excess_out[root] <= 0.0
-        if b.kind == DYNAMIC and b.awake and not b.quarantined and calm:
+        root = parents[rows[k]]
+        if is_free(b) and least[root] >= patience and excess[root] <= 0.0:
             b.awake = False
             b.vx = 0.0
             b.vy = 0.0
@@ -518,7 +538,7 @@ def fall_asleep(
             b.previous_y = b.y
             b.previous_angle = b.angle
             slept += 1
-    return islands, slept
+    return slept
 
 
 class IslandWorkspace:
@@ -526,6 +546,7 @@ class IslandWorkspace:
 
     def __init__(self) -> None:
         self.parents, self.least, self.excess = np.zeros(16, np.int32), np.zeros(16), np.zeros(16)
+        self.groups = new_groups(16)
         self.edges = new_edges(32)
 
     def grow(self, bodies: int, contacts: int) -> None:
@@ -533,6 +554,7 @@ class IslandWorkspace:
         if len(self.parents) < bodies:
             self.parents = np.zeros(2 * bodies, np.int32)
             self.least, self.excess = np.zeros(2 * bodies), np.zeros(2 * bodies)
+            self.groups = new_groups(2 * bodies)
         if len(self.edges.kinds) < 2 * contacts:
             self.edges = new_edges(4 * contacts)
 
@@ -548,6 +570,9 @@ class IslandWorkspace:
         "sleeping_set",
         "pairs",
         "tolerances",
+        "gravity",
+        "drag",
+        "wind",
         "dt",
         "workspace",
     ),
@@ -584,7 +609,7 @@ def rest(state: StepState) -> None:
     start_islands(rows, search.parents)
     count = list_contact_edges(bodies, contacts, int(state.effects.conveyor), search.edges)
     join(search.edges, count, search.parents)
-    state.work[ISLANDS], slept = fall_asleep(
+    state.work[ISLANDS], ready = advance_sleep_times(
         rows,
         search.edges,
         count,
@@ -596,6 +621,18 @@ def rest(state: StepState) -> None:
         search.excess,
         bodies,
     )
+    if not ready:
+        return
+    e, still = state.effects, (0.0, 0.0)
+    fall = free_fall(
+        state.gravity if e.gravity else still,
+        state.drag,
+        state.wind if e.wind else still,
+        e.drag,
+        state.tolerances.slop,
+    )
+    keep_awake_what_moves_freely(rows, bodies, contacts, e.friction, fall, search.groups, search.parents, search.least)
+    slept = fall_asleep(rows, search.parents, search.least, search.excess, SLEEP_TIME, bodies)
     if not slept:
         return
     slept = awake.dynamic[~bodies["awake"][awake.dynamic]]

@@ -30,6 +30,7 @@ BODY = in_lines(
         ("quarantined", np.bool_),  # disabled after its pose or velocity became non-finite
         ("bullet", np.bool_),  # swept against moving bodies too
         ("fixed_rotation", np.bool_),
+        ("allow_sleep", np.bool_),  # False: its island stays awake
         ("has_current_contacts", np.bool_),  # its contacts were updated to its present pose; see collision/cache.py
         ("inverse_mass", np.float64),  # 0: infinite mass
         ("inverse_inertia", np.float64),  # 0: infinite inertia

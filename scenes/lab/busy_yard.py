@@ -76,7 +76,7 @@ class BusyYard:
         start, end, radius = BELT
         belt = Material(friction=0.6, surface_speed=60.0)
         world.add_body(Capsule(start, end, radius), kind="static", material=belt)
-        planks = TileGrid(np.zeros((1, 4), bool), TILE, np.ones((1, 4), bool))
+        planks = TileGrid(np.zeros((1, 4), bool), TILE, np.full((1, 4), world.effects.one_way))
         world.add_body(planks, position=PLANK, kind="static", material=GRIP)
         world.add_body(Polygon.box(2, 40), position=TARGET, kind="static", material=GRIP)
         if world.effects.sensors:

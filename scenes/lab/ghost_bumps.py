@@ -1,12 +1,12 @@
-"""A floor of boxes, a floor of tiles, a chain: all equally flat. On which of them are the seams felt?
+"""A floor of boxes, a floor of tiles, a chain: all equally flat, and no seam of them is felt.
 
-What to see: a box, a disc and a capsule slide over 260 lengths of each floor, without friction. Separate boxes know
-nothing of each other, so a round shape that has sunk in slightly is deflected by the next box's corner. Tiles are
-merged and the links of a chain know their neighbours: there the speed stays the same to the last bits.
+What to see: a box, a disc and a capsule slide over 260 lengths of each floor, without friction. Tiles are merged and
+the links of a chain know their neighbours. Separate boxes know nothing of each other: where the surface on which a body
+lies goes on flush, a contact with the next box's side or corner is dropped. The speed stays the same on each floor.
 
 Why it matters: Floors are built of many pieces, and a hero who trips over an invisible seam is a bug report.
 
-To try: turn up the speed: the disc leaves the separate boxes earlier, and the other floors not at all.
+To try: turn up the speed, or drag a slider and drop it on a seam.
 
 Source: Catto, Ghost Collisions, box2d.org, 2020.
 """
@@ -43,8 +43,7 @@ GROUND = Filter(membership=1)
 VIEWS = tuple((4, 32 + 80 * lane, 308, 70) for lane in range(len(FLOORS)))
 LOST = 40.0  # [px] a slider this far from its place is put back
 WANTED = 200  # tiles before the floors are judged
-KEEPS = 1e-9  # of the speed: greatest loss on merged floors
-FELT = 1e-3  # of the speed: a noticeable seam
+KEEPS = {"boxes": 1e-3, "tiles": 1e-9, "chain": 1e-9}  # greatest loss of a floor, as a share of the speed
 HISTORY = 200  # steps in the curves
 LEAST = 1e-16  # smaller errors are drawn at the bottom
 PLOTS = (("speed error [log]", (318, 24, 158, 104)), ("height off the floor [px]", (318, 134, 158, 80)))
@@ -56,7 +55,7 @@ class GhostBumps(Scene):
 
     name = "lab/ghost_bumps"
     title = "Ghost bumps"
-    about = "Box, disc and capsule slide over boxes, tiles and a chain: which floor's seams do they feel?"
+    about = "Box, disc and capsule slide over boxes, tiles and a chain, and feel no seam."
     keeps = {"solver": "what a seam takes off a slider is asked of the solver that a World has by itself"}
     effects = Effects(response=True, gravity=True, rotation=True, stacking=True)
     pieces = ("boxes", "circles", "capsules", "tiles", "chains")
@@ -260,24 +259,16 @@ class GhostBumps(Scene):
             frame.fix(rect)
 
     def check(self):
-        """Return the goals: seams of separate boxes are felt, and no others."""
-        felt = max(self.slowed["boxes", kind] for kind in KINDS)
-        goals = [
-            Goal(
-                "the seams of separate boxes are felt",
-                300,
-                felt > FELT,
-                ", ".join(f"{kind} {self.slowed['boxes', kind]:.1e}" for kind in KINDS),
-            )
-        ]
-        for floor in FLOORS[1:]:
+        """Return the goals: no seam is felt, of any floor."""
+        goals = []
+        for floor in FLOORS:
             worst = max(self.slowed[floor, kind] for kind in KINDS)
             aloft, raised = (max(tally[floor, kind] for kind in KINDS) for tally in (self.aloft, self.raised))
             goals += [
                 Goal(
                     f"no speed is lost on the {floor}",
                     590,
-                    self.run >= WANTED and worst <= KEEPS,
+                    self.run >= WANTED and worst <= KEEPS[floor],
                     f"{worst:.1e} after {self.run} tiles",
                 ),
                 Goal(

@@ -93,7 +93,7 @@ class OneWay(Scene):
         pictures = {name: piece(shape, ramp) for name, (shape, ramp) in KINDS.items() if ramp}
         pictures["crate"] = self.things["crate"]
         self.cast = Cast(pictures)
-        self.world.add_body(level(), kind="static")
+        self.world.add_body(level(self.world.effects), kind="static")
         self.hero = Character(self.world, Polygon.box(*HERO_BOX), (48.0, FLOOR * TILE - HERO_BOX[1] / 2), user="hero")
         self.vy, self.grounded, self.facing, self.run = 0.0, True, 1, 0.0
         self.clock = 0.0  # [steps] of the lift
@@ -360,11 +360,11 @@ class OneWay(Scene):
         )
 
 
-def level():
-    """Return the floor, the walls beside it and the planks."""
+def level(effects):
+    """Return the floor, the walls beside it, and the planks, which need the effect one_way."""
     solid = [[row >= FLOOR for _ in range(COLUMNS)] for row in range(ROWS)]
     one_way = [[False] * COLUMNS for _ in range(ROWS)]
-    for row, first, last in PLANKS.values():
+    for row, first, last in PLANKS.values() if effects.one_way else ():
         one_way[row][first : last + 1] = [True] * (last + 1 - first)
     return TileGrid(solid, TILE, one_way)
 

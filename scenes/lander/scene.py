@@ -73,7 +73,8 @@ class Lander(Scene):
     def change_slider(self, name, value):
         """Apply a changed gravity at once."""
         super().change_slider(name, value)
-        self.world.gravity = (0.0, self.values["gravity"])
+        if self.world.effects.gravity:
+            self.world.gravity = (0.0, self.values["gravity"])
 
     # --- the step ----------------------------------------------------------------------------------------------------
 

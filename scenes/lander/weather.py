@@ -33,7 +33,7 @@ class Weather:
 
     def blow(self, world, *bodies):
         """Set the world's wind, and push bodies by the gust for the next step."""
-        if world.wind.x != self.steady:
+        if world.effects.wind and world.wind.x != self.steady:
             world.wind = (self.steady, 0.0)
         for body in bodies:
             body.apply_force((body.mass * world.drag * (self.wind - self.steady), 0.0))

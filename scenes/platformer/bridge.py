@@ -5,7 +5,7 @@ curve.
 import numpy as np
 
 from game.drawing.sprites import load_atlas
-from physics import PixelMask
+from physics import Filter, PixelMask
 from scenes.platformer.level import TILE_FILTER
 
 NEAR = 2  # [px] tolerance of the highest point under his box, by rounding to whole pixels
@@ -18,8 +18,13 @@ class Bridge:
         self.left, self.top = int(thing.x), int(thing.y)
         mask = PixelMask.from_surface(load_atlas("things")["bridge"], origin=(0, 0), one_way=True)
         self.heights = self.top + np.argmax(mask.solid, axis=0)  # [px] of the boards, by column
+        one_way = world.effects.one_way  # without it the bridge is a picture that nothing meets
         self.body = world.add_body(
-            mask, position=(self.left, self.top), kind="static", filter=TILE_FILTER, user="bridge"
+            mask.with_(one_way=one_way),
+            position=(self.left, self.top),
+            kind="static",
+            filter=TILE_FILTER if one_way else Filter(TILE_FILTER.membership, 0),
+            user="bridge",
         )
 
     def height(self, left, right):

@@ -8,7 +8,7 @@ import numpy as np
 
 from game.drawing.tilemap import load_tilemap, map_picture
 from game.places import LEVELS
-from physics import Filter
+from physics import Filter, TileGrid
 from scenes.platformer.level_rules import LARGEST, check_level
 
 # Categories. Two shapes collide if each one's membership is in the other's mask.
@@ -79,8 +79,11 @@ class Level:
         return [zone for zone in self.zones if zone.x <= x < zone.x + zone.width and zone.y <= y < zone.y + zone.height]
 
     def add_to(self, world):
-        """Put the tiles into a world as one static body."""
-        return world.add_body(self.grid, kind="static", filter=TILE_FILTER, user="tiles")
+        """Put the tiles into a world as one static body, without the planks if it has no one-way platforms."""
+        grid = self.grid
+        if not world.effects.one_way:
+            grid = TileGrid(grid.solid, grid.tile_size, slopes=grid.slopes)
+        return world.add_body(grid, kind="static", filter=TILE_FILTER, user="tiles")
 
     def kind(self, column, row):
         """Return the kind of a tile. Beside the map there is rock, above and below it nothing."""

@@ -28,8 +28,8 @@ STILL = (*MOVING, "segment", "chain", "tiles", "open_mask")
 class Values:
     """Draws from a random.Random."""
 
-    def __init__(self, rng):
-        self.rng = rng
+    def __init__(self, rng, one_way=True):
+        self.rng, self.one_way = rng, one_way  # one_way: whether shapes may be open from below
 
     def chance(self, share):
         return self.rng.random() < share
@@ -119,7 +119,7 @@ class Values:
         rows, columns = self.rng.randint(1, 3), self.rng.randint(1, 8)
         solid = [[self.rng.randint(0, 1) for _ in range(columns)] for _ in range(rows)]
         more = ""
-        if self.chance(0.4):
+        if self.one_way and self.chance(0.4):
             more = f", one_way={[[int(not cell and self.chance(0.4)) for cell in row] for row in solid]}"
         elif self.chance(0.4):
             slope = ((0.0, 1.0), (1.0, 0.5), (0.0, 0.0))
@@ -138,7 +138,7 @@ class Values:
         return f"PixelMask({pixels}, snap={self.chance(0.5)})"
 
     def _open_mask(self):
-        return f"{self._mask()}.with_(one_way=True)"
+        return f"{self._mask()}.with_(one_way=True)" if self.one_way else self._mask()
 
     # --- what bodies are given -------------------------------------------------------------------------------------
 

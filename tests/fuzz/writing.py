@@ -28,8 +28,11 @@ class Writer:
         if "narrowphase" not in names and names:
             said = f"narrowphase=False, {said}" if v.chance(0.3) else said
         more = [f"solver={rng.choice([None, *self._solvers()])!r}"]
-        more += [f"gravity={v.pair(400.0)}"] if v.chance(0.3) else []
-        more += [f"drag={v.number(0.0, 2.0)}, wind={v.pair(100.0)}"] if v.chance(0.3) else []
+        v.one_way = "one_way" in names
+        more += [f"gravity={v.pair(400.0)}"] if "gravity" in names and v.chance(0.3) else []
+        more += [f"drag={v.number(0.0, 2.0)}"] if {"drag", "wind"} & set(names) and v.chance(0.3) else []
+        more += [f"wind={v.pair(100.0)}"] if "wind" in names and v.chance(0.3) else []
+        more += [f"restitution_speed={v.number(0.0, 60.0)}"] if v.chance(0.2) else []
         more += [f"pixels_per_meter={rng.choice((1.0, 32.0, 100.0))}"] if v.chance(0.3) else []
         more += [f"substeps={rng.randint(1, 8)}"] if v.chance(0.2) else []
         return f"world = World(Effects({said}), {rng.choice(STRATEGIES)}, {', '.join(more)})"
@@ -107,6 +110,7 @@ class Writer:
             more.append(f"continuous={self.rng.choice(('off', 'ray', 'swept', 'toi'))!r}")
         more += [f"mass={v.number(0.1, 500.0)}"] if v.chance(0.1) else []
         more += ["fixed_rotation=True"] if v.chance(0.1) else []
+        more += ["allow_sleep=False"] if v.chance(0.05) else []
         more += [f"gravity_scale={v.number(-1.0, 2.0)}"] if v.chance(0.1) else []
         return f"b{self._name()} = world.add_body({', '.join(shapes + more)})"
 

@@ -198,7 +198,7 @@ def test_removing_twice_says_so_and_spoils_nothing():
         lambda: world.remove_body(body),
         lambda: world.remove_body(1),
         lambda: world.remove_bodies([0, 1]),
-        lambda: world.remove_bodies([0, 0]),
+        lambda: world.remove_bodies([0, 1, 1]),
         lambda: body.wake(),
         lambda: body.velocity,
         lambda: setattr(body, "velocity", (1, 0)),

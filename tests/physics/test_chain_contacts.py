@@ -5,7 +5,21 @@ import math
 import numpy as np
 import pytest
 
-from physics import JIT, Bounds, Capsule, Chain, Circle, Material, PixelMask, Polygon, Segment, TileGrid, World, collide
+from physics import (
+    JIT,
+    Bounds,
+    Capsule,
+    Chain,
+    Circle,
+    Effects,
+    Material,
+    PixelMask,
+    Polygon,
+    Segment,
+    TileGrid,
+    World,
+    collide,
+)
 
 shapely = pytest.importorskip("shapely")
 from tests.physics.test_hull_manifolds import hull_of, surface_gap  # noqa: E402
@@ -212,3 +226,23 @@ def test_grids_and_chains_do_not_meet_each_other():
     for other in (FLAT, grid):
         assert len(collide(FLAT, (0, 0, 0), other, (0, 0, 0))) == 0
     assert len(collide(grid, (0, 0, 0), FLAT, (0, 0, 0))) == 0
+
+
+@pytest.mark.parametrize("tilt", [-0.01, -1e-3, 0.0, 1e-3, 0.01])
+@pytest.mark.parametrize("name", ["capsule", "long capsule", "rounded"])
+def test_a_chain_without_ghosts_is_level_where_a_round_body_leaves_its_first_link(name, tilt):
+    """The corner between two links is judged by the end that is touched: near it a normal may lean to the open end."""
+    shape, radius = {
+        "capsule": (Capsule((-6, 0), (6, 0), 6), 6.0),
+        "long capsule": (Capsule((-2, 0), (9, 0), 4), 4.0),
+        "rounded": (Polygon(Polygon.box(12, 12).points, 2), 8.0),
+    }[name]
+    world = World(Effects.detection())
+    world.add_body(Chain([(-160, 0), (0, 0), (160, 0)]), kind="static")
+    body = world.add_body(shape)
+    for x in np.linspace(-20, 20, 401 if JIT else 41):
+        for depth in (0.01, 0.1, 0.5):
+            body.move_to((float(x), depth - radius), tilt)
+            world.step()
+            found = world.contacts
+            assert (found["normal_y"] < -0.999).all(), (x, depth)

@@ -79,7 +79,8 @@ def an_eye(world, much):
 
 def a_platform(world, much):
     open_below = np.ones((1, 10), bool)
-    world.add_body(TileGrid(~open_below, 20, one_way=open_below), position=(-100, 0), kind="static")
+    if world.effects.one_way:
+        world.add_body(TileGrid(~open_below, 20, one_way=open_below), position=(-100, 0), kind="static")
     world.add_body(Circle(6), position=(0, 60), velocity=(0, -260 * much))
     world.add_body(Circle(6), position=(40, -30))
 
@@ -119,7 +120,12 @@ EVENTS = ("begin", "persist", "end", "hits", "sensor_begin", "sensor_end")
 
 def outcome(effects, solver, scene, much):
     """(poses and velocities, flags and events) of every step."""
-    world = World(effects, solver=solver, drag=0.5, wind=(40, 0))
+    world = World(
+        effects,
+        solver=solver,
+        drag=0.5 if effects.drag or effects.wind else 0.0,
+        wind=(40, 0) if effects.wind else (0, 0),
+    )
     scene(world, much)
     numbers, facts = [], []
     for _ in range(STEPS):

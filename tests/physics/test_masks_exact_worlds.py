@@ -121,7 +121,7 @@ def test_questions_meet_the_squares_where_they_are():
 
 @pytest.mark.parametrize("response", [False, True])
 def test_a_one_way_tile_holds_what_comes_from_above(response):
-    grid = TileGrid([[False] * 4], 16.0, one_way=[[True] * 4])
+    grid = TileGrid([[False] * 4], 16.0, one_way=[[response] * 4])  # detection alone has no one-way tiles
     for speed, met_it in ((60.0, True), (-60.0, False)):
         effects = Effects(response=True, one_way=True) if response else Effects()
         world = World(effects, solver="projection" if response else None)

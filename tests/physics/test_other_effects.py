@@ -15,7 +15,8 @@ STEPS = 40 if JIT else 15
 
 def yard(effects):
     """Bodies of many kinds over a running floor; nothing turns yet."""
-    world = World(effects, drag=0.4, wind=(60, 0))
+    wind = (60, 0) if effects.wind else (0, 0)
+    world = World(effects, drag=0.4, wind=wind)
     floor = Material(friction=0.5, surface_speed=40)
     world.add_body(Polygon.box(400, 20), position=(0, 100), kind="static", material=floor)
     world.add_body(TileGrid(np.ones((1, 6), bool), 16), position=(-200, 40), kind="static")

@@ -160,7 +160,8 @@ def test_ray_through_a_slope_and_a_one_way_tile():
     slopes[0, 0] = (0, 1)
     one_way = np.zeros((1, 3), bool)
     one_way[0, 2] = True
-    world = world_of(TileGrid(np.zeros((1, 3), bool), 16.0, one_way=one_way, slopes=slopes))
+    world = World(Effects(response=True, one_way=True))
+    world.add_body(TileGrid(np.zeros((1, 3), bool), 16.0, one_way=one_way, slopes=slopes), kind="static")
     down = world.ray_cast((4, -10), (0, 40))
     assert down.point == pytest.approx((4, 12)) and down.normal == pytest.approx((-math.sqrt(0.5), -math.sqrt(0.5)))
     assert world.ray_cast((40, -5), (0, 40)).point == (40, 0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from physics import Bounds, Circle, PixelMask, TileGrid, World
+from physics import Bounds, Circle, Effects, PixelMask, TileGrid, World
 
 EMPTY = [
     PixelMask(np.zeros((8, 8), bool)),
@@ -38,7 +38,7 @@ def test_a_turned_mask_of_one_pixel_is_found():
 
 
 def test_a_grid_of_one_slope_or_one_plank_is_found():
-    world = World(gravity=(0, 0))
+    world = World(Effects.rigid_bodies().with_(one_way=True), gravity=(0, 0))
     none, one = np.zeros((2, 2), bool), np.zeros((2, 2), bool)
     one[1, 1] = True
     slopes = np.zeros((2, 2, 2))

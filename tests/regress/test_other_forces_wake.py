@@ -43,7 +43,8 @@ def test_the_same_value_wakes_nobody(name):
 
 
 @pytest.mark.parametrize("name, value", [("wind", (300, 0)), ("drag", 2.0)])
-def test_what_is_not_felt_wakes_nobody(name, value):
+def test_what_is_not_felt_is_refused_and_wakes_nobody(name, value):
     world, ball = asleep(Effects.rigid_bodies())
-    setattr(world, name, value)
+    with pytest.raises(ValueError, match=f"needs the effect {name}"):
+        setattr(world, name, value)
     assert not ball.awake

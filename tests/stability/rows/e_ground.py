@@ -5,7 +5,7 @@ from tests.stability.rows.row import Row, Section, at_least, at_most, exactly
 GROUND = Section(
     "E",
     "Pieces, chains, tiles, one-way",
-    (1, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13, 14, 15),
+    (1, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13, 14, 15, 16),
     (
         Row(
             "E1",
@@ -110,6 +110,20 @@ GROUND = Section(
                 at_least("character out of the box after 20 calls", -1e-3, "m"),
             ),
             "Rapier issue 485",
+        ),
+        Row(
+            "E16",
+            "six grounds in pieces, six shapes, 30 to 300 px/s, 40 phases, both ways; a step; aligned corners",
+            (
+                at_most("relative speed lost", 1e-3),
+                at_most("hop", 0.05, "px"),
+                at_most("relative speed lost at a step of 0.9 slops", 0.02),
+                at_most("hop over a step of 0.9 slops", 0.16, "px"),
+                at_least("relative speed lost at a step of two slops", 0.05),
+                at_most("change of the velocity at aligned corners", 0.01, "px/s"),
+                at_most("spin at aligned corners", 0.01, "rad/s"),
+            ),
+            "Box2D GhostCollision",
         ),
     ),
 )
