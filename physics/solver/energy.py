@@ -7,12 +7,13 @@ motion of the step. An excess is removed by scaling the velocities of the island
 
 import math
 
-from physics.islands.graph import find_roots
 from physics.jit import kernel, subkernel
 from physics.solver import lanes as at
 from physics.solver.lanes import SIZE, lanes_of
+from physics.tables.table import join_trees, root_of
 
 RESERVE_TIME = 10.0  # [s] in which an island forgets the energy that it has lost
+
 SHARE_BACK = 1e-2  # share of its energy that an island may take back in a step
 
 
@@ -93,21 +94,30 @@ def limit_energy(
             m = motions_inout[group.members[k]]
             m.reserve -= min(m.energy_excess, 0.0)
         return 0
-    parents = plan.parents[: len(motions_inout)]
-    if not plan.joined[0]:
-        find_roots(plan.edges, group.edges, links_islands, parents)
-        plan.joined[0] = True
+    # Bodies that exchanged impulses in this step, and no others, exchanged energy.
+    parents = plan.touching
+    for k in range(len(group.members)):
+        parents[group.members[k]] = group.members[k]
     for block in range(count):
+        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks.contact, block)):
-            if blocks.contact[block, lane] < 0:
+            if blocks.contact[block, lane] < 0 or c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
                 continue
             row_a = blocks.motion_a[block, lane]
-            row = row_a if links_islands[row_a] else blocks.motion_b[block, lane]
-            root = motions_inout[parents[row]]
+            row_b = blocks.motion_b[block, lane]
+            if links_islands[row_a] and links_islands[row_b]:
+                join_trees(row_a, row_b, parents)
+    for k in range(len(group.members)):
+        parents[group.members[k]] = root_of(group.members[k], parents)
+    for block in range(count):
+        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks.contact, block)):
+            if blocks.contact[block, lane] < 0 or c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
+                continue
+            row_a = blocks.motion_a[block, lane]
+            root = motions_inout[parents[row_a if links_islands[row_a] else blocks.motion_b[block, lane]]]
             root.energy_excess -= work_of_surfaces(blocks, block, lane, motions_inout)
-            c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-            if c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] > 0.0:
-                root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
+            root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
     for k in range(len(group.members)):
         i = group.members[k]
         m = motions_inout[i]

@@ -41,6 +41,7 @@ class Plan(NamedTuple):
     classes: np.ndarray  # (motions) int32 index of the substeps of each among the choices
     parents: np.ndarray  # (motions) int32 root of the island of each, if …
     joined: np.ndarray  # (1) bool … it was computed
+    touching: np.ndarray  # (motions) int32 root of the bodies with which each exchanged impulses, see energy.py
     members: np.ndarray  # (motions) int32 island bodies, by group
     starts: np.ndarray  # int64 first constraint of each colour of each group, those without a colour first
     firsts: np.ndarray  # int64 first body of each group
@@ -59,6 +60,7 @@ def new_plan(edges: int, motions: int) -> Plan:
         classes=np.zeros(motions, np.int32),
         parents=np.zeros(motions, np.int32),
         joined=np.zeros(1, np.bool_),
+        touching=np.zeros(motions, np.int32),
         members=np.zeros(motions, np.int32),
         starts=np.zeros(slots, np.int64),
         firsts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),

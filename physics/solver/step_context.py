@@ -42,6 +42,7 @@ class StepContext(NamedTuple):
     share: float  # weight of this step in the cached contact forces
     drag: float  # [1/s]
     restitution_speed: float  # [px/s] slower impacts do not bounce
+    sleep_speed: float  # [px/s]
     push_speed: float  # [px/s]
     push_rate: float  # [1/s] rate for the overlap of an unloaded contact above …
     slop: float  # [px] … the overlap that may stay
@@ -85,6 +86,7 @@ def context_of(
         share=dt / span,
         drag=drag,
         restitution_speed=tolerances.restitution_speed,
+        sleep_speed=tolerances.sleep_speed,
         push_speed=tolerances.push_speed,
         # More substeps do not separate faster.
         push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / span,
