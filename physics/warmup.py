@@ -135,12 +135,24 @@ def _runs(effects, broadphase, solver, pieces):
         runs.append(
             ("several pairs", lambda: _together(effects, solver, [PAIRS[each][0] for each in PAIRS if each in pieces]))
         )
+        if effects.stacking:
+            runs.append(("seams", lambda: _seams(effects, solver)))
     return runs
 
 
 def _kind_of(shape):
     """Return dynamic, or kinematic for a shape that cannot be dynamic."""
     return "kinematic" if shape._is_ground or shape is OPEN else "dynamic"
+
+
+def _seams(effects, solver):
+    """Step a box that passes from one flush piece of ground to the next."""
+    world, box = World(effects, solver=solver), Polygon.box(8, 8)
+    for x in (-4, 4):
+        world.add_body(box, kind="static", position=(x, 0))
+    world.add_body(box, position=(-5, -8), velocity=(100.0, 0.0))
+    for _ in range(8):
+        world.step()
 
 
 def _small_world(effects, solver, strategy, pair):

@@ -368,23 +368,28 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 
 
 @subkernel
-def overlaps_narrowly(a, b, most, manifold):
-    """Return whether two Hulls with a face manifold share at most `most` [px] of that face: the ends of two sides."""
-    if manifold[0] == 2.0:
-        return norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most
+def overlaps_narrowly(a, b, most, far, manifold):
+    """Return whether two Hulls with a face manifold share at most `most` [px] of that face: the ends of two sides.
+
+    Faces at rest may be that narrow, the end of a card for one, and carry a load: they count only if the Hulls part by
+    a distance in this step that matters, `far`.
+    """
+    if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
+        return True
     low, high = extent_along(a.corners, a.count, -manifold[2], manifold[1])
     least, greatest = extent_along(b.corners, b.count, -manifold[2], manifold[1])
     return min(high, greatest) - max(low, least) + a.radius + b.radius <= most
 
 
 @subkernel
-def is_grazing(a, b, graze, p, q, manifold):
+def is_grazing(a, b, batch, p, q, manifold):
     """Return whether two Hulls with a manifold do not meet in this step.
 
     Either corners pass each other, or a body passes a side that it would overlap by at most `graze` [px]. A side that
     ends slightly above the floor beside it must not stop a body; the small overlap is pushed out upwards. Two faces
     that share no more than `graze` [px] are corners too. p, q: BODY rows of A and B.
     """
+    graze = batch.graze
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
     corners = manifold[0] == 1.0 and manifold[6] >= CORNERS
     if least <= -graze:
@@ -393,7 +398,8 @@ def is_grazing(a, b, graze, p, q, manifold):
     along = vx * manifold[1] + vy * manifold[2]
     # Only a motion along the normal passes a side: a surface that a body slides on is touched all the time.
     passes = corners or 2.0 * along * along > vx * vx + vy * vy
-    passes = passes or (along < 0.0 and overlaps_narrowly(a, b, graze, manifold))
+    far = batch.lookahead * norm(vx, vy) > graze
+    passes = passes or (along < 0.0 and overlaps_narrowly(a, b, graze, far, manifold))
     return passes and path_misses(a, b, graze, vx, vy)
 
 
@@ -437,7 +443,7 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
     points = collide_hulls(a, b, reach, batch.bias, deepest, manifold)
     if manifold[0] == COVERED_OVERLAP:
         queue_fallback(pair, workspace.fallback)
-    if points == 0 or is_grazing(a, b, batch.graze, p, q, manifold):
+    if points == 0 or is_grazing(a, b, batch, p, q, manifold):
         return found
     tangential = move_manifold_back(time, vx, vy, manifold) if time > 0.0 else 0.0
     before = found

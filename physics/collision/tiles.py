@@ -314,7 +314,7 @@ def make_grid_pass(one_way: bool) -> Any:
                             batch.graze > 0.0
                             and kind != ONE_WAY
                             and workspace.points[0] > 0.0
-                            and is_grazing(Hull(tile, corners, 0.0, edges), hull, batch.graze, p, q, workspace.points)
+                            and is_grazing(Hull(tile, corners, 0.0, edges), hull, batch, p, q, workspace.points)
                         ):
                             continue
                         found = add_points(

@@ -31,7 +31,7 @@ BODY = in_lines(
         ("bullet", np.bool_),  # swept against moving bodies too
         ("fixed_rotation", np.bool_),
         ("allow_sleep", np.bool_),  # False: its island stays awake
-        ("has_current_contacts", np.bool_),  # its contacts were updated to its present pose; see collision/cache.py
+        ("has_current_contacts", np.bool_),  # its contacts were updated to its present pose; see contacts/cache.py
         ("inverse_mass", np.float64),  # 0: infinite mass
         ("inverse_inertia", np.float64),  # 0: infinite inertia
         ("extent", np.float64),  # [px] distance from the centre of mass to the furthest point of its shapes

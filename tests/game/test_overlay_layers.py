@@ -27,7 +27,7 @@ class Pile(Plain, Scene):
     """Every kind of shape on a chain, a grid and a segment; a bullet flies at a thin wall."""
 
     name = title = "pile"
-    effects = Effects.rigid_bodies()
+    effects = Effects.rigid_bodies().with_(one_way=True)
 
     def build(self):
         world = self.add_world()

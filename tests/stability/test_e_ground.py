@@ -213,7 +213,7 @@ def test_e6_valley_of_links_gives_the_height_back(measured, shape):
 
 
 @needs_speed
-def test_e6_valley_of_slabs_shows_its_joints(measured):
+def test_e6_valley_of_slabs_gives_the_height_back_too(measured):
     smooth, rough = valley("chain", "circle"), valley("slabs", "circle")
     measured("E6", "share lost on slabs beyond that", smooth - rough)
 

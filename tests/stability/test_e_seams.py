@@ -141,7 +141,7 @@ def test_e16_a_step_lower_than_the_slop_is_passed_and_a_step_of_two_slops_is_fel
         measured("E16", "relative speed lost at a step of two slops", lost)
 
 
-@pytest.mark.parametrize("velocity", [(-180, -180), (-180, -90), (-90, -180), (-5, -5)])
+@pytest.mark.parametrize("velocity", [(-180, -180), (-180, -90), (-90, -180), (-5, -5), (-0.5, -0.5), (-9, -3)])
 @pytest.mark.parametrize("kind", ["box", "grid", "mask"])
 @pytest.mark.parametrize("name", ["box", "mask"])
 def test_e16_boxes_whose_corners_touch_pass_each_other(measured, kind, name, velocity):
