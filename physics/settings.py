@@ -87,7 +87,7 @@ class Limits(NamedTuple):
     calm_speed: float  # [px/s] slower approach speeds count as 0
     sticking: float  # [px] see rows.sticks
     slop: float  # [px] see rows.touches_slowly
-    bounce_speed: float  # [px/s] slower impacts do not bounce
+    impact_speed: float  # [px/s] slower approaches are no impacts
     push_speed: float  # [px/s]
     deep: float  # [px] overlap with a body of infinite mass from which a body may be without room
 

@@ -514,8 +514,7 @@ class World(WorldState):
             speed = tolerances(self.tolerances.pixels_per_meter).restitution_speed
         else:
             speed = checks.number("restitution_speed", value, low=0.0)
-        limits = self.tolerances.limits._replace(bounce_speed=speed)
-        self.tolerances = replace(self.tolerances, restitution_speed=speed, limits=limits)
+        self.tolerances = replace(self.tolerances, restitution_speed=speed)
 
     # --- queries: see queries/casts.py for what each returns --------------------------------------------------------
 

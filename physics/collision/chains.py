@@ -2,6 +2,16 @@
 
 import math
 
+from physics.collision.hull_pairs import (
+    NEVER,
+    advance_to_piece,
+    move_piece_manifold_back,
+    path_offsets,
+    piece_misses_circle,
+    set_tangential_offset,
+    toi_hull_circle,
+    travel_of,
+)
 from physics.collision.hulls import (
     ALL_EDGES,
     CIRCLE_CORNER,
@@ -394,6 +404,12 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
     min_x, min_y, max_x, max_y = tested_aabb(geometry, o)
     middle_x = 0.5 * (min_x + max_x)
     middle_y = 0.5 * (min_y + max_y)
+    travel = travel_of(batch, p, q)
+    if o.kind != MASK:
+        dx = travel.time * travel.vx
+        dy = travel.time * travel.vy
+        min_x, max_x = min_x + min(dx, 0.0), max_x + max(dx, 0.0)
+        min_y, max_y = min_y + min(dy, 0.0), max_y + max(dy, 0.0)
     # Slightly more than the margin: rounding of the rotated box must not lose a contact.
     rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
     min_x, min_y, max_x, max_y = box_in_body(min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine)
@@ -408,7 +424,7 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
         # Second pass, for a hull that every link left to its neighbour: only links that overlap it.
         if attempt == 1 and (near == 0 or found > start):
             break
-        reach = margin if attempt == 0 else 0.0
+        reach = travel.reach if attempt == 0 else 0.0
         for block in range(span.blocks):
             box = geometry.link_blocks[span.first_block + block]
             if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
@@ -429,18 +445,48 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
                         point = (-sign * nx, -sign * ny, x, y, separation, area, part_feature(k, 0))
                         found = add_point(shapes, candidates, pair, point, manifolds_out, found)
                 elif hull.count == 1:
-                    hit, nx, ny, x, y, separation, feature = collide_link_circle(
-                        link, points, hull.corners[0, 0], hull.corners[0, 1], hull.radius
-                    )
-                    if hit and separation <= margin:
-                        point = (sign * nx, sign * ny, x, y, separation, 0.0, part_feature(k, feature))
-                        found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                    piece = Hull(points, 2, 0.0, ALL_EDGES)
+                    cx = hull.corners[0, 0]
+                    cy = hull.corners[0, 1]
+                    time = 0.0
+                    if travel.time > 0.0:
+                        time = toi_hull_circle(piece, cx, cy, hull.radius, travel.vx, travel.vy, margin, travel.time)
+                    if time == NEVER:
+                        continue
+                    cx += time * travel.vx
+                    cy += time * travel.vy
+                    hit, nx, ny, x, y, separation, feature = collide_link_circle(link, points, cx, cy, hull.radius)
+                    if not hit or separation > travel.reach:
+                        continue
+                    if piece_misses_circle(
+                        travel, batch.graze, piece, cx, cy, hull.radius, separation, feature, workspace.c
+                    ):
+                        continue
+                    closed, tangential = path_offsets(time, travel.vx, travel.vy, nx, ny)
+                    x += 0.5 * closed * nx + (tangential * ny if sign < 0.0 else 0.0)
+                    y += 0.5 * closed * ny - (tangential * nx if sign < 0.0 else 0.0)
+                    point = (sign * nx, sign * ny, x, y, separation + closed, 0.0, part_feature(k, feature))
+                    before = found
+                    found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                    set_tangential_offset(before, found, tangential, manifolds_out)
                 else:
                     near += 1
-                    collide_link_hull(link, points, hull, reach, batch.bias, attempt == 1, workspace.points)
+                    time = 0.0
+                    met = hull
+                    if travel.time > 0.0 and attempt == 0:
+                        time = advance_to_piece(travel, margin, Hull(points, 2, 0.0, ALL_EDGES), hull, workspace.c)
+                        met = Hull(workspace.c, hull.count, hull.radius, ALL_EDGES)
+                    if time == NEVER:
+                        continue
+                    collide_link_hull(link, points, met, reach, batch.bias, attempt == 1, workspace.points)
+                    tangential = 0.0
+                    if time > 0.0:
+                        tangential = move_piece_manifold_back(time, travel, sign, workspace.points)
+                    before = found
                     found = add_points(
                         shapes, candidates, pair, sign, workspace.points, part_feature(k, 0), manifolds_out, found
                     )
+                    set_tangential_offset(before, found, tangential, manifolds_out)
     return found
 
 

@@ -1,6 +1,7 @@
 """Passes over the candidate pairs of circles and other hulls, with speculative contacts."""
 
 import math
+from typing import NamedTuple
 
 from physics.collision.hulls import (
     ALL_EDGES,
@@ -268,6 +269,66 @@ def move_manifold_back(time, vx, vy, points_inout):
         points_inout[at + 1] += 0.5 * closed * ny
         points_inout[at + 2] += closed
     return tangential
+
+
+class Travel(NamedTuple):
+    """The motion of a shape relative to ground made of pieces, for the pieces that it meets within a step."""
+
+    vx: float  # [px/s]
+    vy: float
+    reach: float  # [px] largest gap of a contact point
+    time: float  # [s] within which pieces are met; 0: only those within the margin count
+
+
+@inlined
+def travel_of(batch, ground, body):
+    """Return the Travel of a body over ground, BODY rows: no further than the margin if it is left to continuous
+    collision detection, or slow."""
+    if batch.lookahead == 0.0:
+        return Travel(0.0, 0.0, batch.margin, 0.0)
+    vx, vy, speed = center_velocity(ground, body)
+    reach = speculative_distance(ground, body, speed, batch.margin, batch.lookahead)
+    far = reach > batch.margin and batch.lookahead * speed > batch.margin
+    return Travel(vx, vy, reach if far else batch.margin, batch.lookahead if far else 0.0)
+
+
+@subkernel
+def advance_to_piece(travel, margin, piece, hull, corners_out):
+    """Write the corners of a Hull where it meets a piece of ground, another Hull. Return the time [s] or NEVER."""
+    corners = hull.corners
+    for k in range(hull.count):
+        corners_out[k, 0] = corners[k, 0]
+        corners_out[k, 1] = corners[k, 1]
+    if travel.time == 0.0:
+        return 0.0
+    return toi_hulls(
+        piece, travel.vx, travel.vy, margin, travel.time, Hull(corners_out, hull.count, hull.radius, ALL_EDGES)
+    )
+
+
+@subkernel
+def move_piece_manifold_back(time, travel, sign, points_inout):
+    """Convert a manifold of ground with a hull that moved for a time [s] to its present position.
+
+    sign: 1.0 if the ground is A. Return the tangential offset [px].
+    """
+    tangential = move_manifold_back(time, travel.vx, travel.vy, points_inout)
+    if sign < 0.0:
+        # The hull is A: the points move to where it is now.
+        for k in range(int(points_inout[0])):
+            points_inout[3 + 4 * k] += tangential * points_inout[2]
+            points_inout[4 + 4 * k] -= tangential * points_inout[1]
+    return tangential
+
+
+@subkernel
+def piece_misses_circle(travel, graze, piece, x, y, radius, separation, feature, corners_out):
+    """Return whether a disc only passes the corner of a piece of ground. corners_out (16, 2): scratch."""
+    if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
+        return False
+    corners_out[0, 0] = x
+    corners_out[0, 1] = y
+    return path_misses(piece, Hull(corners_out, 1, radius, ALL_EDGES), 0.0, travel.vx, travel.vy)
 
 
 # ---- hull pairs ------------------------------------------------------------------------------------------------------

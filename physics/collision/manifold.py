@@ -123,6 +123,7 @@ class Workspace(NamedTuple):
 
     a: np.ndarray  # (16, 2) corners [px]
     b: np.ndarray
+    c: np.ndarray
     points: np.ndarray  # (POINTS,), see hulls.py
     depths: np.ndarray  # (16,)
     previous: np.ndarray  # CONTACT rows of the last step, for pairs with one-way ground
@@ -134,6 +135,7 @@ class Workspace(NamedTuple):
 def new_workspace() -> Workspace:
     """Return an empty workspace."""
     return Workspace(
+        np.zeros((16, 2)),
         np.zeros((16, 2)),
         np.zeros((16, 2)),
         np.zeros(POINTS),

@@ -183,7 +183,7 @@ def kind_asked(bodies, a, b, margin, lookahead, which):
     if which == SENSORS:
         margin += drawn_beyond(bodies[a.body_row], a) + drawn_beyond(bodies[b.body_row], b)
     if boxes_apart(a, b, margin):
-        if lookahead <= 0.0 or kind > POLYGONS:
+        if lookahead <= 0.0 or POLYGONS < kind < GRID_ANY or a.kind == MASK or b.kind == MASK:
             return NOTHING
         p = bodies[a.body_row]
         q = bodies[b.body_row]

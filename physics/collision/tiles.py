@@ -3,7 +3,17 @@
 import math
 from typing import Any
 
-from physics.collision.hull_pairs import is_grazing
+from physics.collision.hull_pairs import (
+    NEVER,
+    advance_to_piece,
+    is_grazing,
+    move_piece_manifold_back,
+    path_offsets,
+    piece_misses_circle,
+    set_tangential_offset,
+    toi_hull_circle,
+    travel_of,
+)
 from physics.collision.hulls import (
     ALL_EDGES,
     Hull,
@@ -240,6 +250,12 @@ def make_grid_pass(one_way: bool) -> Any:
         q = bodies[o.body_row]
         g = geometry.grids[s.geometry]
         min_x, min_y, max_x, max_y = tested_aabb(geometry, o)
+        travel = travel_of(batch, p, q)
+        dx = travel.time * travel.vx if o.kind != MASK else 0.0
+        dy = travel.time * travel.vy if o.kind != MASK else 0.0
+        was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
+        min_x, max_x = min_x + min(dx, 0.0), max_x + max(dx, 0.0)
+        min_y, max_y = min_y + min(dy, 0.0), max_y + max(dy, 0.0)
         first_column = max(0, math.ceil((min_x - margin - p.x) / g.tile_size) - 1)
         last_column = min(g.columns - 1, math.floor((max_x + margin - p.x) / g.tile_size))
         first_row = max(0, math.ceil((min_y - margin - p.y) / g.tile_size) - 1)
@@ -249,9 +265,8 @@ def make_grid_pass(one_way: bool) -> Any:
             work_inout[MASK_TESTS] += 1
         else:
             hull = hull_of(geometry, bodies, shapes, other, workspace.b)
-        # Columns that the shape overlaps, not only touches.
+        # Columns that the shape overlaps on its way, not only touches.
         under = (math.floor((min_x - p.x) / g.tile_size), math.ceil((max_x - p.x) / g.tile_size) - 1)
-        was_above = max_y - (q.y - q.previous_y) + (p.y - p.previous_y)
         start = found
         seen = 0
         for attempt in range(2):
@@ -282,29 +297,56 @@ def make_grid_pass(one_way: bool) -> Any:
                     seen += 1
                     if attempt == 1:
                         edges = ALL_EDGES
+                    piece = Hull(tile, corners, 0.0, edges)
                     feature = part_feature(run, 0)
                     if o.kind == MASK:
                         area, nx, ny, x, y, separation, _ = collide_mask_part(
-                            geometry, q, o, Hull(tile, corners, 0.0, edges), workspace.b, workspace.depths
+                            geometry, q, o, piece, workspace.b, workspace.depths
                         )
                         if area > 0.0:
                             point = (-sign * nx, -sign * ny, x, y, separation, area, feature)
                             found = add_point(shapes, candidates, pair, point, manifolds_out, found)
                     elif hull.count == 1:
-                        hit, nx, ny, x, y, separation, which = collide_hull_circle(
-                            Hull(tile, corners, 0.0, edges), hull.corners[0, 0], hull.corners[0, 1], hull.radius
-                        )
-                        if hit and separation <= margin:
-                            point = (sign * nx, sign * ny, x, y, separation, 0.0, feature + which)
-                            found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                        cx = hull.corners[0, 0]
+                        cy = hull.corners[0, 1]
+                        time = 0.0
+                        if travel.time > 0.0:
+                            time = toi_hull_circle(
+                                piece, cx, cy, hull.radius, travel.vx, travel.vy, margin, travel.time
+                            )
+                        if time == NEVER:
+                            continue
+                        cx += time * travel.vx
+                        cy += time * travel.vy
+                        hit, nx, ny, x, y, separation, which = collide_hull_circle(piece, cx, cy, hull.radius)
+                        if not hit or separation > travel.reach:
+                            continue
+                        if piece_misses_circle(
+                            travel, batch.graze, piece, cx, cy, hull.radius, separation, which, workspace.c
+                        ):
+                            continue
+                        closed, tangential = path_offsets(time, travel.vx, travel.vy, nx, ny)
+                        x += 0.5 * closed * nx + (tangential * ny if sign < 0.0 else 0.0)
+                        y += 0.5 * closed * ny - (tangential * nx if sign < 0.0 else 0.0)
+                        point = (sign * nx, sign * ny, x, y, separation + closed, 0.0, feature + which)
+                        before = found
+                        found = add_point(shapes, candidates, pair, point, manifolds_out, found)
+                        set_tangential_offset(before, found, tangential, manifolds_out)
                     else:
+                        time = 0.0
+                        met = hull
+                        if travel.time > 0.0 and attempt == 0:
+                            time = advance_to_piece(travel, margin, piece, hull, workspace.c)
+                            met = Hull(workspace.c, hull.count, hull.radius, ALL_EDGES)
+                        if time == NEVER:
+                            continue
                         facing = ALL_EDGES
                         if corners == 4:
-                            facing = pushing_edges_on_tile(hull.corners, hull.count, edges)
+                            facing = pushing_edges_on_tile(met.corners, met.count, edges)
                         collide_hulls(
-                            Hull(tile, corners, 0.0, edges),
-                            Hull(hull.corners, hull.count, hull.radius, facing),
-                            margin,
+                            piece,
+                            Hull(met.corners, met.count, met.radius, facing),
+                            travel.reach if attempt == 0 else margin,
                             batch.bias,
                             deepest,
                             workspace.points,
@@ -314,12 +356,17 @@ def make_grid_pass(one_way: bool) -> Any:
                             batch.graze > 0.0
                             and kind != ONE_WAY
                             and workspace.points[0] > 0.0
-                            and is_grazing(Hull(tile, corners, 0.0, edges), hull, batch, p, q, workspace.points)
+                            and is_grazing(piece, met, batch, p, q, workspace.points)
                         ):
                             continue
+                        tangential = 0.0
+                        if time > 0.0:
+                            tangential = move_piece_manifold_back(time, travel, sign, workspace.points)
+                        before = found
                         found = add_points(
                             shapes, candidates, pair, sign, workspace.points, feature, manifolds_out, found
                         )
+                        set_tangential_offset(before, found, tangential, manifolds_out)
         return found
 
     return make_pass(GRID_ANY, collide_grid_pair)

@@ -66,6 +66,17 @@ def transfer_impulses(previous, first, contact_inout):
 
 
 @inlined
+def touches(contact):
+    """Return whether a CONTACT row of the last step touches, or pushed."""
+    c = contact
+    return (
+        c.normal_impulse_1 > 0.0
+        or c.separation_1 <= 0.0
+        or (c.count == 2 and (c.normal_impulse_2 > 0.0 or c.separation_2 <= 0.0))
+    )
+
+
+@inlined
 def begin_step(geometry, p, q, a, b, contact_inout):
     """Write the fields that are new in every step: mixed materials and closing speeds.
 
@@ -130,6 +141,11 @@ def match_contacts(
                 reset_impulses(c)
                 c.of_new_pair = j == len(previous) or not is_of(previous[j], c.shape_a, c.shape_b)
                 write_cache(geometry.polygons, geometry.corners, bodies, shapes, c)
+                c.touched = False
+                k = j
+                while k < len(previous) and is_of(previous[k], c.shape_a, c.shape_b):
+                    c.touched = c.touched or touches(previous[k])
+                    k += 1
                 transfer_impulses(previous, j, c)
                 begin_step(geometry, bodies[c.body_row_a], bodies[c.body_row_b], shapes[c.row_a], shapes[c.row_b], c)
             i += 1
@@ -179,6 +195,7 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
     c.persisted_1 = True
     c.persisted_2 = True
     c.of_new_pair = False
+    c.touched = touches(c)
 
 
 @kernel

@@ -58,6 +58,7 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
                 b.vy = keep * b.vy
                 if rotation:
                     b.angular_velocity = keep * b.angular_velocity
+            b.forced = b.force_x != 0.0 or b.force_y != 0.0
             b.force_x = 0.0
             b.force_y = 0.0
             b.torque = 0.0

@@ -17,6 +17,7 @@ from physics.solver.lanes import (
     SIZE,
     Blocks,
     blocks_needed,
+    clamp,
     lanes_of,
     lay_out,
     make_blocks,
@@ -25,7 +26,7 @@ from physics.solver.lanes import (
     write_masses,
 )
 from physics.solver.motions import Motions
-from physics.solver.restitution import make_impacts, restore_bounces
+from physics.solver.restitution import make_impacts, push_along, restore_bounces
 from physics.solver.selection import Group, Selection, touches_slowly
 from physics.solver.step_context import StepContext
 from physics.tables.step_state import SOLVER_ROWS, TANGENT_ROWS, StepState
@@ -60,6 +61,29 @@ def sticks(a, b, contact, distance):
     )
 
 
+NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
+
+
+@inlined
+def restitution_threshold(contact, a, b, degree_a, degree_b, context):
+    """Return the approach speed [px/s] up to which a contact does not bounce.
+
+    A new contact bounces at any speed if no acceleration presses its sides together: otherwise a slow ball would stick
+    to a wall in space. One that touched in the step before bounces only beyond what acceleration adds in two steps.
+    a, b: MOTION rows of its sides, with their numbers of constraints. Two bodies with other constraints do not fall
+    together.
+    """
+    m = contact
+    on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
+    on_b = -(b.acceleration_x * m.normal_x + b.acceleration_y * m.normal_y)
+    least = NO_PRESS * (abs(a.acceleration_x) + abs(a.acceleration_y) + abs(b.acceleration_x) + abs(b.acceleration_y))
+    together = degree_a <= 1 and degree_b <= 1 and a.inverse_mass > 0.0 and b.inverse_mass > 0.0
+    press = on_a + on_b if together else max(on_a, 0.0) + max(on_b, 0.0)
+    if m.touched:
+        return max(context.restitution_speed, 2.0 * context.dt * press)
+    return context.restitution_speed if press > least else 0.0
+
+
 @inlined
 def write_softness(contact, sticking, a, b, degree_a, degree_b, context, lane, c_out):
     """Write how a lane separates: its push-out share, spring and stiffness, and whether it rests, is loaded or bounces.
@@ -76,7 +100,7 @@ def write_softness(contact, sticking, a, b, degree_a, degree_b, context, lane, c
     two = m.count == 2
     approaching = m.speed_1 > limits.calm_speed or (two and m.speed_2 > limits.calm_speed)
     loaded = m.normal_force_1 > 0.0 or (two and m.normal_force_2 > 0.0)
-    bouncing = m.speed_1 > limits.bounce_speed or (two and m.speed_2 > limits.bounce_speed)
+    bouncing = m.speed_1 > limits.impact_speed or (two and m.speed_2 > limits.impact_speed)
     resting = touches_slowly(m.separation_1, m.speed_1, limits) or (
         two and touches_slowly(m.separation_2, m.speed_2, limits)
     )
@@ -240,6 +264,8 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c[at.SURFACE + lane] = m.surface_speed if conveyor else 0.0
             c[at.FRICTION + lane] = m.friction if friction else 0.0
             c[at.RESTITUTION + lane] = m.restitution
+            c[at.THRESHOLD + lane] = restitution_threshold(m, a, b, plan.degrees[row_a], plan.degrees[row_b], context)
+            c[at.LISTED + lane] = 0.0
             work_inout[SOLVER_ROWS] += m.count
             if friction and m.friction > 0.0:
                 work_inout[TANGENT_ROWS] += m.count
@@ -252,38 +278,23 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
 # From lanes to contacts: restitution, the limit of friction, and the impulses.
 
 
-def make_friction_limit(rotation: bool) -> Callable:
-    """Return the pass that limits friction to its final normal impulse."""
-
-    @subkernel
-    def limit_friction(count, motions_inout, blocks_inout):
-        """Remove friction beyond its share of the final normal impulse, over the step, of so many blocks. O(lanes)."""
-        for block in range(count):
-            c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-            for lane in range(lanes_of(blocks_inout.contact, block)):
-                for k in range(2):
-                    total = c[(at.TANGENT_TOTAL_1 if k == 0 else at.TANGENT_TOTAL_2) + lane]
-                    limit = c[at.FRICTION + lane] * c[(at.TOTAL_1 if k == 0 else at.TOTAL_2) + lane]
-                    if not abs(total) > limit:
-                        continue
-                    change = max(-limit, min(limit, total)) - total
-                    a = motions_inout[blocks_inout.motion_a[block, lane]]
-                    b = motions_inout[blocks_inout.motion_b[block, lane]]
-                    x = -change * c[at.NY + lane]
-                    y = change * c[at.NX + lane]
-                    a.vx -= a.inverse_mass * x
-                    a.vy -= a.inverse_mass * y
-                    b.vx += b.inverse_mass * x
-                    b.vy += b.inverse_mass * y
-                    c[(at.TANGENT_TOTAL_1 if k == 0 else at.TANGENT_TOTAL_2) + lane] = total + change
-                    c[(at.TANGENT_1 if k == 0 else at.TANGENT_2) + lane] += change
-                    if rotation:
-                        ta = c[(at.TANGENT_A_1 if k == 0 else at.TANGENT_A_2) + lane]
-                        tb = c[(at.TANGENT_B_1 if k == 0 else at.TANGENT_B_2) + lane]
-                        a.angular_velocity -= a.inverse_inertia * ta * change
-                        b.angular_velocity += b.inverse_inertia * tb * change
-
-    return limit_friction
+@subkernel
+def limit_friction(count, motions_inout, blocks_inout):
+    """Remove friction beyond its share of the final normal impulse, over the step, of so many blocks. O(lanes)."""
+    for block in range(count):
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks_inout.contact, block)):
+            for k in range(2):
+                total = c[(at.TANGENT_TOTAL_1 if k == 0 else at.TANGENT_TOTAL_2) + lane]
+                limit = c[at.FRICTION + lane] * c[(at.TOTAL_1 if k == 0 else at.TOTAL_2) + lane]
+                if not abs(total) > limit:
+                    continue
+                change = clamp(total, limit) - total
+                a = motions_inout[blocks_inout.motion_a[block, lane]]
+                b = motions_inout[blocks_inout.motion_b[block, lane]]
+                push_along(c, lane, k == 1, change, a, b)
+                c[(at.TANGENT_TOTAL_1 if k == 0 else at.TANGENT_TOTAL_2) + lane] = total + change
+                c[(at.TANGENT_1 if k == 0 else at.TANGENT_2) + lane] += change
 
 
 @subkernel
@@ -321,9 +332,8 @@ def store_lanes(
             c.rolling_force = share * (inverse_h * s[at.ROLLING + lane]) + rest * c.rolling_force
 
 
-def make_finish_lanes(restitution: bool, friction: bool, rotation: bool) -> Callable:
+def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
     """Return the pass after the last substep in a world with these effects."""
-    limit_friction = make_friction_limit(rotation)
 
     @kernel
     def finish_lanes(
@@ -358,7 +368,7 @@ def make_finish_lanes(restitution: bool, friction: bool, rotation: bool) -> Call
 
 
 PREPARE = {(f, c): make_prepare_lanes(friction=f, conveyor=c) for f in BOTH for c in BOTH}
-FINISH = {(e, f, r): make_finish_lanes(restitution=e, friction=f, rotation=r) for e in BOTH for f in BOTH for r in BOTH}
+FINISH = {(e, f): make_finish_lanes(restitution=e, friction=f) for e in BOTH for f in BOTH}
 
 
 class ContactLanes:
@@ -386,5 +396,5 @@ class ContactLanes:
         """Apply restitution, limit friction, and write the impulses of so many blocks back."""
         if len(self.impacts) < len(state.contact_rows):
             self.impacts = make_impacts(2 * len(state.contact_rows))
-        finish = FINISH[state.effects.restitution, state.effects.friction, state.effects.rotation]
+        finish = FINISH[state.effects.restitution, state.effects.friction]
         finish(count, context, self.impacts, motions.used, self.blocks, state.contact_rows, state.work)

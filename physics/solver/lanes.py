@@ -77,6 +77,8 @@ LANES = 8 if JIT else 1
     TANGENT_TOTAL_1,
     TANGENT_TOTAL_2,
     RESTITUTION,
+    THRESHOLD,  # [px/s] slower impacts do not bounce
+    LISTED,  # 1: among the impacts of the step, see restitution.py; 0: not
     STIFFNESS,  # factor on the stiffness; negative: the sole support of one side
     LOADED,  # 1: had an impulse in the step before; 0: not
     BOUNCING,  # 1: the sides approached fast enough to bounce; 0: not
@@ -84,7 +86,7 @@ LANES = 8 if JIT else 1
     PUSH_2,
     MOST,  # greatest normal impulse of a substep at one point
     SIZE,
-) = (line * LANES for line in range(61))
+) = (line * LANES for line in range(63))
 # Offsets of the values that a pass gathers from the motions of each block. They have an array of their own: among the
 # others they were a quarter of the memory traffic of a pass.
 (VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (

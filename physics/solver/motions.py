@@ -410,7 +410,7 @@ WRITES = (
     *(f"bodies.previous_{name}" for name in ("x", "y", "angle")),
     *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
     "bodies.has_current_contacts",
-    *(f"bodies.{name}" for name in ("force_x", "force_y", "torque", "fraction", "substeps", "cooldown")),
+    *(f"bodies.{name}" for name in ("force_x", "force_y", "torque", "fraction", "substeps", "cooldown", "reserve")),
 )
 
 

@@ -1,7 +1,8 @@
 """Projection: overlapping bodies are pushed apart by their inverse masses; PUSH rows for solvers without memory."""
 
+import math
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,8 +19,45 @@ from physics.tables.body import DYNAMIC, OFF
 from physics.tables.contact import PUSH
 from physics.tables.step_state import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS, StepState, stage
 
+ROUNDING = 1e-9  # share of an acceleration below which its part along a normal is rounding
+
 # ---- pushes ----------------------------------------------------------------------------------------------------------
 # Contacts of the solvers without warm start: one PUSH row for each point that is no sensor's.
+
+
+class Press(NamedTuple):
+    """The accelerations that press bodies together, and the speed from which pressed ones bounce."""
+
+    dt: float  # [s]
+    gravity_x: float  # [px/s2], times the gravity scale of a body
+    gravity_y: float
+    wind_x: float  # [px/s2]
+    wind_y: float
+    restitution_speed: float  # [px/s]
+
+
+@subkernel
+def press_of(press, body, nx, ny):
+    """Return the acceleration [px/s2] of a dynamic BODY row along a normal; a collected force counts as infinite."""
+    if body.kind != DYNAMIC:
+        return 0.0
+    if body.forced:
+        return math.inf
+    x = press.wind_x + body.gravity_scale * press.gravity_x
+    y = press.wind_y + body.gravity_scale * press.gravity_y
+    return x * nx + y * ny if abs(x * nx + y * ny) > ROUNDING * (abs(x) + abs(y)) else 0.0
+
+
+@subkernel
+def restitution_threshold(press, a, b, nx, ny):
+    """Return the approach speed [px/s] up to which two BODY rows do not bounce along a normal.
+
+    Where no acceleration presses them together they bounce at any speed; see contact_lanes.restitution_threshold.
+    """
+    into = max(press_of(press, a, nx, ny), 0.0) + max(press_of(press, b, -nx, -ny), 0.0)
+    if into == 0.0:
+        return 0.0
+    return max(press.restitution_speed, 2.0 * press.dt * into) if into < math.inf else press.restitution_speed
 
 
 @kernel
@@ -30,12 +68,13 @@ def prepare_pushes(
     shapes,
     manifolds,
     conveyor,
+    press,
     # write
     pushes_out,
 ):
     """Write a row for every point of the manifolds that are no sensors. Return their number. O(manifolds).
 
-    conveyor: 1 with surface speeds.
+    conveyor: 1 with surface speeds; press: see Press.
     """
     found = 0
     for i in range(len(manifolds)):
@@ -60,6 +99,7 @@ def prepare_pushes(
             r.anchor_x = b.center_x - a.center_x
             r.anchor_y = b.center_y - a.center_y
             r.speed = m.speed_1 if k == 0 else m.speed_2
+            r.threshold = restitution_threshold(press, a, b, m.normal_x, m.normal_y)
             r.friction = friction
             r.restitution = restitution
             r.surface_speed = surface_speed if conveyor == 1 else 0.0
@@ -126,8 +166,13 @@ class PushSet:
         points = 2 * len(state.contact_rows)
         if len(self.data) < points:
             self.data = np.zeros(2 * points, PUSH)
-        tables, conveyor = state.library.tables, int(state.effects.conveyor)
-        found = prepare_pushes(tables, state.bodies, state.shapes, state.contact_rows, conveyor, self.data)
+        tables, effects, wind = state.library.tables, state.effects, state.drag if state.effects.wind else 0.0
+        gravity = state.gravity if effects.gravity else (0.0, 0.0)
+        press = Press(
+            state.dt, *gravity, wind * state.wind[0], wind * state.wind[1], state.tolerances.restitution_speed
+        )
+        contacts, conveyor = state.contact_rows, int(effects.conveyor)
+        found = prepare_pushes(tables, state.bodies, state.shapes, contacts, conveyor, press, self.data)
         self.rows = self.data[:found]
         if len(self.reach) < len(state.bodies):
             self.reach = np.zeros(2 * len(state.bodies))
@@ -183,7 +228,6 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
     @kernel
     def project(
         # read, scalars
-        bounce_speed,
         first,
         # write
         bodies_inout,
@@ -192,8 +236,7 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
     ):
         """Separate overlapping bodies, remove or reflect their approach, and apply friction. O(contacts).
 
-        bounce_speed [px/s]: slower approaches do not bounce. first: 1 in the first pass of a step. Impulses accumulate
-        in the contacts.
+        first: 1 in the first pass of a step. Impulses accumulate in the contacts.
         """
         for i in range(len(pushes_inout)):
             c = pushes_inout[i]
@@ -217,7 +260,7 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
             bx = c.x - b.center_x
             by = c.y - b.center_y
             wanted = 0.0
-            if restitution and c.speed > bounce_speed:
+            if restitution and c.speed > c.threshold:
                 wanted = c.restitution * c.speed
                 work_inout[RESTITUTION_ROWS] += first
             effective = inverse_masses
@@ -285,7 +328,7 @@ def solve(state: StepState, contacts: PushSet) -> float:
     before = np.column_stack([bodies["x"][rows], bodies["y"][rows]])
     contacts.prepare(state)
     for number in range(PROJECTION_PASSES):
-        contacts.solve(state, run, state.tolerances.restitution_speed, int(number == 0))
+        contacts.solve(state, run, int(number == 0))
     _slow_down(bodies, rows, before, contacts.reach[rows])
     if effects.continuous:
         _hold_back(state, rows, before)
@@ -327,7 +370,21 @@ def _hold_back(state, rows, before):
 @stage(
     "projection",
     reads=(
-        *("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "contact_rows"),
+        *(
+            "effects",
+            "stacks",
+            "tolerances",
+            "gravity",
+            "drag",
+            "wind",
+            "dt",
+            "awake",
+            "bodies",
+            "shapes",
+            "library",
+            "pairs",
+            "contact_rows",
+        ),
         "workspace",
     ),
     writes=(

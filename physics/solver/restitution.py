@@ -6,7 +6,7 @@ import numpy as np
 
 from physics.jit import inlined, subkernel
 from physics.solver import lanes as at
-from physics.solver.lanes import SIZE, lanes_of, solve_two
+from physics.solver.lanes import SIZE, block_factor, clamp, lanes_of, solve_two
 from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 
 # ---- impulses --------------------------------------------------------------------------------------------------------
@@ -35,6 +35,31 @@ def push_pair(c, lane, second, impulse, a_inout, b_inout):
 
 
 @subkernel
+def tangential_speed(c, lane, second, a, b):
+    """Return the speed [px/s] of B relative to A along the tangent at a point of a lane, beyond the surface speed."""
+    speed = (b.vy - a.vy) * c[at.NX + lane] - (b.vx - a.vx) * c[at.NY + lane] - c[at.SURFACE + lane]
+    speed += b.angular_velocity * c[(at.TANGENT_B_2 if second else at.TANGENT_B_1) + lane]
+    return speed - a.angular_velocity * c[(at.TANGENT_A_2 if second else at.TANGENT_A_1) + lane]
+
+
+@subkernel
+def push_along(c, lane, second, impulse, a_inout, b_inout):
+    """Apply an impulse along the tangent at a point of a lane, to B forwards and to A backwards."""
+    x = -impulse * c[at.NY + lane]
+    y = impulse * c[at.NX + lane]
+    a_inout.vx -= a_inout.inverse_mass * x
+    a_inout.vy -= a_inout.inverse_mass * y
+    a_inout.angular_velocity -= (
+        a_inout.inverse_inertia * impulse * c[(at.TANGENT_A_2 if second else at.TANGENT_A_1) + lane]
+    )
+    b_inout.vx += b_inout.inverse_mass * x
+    b_inout.vy += b_inout.inverse_mass * y
+    b_inout.angular_velocity += (
+        b_inout.inverse_inertia * impulse * c[(at.TANGENT_B_2 if second else at.TANGENT_B_1) + lane]
+    )
+
+
+@subkernel
 def speed_of_impact(speed, separation, acceleration):
     """Return the approach speed [px/s] at the moment of impact.
 
@@ -45,31 +70,32 @@ def speed_of_impact(speed, separation, acceleration):
     return math.sqrt(max(speed * speed + 2.0 * acceleration * separation, 0.0))
 
 
-# ---- simultaneous impacts --------------------------------------------------------------------------------------------
-# Simultaneous impacts: several impacts of one body within a step, simulated in sequence.
-#
-# A flying body may hit a wall with one end, rotate, and hit it with the other end within the step, or hit the wall and
-# the floor of a corner. The velocity before the step says nothing about the second impact, and the velocity that the
-# substeps removed is not that of a bounce. So the impacts of such a body on static bodies are simulated from one to the
-# next, along straight lines. Each keeps the energy that Newton's law of restitution gives at the time of the impact.
+# ---- impacts ---------------------------------------------------------------------------------------------------------
+# A lane with an impulse that may bounce, or that hands a blow on.
 
-MOST_IMPACTS = 16  # impacts of one body within a step; more are left to the next step, and counted in cap_hits
-TOGETHER = 1.0 / 64.0  # share of a step within which two points of a manifold hit at once
 NO_IMPACT, LEFT_OUT = 0, -1  # values of MOTION.last_impact: none yet; not to be simulated
 
-# A lane with an impulse that may bounce.
 IMPACT = np.dtype(
     [
         ("block", np.int32),
         ("lane", np.int32),
         ("before", np.int32),  # another impact of the same body, plus one; NO_IMPACT: none
         ("simulated", np.bool_),
+        ("bounces_1", np.bool_),  # each point bounces; …
+        ("bounces_2", np.bool_),
         ("speed_1", np.float64),  # [px/s] predicted impact speed of each point
         ("speed_2", np.float64),
         ("gap_1", np.float64),  # [px] gap before that impact
         ("gap_2", np.float64),
+        ("wanted_1", np.float64),  # [px/s] … separation speed after it
+        ("wanted_2", np.float64),
         ("impulse_1", np.float64),
         ("impulse_2", np.float64),
+        ("blow_1", np.float64),  # of these, those of the present moment
+        ("blow_2", np.float64),
+        ("vx", np.float64),  # [px/s] in the last impact of a body: change of its velocity by all of them
+        ("vy", np.float64),
+        ("angular_velocity", np.float64),
     ],
     align=True,
 )
@@ -106,6 +132,40 @@ def list_impacts(blocks, count, impacts_out):
                 r.simulated = False
                 found += 1
     return found
+
+
+@subkernel
+def predict_impact(blocks, contacts, motions, impact_inout):
+    """Write the predicted impact speeds and gaps of an impact, from the state before the step."""
+    r = impact_inout
+    c = contacts[blocks.contact[r.block, r.lane]]
+    a = motions[blocks.motion_a[r.block, r.lane]]
+    b = motions[blocks.motion_b[r.block, r.lane]]
+    two = points_of(blocks, r) == 2
+    acceleration = (a.acceleration_x - b.acceleration_x) * line_of(blocks, r, at.NX)
+    acceleration += (a.acceleration_y - b.acceleration_y) * line_of(blocks, r, at.NY)
+    r.impulse_1, r.impulse_2 = 0.0, 0.0
+    r.speed_1 = speed_of_impact(c.speed_1, c.separation_1, acceleration)
+    r.speed_2 = speed_of_impact(c.speed_2, c.separation_2, acceleration) if two else 0.0
+    r.gap_1 = max(c.separation_1, 0.0)
+    r.gap_2 = max(c.separation_2, 0.0) if two else 0.0
+
+
+# ---- simultaneous impacts on static bodies ---------------------------------------------------------------------------
+# Several impacts of a flying body on static bodies within a step, simulated in the order of their times.
+#
+# A flying body may hit a wall with one end, rotate, and hit it with the other end within the step, or hit the wall and
+# the floor of a corner. The velocity before the step says nothing about the second impact, and the velocity that the
+# substeps removed is not that of a bounce. So the impacts of such a body on static bodies are simulated from one to the
+# next, along straight lines. Each keeps the energy that Newton's law of restitution gives at the time of the impact.
+# Points that hit at the same time, of one manifold or of several, are solved together: a box that lands flat on ground
+# made of pieces would start to rotate otherwise.
+
+MOST_IMPACTS = 16  # moments with impacts of one body within a step; later ones wait for the next step: cap_hits
+TOGETHER = 1.0 / 64.0  # share of a step within which points hit at once
+MOST_ROUNDS = 256  # over the points that hit at once
+ROUNDS = 32  # over bounces that depend on each other; the rest is left to the next step, as contacts are
+SETTLED = 1e-6  # change of speed in a round, relative to the impact, from which the rounds end
 
 
 @subkernel
@@ -164,7 +224,7 @@ def arm_of(blocks, impact, second, sign):
 
 
 @subkernel
-def is_simulated(blocks, impacts, last, contacts, threshold):
+def is_simulated(blocks, impacts, last, contacts):
     """Return whether the impacts of a body, linked from `last`, are to be simulated in sequence.
 
     That is so if it has impacts at two points, other than the two of one manifold that both approached before.
@@ -181,123 +241,256 @@ def is_simulated(blocks, impacts, last, contacts, threshold):
             total = line_of(blocks, r, at.TOTAL_1 if point == 0 else at.TOTAL_2)
             speed = c.speed_1 if point == 0 else c.speed_2
             points += int(total > 0.0)
-            fast += int(total > 0.0 and speed > threshold)
+            fast += int(total > 0.0 and speed > line_of(blocks, r, at.THRESHOLD))
         k = r.before
     return fast > 0 and points > 1 and (rows > 1 or fast < points)
 
 
-@subkernel
-def speed_now(blocks, impacts, last, row, second, motions):
-    """Return the approach speed [px/s] of a point after the impulses that its body got so far."""
-    r = impacts[row]
-    mover_row, sign = mover_of(blocks, r, motions)
-    mover = motions[mover_row]
-    arm = arm_of(blocks, r, second, sign)
-    speed = r.speed_2 if second else r.speed_1
-    k = last
-    while k != NO_IMPACT:
-        o = impacts[k - 1]
-        _, other = mover_of(blocks, o, motions)
-        along = line_of(blocks, r, at.NX) * line_of(blocks, o, at.NX)
-        along += line_of(blocks, r, at.NY) * line_of(blocks, o, at.NY)
-        for point in range(points_of(blocks, o)):
-            impulse = o.impulse_1 if point == 0 else o.impulse_2
-            if impulse > 0.0:
-                turn = mover.inverse_inertia * arm * arm_of(blocks, o, point == 1, other)
-                speed -= sign * other * (mover.inverse_mass * along + turn) * impulse
-        k = o.before
-    return speed
+@inlined
+def speed_now(blocks, impact, second, sign, change):
+    """Return the approach speed [px/s] of a point after the impulses that its body, at the side `sign`, got so far.
+
+    change: the last IMPACT row of the body, with their effect on its velocity.
+    """
+    r = impact
+    along = change.vx * line_of(blocks, r, at.NX) + change.vy * line_of(blocks, r, at.NY)
+    along += change.angular_velocity * arm_of(blocks, r, second, sign)
+    return (r.speed_2 if second else r.speed_1) - sign * along
+
+
+@inlined
+def strike(blocks, impact, second, sign, impulse, mover, change_inout):
+    """Add the effect of an impulse at a point to the velocity of its body, a MOTION row. See speed_now."""
+    r = impact
+    change_inout.vx += mover.inverse_mass * sign * impulse * line_of(blocks, r, at.NX)
+    change_inout.vy += mover.inverse_mass * sign * impulse * line_of(blocks, r, at.NY)
+    change_inout.angular_velocity += mover.inverse_inertia * sign * impulse * arm_of(blocks, r, second, sign)
 
 
 @subkernel
-def predict_impact(blocks, contacts, motions, impact_inout):
-    """Write the predicted impact speeds and gaps of an impact, from the state before the step."""
-    r = impact_inout
-    c = contacts[blocks.contact[r.block, r.lane]]
-    a = motions[blocks.motion_a[r.block, r.lane]]
-    b = motions[blocks.motion_b[r.block, r.lane]]
-    two = points_of(blocks, r) == 2
-    acceleration = (a.acceleration_x - b.acceleration_x) * line_of(blocks, r, at.NX)
-    acceleration += (a.acceleration_y - b.acceleration_y) * line_of(blocks, r, at.NY)
-    r.impulse_1, r.impulse_2 = 0.0, 0.0
-    r.speed_1 = speed_of_impact(c.speed_1, c.separation_1, acceleration)
-    r.speed_2 = speed_of_impact(c.speed_2, c.separation_2, acceleration) if two else 0.0
-    r.gap_1 = max(c.separation_1, 0.0)
-    r.gap_2 = max(c.separation_2, 0.0) if two else 0.0
-
-
-@subkernel
-def soonest_impact(blocks, impacts, last, threshold, motions):
-    """Return the next impact of a body: its time [s], row plus one, whether it is the second point, approach speed."""
+def soonest_impact(blocks, impacts, last, motions):
+    """Return the next impact of a body: its time [s], and its approach speed [px/s]; 0: there is none."""
     soonest = math.inf
-    hit = NO_IMPACT
-    second = False
     hit_speed = 0.0
     k = last
     while k != NO_IMPACT:
         r = impacts[k - 1]
+        _, sign = mover_of(blocks, r, motions)
         for point in range(points_of(blocks, r)):
-            speed = speed_now(blocks, impacts, last, k - 1, point == 1, motions)
+            speed = speed_now(blocks, r, point == 1, sign, impacts[last - 1])
             gap = r.gap_1 if point == 0 else r.gap_2
-            if speed > threshold and gap < soonest * speed:
+            if speed > line_of(blocks, r, at.THRESHOLD) and gap < soonest * speed:
                 soonest = gap / speed
-                hit = k
-                second = point == 1
                 hit_speed = speed
         k = r.before
-    return soonest, hit, second, hit_speed
+    return soonest, hit_speed
 
 
 @subkernel
-def simulate_impacts(blocks, last, threshold, dt, contacts, motions, impacts_inout):
+def close_gaps(blocks, last, time, motions, impacts_inout):
+    """Advance the gaps of the points of a body, linked from `last`, by a time [s]."""
+    k = last
+    while k != NO_IMPACT:
+        r = impacts_inout[k - 1]
+        _, sign = mover_of(blocks, r, motions)
+        r.gap_1 = max(r.gap_1 - time * speed_now(blocks, r, False, sign, impacts_inout[last - 1]), 0.0)
+        if points_of(blocks, r) == 2:
+            r.gap_2 = max(r.gap_2 - time * speed_now(blocks, r, True, sign, impacts_inout[last - 1]), 0.0)
+        k = r.before
+
+
+@subkernel
+def list_hits(blocks, last, span, motions, impacts_inout):
+    """Write which points of a body, linked from `last`, hit within a span [s], and the speeds that they want."""
+    k = last
+    while k != NO_IMPACT:
+        r = impacts_inout[k - 1]
+        _, sign = mover_of(blocks, r, motions)
+        back = line_of(blocks, r, at.RESTITUTION)
+        threshold = line_of(blocks, r, at.THRESHOLD)
+        r.blow_1, r.blow_2 = 0.0, 0.0
+        speed = speed_now(blocks, r, False, sign, impacts_inout[last - 1])
+        r.bounces_1 = speed > threshold and r.gap_1 <= span * speed
+        r.wanted_1 = back * speed
+        speed = speed_now(blocks, r, True, sign, impacts_inout[last - 1])
+        r.bounces_2 = points_of(blocks, r) == 2 and speed > threshold and r.gap_2 <= span * speed
+        r.wanted_2 = back * speed
+        k = r.before
+
+
+@inlined
+def hits_at(impact, second):
+    """Return whether a point of an impact hits, the impulse of this moment, and the separation speed that it wants."""
+    r = impact
+    if second:
+        return r.bounces_2, r.blow_2, r.wanted_2
+    return r.bounces_1, r.blow_1, r.wanted_1
+
+
+@inlined
+def add_blow(impact_inout, second, change):
+    """Add an impulse at a point of an impact."""
+    if second:
+        impact_inout.blow_2 += change
+        impact_inout.impulse_2 += change
+    else:
+        impact_inout.blow_1 += change
+        impact_inout.impulse_1 += change
+
+
+@subkernel
+def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_inout):
+    """Solve two points of a body that hit, IMPACT rows i and j. Return the greater change of speed [px/s].
+
+    The two points may be one, i = j: then it is solved alone.
+    """
+    r = impacts_inout[i]
+    o = impacts_inout[j]
+    row, sign = mover_of(blocks, r, motions)
+    _, other = mover_of(blocks, o, motions)
+    mover = motions[row]
+    change = impacts_inout[last - 1]
+    _, old_1, wanted_1 = hits_at(r, first_point)
+    _, old_2, wanted_2 = hits_at(o, second_point)
+    arm_1 = arm_of(blocks, r, first_point, sign)
+    arm_2 = arm_of(blocks, o, second_point, other)
+    k_11 = mover.inverse_mass + mover.inverse_inertia * arm_1 * arm_1
+    missing_1 = wanted_1 + speed_now(blocks, r, first_point, sign, change)
+    if i == j and first_point == second_point:
+        x_1 = max(old_1 + missing_1 / k_11, 0.0)
+        strike(blocks, r, first_point, sign, x_1 - old_1, mover, change)
+        add_blow(r, first_point, x_1 - old_1)
+        return abs(x_1 - old_1) * k_11
+    k_22 = mover.inverse_mass + mover.inverse_inertia * arm_2 * arm_2
+    along = line_of(blocks, r, at.NX) * line_of(blocks, o, at.NX) + line_of(blocks, r, at.NY) * line_of(
+        blocks, o, at.NY
+    )
+    k_12 = sign * other * (mover.inverse_mass * along + mover.inverse_inertia * arm_1 * arm_2)
+    missing_2 = wanted_2 + speed_now(blocks, o, second_point, other, change)
+    off_1 = k_12 / k_11
+    off_2 = k_12 / k_22
+    x_1, x_2 = solve_two(missing_1 / k_11, missing_2 / k_22, off_1, off_2, block_factor(off_1, off_2), old_1, old_2)
+    strike(blocks, r, first_point, sign, x_1 - old_1, mover, change)
+    strike(blocks, o, second_point, other, x_2 - old_2, mover, change)
+    add_blow(r, first_point, x_1 - old_1)
+    add_blow(o, second_point, x_2 - old_2)
+    return max(abs(x_1 - old_1) * k_11, abs(x_2 - old_2) * k_22)
+
+
+@subkernel
+def solve_together(blocks, last, hit_speed, motions, impacts_inout):
+    """Apply the impulses of all points of a body, linked from `last`, that hit now. Return whether they settled.
+
+    They hit at up to about hit_speed [px/s]. Each separates at least by its restitution times its approach speed. Every
+    pair of points is solved as a whole: on level ground the first pair with the centre of mass between them is the
+    solution, and the others agree.
+    """
+    for _ in range(MOST_ROUNDS):
+        changed = 0.0
+        alone = True
+        i = last
+        while i != NO_IMPACT:
+            for first in range(points_of(blocks, impacts_inout[i - 1])):
+                hits, _, _ = hits_at(impacts_inout[i - 1], first == 1)
+                if not hits:
+                    continue
+                j = i
+                while j != NO_IMPACT:
+                    for second in range(first + 1 if i == j else 0, points_of(blocks, impacts_inout[j - 1])):
+                        hits, _, _ = hits_at(impacts_inout[j - 1], second == 1)
+                        if hits:
+                            alone = False
+                            change = solve_pair(
+                                blocks, i - 1, first == 1, j - 1, second == 1, last, motions, impacts_inout
+                            )
+                            changed = max(changed, change)
+                    j = impacts_inout[j - 1].before
+            i = impacts_inout[i - 1].before
+        if alone:
+            solve_alone(blocks, last, motions, impacts_inout)
+            return True
+        if changed <= SETTLED * hit_speed:
+            return True
+    return False
+
+
+@subkernel
+def solve_alone(blocks, last, motions, impacts_inout):
+    """Solve the only point of a body, linked from `last`, that hits."""
+    i = last
+    while i != NO_IMPACT:
+        for point in range(points_of(blocks, impacts_inout[i - 1])):
+            hits, _, _ = hits_at(impacts_inout[i - 1], point == 1)
+            if hits:
+                solve_pair(blocks, i - 1, point == 1, i - 1, point == 1, last, motions, impacts_inout)
+        i = impacts_inout[i - 1].before
+
+
+@subkernel
+def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
     """Simulate the impacts of a body, linked from `last`, over dt [s]: the impulse of each point goes to its IMPACT.
 
-    Return whether MOST_IMPACTS was enough.
+    Return the time [s] that is left after the last one, and whether MOST_IMPACTS and MOST_ROUNDS were enough.
     """
     k = last
     while k != NO_IMPACT:
         predict_impact(blocks, contacts, motions, impacts_inout[k - 1])
         k = impacts_inout[k - 1].before
+    change = impacts_inout[last - 1]
+    change.vx, change.vy, change.angular_velocity = 0.0, 0.0, 0.0
     left = dt
+    settled = True
     for _ in range(MOST_IMPACTS):
-        soonest, hit, second, hit_speed = soonest_impact(blocks, impacts_inout, last, threshold, motions)
-        if hit == NO_IMPACT or soonest > left:
-            return True
+        soonest, hit_speed = soonest_impact(blocks, impacts_inout, last, motions)
+        if hit_speed == 0.0 or soonest > left:
+            return left, settled
         left -= soonest
-        k = last
-        while k != NO_IMPACT:
-            r = impacts_inout[k - 1]
-            r.gap_1 = max(r.gap_1 - soonest * speed_now(blocks, impacts_inout, last, k - 1, False, motions), 0.0)
-            if points_of(blocks, r) == 2:
-                r.gap_2 = max(r.gap_2 - soonest * speed_now(blocks, impacts_inout, last, k - 1, True, motions), 0.0)
-            k = r.before
-        r = impacts_inout[hit - 1]
-        back = 1.0 + line_of(blocks, r, at.RESTITUTION)
-        other_speed = 0.0
-        if points_of(blocks, r) == 2:
-            other_speed = speed_now(blocks, impacts_inout, last, hit - 1, not second, motions)
-        # Two points that hit nearly at the same time hit together, otherwise a flat landing would start a rotation.
-        together = other_speed > threshold and (r.gap_1 if second else r.gap_2) <= TOGETHER * dt * other_speed
-        speed_1 = hit_speed if not second else (other_speed if together else 0.0)
-        speed_2 = hit_speed if second else (other_speed if together else 0.0)
-        change_1 = line_of(blocks, r, at.MASS_1) * back * speed_1
-        change_2 = line_of(blocks, r, at.MASS_2) * back * speed_2
-        if together:
-            factors = (
-                line_of(blocks, r, at.OFF_DIAGONAL_1),
-                line_of(blocks, r, at.OFF_DIAGONAL_2),
-                line_of(blocks, r, at.BLOCK_FACTOR),
-            )
-            change_1, change_2 = solve_two(change_1, change_2, factors[0], factors[1], factors[2], 0.0, 0.0)
-        r.impulse_1 += change_1
-        r.impulse_2 += change_2
-    return False
+        close_gaps(blocks, last, soonest, motions, impacts_inout)
+        list_hits(blocks, last, TOGETHER * dt, motions, impacts_inout)
+        settled = solve_together(blocks, last, hit_speed, motions, impacts_inout) and settled
+    return left, False
 
 
 @subkernel
-def apply_simulated(last, impacts_inout, motions_inout, blocks_inout):
-    """Replace the impulses of the substeps by those of the simulated impacts. They are no cached forces for the next
-    step.
+def rub(impact, second, to_rest, motions_inout, blocks_inout):
+    """Remove the friction of the substeps at a point of an impact, or apply that of its impulse: to_rest.
+
+    Its limit is the share of the impulse that stops the approach, as in the substeps: restitution comes after friction.
+    Return the change of speed [px/s].
+    """
+    r = impact
+    lane = r.lane
+    c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
+    a = motions_inout[blocks_inout.motion_a[r.block, lane]]
+    b = motions_inout[blocks_inout.motion_b[r.block, lane]]
+    line = (at.TANGENT_TOTAL_2 if second else at.TANGENT_TOTAL_1) + lane
+    mass = c[(at.TANGENT_MASS_2 if second else at.TANGENT_MASS_1) + lane]
+    impulse = 0.0
+    if to_rest:
+        most = c[at.FRICTION + lane] * (r.impulse_2 if second else r.impulse_1) / (1.0 + c[at.RESTITUTION + lane])
+        impulse = clamp(c[line] - mass * tangential_speed(c, lane, second, a, b), most)
+    change = impulse - c[line]
+    push_along(c, lane, second, change, a, b)
+    c[line] = impulse
+    return abs(change) / mass if mass > 0.0 else 0.0
+
+
+@subkernel
+def greatest_speed(impacts, last):
+    """Return the greatest predicted impact speed [px/s] of a body, linked from `last`."""
+    fastest = 0.0
+    k = last
+    while k != NO_IMPACT:
+        fastest = max(fastest, impacts[k - 1].speed_1, impacts[k - 1].speed_2)
+        k = impacts[k - 1].before
+    return fastest
+
+
+@subkernel
+def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout):
+    """Replace the impulses of the substeps by those of the simulated impacts, which hit at up to hit_speed [px/s].
+
+    They are no cached forces for the next step.
     """
     k = last
     while k != NO_IMPACT:
@@ -307,14 +500,29 @@ def apply_simulated(last, impacts_inout, motions_inout, blocks_inout):
         a = motions_inout[blocks_inout.motion_a[r.block, lane]]
         b = motions_inout[blocks_inout.motion_b[r.block, lane]]
         push_pair(c, lane, False, r.impulse_1 - c[at.TOTAL_1 + lane], a, b)
+        rub(r, False, False, motions_inout, blocks_inout)
         c[at.NORMAL_1 + lane] = 0.0
+        c[at.TANGENT_1 + lane] = 0.0
         c[at.TOTAL_1 + lane] = r.impulse_1
         if points_of(blocks_inout, r) == 2:
             push_pair(c, lane, True, r.impulse_2 - c[at.TOTAL_2 + lane], a, b)
+            rub(r, True, False, motions_inout, blocks_inout)
             c[at.NORMAL_2 + lane] = 0.0
+            c[at.TANGENT_2 + lane] = 0.0
             c[at.TOTAL_2 + lane] = r.impulse_2
         r.simulated = True
         k = r.before
+    for _ in range(ROUNDS):
+        changed = 0.0
+        k = last
+        while k != NO_IMPACT:
+            r = impacts_inout[k - 1]
+            for point in range(points_of(blocks_inout, r)):
+                if (r.impulse_1 if point == 0 else r.impulse_2) > 0.0:
+                    changed = max(changed, rub(r, point == 1, True, motions_inout, blocks_inout))
+            k = r.before
+        if changed <= SETTLED * hit_speed:
+            return
 
 
 @subkernel
@@ -322,7 +530,6 @@ def solve_simultaneous(
     # read
     contacts,
     count,
-    threshold,
     dt,
     # write
     impacts_inout,
@@ -332,8 +539,7 @@ def solve_simultaneous(
 ):
     """Apply simultaneous impacts: flying bodies that hit static ones several times within a step of dt [s].
 
-    They are among so many IMPACT rows, which are then `simulated`. threshold [px/s]: slower impacts do not bounce.
-    O(count + impacts · points² of such a body).
+    They are among so many IMPACT rows, which are then `simulated`. O(count + impacts · points² of such a body).
     """
     link_impacts(blocks_inout, count, impacts_inout, motions_inout)
     for i in range(count):
@@ -344,10 +550,15 @@ def solve_simultaneous(
         # The last impact represents the body.
         if motions_inout[row].last_impact != i + 1:
             continue
-        if is_simulated(blocks_inout, impacts_inout, i + 1, contacts, threshold):
-            if not simulate_impacts(blocks_inout, i + 1, threshold, dt, contacts, motions_inout, impacts_inout):
-                work_inout[CAP_HITS] += 1
-            apply_simulated(i + 1, impacts_inout, motions_inout, blocks_inout)
+        if is_simulated(blocks_inout, impacts_inout, i + 1, contacts):
+            left, settled = simulate_impacts(blocks_inout, i + 1, dt, contacts, motions_inout, impacts_inout)
+            work_inout[CAP_HITS] += int(not settled)
+            apply_simulated(i + 1, greatest_speed(impacts_inout, i + 1), impacts_inout, motions_inout, blocks_inout)
+            # The substeps left it where it hit: at that height the acceleration of the rest of the step would be a loss.
+            m = motions_inout[row]
+            m.vx -= left * m.acceleration_x
+            m.vy -= left * m.acceleration_y
+            m.angular_velocity -= left * m.angular_acceleration
     unlink_impacts(blocks_inout, impacts_inout, count, motions_inout)
 
 
@@ -356,7 +567,9 @@ def solve_simultaneous(
 #
 # It uses the approach speed at the moment of impact, by the parabola from before the step. So a speculative contact
 # that slowed the body does not reduce the bounce (Rapier #919, #974), and no height is lost by the length of steps. Two
-# points of one manifold are solved together, otherwise a box that lands flat would rotate.
+# points of one manifold are solved together, otherwise a box that lands flat would rotate. Where impacts share a body,
+# or a body that bounces presses others, all of them are solved in rounds: contacts that only touch hand the blow on,
+# without a bounce of their own. Each separation speed times its impulse loses energy or keeps it, so their sum does.
 
 
 @subkernel
@@ -379,14 +592,12 @@ def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
 
 
 @subkernel
-def bounce_together(wanted_1, wanted_2, c, lane, a_inout, b_inout):
+def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout):
     """Apply restitution at two points at once, for separation speeds [px/s], by the 2 x 2 system. Return the changes of
-    their impulses.
+    their impulses, which are `old` so far.
     """
     missing_1 = wanted_1 - relative_speed(c, lane, False, a_inout, b_inout)
     missing_2 = wanted_2 - relative_speed(c, lane, True, a_inout, b_inout)
-    old_1 = c[at.TOTAL_1 + lane]
-    old_2 = c[at.TOTAL_2 + lane]
     x_1, x_2 = solve_two(
         c[at.MASS_1 + lane] * missing_1,
         c[at.MASS_2 + lane] * missing_2,
@@ -399,6 +610,119 @@ def bounce_together(wanted_1, wanted_2, c, lane, a_inout, b_inout):
     push_pair(c, lane, False, x_1 - old_1, a_inout, b_inout)
     push_pair(c, lane, True, x_2 - old_2, a_inout, b_inout)
     return x_1 - old_1, x_2 - old_2
+
+
+@subkernel
+def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, work_inout):
+    """Keep those of so many IMPACT rows of which a point bounces, with the separation speeds that they want.
+
+    Return their number, and whether two of them share a body. The bodies are marked in MOTION.last_impact.
+    """
+    blocks = blocks_inout
+    kept = 0
+    shared = False
+    for i in range(count):
+        r = impacts_inout[i]
+        total_1 = line_of(blocks, r, at.TOTAL_1)
+        total_2 = line_of(blocks, r, at.TOTAL_2)
+        if r.simulated:
+            work_inout[RESTITUTION_ROWS] += int(total_1 > 0.0) + int(total_2 > 0.0)
+            continue
+        predict_impact(blocks, contacts, motions_inout, r)
+        threshold = line_of(blocks, r, at.THRESHOLD)
+        first = bounces(r.speed_1, threshold, total_1)
+        second = points_of(blocks, r) == 2 and bounces(r.speed_2, threshold, total_2)
+        if not (first or second):
+            continue
+        work_inout[RESTITUTION_ROWS] += int(first) + int(second)
+        k = impacts_inout[kept]
+        k.block = r.block
+        k.lane = r.lane
+        k.bounces_1 = first
+        k.bounces_2 = second
+        k.impulse_1 = total_1
+        k.impulse_2 = total_2
+        k.wanted_1 = line_of(blocks, r, at.RESTITUTION) * r.speed_1
+        k.wanted_2 = line_of(blocks, r, at.RESTITUTION) * r.speed_2
+        kept += 1
+        blocks.lines[r.block * SIZE + at.LISTED + r.lane] = 1.0
+        shared = mark_bodies(blocks, r.block, r.lane, motions_inout) or shared
+    return kept, shared
+
+
+@subkernel
+def mark_bodies(blocks, block, lane, motions_inout):
+    """Mark the dynamic bodies of a lane. Return whether one of them was marked before."""
+    shared = False
+    for side in range(2):
+        m = motions_inout[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]
+        if m.inverse_mass > 0.0:
+            shared = shared or m.last_impact != NO_IMPACT
+            m.last_impact = LEFT_OUT
+    return shared
+
+
+@subkernel
+def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_inout):
+    """Append to so many IMPACT rows the lanes with an impulse that touch a marked body, and mark theirs, over and over.
+
+    Return the number of rows. Such a lane keeps the speed with which it approaches, and approaches no faster.
+    """
+    blocks = blocks_inout
+    grown = True
+    while grown:
+        grown = False
+        for block in range(blocks_count):
+            c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+            for lane in range(lanes_of(blocks.contact, block)):
+                if c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0 or c[at.LISTED + lane] != 0.0:
+                    continue
+                a = motions_inout[blocks.motion_a[block, lane]]
+                b = motions_inout[blocks.motion_b[block, lane]]
+                if a.last_impact == NO_IMPACT and b.last_impact == NO_IMPACT:
+                    continue
+                c[at.LISTED + lane] = 1.0
+                mark_bodies(blocks, block, lane, motions_inout)
+                r = impacts_inout[count]
+                r.block = block
+                r.lane = lane
+                r.bounces_1 = False
+                r.bounces_2 = False
+                r.impulse_1 = 0.0
+                r.impulse_2 = 0.0
+                r.wanted_1 = min(relative_speed(c, lane, False, a, b), 0.0)
+                r.wanted_2 = min(relative_speed(c, lane, True, a, b), 0.0) if c[at.MASS_2 + lane] > 0.0 else 0.0
+                count += 1
+                grown = True
+    return count
+
+
+@subkernel
+def bounce_row(impact_inout, motions_inout, blocks_inout):
+    """Apply restitution at the points of an IMPACT row, to which its impulses are added. Return the change of speed."""
+    r = impact_inout
+    lane = r.lane
+    c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
+    a = motions_inout[blocks_inout.motion_a[r.block, lane]]
+    b = motions_inout[blocks_inout.motion_b[r.block, lane]]
+    handed_on = not (r.bounces_1 or r.bounces_2)
+    first = r.bounces_1 or handed_on
+    second = r.bounces_2 or (handed_on and points_of(blocks_inout, r) == 2)
+    change_1 = 0.0
+    change_2 = 0.0
+    if first and second:
+        change_1, change_2 = bounce_together(r.wanted_1, r.wanted_2, r.impulse_1, r.impulse_2, c, lane, a, b)
+    elif first:
+        change_1 = bounce_once(r.wanted_1, c, lane, False, r.impulse_1, a, b)
+    else:
+        change_2 = bounce_once(r.wanted_2, c, lane, True, r.impulse_2, a, b)
+    r.impulse_1 += change_1
+    r.impulse_2 += change_2
+    # They are no cached forces for the next step.
+    c[at.TOTAL_1 + lane] += change_1
+    c[at.TOTAL_2 + lane] += change_2
+    changed = abs(change_1) / c[at.MASS_1 + lane]
+    return max(changed, abs(change_2) / c[at.MASS_2 + lane]) if c[at.MASS_2 + lane] > 0.0 else changed
 
 
 @subkernel
@@ -417,34 +741,17 @@ def restore_bounces(
 
     count: number of blocks; context: see StepContext; impacts_inout: scratch.
     """
-    threshold = context.restitution_speed
     found = list_impacts(blocks_inout, count, impacts_inout)
-    solve_simultaneous(contacts, found, threshold, context.dt, impacts_inout, motions_inout, blocks_inout, work_inout)
-    for i in range(found):
-        r = impacts_inout[i]
-        lane = r.lane
-        c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
-        if r.simulated:
-            work_inout[RESTITUTION_ROWS] += int(c[at.TOTAL_1 + lane] > 0.0) + int(c[at.TOTAL_2 + lane] > 0.0)
-            continue
-        predict_impact(blocks_inout, contacts, motions_inout, r)
-        first = bounces(r.speed_1, threshold, c[at.TOTAL_1 + lane])
-        second = points_of(blocks_inout, r) == 2 and bounces(r.speed_2, threshold, c[at.TOTAL_2 + lane])
-        if not (first or second):
-            continue
-        work_inout[RESTITUTION_ROWS] += int(first) + int(second)
-        a = motions_inout[blocks_inout.motion_a[r.block, lane]]
-        b = motions_inout[blocks_inout.motion_b[r.block, lane]]
-        wanted_1 = c[at.RESTITUTION + lane] * r.speed_1
-        wanted_2 = c[at.RESTITUTION + lane] * r.speed_2
-        change_1 = 0.0
-        change_2 = 0.0
-        if first and second:
-            change_1, change_2 = bounce_together(wanted_1, wanted_2, c, lane, a, b)
-        elif first:
-            change_1 = bounce_once(wanted_1, c, lane, False, c[at.TOTAL_1 + lane], a, b)
-        else:
-            change_2 = bounce_once(wanted_2, c, lane, True, c[at.TOTAL_2 + lane], a, b)
-        # It is no cached force for the next step.
-        c[at.TOTAL_1 + lane] += change_1
-        c[at.TOTAL_2 + lane] += change_2
+    solve_simultaneous(contacts, found, context.dt, impacts_inout, motions_inout, blocks_inout, work_inout)
+    bouncing, shared = list_bounces(contacts, found, motions_inout, impacts_inout, blocks_inout, work_inout)
+    rows = list_handed_on(count, bouncing, motions_inout, impacts_inout, blocks_inout) if bouncing > 0 else 0
+    fastest = 0.0
+    for i in range(bouncing):
+        fastest = max(fastest, impacts_inout[i].wanted_1, impacts_inout[i].wanted_2)
+    for _ in range(ROUNDS if shared or rows > bouncing else 1):
+        changed = 0.0
+        for i in range(rows):
+            changed = max(changed, bounce_row(impacts_inout[i], motions_inout, blocks_inout))
+        if changed <= SETTLED * fastest:
+            break
+    unlink_impacts(blocks_inout, impacts_inout, rows, motions_inout)

@@ -85,7 +85,7 @@ class Group(NamedTuple):
 @subkernel
 def touches_slowly(separation, speed, limits):
     """Return whether a point touches, and approaches too slowly to bounce."""
-    return separation <= limits.slop and abs(speed) <= limits.bounce_speed
+    return separation <= limits.slop and abs(speed) <= limits.impact_speed
 
 
 @subkernel

@@ -31,6 +31,7 @@ BODY = in_lines(
         ("bullet", np.bool_),  # swept against moving bodies too
         ("fixed_rotation", np.bool_),
         ("allow_sleep", np.bool_),  # False: its island stays awake
+        ("forced", np.bool_),  # a force acted on it in this step, in a world without stacking
         ("has_current_contacts", np.bool_),  # its contacts were updated to its present pose; see contacts/cache.py
         ("inverse_mass", np.float64),  # 0: infinite mass
         ("inverse_inertia", np.float64),  # 0: infinite inertia

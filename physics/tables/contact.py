@@ -87,7 +87,8 @@ CONTACT = in_lines(
         ("tangential_offset", np.float64),  # [px] B slides by it along (-ny, nx) before contact; see hull_pairs.py
         ("persisted_1", np.bool_),  # the same feature was in contact in the step before
         ("persisted_2", np.bool_),
-        ("of_new_pair", np.bool_),  # its pair had no contact in the step before
+        ("of_new_pair", np.bool_),  # its pair had no contact in the step before …
+        ("touched", np.bool_),  # … or one that touched or pushed
         ("can_recycle", np.bool_),  # in the next step, while both bodies keep the poses at the end of this one
         # Report.
         ("feature_1", np.int64),  # feature id of the corner, edge, tile or pixel; see collision/hulls.py
@@ -212,6 +213,7 @@ PUSH = np.dtype(
         ("anchor_x", np.float64),  # [px] centre of B relative to A's at detection
         ("anchor_y", np.float64),
         ("speed", np.float64),  # [px/s] approach speed before the response
+        ("threshold", np.float64),  # [px/s] slower approaches do not bounce
         ("friction", np.float64),  # mixed
         ("restitution", np.float64),
         ("surface_speed", np.float64),

@@ -5,7 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from physics.solver.restitution import block_factor, solve_two
+from physics.solver.lanes import block_factor, solve_two
 
 
 def exact(k_11, k_12, k_22, wanted_1, wanted_2, old_1, old_2):
