@@ -67,13 +67,11 @@ def transfer_impulses(previous, first, contact_inout):
 
 @inlined
 def touches(contact):
-    """Return whether a CONTACT row of the last step touches, or pushed."""
+    """Return whether a CONTACT row of the last step pushed, or touched without an approach in that step."""
     c = contact
-    return (
-        c.normal_impulse_1 > 0.0
-        or c.separation_1 <= 0.0
-        or (c.count == 2 and (c.normal_impulse_2 > 0.0 or c.separation_2 <= 0.0))
-    )
+    pushed = c.normal_impulse_1 + c.normal_impulse_2 > 0.0
+    first = c.separation_1 <= 0.0 and c.speed_1 <= 0.0
+    return pushed or first or (c.count == 2 and c.separation_2 <= 0.0 and c.speed_2 <= 0.0)
 
 
 @inlined

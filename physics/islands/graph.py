@@ -114,11 +114,18 @@ def share_classes(parents, classes_inout):
         classes_inout[i] = classes_inout[parents[i]]
 
 
+KINEMATIC_RANK, STATIC_RANK = 1, 2  # of bodies of infinite mass; 0: of all others, and of characters, which give way
+STATIC_COLORS = 12  # colours that contacts with kinematic bodies leave to those with static ones
+
+
 @subkernel
-def free_color(taken, last_first):
-    """Return the first colour whose bit is not set, from the end with last_first 1; -1 when all are taken."""
+def free_color(taken, rank):
+    """Return the first colour whose bit is not set, from the end with a rank; -1 when all are taken."""
+    last = COLORS - 1 - (STATIC_COLORS if rank == KINEMATIC_RANK else 0)
     for k in range(COLORS):
-        color = COLORS - 1 - k if last_first == 1 else k
+        color = k
+        if rank > 0:
+            color = last - k if k <= last else COLORS - 1 - (k - last - 1)
         if (taken >> color) & 1 == 0:
             return color
     return -1
@@ -130,7 +137,7 @@ def color_edges(
     edges,
     count,
     has_finite_mass,
-    is_fixed,
+    rank,
     # write
     taken_out,
     degrees_out,
@@ -138,25 +145,27 @@ def color_edges(
 ):
     """Assign to every edge, in order, the first colour that none of its dynamic nodes has yet.
 
-    has_finite_mass, is_fixed (nodes) bool: an impulse changes its velocity; it does not move in this step. taken_out (nodes) int64 bits of the colours of a node, degrees_out (nodes) int64 its
-    number of edges; colors_out (count) int32, -1 where no colour was free. O(nodes + count).
+    Later colours are solved later, so they win where contacts oppose one another: those with kinematic bodies come
+    after all others, those with static ones last. has_finite_mass (nodes) bool: an impulse changes its velocity; rank
+    (nodes) int8: KINEMATIC_RANK, STATIC_RANK. taken_out (nodes) int64 bits of the colours of a node, degrees_out
+    (nodes) int64 its number of edges; colors_out (count) int32, -1 where no colour was free. O(nodes + count).
     """
     for i in range(len(taken_out)):
         taken_out[i] = 0
         degrees_out[i] = 0
     for i in range(count):
         taken = 0
-        fixed = 0
+        greatest = 0
         for k in range(MOST_NODES):
             node = edges.nodes[i, k]
             if node < 0:
                 break
             if has_finite_mass[node]:
                 taken |= taken_out[node]
-            elif is_fixed[node]:
-                fixed = 1
+            elif rank[node] > greatest:
+                greatest = rank[node]
             degrees_out[node] += 1
-        color = free_color(taken, fixed)
+        color = free_color(taken, greatest)
         colors_out[i] = color
         if color >= 0:
             bit = 1 << color

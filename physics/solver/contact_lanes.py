@@ -64,6 +64,21 @@ def sticks(a, b, contact, distance):
 NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
 
 
+DRIFT_SHARE = 0.1  # share of the drift of a sticking contact that friction takes back in a step
+
+
+@inlined
+def tangential_drift(a, b, contact):
+    """Return how far [px] B's side has moved along a sticking contact since it was found. a, b: BODY rows."""
+    c = contact
+    x = b.center_x - a.center_x - c.apart_x
+    y = b.center_y - a.center_y - c.apart_y
+    on_a = c.held_ax_1 * c.held_nx + c.held_ay_1 * c.held_ny
+    on_b = on_a - (c.apart_x * c.held_nx + c.apart_y * c.held_ny)
+    turned = (b.angle - c.angle_b) * on_b - (a.angle - c.angle_a) * on_a
+    return y * c.held_nx - x * c.held_ny + turned
+
+
 @inlined
 def restitution_threshold(contact, a, b, degree_a, degree_b, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
@@ -262,6 +277,8 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c[at.ROLLING_MASS + lane] = 1.0 / turning if turning > 0.0 else 0.0
             c[at.ROLLING + lane] = context.h * m.rolling_force
             c[at.SURFACE + lane] = m.surface_speed if conveyor else 0.0
+            if sticking and friction:
+                c[at.SURFACE + lane] -= DRIFT_SHARE / context.dt * tangential_drift(p, q, m)
             c[at.FRICTION + lane] = m.friction if friction else 0.0
             c[at.RESTITUTION + lane] = m.restitution
             c[at.THRESHOLD + lane] = restitution_threshold(m, a, b, plan.degrees[row_a], plan.degrees[row_b], context)

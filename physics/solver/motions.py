@@ -4,6 +4,7 @@ back.
 Row 0 of MOTION stands for all bodies that do not move in this step: static, sleeping and resting kinematic ones.
 """
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
@@ -11,10 +12,11 @@ import numpy as np
 
 from physics.dynamics.integrate import put_center, refresh_center
 from physics.dynamics.non_finite import is_finite_in_step, is_within_limits
+from physics.islands.graph import KINEMATIC_RANK, STATIC_RANK
 from physics.jit import kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of
 from physics.shapes.library import add_missing_rasters
-from physics.tables.body import DYNAMIC, STATIC
+from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.contact import MOTION
 from physics.tables.step_state import BODIES_INTEGRATED, StepState
 from physics.tables.table import zeros_in_lines
@@ -63,7 +65,7 @@ def write_fixed(motions_out, lists_out):
     m.is_character = False
     lists_out.has_finite_mass[0] = False
     lists_out.links_islands[0] = False
-    lists_out.is_fixed[0] = True
+    lists_out.rank[0] = STATIC_RANK
 
 
 class MotionLists(NamedTuple):
@@ -72,7 +74,7 @@ class MotionLists(NamedTuple):
     motion_of: np.ndarray  # (bodies) int32 the MOTION row of each body; 0: it does not move
     has_finite_mass: np.ndarray  # (motions) bool an impulse changes its velocity
     links_islands: np.ndarray  # (motions) bool
-    is_fixed: np.ndarray  # (motions) bool it does not move in this step
+    rank: np.ndarray  # (motions) int8 which contacts are solved later: see islands.graph.color_edges
     by_kind: np.ndarray  # (2, motions) int32 the MOTION rows of dynamic bodies, and of kinematic ones
 
 
@@ -141,11 +143,11 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.last_impact = 0
             m.substeps = b.substeps
             m.cooldown = b.cooldown
-            m.reserve = b.reserve
+            m.reserve = b.reserve if 0.0 <= b.reserve < math.inf else 0.0
             m.island_mass = 0.0
             m.anchored = False
             lists_out.links_islands[k + 1] = m.is_dynamic
-            lists_out.is_fixed[k + 1] = not m.moves
+            lists_out.rank[k + 1] = STATIC_RANK if not m.moves else (KINEMATIC_RANK if b.kind == KINEMATIC else 0)
             lists_out.has_finite_mass[k + 1] = m.is_dynamic and b.inverse_mass > 0.0
             if m.moves:
                 work_inout[BODIES_INTEGRATED] += 1
@@ -352,8 +354,8 @@ class Motions:
 
     def _grow(self, count, motion_of):
         self.rows = zeros_in_lines(count, MOTION)
-        flags = (np.zeros(count, np.bool_) for _ in range(3))
-        self.lists = MotionLists(motion_of, *flags, np.zeros((2, count), np.int32))
+        flags = (np.zeros(count, np.bool_) for _ in range(2))
+        self.lists = MotionLists(motion_of, *flags, np.zeros(count, np.int8), np.zeros((2, count), np.int32))
         self.used, self.island_bodies, self.kinematic = self.rows[:0], *self.lists.by_kind[:, :0]
 
     def gather(self, state: StepState) -> None:
@@ -373,6 +375,7 @@ class Motions:
         if len(state.characters):
             characters = self.lists.motion_of[state.characters["body_row"]]
             self.used["is_character"][characters] = ~state.characters["wedged"]
+            self.lists.rank[characters] = np.where(state.characters["wedged"], STATIC_RANK, 0)
 
     def scatter(self, state: StepState) -> None:
         """Write the bodies back."""

@@ -133,7 +133,10 @@ def list_contact_edges(
         edges_out.resting[found] = touches_slowly(c.separation_1, c.speed_1, limits)
         overlap = -(min(c.separation_1, c.separation_2) if c.count == 2 else c.separation_1)
         sign = 1.0 if a.inverse_mass == 0.0 else -1.0
-        is_deep = overlap > limits.slop and (a.inverse_mass == 0.0 or b.inverse_mass == 0.0)
+        # A character that is pushed gives way, unless it is wedged.
+        is_deep = overlap > limits.slop and (
+            (a.inverse_mass == 0.0 and not a.is_character) or (b.inverse_mass == 0.0 and not b.is_character)
+        )
         edges_out.deep[found, 0] = sign * c.normal_x if is_deep else 0.0
         edges_out.deep[found, 1] = sign * c.normal_y if is_deep else 0.0
         edges_out.overlaps[found] = overlap
@@ -324,7 +327,7 @@ def list_and_color(
     count = list_contact_edges(contacts, lists.motion_of, dt, limits, motions, plan_out.edges)
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
-    color_edges(plan_out.edges, count, lists.has_finite_mass, lists.is_fixed, taken, degrees, plan_out.colors)
+    color_edges(plan_out.edges, count, lists.has_finite_mass, lists.rank, taken, degrees, plan_out.colors)
     find_squeezed(plan_out.edges, count, lists, limits.push_speed, limits.deep, plan_out.parents[:nodes], motions)
     return count
 

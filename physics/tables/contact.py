@@ -180,8 +180,14 @@ MOTION = in_lines(
         ("energy_now", np.float64),
         ("energy_excess", np.float64),
         ("energy_scale", np.float64),
+        ("energy_along", np.float64),  # along the only direction in which contacts act on it, …
+        ("along_scale", np.float64),
         ("island_mass", np.float64),
-        ("reserve", np.float64),  # energy that it has lost and may take back
+        ("acts_nx", np.float64),  # … which it is, …
+        ("acts_ny", np.float64),
+        ("acts_all", np.bool_),  # … or they act in all
+        ("reserve", np.float64),  # energy that it has lost and may take back …
+        ("lift", np.float64),  # … in this step, because contacts that sagged rise again
         (
             "squeeze_speed",
             np.float64,

@@ -32,6 +32,7 @@ WRITTEN_ANEW = {
         *(f"{when}_{axis}" for when in ("previous", "settled", "still") for axis in ("x", "y", "angle")),
         "sleep_time",
         "cooldown",
+        "reserve",
     },
     "shapes": {"density", "min_x", "min_y", "max_x", "max_y"},
     "proxies": set(floats_of(PROXY)),
