@@ -28,6 +28,7 @@ from physics.solver.lanes import (
 from physics.solver.motions import Motions
 from physics.solver.restitution import make_impacts, push_along, restore_bounces
 from physics.solver.selection import Group, Selection, touches_slowly
+from physics.solver.squeeze import greatest_impulse
 from physics.solver.step_context import StepContext
 from physics.tables.step_state import SOLVER_ROWS, TANGENT_ROWS, StepState
 
@@ -262,14 +263,9 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
                 turn = context.dt * max(abs(a.angular_velocity), abs(b.angular_velocity))
                 blocks_out.turns[block] = blocks_out.turns[block] or turn > TURNING
             turning = a.inverse_inertia + b.inverse_inertia
-            speed = max(a.squeeze_speed, b.squeeze_speed)
             most = math.inf
-            if speed > 0.0:
-                if not (a.moves and b.moves):
-                    speed += max(a.squeeze_static, b.squeeze_static)
-                most = speed * max(c[at.MASS_1 + lane], c[at.MASS_2 + lane]) + context.h * max(
-                    a.squeeze_force, b.squeeze_force
-                )
+            if plan.squeezed[0]:
+                most = greatest_impulse(a, b, plan.squeeze[row_a], plan.squeeze[row_b], context.h, lane, c)
                 c[at.NORMAL_1 + lane] = min(c[at.NORMAL_1 + lane], most)
                 c[at.NORMAL_2 + lane] = min(c[at.NORMAL_2 + lane], most)
             c[at.MOST + lane] = most

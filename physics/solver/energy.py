@@ -1,8 +1,10 @@
 """The bound of energy: contacts of an island add none, beyond the work of kinematic and moving surfaces.
 
-Contacts that separate overlaps, springs that ring, and moment arms that are fixed for a step may add kinetic energy. After
-a step the kinetic energy of an island is compared with that before, plus the work of gravity, forces and surfaces along the
-motion of the step. An excess is removed by scaling the velocities of the island.
+Contacts that separate overlaps, springs that ring, normals that are a step old on curved ground, and moment arms that
+are fixed for a substep may add energy. After a step, the kinetic energy of bodies that exchanged impulses is compared
+with that before, plus the work of gravity, forces and surfaces along the motion of the step. What they gained beyond
+it they may take from a reserve, the energy that they have lost before; the rest is removed by scaling their velocities.
+Bodies in flight that hit only each other keep their momentum, and are left out.
 """
 
 import math
@@ -10,63 +12,14 @@ import math
 from physics.jit import kernel, subkernel
 from physics.solver import lanes as at
 from physics.solver.lanes import SIZE, lanes_of
+from physics.solver.motions import kinetic_energy
 from physics.tables.table import join_trees, root_of
 
 PARALLEL = 1e-9  # sine between normals that count as one direction
 RESERVE_TIME = 10.0  # [s] in which an island forgets the energy that it has lost
-
 SHARE_BACK = 1e-2  # share of its energy that an island may take back in a step
 
-
-@subkernel
-def kinetic_energy(motion):
-    """Return the kinetic energy of a MOTION row of finite mass."""
-    m = motion
-    energy = 0.5 * (m.vx * m.vx + m.vy * m.vy) / m.inverse_mass
-    if m.inverse_inertia > 0.0:
-        energy += 0.5 * m.angular_velocity * m.angular_velocity / m.inverse_inertia
-    return energy
-
-
-@subkernel
-def note_direction(nx, ny, rubs, motion_inout):
-    """Note along which direction a contact with this normal acts on a body: one, or with friction or others all."""
-    m = motion_inout
-    if m.inverse_mass == 0.0:
-        return
-    if m.acts_nx == 0.0 and m.acts_ny == 0.0:
-        m.acts_nx = nx
-        m.acts_ny = ny
-    m.acts_all = m.acts_all or rubs or abs(nx * m.acts_ny - ny * m.acts_nx) > PARALLEL
-
-
-@subkernel
-def scale_without(energy, whole):
-    """Return the factor on velocities that removes so much of their kinetic energy, or all."""
-    if energy <= 0.0:
-        return 1.0
-    return math.sqrt(1.0 - energy / whole) if energy < whole else 0.0
-
-
-@subkernel
-def energy_along(motion):
-    """Return the kinetic energy of a body along the only direction in which contacts act on it; 0 if they do in all."""
-    m = motion
-    along = m.vx * m.acts_nx + m.vy * m.acts_ny
-    return 0.0 if m.acts_all else 0.5 * along * along / m.inverse_mass
-
-
-@subkernel
-def scale_motion(along_scale, scale, motion_inout):
-    """Scale the velocities of a body, those along the only direction of its contacts by another factor first."""
-    m = motion_inout
-    if not m.acts_all:
-        change = (along_scale - 1.0) * (m.vx * m.acts_nx + m.vy * m.acts_ny)
-        m.vx += change * m.acts_nx
-        m.vy += change * m.acts_ny
-    m.vx *= scale
-    m.vy *= scale
-    m.angular_velocity *= scale
+# ---- work ------------------------------------------------------------------------------------------------------------
 
 
 @subkernel
@@ -99,15 +52,171 @@ def work_of_surfaces(blocks, block, lane, motions):
 
 
 @subkernel
-def work_of_lift(blocks, block, lane, dt, motions):
-    """Return the work of the impulses of a lane along the gap that opens: springs that sagged give it back."""
+def work_of_lift(blocks, block, lane, dt, slop, motions):
+    """Return the work of the impulses of a lane along a gap that opens by up to a slop [px]: springs that sagged give
+    it back.
+    """
     c = blocks.lines[block * SIZE : (block + 1) * SIZE]
     a = motions[blocks.motion_a[block, lane]]
     b = motions[blocks.motion_b[block, lane]]
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
     first = along + b.turn * c[at.B_1 + lane] - a.turn * c[at.A_1 + lane]
     second = along + b.turn * c[at.B_2 + lane] - a.turn * c[at.A_2 + lane]
-    return (c[at.TOTAL_1 + lane] * max(first, 0.0) + c[at.TOTAL_2 + lane] * max(second, 0.0)) / dt
+    first = min(max(first, 0.0), slop)
+    second = min(max(second, 0.0), slop)
+    return (c[at.TOTAL_1 + lane] * first + c[at.TOTAL_2 + lane] * second) / dt
+
+
+# ---- direction -------------------------------------------------------------------------------------------------------
+# Contacts without friction leave the motion along them alone: it is scaled only if nothing else is left.
+
+
+@subkernel
+def note_direction(nx, ny, rubs, motion, balance_inout):
+    """Note along which direction a contact with this normal acts on a body: one, or with friction or others all."""
+    e = balance_inout
+    if motion.inverse_mass == 0.0:
+        return
+    if e.normal_x == 0.0 and e.normal_y == 0.0:
+        e.normal_x = nx
+        e.normal_y = ny
+    e.in_all = e.in_all or rubs or abs(nx * e.normal_y - ny * e.normal_x) > PARALLEL
+
+
+@subkernel
+def energy_along(motion, balance):
+    """Return the kinetic energy of a body along the only direction in which contacts act on it; 0 if they do in all."""
+    along = motion.vx * balance.normal_x + motion.vy * balance.normal_y
+    return 0.0 if balance.in_all else 0.5 * along * along / motion.inverse_mass
+
+
+@subkernel
+def scale_without(energy, whole):
+    """Return the factor on velocities that removes so much of their kinetic energy, or all."""
+    if energy <= 0.0:
+        return 1.0
+    return math.sqrt(1.0 - energy / whole) if energy < whole else 0.0
+
+
+@subkernel
+def scale_motion(root, balance, motion_inout):
+    """Scale the velocities of a body, those along the only direction of its contacts first. root: its BALANCE."""
+    m = motion_inout
+    if not balance.in_all:
+        change = (root.along_scale - 1.0) * (m.vx * balance.normal_x + m.vy * balance.normal_y)
+        m.vx += change * balance.normal_x
+        m.vy += change * balance.normal_y
+    m.vx *= root.scale
+    m.vy *= root.scale
+    m.angular_velocity *= root.scale
+
+
+# ---- balance ---------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def balance_bodies(group, degrees, floor, keep, motions, balance_inout):
+    """Write the energy that each body of a group gained. Return whether one in contact gained more than `floor`.
+
+    floor [px2/s2]: energy per mass; keep: share of the reserve that is not forgotten.
+    """
+    suspect = False
+    for k in range(len(group.members)):
+        i = group.members[k]
+        m = motions[i]
+        e = balance_inout[i]
+        e.excess = 0.0
+        e.now = 0.0
+        if m.inverse_mass == 0.0:
+            continue
+        work = (m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
+        if m.inverse_inertia > 0.0:
+            work += m.angular_acceleration * m.turn / m.inverse_inertia
+        e.now = kinetic_energy(m)
+        e.excess = e.now - e.before - work
+        e.before += abs(work)
+        e.reserve *= keep
+        suspect = suspect or (degrees[i] > 0 and e.excess * m.inverse_mass > floor)
+    return suspect
+
+
+@subkernel
+def join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout):
+    """Join the bodies of a group that exchanged impulses in this step, in so many blocks: no others exchanged energy.
+
+    parents_out (motions) int32: their roots.
+    """
+    for k in range(len(group.members)):
+        i = group.members[k]
+        e = balance_inout[i]
+        parents_out[i] = i
+        e.lift = 0.0
+        e.surfaces = 0.0
+        e.mass = 0.0
+        e.normal_x = 0.0
+        e.normal_y = 0.0
+        e.in_all = False
+        e.anchored = False
+    for block in range(count):
+        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks.contact, block)):
+            if blocks.contact[block, lane] < 0 or c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
+                continue
+            row_a = blocks.motion_a[block, lane]
+            row_b = blocks.motion_b[block, lane]
+            rubs = c[at.TANGENT_TOTAL_1 + lane] != 0.0 or c[at.TANGENT_TOTAL_2 + lane] != 0.0
+            note_direction(c[at.NX + lane], c[at.NY + lane], rubs, motions[row_a], balance_inout[row_a])
+            note_direction(c[at.NX + lane], c[at.NY + lane], rubs, motions[row_b], balance_inout[row_b])
+            if links_islands[row_a] and links_islands[row_b]:
+                join_trees(row_a, row_b, parents_out)
+    for k in range(len(group.members)):
+        parents_out[group.members[k]] = root_of(group.members[k], parents_out)
+
+
+@subkernel
+def sum_balances(blocks, count, group, links_islands, parents, context, motions, balance_inout):
+    """Sum the balances of the bodies of a group at their roots, with the work of surfaces in so many blocks."""
+    for block in range(count):
+        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks.contact, block)):
+            if blocks.contact[block, lane] < 0 or c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
+                continue
+            row_a = blocks.motion_a[block, lane]
+            root = balance_inout[parents[row_a if links_islands[row_a] else blocks.motion_b[block, lane]]]
+            root.surfaces += work_of_surfaces(blocks, block, lane, motions)
+            root.lift += work_of_lift(blocks, block, lane, context.dt, context.slop, motions)
+            root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
+    for k in range(len(group.members)):
+        i = group.members[k]
+        if motions[i].inverse_mass == 0.0:
+            continue
+        e = balance_inout[i]
+        root = balance_inout[parents[i]]
+        e.along = energy_along(motions[i], e)
+        root.mass += 1.0 / motions[i].inverse_mass
+        if parents[i] != i:
+            root.before += e.before
+            root.now += e.now
+            root.excess += e.excess
+            root.along += e.along
+            root.reserve += e.reserve
+
+
+@subkernel
+def draw_on_reserve(balance_inout):
+    """Write the factors that remove what the bodies of a root gained beyond their reserve. Return 1 if there was any.
+
+    Errors of the integrator alternate: what they have lost before they may take back, slowly. Work of surfaces that
+    moved nothing is lost for good.
+    """
+    e = balance_inout
+    allowed = min(e.reserve, max(SHARE_BACK * e.before, e.lift))
+    gained = e.excess - e.surfaces
+    beyond = gained - allowed if e.anchored else 0.0
+    e.along_scale = scale_without(beyond, e.along)
+    e.scale = scale_without(beyond - e.along, e.now - e.along)
+    e.reserve += max(-max(e.excess, gained), 0.0) - min(max(gained, 0.0), allowed)
+    return int(beyond > 0.0)
 
 
 @kernel
@@ -120,108 +229,40 @@ def limit_energy(
     context,
     # write
     plan_inout,
+    balance_inout,
     motions_inout,
 ):
-    """Remove the energy that the contacts of a group have added to its islands. Return the number of such islands.
+    """Remove the energy that the contacts of a group have added. Return the number of sets of touching bodies that had
+    any. O(members + lanes).
 
-    O(members + lanes).
+    balance_inout: BALANCE rows beside the motions.
     """
-    plan = plan_inout
+    motions = motions_inout
+    parents = plan_inout.touching
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
     keep = 1.0 / (1.0 + context.dt / RESERVE_TIME)
-    suspect = False
-    for k in range(len(group.members)):
-        m = motions_inout[group.members[k]]
-        if m.inverse_mass == 0.0:
-            continue
-        work = (m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
-        if m.inverse_inertia > 0.0:
-            work += m.angular_acceleration * m.turn / m.inverse_inertia
-        m.energy_now = kinetic_energy(m)
-        m.energy_excess = m.energy_now - m.energy - work
-        m.energy += abs(work)
-        m.reserve *= keep
-        if plan.degrees[group.members[k]] > 0:
-            suspect = suspect or m.energy_excess * m.inverse_mass > floor
-    if not suspect:
+    if not balance_bodies(group, plan_inout.degrees, floor, keep, motions, balance_inout):
         for k in range(len(group.members)):
-            m = motions_inout[group.members[k]]
-            m.reserve -= min(m.energy_excess, 0.0)
+            e = balance_inout[group.members[k]]
+            e.reserve = max(e.reserve - e.excess, 0.0)
         return 0
-    # Bodies that exchanged impulses in this step, and no others, exchanged energy.
-    parents = plan.touching
-    for k in range(len(group.members)):
-        m = motions_inout[group.members[k]]
-        parents[group.members[k]] = group.members[k]
-        m.lift = 0.0
-        m.acts_all = False
-        m.acts_nx = 0.0
-        m.acts_ny = 0.0
-    for block in range(count):
-        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-        for lane in range(lanes_of(blocks.contact, block)):
-            if blocks.contact[block, lane] < 0 or c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
-                continue
-            row_a = blocks.motion_a[block, lane]
-            row_b = blocks.motion_b[block, lane]
-            rubs = c[at.TANGENT_TOTAL_1 + lane] != 0.0 or c[at.TANGENT_TOTAL_2 + lane] != 0.0
-            note_direction(c[at.NX + lane], c[at.NY + lane], rubs, motions_inout[row_a])
-            note_direction(c[at.NX + lane], c[at.NY + lane], rubs, motions_inout[row_b])
-            if links_islands[row_a] and links_islands[row_b]:
-                join_trees(row_a, row_b, parents)
-    for k in range(len(group.members)):
-        parents[group.members[k]] = root_of(group.members[k], parents)
-    for block in range(count):
-        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-        for lane in range(lanes_of(blocks.contact, block)):
-            if blocks.contact[block, lane] < 0 or c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
-                continue
-            row_a = blocks.motion_a[block, lane]
-            root = motions_inout[parents[row_a if links_islands[row_a] else blocks.motion_b[block, lane]]]
-            root.energy_excess -= work_of_surfaces(blocks, block, lane, motions_inout)
-            root.lift += work_of_lift(blocks, block, lane, context.dt, motions_inout)
-            root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
-    for k in range(len(group.members)):
-        i = group.members[k]
-        m = motions_inout[i]
-        root = motions_inout[parents[i]]
-        if m.inverse_mass > 0.0:
-            m.energy_along = energy_along(m)
-            root.island_mass += 1.0 / m.inverse_mass
-            if parents[i] != i:
-                root.energy += m.energy
-                root.energy_excess += m.energy_excess
-                root.energy_now += m.energy_now
-                root.energy_along += m.energy_along
-                root.reserve += m.reserve
+    join_touching(blocks, count, group, links_islands, motions, parents, balance_inout)
+    sum_balances(blocks, count, group, links_islands, parents, context, motions, balance_inout)
     found = 0
     for k in range(len(group.members)):
         i = group.members[k]
-        if parents[i] != i:
-            continue
-        root = motions_inout[i]
-        # Errors of the integrator alternate: what an island has lost before it may take back, slowly.
-        allowed = min(root.reserve, max(SHARE_BACK * root.energy, root.lift))
-        root.along_scale = 1.0
-        root.energy_scale = 1.0
-        if root.anchored and root.energy_excess > allowed:
-            found += 1
-            root.along_scale = scale_without(root.energy_excess - allowed, root.energy_along)
-            left = max(root.energy_excess - allowed - root.energy_along, 0.0)
-            root.energy_scale = scale_without(left, root.energy_now - root.energy_along)
-        root.reserve = max(root.reserve - min(root.energy_excess, allowed), 0.0)
+        if parents[i] == i:
+            found += draw_on_reserve(balance_inout[i])
     for k in range(len(group.members)):
         i = group.members[k]
-        m = motions_inout[i]
-        root = motions_inout[parents[i]]
-        if m.inverse_mass > 0.0:
-            scale_motion(root.along_scale, root.energy_scale, m)
-            share = 1.0 / (m.inverse_mass * root.island_mass)
+        e = balance_inout[i]
+        root = balance_inout[parents[i]]
+        if motions[i].inverse_mass > 0.0:
+            scale_motion(root, e, motions[i])
             if parents[i] != i:
-                m.reserve = share * root.reserve
+                e.reserve = root.reserve / (motions[i].inverse_mass * root.mass)
     for k in range(len(group.members)):
         i = group.members[k]
-        m = motions_inout[i]
-        if parents[i] == i and m.inverse_mass > 0.0:
-            m.reserve *= 1.0 / (m.inverse_mass * m.island_mass)
+        if parents[i] == i and motions[i].inverse_mass > 0.0:
+            balance_inout[i].reserve *= 1.0 / (motions[i].inverse_mass * balance_inout[i].mass)
     return found

@@ -17,11 +17,21 @@ from physics.jit import kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of
 from physics.shapes.library import add_missing_rasters
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
-from physics.tables.contact import MOTION
+from physics.tables.contact import BALANCE, MOTION
 from physics.tables.step_state import BODIES_INTEGRATED, StepState
 from physics.tables.table import zeros_in_lines
 
 BOTH = (False, True)
+
+
+@subkernel
+def kinetic_energy(motion):
+    """Return the kinetic energy of a MOTION row of finite mass."""
+    m = motion
+    energy = 0.5 * (m.vx * m.vx + m.vy * m.vy) / m.inverse_mass
+    if m.inverse_inertia > 0.0:
+        energy += 0.5 * m.angular_velocity * m.angular_velocity / m.inverse_inertia
+    return energy
 
 
 @subkernel
@@ -48,12 +58,6 @@ def write_fixed(motions_out, lists_out):
     m.acceleration_y = 0.0
     m.angular_acceleration = 0.0
     m.estimate = 0.0
-    m.squeeze_speed = 0.0
-    m.squeeze_depth = 0.0
-    m.squeeze_nx = 0.0
-    m.squeeze_ny = 0.0
-    m.squeeze_force = 0.0
-    m.squeeze_static = 0.0
     m.branching = False
     m.capped = False
     m.cooldown = 0.0
@@ -75,6 +79,7 @@ class MotionLists(NamedTuple):
     has_finite_mass: np.ndarray  # (motions) bool an impulse changes its velocity
     links_islands: np.ndarray  # (motions) bool
     rank: np.ndarray  # (motions) int8 which contacts are solved later: see islands.graph.color_edges
+    balance: np.ndarray  # BALANCE (motions)
     by_kind: np.ndarray  # (2, motions) int32 the MOTION rows of dynamic bodies, and of kinematic ones
 
 
@@ -132,20 +137,14 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.in_contact = False
             m.is_character = False
             m.estimate = 0.0
-            m.squeeze_speed = 0.0
-            m.squeeze_depth = 0.0
-            m.squeeze_nx = 0.0
-            m.squeeze_ny = 0.0
-            m.squeeze_force = 0.0
-            m.squeeze_static = 0.0
             m.branching = False
             m.capped = False
             m.last_impact = 0
             m.substeps = b.substeps
             m.cooldown = b.cooldown
-            m.reserve = b.reserve if 0.0 <= b.reserve < math.inf else 0.0
-            m.island_mass = 0.0
-            m.anchored = False
+            e = lists_out.balance[k + 1]
+            e.reserve = b.reserve if 0.0 <= b.reserve < math.inf else 0.0
+            e.before = 0.0
             lists_out.links_islands[k + 1] = m.is_dynamic
             lists_out.rank[k + 1] = STATIC_RANK if not m.moves else (KINEMATIC_RANK if b.kind == KINEMATIC else 0)
             lists_out.has_finite_mass[k + 1] = m.is_dynamic and b.inverse_mass > 0.0
@@ -168,11 +167,8 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.acceleration_x = b.inverse_mass * b.force_x
             m.acceleration_y = b.inverse_mass * b.force_y
             m.angular_acceleration = m.inverse_inertia * b.torque
-            m.energy = 0.0
             if m.inverse_mass > 0.0:
-                m.energy = 0.5 * (m.vx * m.vx + m.vy * m.vy) / m.inverse_mass
-                if m.inverse_inertia > 0.0:
-                    m.energy += 0.5 * m.angular_velocity * m.angular_velocity / m.inverse_inertia
+                e.before = kinetic_energy(m)
             if gravity:
                 m.acceleration_x += b.gravity_scale * air.gravity_x
                 m.acceleration_y += b.gravity_scale * air.gravity_y
@@ -296,7 +292,7 @@ def scatter_motions(
     motions,
     speed_limit,
     # write
-    motion_of_inout,
+    lists_inout,
     bodies_inout,
 ):
     """Write velocities, poses and centres of mass back to the bodies; the poses before the step become previous ones.
@@ -307,7 +303,7 @@ def scatter_motions(
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
         m = motions[k + 1]
-        motion_of_inout[rows[k]] = 0
+        lists_inout.motion_of[rows[k]] = 0
         b.previous_x = b.x
         b.previous_y = b.y
         b.previous_angle = b.angle
@@ -324,7 +320,7 @@ def scatter_motions(
         b.angular_velocity = m.angular_velocity
         b.substeps = m.substeps
         b.cooldown = m.cooldown
-        b.reserve = m.reserve
+        b.reserve = lists_inout.balance[k + 1].reserve
         b.center_x += m.dx
         b.center_y += m.dy
         if m.turn == 0.0:
@@ -355,7 +351,12 @@ class Motions:
     def _grow(self, count, motion_of):
         self.rows = zeros_in_lines(count, MOTION)
         flags = (np.zeros(count, np.bool_) for _ in range(2))
-        self.lists = MotionLists(motion_of, *flags, np.zeros(count, np.int8), np.zeros((2, count), np.int32))
+        rank, balance, by_kind = (
+            np.zeros(count, np.int8),
+            zeros_in_lines(count, BALANCE),
+            np.zeros((2, count), np.int32),
+        )
+        self.lists = MotionLists(motion_of, *flags, rank, balance, by_kind)
         self.used, self.island_bodies, self.kinematic = self.rows[:0], *self.lists.by_kind[:, :0]
 
     def gather(self, state: StepState) -> None:
@@ -380,7 +381,7 @@ class Motions:
     def scatter(self, state: StepState) -> None:
         """Write the bodies back."""
         rows, bodies, limit = state.awake.bodies, state.bodies, state.tolerances.speed_limit
-        state.non_finite_count = scatter_motions(rows, self.used, limit, self.lists.motion_of, bodies)
+        state.non_finite_count = scatter_motions(rows, self.used, limit, self.lists, bodies)
         # A body that was rotated has an angle for which no raster was drawn ahead.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 

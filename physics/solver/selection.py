@@ -24,6 +24,8 @@ from physics.jit import kernel, subkernel
 from physics.math2d import norm
 from physics.settings import AUTO_SUBSTEPS, COLORS, HERTZ_SHARE, LOAD_SUBSTEPS
 from physics.solver.motions import Motions
+from physics.solver.squeeze import find_squeezed
+from physics.tables.contact import SQUEEZE
 from physics.tables.step_state import StepState
 
 CHOICES = np.array(AUTO_SUBSTEPS, np.int64)
@@ -42,6 +44,8 @@ class Plan(NamedTuple):
     parents: np.ndarray  # (motions) int32 root of the island of each, if …
     joined: np.ndarray  # (1) bool … it was computed
     touching: np.ndarray  # (motions) int32 root of the bodies with which each exchanged impulses, see energy.py
+    squeezed: np.ndarray  # (1) bool an island has no room, …
+    squeeze: np.ndarray  # SQUEEZE (motions) … and impulses in it are bounded
     members: np.ndarray  # (motions) int32 island bodies, by group
     starts: np.ndarray  # int64 first constraint of each colour of each group, those without a colour first
     firsts: np.ndarray  # int64 first body of each group
@@ -61,6 +65,8 @@ def new_plan(edges: int, motions: int) -> Plan:
         parents=np.zeros(motions, np.int32),
         joined=np.zeros(1, np.bool_),
         touching=np.zeros(motions, np.int32),
+        squeezed=np.zeros(1, np.bool_),
+        squeeze=np.zeros(motions, SQUEEZE),
         members=np.zeros(motions, np.int32),
         starts=np.zeros(slots, np.int64),
         firsts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),
@@ -89,35 +95,38 @@ def touches_slowly(separation, speed, limits):
 
 
 @subkernel
-def credit_overlap(overlap, motion_inout):
+def credit_overlap(overlap, motion, balance_inout):
     """Add the energy that lifts a body by an overlap [px] to what it may take."""
-    m = motion_inout
+    m = motion
     if m.inverse_mass > 0.0:
-        m.reserve += overlap * norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
+        balance_inout.reserve += overlap * norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
 
 
 @subkernel
 def list_contact_edges(
     # read
     contacts,
-    motion_of,
+    motions,
     dt,
     limits,
     # write
-    motions_inout,
+    lists_inout,
     edges_out,
 ):
-    """List the contacts to solve as edges between rows of MOTION. Return their number. O(contacts).
+    """List the contacts to solve as edges between rows of MOTION. Return their number, and that of deep overlaps with
+    bodies of infinite mass. O(contacts).
 
     Sensors, pairs without a dynamic body, and contacts under a character's feet are left out.
     """
+    motion_of = lists_inout.motion_of
     found = 0
+    deep = 0
     for i in range(len(contacts)):
         c = contacts[i]
         row_a = motion_of[c.body_row_a]
         row_b = motion_of[c.body_row_b]
-        a = motions_inout[row_a]
-        b = motions_inout[row_b]
+        a = motions[row_a]
+        b = motions[row_b]
         if (
             c.sensor
             or a.inverse_mass + b.inverse_mass == 0.0
@@ -140,12 +149,13 @@ def list_contact_edges(
         edges_out.deep[found, 0] = sign * c.normal_x if is_deep else 0.0
         edges_out.deep[found, 1] = sign * c.normal_y if is_deep else 0.0
         edges_out.overlaps[found] = overlap
+        deep += int(is_deep)
         if overlap > 0.0 and c.of_new_pair:
             # What is made inside another may be lifted out of it.
-            credit_overlap(overlap, a)
-            credit_overlap(overlap, b)
+            credit_overlap(overlap, a, lists_inout.balance[row_a])
+            credit_overlap(overlap, b, lists_inout.balance[row_b])
         found += 1
-    return found
+    return found, deep
 
 
 # ---- substep classes -------------------------------------------------------------------------------------------------
@@ -258,57 +268,6 @@ def are_mixed(links_islands, degrees, classes):
 
 
 @subkernel
-def find_squeezed(edges, count, lists, push_speed, deep, parents_out, motions_inout):
-    """Bound the impulses in islands without room: overlaps with bodies of infinite mass oppose one another. O(count)."""
-    first = -1
-    squeezed = False
-    for i in range(count):
-        x = edges.deep[i, 0]
-        y = edges.deep[i, 1]
-        if x == 0.0 and y == 0.0:
-            continue
-        if first < 0:
-            first = i
-            find_roots(edges, count, lists.links_islands, parents_out)
-        node = edges.nodes[i, 0] if lists.links_islands[edges.nodes[i, 0]] else edges.nodes[i, 1]
-        root = motions_inout[parents_out[node]]
-        root.squeeze_depth = max(root.squeeze_depth, edges.overlaps[i])
-        if root.squeeze_nx == 0.0 and root.squeeze_ny == 0.0:
-            root.squeeze_nx = x
-            root.squeeze_ny = y
-        elif x * root.squeeze_nx + y * root.squeeze_ny < 0.0:
-            root.squeeze_speed = push_speed
-            squeezed = True
-    if not squeezed:
-        return
-    for i in range(len(motions_inout)):
-        m = motions_inout[i]
-        if lists.links_islands[i]:
-            root = motions_inout[parents_out[i]]
-            if root.squeeze_depth <= deep:
-                root.squeeze_speed = 0.0
-            if root.squeeze_speed > 0.0 and m.inverse_mass > 0.0:
-                root.squeeze_force += norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
-    for i in range(count):
-        a = motions_inout[edges.nodes[i, 0]]
-        b = motions_inout[edges.nodes[i, 1]]
-        if edges.deep[i, 0] != 0.0 or edges.deep[i, 1] != 0.0:
-            a_moves = lists.links_islands[edges.nodes[i, 0]]
-            root = motions_inout[parents_out[edges.nodes[i, 0] if a_moves else edges.nodes[i, 1]]]
-            o = b if a_moves else a
-            if root.squeeze_speed > 0.0:
-                root.squeeze_speed = max(root.squeeze_speed, push_speed + norm(o.vx, o.vy))
-                if o.moves:
-                    root.squeeze_static = root.squeeze_speed
-    for i in range(len(motions_inout)):
-        if lists.links_islands[i]:
-            root = motions_inout[parents_out[i]]
-            motions_inout[i].squeeze_speed = root.squeeze_speed
-            motions_inout[i].squeeze_force = root.squeeze_force
-            motions_inout[i].squeeze_static = root.squeeze_static
-
-
-@subkernel
 def list_and_color(
     # read
     contacts,
@@ -324,11 +283,20 @@ def list_and_color(
     lists: see MotionLists. See list_contact_edges, color_edges.
     """
     nodes = len(motions)
-    count = list_contact_edges(contacts, lists.motion_of, dt, limits, motions, plan_out.edges)
+    count, deep = list_contact_edges(contacts, motions, dt, limits, lists, plan_out.edges)
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
     color_edges(plan_out.edges, count, lists.has_finite_mass, lists.rank, taken, degrees, plan_out.colors)
-    find_squeezed(plan_out.edges, count, lists, limits.push_speed, limits.deep, plan_out.parents[:nodes], motions)
+    plan_out.squeezed[0] = deep > 1 and find_squeezed(
+        plan_out.edges,
+        count,
+        lists,
+        motions,
+        limits.push_speed,
+        limits.deep,
+        plan_out.parents[:nodes],
+        plan_out.squeeze,
+    )
     return count
 
 

@@ -451,7 +451,8 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
         if by_load:
             estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count)
         contacts.store(state, motions, count, context)
-        limit_energy(blocks, count, group, motions.lists.links_islands, context, contacts.selection.plan, motions.used)
+        lists, plan = motions.lists, contacts.selection.plan
+        limit_energy(blocks, count, group, lists.links_islands, context, plan, lists.balance, motions.used)
     return h
 
 

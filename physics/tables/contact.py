@@ -175,33 +175,44 @@ MOTION = in_lines(
         ("pseudo_w", np.float64),
         ("estimate", np.float64),  # square of the substeps that would keep its contacts within the accuracy
         ("cooldown", np.float64),  # [s] > 0 while fewer substeps would do, < 0 while the most were too few
-        ("energy", np.float64),  # kinetic energy before the step
-        ("anchored", np.bool_),  # a contact of its island acts on a body of infinite mass
-        ("energy_now", np.float64),
-        ("energy_excess", np.float64),
-        ("energy_scale", np.float64),
-        ("energy_along", np.float64),  # along the only direction in which contacts act on it, …
-        ("along_scale", np.float64),
-        ("island_mass", np.float64),
-        ("acts_nx", np.float64),  # … which it is, …
-        ("acts_ny", np.float64),
-        ("acts_all", np.bool_),  # … or they act in all
-        ("reserve", np.float64),  # energy that it has lost and may take back …
-        ("lift", np.float64),  # … in this step, because contacts that sagged rise again
-        (
-            "squeeze_speed",
-            np.float64,
-        ),  # [px/s] bound of the impulses per effective mass of a body without room; 0: none …
-        ("squeeze_static", np.float64),
-        ("squeeze_depth", np.float64),
-        ("squeeze_nx", np.float64),
-        ("squeeze_ny", np.float64),
-        ("squeeze_force", np.float64),  # … and what is added to it, impulse per second
         ("substeps", np.int64),  # of its island: in this step, then in the next one
         ("last_impact", np.int64),  # see solver/restitution.py
         ("branching", np.bool_),  # a body of its island has more than two contacts
         ("capped", np.bool_),  # a load needs more substeps than it may have
     ]
+)
+
+# Beside each MOTION row: its balance of energy and, at the root of bodies that exchanged impulses, theirs; see
+# solver/energy.py.
+BALANCE = in_lines(
+    [
+        ("before", np.float64),  # kinetic energy before the step, then plus the size of the work done …
+        ("now", np.float64),  # … and after it
+        ("excess", np.float64),  # energy that it gained beyond that work
+        ("surfaces", np.float64),  # work of surfaces that move
+        ("reserve", np.float64),  # energy that it has lost and may take back …
+        ("lift", np.float64),  # … in this step, because contacts that sagged rise again
+        ("mass", np.float64),
+        ("along", np.float64),  # kinetic energy along the only direction in which contacts act, …
+        ("normal_x", np.float64),  # … which it is, …
+        ("normal_y", np.float64),
+        ("in_all", np.bool_),  # … or they act in all
+        ("anchored", np.bool_),  # a contact acts on a body of infinite mass
+        ("along_scale", np.float64),  # factors on velocities
+        ("scale", np.float64),
+    ]
+)
+# Beside each MOTION row of an island without room: bounds of the impulses in it; see solver/squeeze.py.
+SQUEEZE = np.dtype(
+    [
+        ("depth", np.float64),  # [px] greatest deep overlap
+        ("normal_x", np.float64),  # of the first deep overlap with a body of infinite mass
+        ("normal_y", np.float64),
+        ("speed", np.float64),  # [px/s] bound of an impulse per effective mass; 0: none …
+        ("static_speed", np.float64),  # … and what is added to it against what does not move
+        ("force", np.float64),  # impulse per second that is added to it
+    ],
+    align=True,
 )
 
 PUSH = np.dtype(
