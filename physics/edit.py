@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from physics import checks
 from physics.broadphase.proxies import write_rectangles
 from physics.checks import Pair, Points
+from physics.contacts.cache import shift_center
 from physics.contacts.matching import KeptImpulses
 from physics.dynamics.integrate import refresh_centers
 from physics.islands import sleep
@@ -184,9 +185,7 @@ def replace_mask(
         _rewrite_own_values(world, at, shape_id, mask)
     world._tidy_library()
     append_parts(world, world.shapes[own], fresh)
-    given = world._definitions.rows[at]
-    set_mass(body, weigh(used, float(given["density"]), float(given["mass"])), used, world.effects.response)
-    refresh_centers(np.array([at]), world.bodies)
+    _weigh(world, at, used)
     new = np.arange(len(world.shapes) - len(fresh.shapes), len(world.shapes))
     _rejoin(world, at, np.append(own, new) if still else rows_of_parent(world, shape_id))
     kept.transfer(world, new)
@@ -384,12 +383,19 @@ def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
     refresh_centers(np.array([at]), world.bodies)
 
 
-def refresh_mass(world: WorldState, identity: int) -> None:
-    """Recompute mass and inertia of a body after its shapes, kind or material changed. Its neighbours wake."""
-    at = world._row_number(identity)
-    given, used = world._definitions.rows[at], world._shapes_of[identity]
+def _weigh(world, at, used):
+    """Write mass, inertia and centre of mass of a body with these shapes; its contacts stay where they are."""
+    given, body = world._definitions.rows[at], world.bodies[at]
+    x, y = body["center_x"], body["center_y"]
     mass = weigh(used, float(given["density"]), float(given["mass"]))
     set_mass(world.bodies[at : at + 1], mass, used, world.effects.response)
+    refresh_centers(np.array([at]), world.bodies)
+    shift_center(world.contact_rows, body["id"], body["center_x"] - x, body["center_y"] - y)
+
+
+def refresh_mass(world: WorldState, identity: int) -> None:
+    """Recompute mass and inertia of a body after its shapes, kind or material changed. Its neighbours wake."""
+    _weigh(world, world._row_number(identity), world._shapes_of[identity])
     refresh_pose(world, identity)
 
 

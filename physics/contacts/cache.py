@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from physics.collision.hulls import CIRCLE_CORNER, CORNERS, PART
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of, unit
@@ -151,6 +153,8 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
     c.held_ny = ny
     c.apart_x = b.center_x - a.center_x
     c.apart_y = b.center_y - a.center_y
+    c.slips = False
+    c.slipped = 0.0
     c.held_ax_1 = c.x_1 - a.center_x
     c.held_ay_1 = c.y_1 - a.center_y
     c.held_ax_2 = 0.0
@@ -496,3 +500,15 @@ def update_contacts_at_final_poses(state: StepState) -> None:
     add_missing_rasters(state.library, rows, bodies, shapes, 0.0)
     distance = state.tolerances.recycle
     update_final_poses(rows, state.library.tables, distance, bodies, shapes, state.contact_rows)
+
+
+def shift_center(contacts: np.ndarray, identity: int, dx: float, dy: float) -> None:
+    """Update the contact caches of a body whose centre of mass has moved by (dx, dy) [px] in it, such as by carving."""
+    for name, sign in (("body_a", -1.0), ("body_b", 1.0)):
+        rows = contacts[name] == identity
+        contacts["apart_x"][rows] += sign * dx
+        contacts["apart_y"][rows] += sign * dy
+        if name == "body_a":
+            for axis, change in (("x", dx), ("y", dy)):
+                contacts[f"held_a{axis}_1"][rows] -= change
+                contacts[f"held_a{axis}_2"][rows] -= change

@@ -65,6 +65,7 @@ def sticks(a, b, contact, distance):
 NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
 
 
+GRIPPING = 0.99  # share of the limit of friction up to which a contact does not slip
 DRIFT_SHARE = 0.1  # share of the drift of a sticking contact that friction takes back in a step
 
 
@@ -78,6 +79,14 @@ def tangential_drift(a, b, contact):
     on_b = on_a - (c.apart_x * c.held_nx + c.apart_y * c.held_ny)
     turned = (b.angle - c.angle_b) * on_b - (a.angle - c.angle_a) * on_a
     return y * c.held_nx - x * c.held_ny + turned
+
+
+@inlined
+def slips(contact):
+    """Return whether friction was at its limit in the last step, up to a hundredth."""
+    c = contact
+    tangent = abs(c.tangent_force_1) + abs(c.tangent_force_2)
+    return tangent >= GRIPPING * c.friction * (c.normal_force_1 + c.normal_force_2)
 
 
 @inlined
@@ -274,7 +283,13 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c[at.ROLLING + lane] = context.h * m.rolling_force
             c[at.SURFACE + lane] = m.surface_speed if conveyor else 0.0
             if sticking and friction:
-                c[at.SURFACE + lane] -= DRIFT_SHARE / context.dt * tangential_drift(p, q, m)
+                drift = tangential_drift(p, q, m)
+                # It may have slid in the step in which it came to rest.
+                slipped = slips(m)
+                if slipped or m.slips:
+                    m.slipped = drift
+                m.slips = slipped
+                c[at.SURFACE + lane] -= DRIFT_SHARE / context.dt * (drift - m.slipped)
             c[at.FRICTION + lane] = m.friction if friction else 0.0
             c[at.RESTITUTION + lane] = m.restitution
             c[at.THRESHOLD + lane] = restitution_threshold(m, a, b, plan.degrees[row_a], plan.degrees[row_b], context)

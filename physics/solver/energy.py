@@ -10,12 +10,14 @@ Bodies in flight that hit only each other keep their momentum, and are left out.
 import math
 
 from physics.jit import kernel, subkernel
+from physics.math2d import norm
 from physics.solver import lanes as at
 from physics.solver.lanes import SIZE, lanes_of
 from physics.solver.motions import kinetic_energy
 from physics.tables.table import join_trees, root_of
 
 PARALLEL = 1e-9  # sine between normals that count as one direction
+FACES = 0.05  # sine between normals of faces that count as parallel
 RESERVE_TIME = 10.0  # [s] in which an island forgets the energy that it has lost
 SHARE_BACK = 1e-2  # share of its energy that an island may take back in a step
 
@@ -111,6 +113,45 @@ def scale_motion(root, balance, motion_inout):
     m.angular_velocity *= root.scale
 
 
+# ---- parallel faces --------------------------------------------------------------------------------------------------
+# Between parallel faces, without restitution, no body becomes faster than the fastest face and body before: impulses of
+# impacts that are carried on from substep to substep may overshoot. Where normals differ, levers and wedges may.
+
+
+@subkernel
+def note_face(blocks, block, lane, motions, root_inout):
+    """Note whether a lane is parallel or perpendicular to the others of its root, and the speed of a kinematic side."""
+    e = root_inout
+    c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+    nx = c[at.NX + lane]
+    ny = c[at.NY + lane]
+    if e.face_x == 0.0 and e.face_y == 0.0:
+        e.face_x = nx
+        e.face_y = ny
+    least = min(abs(nx * e.face_x + ny * e.face_y), abs(nx * e.face_y - ny * e.face_x))
+    e.oblique = e.oblique or least > FACES or c[at.RESTITUTION + lane] > 0.0
+    for side in range(2):
+        o = motions[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]
+        if o.inverse_mass == 0.0 and o.moves:
+            e.pushed = True
+            e.oblique = e.oblique or o.angular_velocity != 0.0
+            e.fastest = max(e.fastest, norm(o.vx, o.vy))
+
+
+@subkernel
+def limit_speed(root, push_speed, motion_inout):
+    """Scale the velocity of a body between parallel faces, one of which moves, if it is faster than allowed.
+
+    root: BALANCE of its root; push_speed [px/s]: what the separation of overlaps may add.
+    """
+    m = motion_inout
+    speed = norm(m.vx, m.vy)
+    most = root.fastest + push_speed
+    if root.pushed and not root.oblique and speed > most:
+        m.vx *= most / speed
+        m.vy *= most / speed
+
+
 # ---- balance ---------------------------------------------------------------------------------------------------------
 
 
@@ -152,6 +193,11 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
         parents_out[i] = i
         e.lift = 0.0
         e.surfaces = 0.0
+        e.face_x = 0.0
+        e.face_y = 0.0
+        e.fastest = 0.0
+        e.oblique = False
+        e.pushed = False
         e.mass = 0.0
         e.normal_x = 0.0
         e.normal_y = 0.0
@@ -185,6 +231,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
             root = balance_inout[parents[row_a if links_islands[row_a] else blocks.motion_b[block, lane]]]
             root.surfaces += work_of_surfaces(blocks, block, lane, motions)
             root.lift += work_of_lift(blocks, block, lane, context.dt, context.slop, motions)
+            note_face(blocks, block, lane, motions, root)
             root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
     for k in range(len(group.members)):
         i = group.members[k]
@@ -194,6 +241,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
         root = balance_inout[parents[i]]
         e.along = energy_along(motions[i], e)
         root.mass += 1.0 / motions[i].inverse_mass
+        root.fastest = max(root.fastest, math.sqrt(2.0 * e.before * motions[i].inverse_mass))
         if parents[i] != i:
             root.before += e.before
             root.now += e.now
@@ -219,6 +267,33 @@ def draw_on_reserve(balance_inout):
     return int(beyond > 0.0)
 
 
+@subkernel
+def remove_gains(blocks, count, group, links_islands, context, parents_out, balance_inout, motions_inout):
+    """Remove the energy that contacts have added. Return the number of sets of touching bodies that had any."""
+    motions = motions_inout
+    join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout)
+    sum_balances(blocks, count, group, links_islands, parents_out, context, motions, balance_inout)
+    found = 0
+    for k in range(len(group.members)):
+        i = group.members[k]
+        if parents_out[i] == i:
+            found += draw_on_reserve(balance_inout[i])
+    for k in range(len(group.members)):
+        i = group.members[k]
+        e = balance_inout[i]
+        root = balance_inout[parents_out[i]]
+        if motions[i].inverse_mass > 0.0:
+            scale_motion(root, e, motions[i])
+            limit_speed(root, context.push_speed, motions[i])
+            if parents_out[i] != i:
+                e.reserve = root.reserve / (motions[i].inverse_mass * root.mass)
+    for k in range(len(group.members)):
+        i = group.members[k]
+        if parents_out[i] == i and motions[i].inverse_mass > 0.0:
+            balance_inout[i].reserve *= 1.0 / (motions[i].inverse_mass * balance_inout[i].mass)
+    return found
+
+
 @kernel
 def limit_energy(
     # read
@@ -235,34 +310,31 @@ def limit_energy(
     """Remove the energy that the contacts of a group have added. Return the number of sets of touching bodies that had
     any. O(members + lanes).
 
+    In islands without room a body is no faster than its surroundings and the push-out, or than it was.
     balance_inout: BALANCE rows beside the motions.
     """
-    motions = motions_inout
-    parents = plan_inout.touching
+    plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
     keep = 1.0 / (1.0 + context.dt / RESERVE_TIME)
-    if not balance_bodies(group, plan_inout.degrees, floor, keep, motions, balance_inout):
+    found = 0
+    if balance_bodies(group, plan.degrees, floor, keep, motions_inout, balance_inout):
+        found = remove_gains(blocks, count, group, links_islands, context, plan.touching, balance_inout, motions_inout)
+    else:
         for k in range(len(group.members)):
             e = balance_inout[group.members[k]]
             e.reserve = max(e.reserve - e.excess, 0.0)
-        return 0
-    join_touching(blocks, count, group, links_islands, motions, parents, balance_inout)
-    sum_balances(blocks, count, group, links_islands, parents, context, motions, balance_inout)
-    found = 0
-    for k in range(len(group.members)):
-        i = group.members[k]
-        if parents[i] == i:
-            found += draw_on_reserve(balance_inout[i])
-    for k in range(len(group.members)):
-        i = group.members[k]
-        e = balance_inout[i]
-        root = balance_inout[parents[i]]
-        if motions[i].inverse_mass > 0.0:
-            scale_motion(root, e, motions[i])
-            if parents[i] != i:
-                e.reserve = root.reserve / (motions[i].inverse_mass * root.mass)
-    for k in range(len(group.members)):
-        i = group.members[k]
-        if parents[i] == i and motions[i].inverse_mass > 0.0:
-            balance_inout[i].reserve *= 1.0 / (motions[i].inverse_mass * balance_inout[i].mass)
+    if plan.squeezed[0]:
+        for k in range(len(group.members)):
+            i = group.members[k]
+            m = motions_inout[i]
+            speed = plan.squeeze[i].speed
+            if speed == 0.0 or m.inverse_mass == 0.0:
+                continue
+            most = max(0.5 * speed * speed / m.inverse_mass, balance_inout[i].before)
+            energy = kinetic_energy(m)
+            if energy > most:
+                scale = math.sqrt(most / energy)
+                m.vx *= scale
+                m.vy *= scale
+                m.angular_velocity *= scale
     return found

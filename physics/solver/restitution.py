@@ -164,6 +164,7 @@ def predict_impact(blocks, contacts, motions, impact_inout):
 MOST_IMPACTS = 16  # moments with impacts of one body within a step; later ones wait for the next step: cap_hits
 TOGETHER = 1.0 / 64.0  # share of a step within which points hit at once
 MOST_ROUNDS = 256  # over the points that hit at once
+MOST_BLOWS = 256  # handed on by bodies without loads; later ones are left to the next step, and counted in cap_hits
 ROUNDS = 32  # over bounces that depend on each other; the rest is left to the next step, as contacts are
 SETTLED = 1e-6  # change of speed in a round, relative to the impact, from which the rounds end
 
@@ -554,7 +555,7 @@ def solve_simultaneous(
             left, settled = simulate_impacts(blocks_inout, i + 1, dt, contacts, motions_inout, impacts_inout)
             work_inout[CAP_HITS] += int(not settled)
             apply_simulated(i + 1, greatest_speed(impacts_inout, i + 1), impacts_inout, motions_inout, blocks_inout)
-            # The substeps left it where it hit: at that height the acceleration of the rest of the step would be a loss.
+            # The substeps left it where it hit: there, the acceleration of the rest of the step would be a loss.
             m = motions_inout[row]
             m.vx -= left * m.acceleration_x
             m.vy -= left * m.acceleration_y
@@ -726,6 +727,73 @@ def bounce_row(impact_inout, motions_inout, blocks_inout):
 
 
 @subkernel
+def are_unloaded(blocks, impacts, count):
+    """Return whether none of so many IMPACT rows carried a load in the step before."""
+    for i in range(count):
+        if line_of(blocks, impacts[i], at.LOADED) != 0.0:
+            return False
+    return True
+
+
+@subkernel
+def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
+    """Replace the impulses of so many IMPACT rows of bodies without loads by a sequence of impacts.
+
+    Contacts that approach are solved together; those that approach after that are next: a contact that only touches has
+    the blow handed on, as in Newton's cradle. Return whether they end. fastest [px/s]: speed of the first impacts.
+    """
+    for i in range(count):
+        r = impacts_inout[i]
+        c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
+        a = motions_inout[blocks_inout.motion_a[r.block, r.lane]]
+        b = motions_inout[blocks_inout.motion_b[r.block, r.lane]]
+        push_pair(c, r.lane, False, -c[at.TOTAL_1 + r.lane], a, b)
+        push_pair(c, r.lane, True, -c[at.TOTAL_2 + r.lane], a, b)
+        c[at.TOTAL_1 + r.lane] = 0.0
+        c[at.TOTAL_2 + r.lane] = 0.0
+        c[at.NORMAL_1 + r.lane] = 0.0
+        c[at.NORMAL_2 + r.lane] = 0.0
+    least = SETTLED * fastest
+    for _ in range(MOST_BLOWS):
+        found = False
+        for i in range(count):
+            r = impacts_inout[i]
+            c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
+            a = motions_inout[blocks_inout.motion_a[r.block, r.lane]]
+            b = motions_inout[blocks_inout.motion_b[r.block, r.lane]]
+            speed_1 = -relative_speed(c, r.lane, False, a, b)
+            speed_2 = -relative_speed(c, r.lane, True, a, b)
+            r.bounces_1 = speed_1 > least
+            r.bounces_2 = points_of(blocks_inout, r) == 2 and speed_2 > least
+            r.wanted_1 = c[at.RESTITUTION + r.lane] * speed_1
+            r.wanted_2 = c[at.RESTITUTION + r.lane] * speed_2
+            r.impulse_1 = 0.0
+            r.impulse_2 = 0.0
+            found = found or r.bounces_1 or r.bounces_2
+        if not found:
+            return True
+        for _ in range(ROUNDS):
+            changed = 0.0
+            for i in range(count):
+                if impacts_inout[i].bounces_1 or impacts_inout[i].bounces_2:
+                    changed = max(changed, bounce_row(impacts_inout[i], motions_inout, blocks_inout))
+            if changed <= least:
+                break
+    return False
+
+
+@subkernel
+def bounce_coupled(count, fastest, impacts_inout, motions_inout, blocks_inout):
+    """Solve so many IMPACT rows that depend on each other in rounds. fastest [px/s]: greatest separation speed."""
+    for _ in range(ROUNDS):
+        changed = 0.0
+        for i in range(count):
+            changed = max(changed, bounce_row(impacts_inout[i], motions_inout, blocks_inout))
+        if changed <= SETTLED * fastest:
+            return
+
+
+@subkernel
 def restore_bounces(
     # read
     contacts,
@@ -744,14 +812,18 @@ def restore_bounces(
     found = list_impacts(blocks_inout, count, impacts_inout)
     solve_simultaneous(contacts, found, context.dt, impacts_inout, motions_inout, blocks_inout, work_inout)
     bouncing, shared = list_bounces(contacts, found, motions_inout, impacts_inout, blocks_inout, work_inout)
-    rows = list_handed_on(count, bouncing, motions_inout, impacts_inout, blocks_inout) if bouncing > 0 else 0
+    if bouncing == 0:
+        return
+    rows = list_handed_on(count, bouncing, motions_inout, impacts_inout, blocks_inout)
     fastest = 0.0
     for i in range(bouncing):
         fastest = max(fastest, impacts_inout[i].wanted_1, impacts_inout[i].wanted_2)
-    for _ in range(ROUNDS if shared or rows > bouncing else 1):
-        changed = 0.0
+    if not shared and rows == bouncing:
         for i in range(rows):
-            changed = max(changed, bounce_row(impacts_inout[i], motions_inout, blocks_inout))
-        if changed <= SETTLED * fastest:
-            break
+            bounce_row(impacts_inout[i], motions_inout, blocks_inout)
+    elif are_unloaded(blocks_inout, impacts_inout, rows):
+        ended = hand_on(rows, fastest, impacts_inout, motions_inout, blocks_inout)
+        work_inout[CAP_HITS] += int(not ended)
+    else:
+        bounce_coupled(rows, fastest, impacts_inout, motions_inout, blocks_inout)
     unlink_impacts(blocks_inout, impacts_inout, rows, motions_inout)

@@ -11,13 +11,15 @@ from physics.jit import subkernel
 from physics.math2d import norm
 from physics.solver import lanes as at
 
+FACING = 0.5  # cosine between normals of deep overlaps below which one does not leave the room that the other needs
+
 
 @subkernel
 def find_squeezed(edges, count, lists, motions, push_speed, deep, parents_out, squeeze_out):
     """Write the bounds of the impulses in islands without room, SQUEEZE rows. Return whether there are any.
 
-    An island has none if deep overlaps, by more than `deep` [px] for one, face one another. push_speed [px/s]. O(count
-    + motions).
+    An island has none if deep overlaps, by more than `deep` [px] for one, point in different directions. push_speed:
+    [px/s]. O(count + motions).
     """
     found = False
     for i in range(len(motions)):
@@ -39,7 +41,7 @@ def find_squeezed(edges, count, lists, motions, push_speed, deep, parents_out, s
         if root.normal_x == 0.0 and root.normal_y == 0.0:
             root.normal_x = x
             root.normal_y = y
-        elif x * root.normal_x + y * root.normal_y < 0.0:
+        elif x * root.normal_x + y * root.normal_y < FACING:
             root.speed = push_speed
             found = True
     if not found:

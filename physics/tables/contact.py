@@ -89,6 +89,7 @@ CONTACT = in_lines(
         ("persisted_2", np.bool_),
         ("of_new_pair", np.bool_),  # its pair had no contact in the step before …
         ("touched", np.bool_),  # … or one that touched or pushed
+        ("slips", np.bool_),  # friction was at its limit in the step before the last one
         ("can_recycle", np.bool_),  # in the next step, while both bodies keep the poses at the end of this one
         # Report.
         ("feature_1", np.int64),  # feature id of the corner, edge, tile or pixel; see collision/hulls.py
@@ -136,6 +137,7 @@ CONTACT = in_lines(
         ("held_ny", np.float64),
         ("held_ax_1", np.float64),  # [px] the point relative to A's centre of mass
         ("held_ay_1", np.float64),
+        ("slipped", np.float64),  # [px] drift of B along (-ny, nx) when it had slipped last
         ("held_ax_2", np.float64),
         ("held_ay_2", np.float64),
     ]
@@ -198,6 +200,11 @@ BALANCE = in_lines(
         ("normal_y", np.float64),
         ("in_all", np.bool_),  # … or they act in all
         ("anchored", np.bool_),  # a contact acts on a body of infinite mass
+        ("face_x", np.float64),  # the first normal; …
+        ("face_y", np.float64),
+        ("oblique", np.bool_),  # … others are neither parallel nor perpendicular to it, or bounce
+        ("pushed", np.bool_),  # a contact acts on a kinematic body that moves
+        ("fastest", np.float64),  # [px/s] speed of bodies before the step and of kinematic ones
         ("along_scale", np.float64),  # factors on velocities
         ("scale", np.float64),
     ]

@@ -202,7 +202,7 @@ def test_off_centre_hit_spins_in_closed_form(solver, dt):
 @pytest.mark.parametrize("solver", SOLVERS)
 @pytest.mark.parametrize("gap", [0.3, 0.0])
 def test_cradle_hands_on_the_velocity(solver, gap):
-    """With gaps the last ball alone leaves; without, the outcome is a matter of the model: momentum and energy only."""
+    """The last ball alone leaves, also from a row that touches: each contact hands the blow on."""
     world = metres(solver, gravity=(0, 0))
     balls = [
         world.add_body(
@@ -216,11 +216,7 @@ def test_cradle_hands_on_the_velocity(solver, gap):
     start, watch = kinetic(world), Watch(world, passive=True, isolated=True)
     watch.step(60)
     assert kinetic(world) <= start * (1 + 1e-9)
-    if gap:
-        assert [ball.velocity[0] for ball in balls] == pytest.approx([0, 0, 0, 0, 6.0], abs=1e-9)
-    else:
-        speeds = [ball.velocity[0] for ball in balls]
-        assert speeds == sorted(speeds)
+    assert [ball.velocity[0] for ball in balls] == pytest.approx([0, 0, 0, 0, 6.0], abs=1e-9)
 
 
 # --- friction ---------------------------------------------------------------------------------------------------------
@@ -333,7 +329,7 @@ def test_stopping_distance(solver, speed):
     assert abs(box.position[0]) == pytest.approx(speed**2 / (2 * 0.4 * G) - abs(speed) * h / 2, rel=0.01)
     assert math.copysign(1.0, box.position[0]) == math.copysign(1.0, speed)
     assert stopped == pytest.approx(abs(speed) / (0.4 * G), rel=0.01, abs=world.dt)
-    assert box.velocity[0] == pytest.approx(0.0, abs=1e-6)
+    assert box.velocity[0] == pytest.approx(0.0, abs=1e-5)
 
 
 @pytest.mark.parametrize("solver", SOLVERS)
