@@ -30,7 +30,8 @@ class Edges(NamedTuple):
     resting: np.ndarray  # (edges) bool it carries a load without impact
     keeps_awake: np.ndarray  # (edges) bool its bodies may not sleep
     overlaps: np.ndarray  # (edges) float64 [px]
-    deep: np.ndarray  # (edges, 2) float64 normal of a deep overlap with a body of infinite mass, out of it; 0: none
+    faces: np.ndarray  # (edges, 2) float64 normal out of a body of infinite mass that it overlaps; 0: none
+    face_speeds: np.ndarray  # (edges) float64 [px/s] of that body at the contact
 
 
 def new_edges(room: int) -> Edges:
@@ -43,7 +44,8 @@ def new_edges(room: int) -> Edges:
         resting=np.zeros(room, np.bool_),
         keeps_awake=np.zeros(room, np.bool_),
         overlaps=np.zeros(room),
-        deep=np.zeros((room, 2)),
+        faces=np.zeros((room, 2)),
+        face_speeds=np.zeros(room),
     )
 
 

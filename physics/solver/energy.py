@@ -4,7 +4,8 @@ Contacts that separate overlaps, springs that ring, normals that are a step old 
 are fixed for a substep may add energy. After a step, the kinetic energy of bodies that exchanged impulses is compared
 with that before, plus the work of gravity, forces and surfaces along the motion of the step. What they gained beyond
 it they may take from a reserve, the energy that they have lost before; the rest is removed by scaling their velocities.
-Bodies in flight that hit only each other keep their momentum, and are left out.
+Of bodies in flight that hit only each other, the velocities relative to their common centre are scaled, so that their
+momentum stays.
 """
 
 import math
@@ -19,7 +20,7 @@ from physics.tables.table import join_trees, root_of
 PARALLEL = 1e-9  # sine between normals that count as one direction
 FACES = 0.05  # sine between normals of faces that count as parallel
 RESERVE_TIME = 10.0  # [s] in which an island forgets the energy that it has lost
-SHARE_BACK = 1e-2  # share of its energy that an island may take back in a step
+SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 
 # ---- work ------------------------------------------------------------------------------------------------------------
 
@@ -54,19 +55,21 @@ def work_of_surfaces(blocks, block, lane, motions):
 
 
 @subkernel
-def work_of_lift(blocks, block, lane, dt, slop, motions):
-    """Return the work of the impulses of a lane along a gap that opens by up to a slop [px]: springs that sagged give
+def work_of_lift(blocks, block, lane, context, motions):
+    """Return the work of the impulses of a lane along a gap that opens by up to a slop: springs that sagged give
     it back.
     """
     c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+    if c[at.LOADED + lane] == 0.0 or c[at.BOUNCING + lane] > 0.0:
+        return 0.0
     a = motions[blocks.motion_a[block, lane]]
     b = motions[blocks.motion_b[block, lane]]
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
     first = along + b.turn * c[at.B_1 + lane] - a.turn * c[at.A_1 + lane]
     second = along + b.turn * c[at.B_2 + lane] - a.turn * c[at.A_2 + lane]
-    first = min(max(first, 0.0), slop)
-    second = min(max(second, 0.0), slop)
-    return (c[at.TOTAL_1 + lane] * first + c[at.TOTAL_2 + lane] * second) / dt
+    first = min(max(first, 0.0), context.slop)
+    second = min(max(second, 0.0), context.slop)
+    return (c[at.TOTAL_1 + lane] * first + c[at.TOTAL_2 + lane] * second) * context.inverse_dt
 
 
 # ---- direction -------------------------------------------------------------------------------------------------------
@@ -88,8 +91,10 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
 @subkernel
 def energy_along(motion, balance):
     """Return the kinetic energy of a body along the only direction in which contacts act on it; 0 if they do in all."""
+    if balance.in_all or motion.inverse_mass == 0.0:
+        return 0.0
     along = motion.vx * balance.normal_x + motion.vy * balance.normal_y
-    return 0.0 if balance.in_all else 0.5 * along * along / motion.inverse_mass
+    return 0.5 * along * along / motion.inverse_mass
 
 
 @subkernel
@@ -104,6 +109,13 @@ def scale_without(energy, whole):
 def scale_motion(root, balance, motion_inout):
     """Scale the velocities of a body, those along the only direction of its contacts first. root: its BALANCE."""
     m = motion_inout
+    if not root.anchored:
+        vx = root.momentum_x / root.mass
+        vy = root.momentum_y / root.mass
+        m.vx = vx + root.scale * (m.vx - vx)
+        m.vy = vy + root.scale * (m.vy - vy)
+        m.angular_velocity *= root.scale
+        return
     if not balance.in_all:
         change = (root.along_scale - 1.0) * (m.vx * balance.normal_x + m.vy * balance.normal_y)
         m.vx += change * balance.normal_x
@@ -199,6 +211,9 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
         e.oblique = False
         e.pushed = False
         e.mass = 0.0
+        e.load = 0.0
+        e.momentum_x = 0.0
+        e.momentum_y = 0.0
         e.normal_x = 0.0
         e.normal_y = 0.0
         e.in_all = False
@@ -230,7 +245,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
             row_a = blocks.motion_a[block, lane]
             root = balance_inout[parents[row_a if links_islands[row_a] else blocks.motion_b[block, lane]]]
             root.surfaces += work_of_surfaces(blocks, block, lane, motions)
-            root.lift += work_of_lift(blocks, block, lane, context.dt, context.slop, motions)
+            root.lift += work_of_lift(blocks, block, lane, context, motions)
             note_face(blocks, block, lane, motions, root)
             root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
     for k in range(len(group.members)):
@@ -241,6 +256,9 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
         root = balance_inout[parents[i]]
         e.along = energy_along(motions[i], e)
         root.mass += 1.0 / motions[i].inverse_mass
+        root.load += norm(motions[i].acceleration_x, motions[i].acceleration_y) / motions[i].inverse_mass
+        root.momentum_x += motions[i].vx / motions[i].inverse_mass
+        root.momentum_y += motions[i].vy / motions[i].inverse_mass
         root.fastest = max(root.fastest, math.sqrt(2.0 * e.before * motions[i].inverse_mass))
         if parents[i] != i:
             root.before += e.before
@@ -251,18 +269,25 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
 
 
 @subkernel
-def draw_on_reserve(balance_inout):
+def draw_on_reserve(slop, balance_inout):
     """Write the factors that remove what the bodies of a root gained beyond their reserve. Return 1 if there was any.
 
-    Errors of the integrator alternate: what they have lost before they may take back, slowly. Work of surfaces that
-    moved nothing is lost for good.
+    Errors of the integrator alternate: what they have lost before they may take back, slowly, or as far as their load
+    rises by a slop [px]. Work of surfaces that moved nothing is lost for good.
     """
     e = balance_inout
-    allowed = min(e.reserve, max(SHARE_BACK * e.before, e.lift))
+    allowed = min(e.reserve, max(SHARE_BACK * e.before, min(e.lift, slop * e.load)))
     gained = e.excess - e.surfaces
-    beyond = gained - allowed if e.anchored else 0.0
-    e.along_scale = scale_without(beyond, e.along)
-    e.scale = scale_without(beyond - e.along, e.now - e.along)
+    beyond = gained - allowed
+    e.along_scale = 1.0
+    if e.anchored:
+        e.along_scale = scale_without(beyond, e.along)
+        e.scale = scale_without(beyond - e.along, e.now - e.along)
+    elif e.mass > 0.0:
+        common = 0.5 * (e.momentum_x * e.momentum_x + e.momentum_y * e.momentum_y) / e.mass
+        e.scale = scale_without(beyond, e.now - common)
+    else:
+        e.scale = 1.0
     e.reserve += max(-max(e.excess, gained), 0.0) - min(max(gained, 0.0), allowed)
     return int(beyond > 0.0)
 
@@ -277,7 +302,7 @@ def remove_gains(blocks, count, group, links_islands, context, parents_out, bala
     for k in range(len(group.members)):
         i = group.members[k]
         if parents_out[i] == i:
-            found += draw_on_reserve(balance_inout[i])
+            found += draw_on_reserve(context.slop, balance_inout[i])
     for k in range(len(group.members)):
         i = group.members[k]
         e = balance_inout[i]
@@ -327,7 +352,7 @@ def limit_energy(
         for k in range(len(group.members)):
             i = group.members[k]
             m = motions_inout[i]
-            speed = plan.squeeze[i].speed
+            speed = plan.squeeze[i].most
             if speed == 0.0 or m.inverse_mass == 0.0:
                 continue
             most = max(0.5 * speed * speed / m.inverse_mass, balance_inout[i].before)

@@ -35,15 +35,9 @@ def kinetic_energy(motion):
 
 
 @subkernel
-def write_fixed(motions_out, lists_out):
-    """Write row 0, which no impulse moves."""
-    m = motions_out[0]
-    m.vx = 0.0
-    m.vy = 0.0
-    m.angular_velocity = 0.0
-    m.free_vx = 0.0
-    m.free_vy = 0.0
-    m.free_w = 0.0
+def reset_motion(motion_out):
+    """Write the fields with which every body starts a step: no motion, no mass and no contact yet."""
+    m = motion_out
     m.pseudo_vx = 0.0
     m.pseudo_vy = 0.0
     m.pseudo_w = 0.0
@@ -52,21 +46,34 @@ def write_fixed(motions_out, lists_out):
     m.cosine = 1.0
     m.sine = 0.0
     m.turn = 0.0
-    m.inverse_mass = 0.0
-    m.inverse_inertia = 0.0
     m.acceleration_x = 0.0
     m.acceleration_y = 0.0
     m.angular_acceleration = 0.0
+    m.inverse_mass = 0.0
+    m.inverse_inertia = 0.0
+    m.in_contact = False
+    m.is_character = False
     m.estimate = 0.0
     m.branching = False
     m.capped = False
+    m.last_impact = 0
+
+
+@subkernel
+def write_fixed(motions_out, lists_out):
+    """Write row 0, which no impulse moves."""
+    m = motions_out[0]
+    reset_motion(m)
+    m.vx = 0.0
+    m.vy = 0.0
+    m.angular_velocity = 0.0
+    m.free_vx = 0.0
+    m.free_vy = 0.0
+    m.free_w = 0.0
     m.cooldown = 0.0
     m.substeps = 0
-    m.last_impact = 0
     m.moves = False
     m.is_dynamic = False
-    m.in_contact = False
-    m.is_character = False
     lists_out.has_finite_mass[0] = False
     lists_out.links_islands[0] = False
     lists_out.rank[0] = STATIC_RANK
@@ -124,22 +131,9 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.free_vx = m.vx
             m.free_vy = m.vy
             m.free_w = m.angular_velocity
-            m.pseudo_vx = 0.0
-            m.pseudo_vy = 0.0
-            m.pseudo_w = 0.0
-            m.dx = 0.0
-            m.dy = 0.0
-            m.cosine = 1.0
-            m.sine = 0.0
-            m.turn = 0.0
+            reset_motion(m)
             m.moves = b.kind != STATIC and b.awake and not b.quarantined
             m.is_dynamic = m.moves and b.kind == DYNAMIC
-            m.in_contact = False
-            m.is_character = False
-            m.estimate = 0.0
-            m.branching = False
-            m.capped = False
-            m.last_impact = 0
             m.substeps = b.substeps
             m.cooldown = b.cooldown
             e = lists_out.balance[k + 1]
@@ -154,11 +148,6 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
                 if m.moves:
                     lists_out.by_kind[1, kinematic] = k + 1
                     kinematic += 1
-                m.inverse_mass = 0.0
-                m.inverse_inertia = 0.0
-                m.acceleration_x = 0.0
-                m.acceleration_y = 0.0
-                m.angular_acceleration = 0.0
                 continue
             lists_out.by_kind[0, dynamic] = k + 1
             dynamic += 1

@@ -106,6 +106,7 @@ def credit_overlap(overlap, motion, balance_inout):
 def list_contact_edges(
     # read
     contacts,
+    bodies,
     motions,
     dt,
     limits,
@@ -113,14 +114,15 @@ def list_contact_edges(
     lists_inout,
     edges_out,
 ):
-    """List the contacts to solve as edges between rows of MOTION. Return their number, and that of deep overlaps with
-    bodies of infinite mass. O(contacts).
+    """List the contacts to solve as edges between rows of MOTION. Return their number, that of overlaps with bodies of
+    infinite mass, and the greatest overlap [px] of all. O(contacts).
 
     Sensors, pairs without a dynamic body, and contacts under a character's feet are left out.
     """
     motion_of = lists_inout.motion_of
     found = 0
-    deep = 0
+    faces = 0
+    deepest = 0.0
     for i in range(len(contacts)):
         c = contacts[i]
         row_a = motion_of[c.body_row_a]
@@ -141,21 +143,28 @@ def list_contact_edges(
         edges_out.impact_speeds[found] = speed
         edges_out.resting[found] = touches_slowly(c.separation_1, c.speed_1, limits)
         overlap = -(min(c.separation_1, c.separation_2) if c.count == 2 else c.separation_1)
-        sign = 1.0 if a.inverse_mass == 0.0 else -1.0
-        # A character that is pushed gives way, unless it is wedged.
-        is_deep = overlap > limits.slop and (
-            (a.inverse_mass == 0.0 and not a.is_character) or (b.inverse_mass == 0.0 and not b.is_character)
-        )
-        edges_out.deep[found, 0] = sign * c.normal_x if is_deep else 0.0
-        edges_out.deep[found, 1] = sign * c.normal_y if is_deep else 0.0
         edges_out.overlaps[found] = overlap
-        deep += int(is_deep)
+        deepest = max(deepest, overlap)
+        edges_out.faces[found, 0] = 0.0
+        edges_out.faces[found, 1] = 0.0
+        for side in range(2):
+            o = a if side == 0 else b
+            # A character that is pushed gives way, unless it is wedged.
+            if overlap > 0.0 and o.inverse_mass == 0.0 and not o.is_character:
+                sign = 1.0 if side == 0 else -1.0
+                edges_out.faces[found, 0] = sign * c.normal_x
+                edges_out.faces[found, 1] = sign * c.normal_y
+                body = bodies[c.body_row_a if side == 0 else c.body_row_b]
+                x, y = c.x_1 - body.center_x, c.y_1 - body.center_y
+                speed = norm(o.vx - o.angular_velocity * y, o.vy + o.angular_velocity * x)
+                edges_out.face_speeds[found] = speed if o.moves else 0.0
+                faces += 1
         if overlap > 0.0 and c.of_new_pair:
             # What is made inside another may be lifted out of it.
             credit_overlap(overlap, a, lists_inout.balance[row_a])
             credit_overlap(overlap, b, lists_inout.balance[row_b])
         found += 1
-    return found, deep
+    return found, faces, deepest
 
 
 # ---- substep classes -------------------------------------------------------------------------------------------------
@@ -271,32 +280,27 @@ def are_mixed(links_islands, degrees, classes):
 def list_and_color(
     # read
     contacts,
+    bodies,
     motions,
-    lists,
     dt,
     limits,
     # write
+    lists_inout,
     plan_out,
 ):
     """List the constraints to solve as edges, and colour these. Return their number. O(contacts + motions).
 
-    lists: see MotionLists. See list_contact_edges, color_edges.
+    lists_inout: see MotionLists. See list_contact_edges, color_edges.
     """
     nodes = len(motions)
-    count, deep = list_contact_edges(contacts, motions, dt, limits, lists, plan_out.edges)
+    count, faces, deepest = list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_out.edges)
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
-    color_edges(plan_out.edges, count, lists.has_finite_mass, lists.rank, taken, degrees, plan_out.colors)
-    plan_out.squeezed[0] = deep > 1 and find_squeezed(
-        plan_out.edges,
-        count,
-        lists,
-        motions,
-        limits.push_speed,
-        limits.deep,
-        plan_out.parents[:nodes],
-        plan_out.squeeze,
-    )
+    color_edges(plan_out.edges, count, lists_inout.has_finite_mass, lists_inout.rank, taken, degrees, plan_out.colors)
+    plan_out.squeezed[0] = False
+    if faces > 1 and deepest > limits.deep:
+        parents, squeeze = plan_out.parents[:nodes], plan_out.squeeze
+        plan_out.squeezed[0] = find_squeezed(plan_out.edges, count, lists_inout, motions, limits, parents, squeeze)
     return count
 
 
@@ -304,17 +308,18 @@ def list_and_color(
 def order_in_one_group(
     # read
     contacts,
+    bodies,
     motions,
-    lists,
     dt,
     limits,
     # write
+    lists_inout,
     plan_out,
 ):
     """List the constraints to solve in one group, by colour. Return their number, and the number without a colour.
     O(contacts + motions).
     """
-    count = list_and_color(contacts, motions, lists, dt, limits, plan_out)
+    count = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out)
     starts = plan_out.starts[: COLORS + 2]
     order_edges(plan_out.edges, count, plan_out.colors, plan_out.classes[:0], starts, plan_out.cursors, plan_out.places)
     return count, starts[1] - starts[0]
@@ -324,8 +329,8 @@ def order_in_one_group(
 def order_by_load(
     # read
     contacts,
+    bodies,
     motions,
-    lists,
     members,
     dt,
     limits,
@@ -333,6 +338,7 @@ def order_by_load(
     choices,
     by_load,
     # write
+    lists_inout,
     plan_out,
 ):
     """List the constraints to solve by the number of substeps of their islands, and by colour. Return their number.
@@ -343,15 +349,15 @@ def order_by_load(
     plan = plan_out
     nodes = len(motions)
     classes = plan.classes[:nodes]
-    count = list_and_color(contacts, motions, lists, dt, limits, plan)
+    count = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan)
     unknown = class_motions(motions, plan.degrees, choices, by_load, classes)
     expect_impacts(plan.edges, count, motions, rate, choices[: by_load + 1], classes)
     if unknown:
         expect_columns(plan.edges, count, motions, plan.degrees, len(choices) - 1, classes)
-    plan.joined[0] = are_mixed(lists.links_islands, plan.degrees, classes)
+    plan.joined[0] = are_mixed(lists_inout.links_islands, plan.degrees, classes)
     if plan.joined[0]:
         parents = plan.parents[:nodes]
-        find_roots(plan.edges, count, lists.links_islands, parents)
+        find_roots(plan.edges, count, lists_inout.links_islands, parents)
         share_classes(parents, classes)
     order_edges(plan.edges, count, plan.colors, classes, plan.starts, plan.cursors, plan.places)
     order_nodes(members, classes, plan.firsts, plan.cursors, plan.members)
@@ -371,11 +377,21 @@ class Selection:
             self.plan = new_plan(2 * len(contacts), 2 * len(rows))
         plan = self.plan
         if substeps:
-            count, uncolored = order_in_one_group(contacts, rows, motions.lists, state.dt, limits, plan)
+            count, uncolored = order_in_one_group(contacts, state.bodies, rows, state.dt, limits, motions.lists, plan)
             return [Group(substeps, count, count, uncolored, motions.island_bodies, plan.starts[: COLORS + 2])]
         rate = estimate_rate(state)
         edges = order_by_load(
-            contacts, rows, motions.lists, motions.island_bodies, state.dt, limits, rate, CHOICES, BY_LOAD, plan
+            contacts,
+            state.bodies,
+            rows,
+            motions.island_bodies,
+            state.dt,
+            limits,
+            rate,
+            CHOICES,
+            BY_LOAD,
+            motions.lists,
+            plan,
         )
         colors, firsts, starts = COLORS + 1, plan.firsts.tolist(), plan.starts
         groups = [

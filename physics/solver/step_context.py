@@ -20,6 +20,8 @@ from physics.settings import (
     Tolerances,
 )
 
+DRIFT_SHARE = 0.1  # share of the drift of a sticking contact that friction takes back in a step
+
 # ---- context ---------------------------------------------------------------------------------------------------------
 # Constants of the substeps of a group of islands: their length, the softness of contacts, the push-out. Source of the
 # springs: Catto, Soft Constraints, GDC 2011.
@@ -38,6 +40,7 @@ class StepContext(NamedTuple):
     substeps: int
     dt: float  # [s] of the step …
     h: float  # [s] … and of a substep
+    inverse_dt: float  # [1/s]
     inverse_h: float
     share: float  # weight of this step in the cached contact forces
     drag: float  # [1/s]
@@ -53,6 +56,7 @@ class StepContext(NamedTuple):
     loaded_stiffness: float  # factor on the grip of a loaded contact …
     sole_support_stiffness: float  # … and of a sole support
     strike_factor: float  # factor on the load before the step above which it counts as struck, and yields
+    drift_rate: float  # [1/s] at which friction takes back the drift of a sticking contact
     limits: Limits
 
 
@@ -82,6 +86,7 @@ def context_of(
         substeps=substeps,
         dt=dt,
         h=h,
+        inverse_dt=1.0 / dt,
         inverse_h=1.0 / h,
         share=dt / span,
         drag=drag,
@@ -98,6 +103,7 @@ def context_of(
         loaded_stiffness=FIRM,
         sole_support_stiffness=FIRM_ALONE,
         strike_factor=BLOW if by_load else math.inf,
+        drift_rate=DRIFT_SHARE / span,
         limits=tolerances.limits,
     )
 

@@ -195,6 +195,9 @@ BALANCE = in_lines(
         ("reserve", np.float64),  # energy that it has lost and may take back …
         ("lift", np.float64),  # … in this step, because contacts that sagged rise again
         ("mass", np.float64),
+        ("load", np.float64),  # mass times acceleration
+        ("momentum_x", np.float64),
+        ("momentum_y", np.float64),
         ("along", np.float64),  # kinetic energy along the only direction in which contacts act, …
         ("normal_x", np.float64),  # … which it is, …
         ("normal_y", np.float64),
@@ -212,9 +215,16 @@ BALANCE = in_lines(
 # Beside each MOTION row of an island without room: bounds of the impulses in it; see solver/squeeze.py.
 SQUEEZE = np.dtype(
     [
-        ("depth", np.float64),  # [px] greatest deep overlap
-        ("normal_x", np.float64),  # of the first deep overlap with a body of infinite mass
-        ("normal_y", np.float64),
+        ("depth", np.float64),  # [px] greatest overlap of all, …
+        ("face_depth", np.float64),  # … and with bodies of infinite mass
+        ("face_x", np.float64),  # normal out of the first of these
+        ("face_y", np.float64),
+        ("push_x", np.float64),  # normal out of the first one that moves
+        ("push_y", np.float64),
+        ("caught", np.bool_),  # faces point in different directions
+        ("pressed", np.bool_),  # a face is opposite to one that moves
+        ("face_speed", np.float64),  # [px/s] greatest speed of a face
+        ("most", np.float64),  # [px/s] greatest speed of a body; 0: no bound
         ("speed", np.float64),  # [px/s] bound of an impulse per effective mass; 0: none …
         ("static_speed", np.float64),  # … and what is added to it against what does not move
         ("force", np.float64),  # impulse per second that is added to it

@@ -1,0 +1,129 @@
+"""A passive scene never gains energy: eccentric discs, bowls of links, springs of contacts, and what slides on ice."""
+
+import math
+
+import numpy as np
+import pytest
+
+from physics import JIT, Capsule, Chain, Circle, Effects, Material, Polygon, Segment, World
+from tests.stability.piles import needs_speed
+
+EFFECTS = Effects.rigid_bodies().with_(sleeping=False)
+ICE = Material(friction=0.0)
+SUBSTEPS = (4, 16, 32, "auto")
+
+
+def energies(world, body, height, steps):
+    """Kinetic energy plus height, of a body, as shares of the start. height() [px] over the lowest place."""
+    start, found = body.mass * world.gravity[1] * height() + body.kinetic_energy, []
+    for _ in range(steps):
+        world.step()
+        found.append((body.kinetic_energy + body.mass * world.gravity[1] * height()) / start)
+    return np.array(found)
+
+
+def eccentric(offset, weight, tilt, **settings):
+    """A disc with a heavy one in it, on level ground; and the height of its centre of mass over the lowest place."""
+    world = World(EFFECTS, **settings)
+    rough = Material(friction=4.0)  # it rolls without slip
+    world.add_body(Segment((-4000, 0), (4000, 0)), position=(0, 100), kind="static", material=rough)
+    heavy = Circle(5, (0, offset)).with_(material=Material(density=weight, friction=4.0))
+    body = world.add_body(Circle(25).with_(material=rough), heavy, position=(0, 75), angle=tilt)
+    arm = (body.center - body.position).length
+    return world, body, lambda: 75 + arm - body.center.y
+
+
+def bowl(links, radius, start, **settings):
+    """A disc in a half circle of links without friction; and the height of its centre."""
+    world = World(EFFECTS, **settings)
+    rim = [(400 * math.cos(a), 400 * math.sin(a)) for a in np.linspace(math.pi, 0, links + 1)]
+    world.add_body(Chain(rim), kind="static", material=ICE)
+    reach = 400 - radius
+    angle = math.pi * start
+    body = world.add_body(Circle(radius), position=(reach * math.cos(angle), reach * math.sin(angle)), material=ICE)
+    return world, body, lambda: reach - body.center.y
+
+
+@needs_speed
+@pytest.mark.parametrize("substeps", SUBSTEPS)
+@pytest.mark.parametrize("offset, weight, tilt", [(17, 60, 0.5), (17, 60, 2.5), (8, 30, 1.2), (19, 200, 1.0)])
+def test_an_eccentric_disc_keeps_its_energy_for_a_minute_and_never_gains(offset, weight, tilt, substeps):
+    found = energies(*eccentric(offset, weight, tilt, substeps=substeps), 3600)
+    assert 0.9 <= found[-60:].max() and found.max() <= 1.005
+
+
+@needs_speed
+@pytest.mark.parametrize("substeps", [4, "auto"])
+@pytest.mark.parametrize("links, radius, start", [(240, 20, 0.7), (480, 20, 0.7), (60, 20, 0.8), (240, 5, 0.9)])
+def test_a_disc_in_a_bowl_of_links_never_gains(links, radius, start, substeps):
+    """It loses what inelastic corners take: sin²δ of the kinetic energy at each, and 5 % of the start."""
+    world, body, height = bowl(links, radius, start, substeps=substeps)
+    found = energies(world, body, height, 3600)
+    assert found.max() <= 1.005
+    corner = math.sin(math.pi / links) ** 2
+    share, lost = 1.0, 0.0
+    for _ in range(round(60 / (math.tau * math.sqrt((400 - radius) / world.gravity[1])) * 4 * links / 4)):
+        lost += corner * share / 2  # on average half of the energy is kinetic
+        share = 1.0 - lost
+    assert found[-120:].max() >= share - 0.05
+
+
+@needs_speed
+@pytest.mark.parametrize("scene", [lambda: eccentric(17, 60, 0.5, solver="sequential_impulse"),
+                                   lambda: bowl(240, 20, 0.7, solver="sequential_impulse")])  # fmt: skip
+def test_sequential_impulses_lose_and_never_gain(scene):
+    found = energies(*scene(), 3600)
+    assert found.max() <= 1.005
+
+
+@needs_speed
+@pytest.mark.nightly
+@pytest.mark.parametrize("substeps", SUBSTEPS)
+@pytest.mark.parametrize("scene", ["eccentric", "bowl"])
+def test_none_of_them_gains_in_ten_minutes(scene, substeps):
+    made = eccentric(17, 60, 0.5, substeps=substeps) if scene == "eccentric" else bowl(240, 20, 0.7, substeps=substeps)
+    assert energies(*made, 36000).max() <= 1.005
+
+
+@pytest.mark.parametrize("settings", [{}, {"substeps": 4}, {"solver": "sequential_impulse"}], ids=["auto", "4", "seq"])
+@pytest.mark.parametrize("shape", [Polygon.box(16, 16), Circle(8), Capsule((-4, 0), (4, 0), 8)])
+@pytest.mark.parametrize("height", [0.0, 0.05, 20.0])
+def test_what_slides_on_ice_keeps_its_speed_while_it_lands(shape, height, settings):
+    """Energy that a contact adds is taken from the direction in which it acts."""
+    for speed in (0.5, 30.0, 300.0):
+        world = World(EFFECTS, **settings)
+        world.add_body(Polygon.box(8000, 40), position=(0, 20), kind="static", material=ICE)
+        body = world.add_body(shape, position=(0, -8 - height), velocity=(speed, 0), material=ICE)
+        for _ in range(120 if JIT else 20):
+            world.step()
+        assert body.velocity.x == pytest.approx(speed, rel=1e-9)
+
+
+def mechanical_energy(world):
+    """The kinetic energy of all bodies, and the potential energy of the dynamic ones over y = 200."""
+    b = world.bodies[1:]
+    b = b[b["inverse_mass"] > 0.0]
+    kinetic = b["mass"] * (b["vx"] ** 2 + b["vy"] ** 2) + b["inertia"] * b["angular_velocity"] ** 2
+    return (0.5 * kinetic + b["mass"] * world.gravity[1] * (200 - b["center_y"])).sum()
+
+
+@needs_speed
+@pytest.mark.parametrize("settings", [{}, {"substeps": 4}], ids=["auto", "4"])
+def test_random_heaps_gain_no_energy_in_a_step(settings):
+    """Not beyond a thousandth of the energy at first: a heap without overlaps that falls together."""
+    rng = np.random.default_rng(7)
+    for _ in range(6):
+        world = World(EFFECTS, **settings)
+        for x, y, w, h in ((0, 220, 600, 40), (-220, 0, 40, 800), (220, 0, 40, 800)):
+            world.add_body(Polygon.box(w, h), position=(x, y), kind="static")
+        for k in range(40):
+            size = rng.uniform(12, 24)
+            shape = [Circle(size / 2), Polygon.box(size, size), Capsule((-size / 4, 0), (size / 4, 0), size / 3)][k % 3]
+            place = (-150 + 50 * (k % 7) + rng.uniform(-5, 5), 150 - 45 * (k // 7))
+            world.add_body(shape, position=place, angle=rng.uniform(0, 6), velocity=rng.uniform(-200, 200, 2))
+        before = first = mechanical_energy(world)
+        for _ in range(300):
+            world.step()
+            now = mechanical_energy(world)
+            assert now <= before + 1e-3 * first
+            before = now
