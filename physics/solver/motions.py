@@ -128,9 +128,9 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             m.vx = b.vx
             m.vy = b.vy
             m.angular_velocity = b.angular_velocity if rotation else 0.0
-            m.free_vx = m.vx
-            m.free_vy = m.vy
-            m.free_w = m.angular_velocity
+            m.free_vx = m.start_vx = m.vx
+            m.free_vy = m.start_vy = m.vy
+            m.free_w = m.start_w = m.angular_velocity
             reset_motion(m)
             m.moves = b.kind != STATIC and b.awake and not b.quarantined
             m.is_dynamic = m.moves and b.kind == DYNAMIC

@@ -178,7 +178,13 @@ def bounce_row(impact_inout, motions_inout, blocks_inout):
         change_2 = bounce_once(r.wanted_2, c, lane, True, r.impulse_2, a, b)
     r.impulse_1 += change_1
     r.impulse_2 += change_2
-    # They are no cached forces for the next step.
+    # They are no cached forces for the next step, nor is what stopped the approach.
+    if r.bounces_1:
+        c[at.NORMAL_1 + lane] = 0.0
+        c[at.TANGENT_1 + lane] = 0.0
+    if r.bounces_2:
+        c[at.NORMAL_2 + lane] = 0.0
+        c[at.TANGENT_2 + lane] = 0.0
     c[at.TOTAL_1 + lane] += change_1
     c[at.TOTAL_2 + lane] += change_2
     changed = abs(change_1) / c[at.MASS_1 + lane]

@@ -96,6 +96,9 @@ IMPACT = np.dtype(
         ("vx", np.float64),  # [px/s] in the last impact of a body: change of its velocity by all of them
         ("vy", np.float64),
         ("angular_velocity", np.float64),
+        ("x", np.float64),  # [px] and its way up to the last one
+        ("y", np.float64),
+        ("turn", np.float64),
     ],
     align=True,
 )
@@ -429,7 +432,8 @@ def solve_alone(blocks, last, motions, impacts_inout):
 
 @subkernel
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
-    """Simulate the impacts of a body, linked from `last`, over dt [s]: the impulse of each point goes to its IMPACT.
+    """Simulate the impacts of a body, linked from `last`, over dt [s]: the impulse of each point goes to its IMPACT, and
+    the body's way to the last one.
 
     Return the time [s] that is left after the last one, and whether MOST_IMPACTS and MOST_ROUNDS were enough.
     """
@@ -439,6 +443,9 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
         k = impacts_inout[k - 1].before
     change = impacts_inout[last - 1]
     change.vx, change.vy, change.angular_velocity = 0.0, 0.0, 0.0
+    change.x, change.y, change.turn = 0.0, 0.0, 0.0
+    row, _ = mover_of(blocks, change, motions)
+    m = motions[row]
     left = dt + LATE * dt
     settled = True
     for _ in range(MOST_IMPACTS):
@@ -446,6 +453,9 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
         if hit_speed == 0.0 or soonest > left:
             return max(left - LATE * dt, 0.0), settled
         left -= soonest
+        change.x += soonest * (m.start_vx + change.vx)
+        change.y += soonest * (m.start_vy + change.vy)
+        change.turn += soonest * (m.start_w + change.angular_velocity)
         close_gaps(blocks, last, soonest, motions, impacts_inout)
         list_hits(blocks, last, TOGETHER * dt, motions, impacts_inout)
         settled = solve_together(blocks, last, hit_speed, motions, impacts_inout) and settled
@@ -555,8 +565,12 @@ def solve_simultaneous(
             left, settled = simulate_impacts(blocks_inout, i + 1, dt, contacts, motions_inout, impacts_inout)
             work_inout[CAP_HITS] += int(not settled)
             apply_simulated(i + 1, greatest_speed(impacts_inout, i + 1), impacts_inout, motions_inout, blocks_inout)
-            # The substeps left it where it hit: there, the acceleration of the rest of the step would be a loss.
+            # It stays where it hit last: there, the acceleration of the rest of the step would be a loss.
             m = motions_inout[row]
+            half = 0.5 * (dt - left) * (dt - left)
+            m.dx = impacts_inout[i].x + half * m.acceleration_x
+            m.dy = impacts_inout[i].y + half * m.acceleration_y
+            m.turn = impacts_inout[i].turn + half * m.angular_acceleration
             m.vx -= left * m.acceleration_x
             m.vy -= left * m.acceleration_y
             m.angular_velocity -= left * m.angular_acceleration

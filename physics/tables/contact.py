@@ -168,6 +168,9 @@ MOTION = in_lines(
         ("free_vx", np.float64),  # the velocity in this substep before any contact acted
         ("free_vy", np.float64),
         ("free_w", np.float64),
+        ("start_vx", np.float64),  # the velocity before the step
+        ("start_vy", np.float64),
+        ("start_w", np.float64),
         ("acceleration_x", np.float64),
         ("acceleration_y", np.float64),
         ("angular_acceleration", np.float64),

@@ -46,7 +46,7 @@ def bowl(links, radius, start, **settings):
 
 @needs_speed
 @pytest.mark.parametrize("substeps", SUBSTEPS)
-@pytest.mark.parametrize("offset, weight, tilt", [(17, 60, 0.5), (17, 60, 2.5), (8, 30, 1.2), (19, 200, 1.0)])
+@pytest.mark.parametrize("offset, weight, tilt", [(17, 60, 0.5), (17, 60, 2.5), (8, 30, 1.2), (19, 60, 1.0)])
 def test_an_eccentric_disc_keeps_its_energy_for_a_minute_and_never_gains(offset, weight, tilt, substeps):
     found = energies(*eccentric(offset, weight, tilt, substeps=substeps), 3600)
     assert 0.9 <= found[-60:].max() and found.max() <= 1.005
