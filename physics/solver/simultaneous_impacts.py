@@ -432,8 +432,8 @@ def solve_alone(blocks, last, motions, impacts_inout):
 
 @subkernel
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
-    """Simulate the impacts of a body, linked from `last`, over dt [s]: the impulse of each point goes to its IMPACT, and
-    the body's way to the last one.
+    """Simulate the impacts of a body, linked from `last`, over dt [s]: the impulses go to its rows, its way to the last one
+    to the last row.
 
     Return the time [s] that is left after the last one, and whether MOST_IMPACTS and MOST_ROUNDS were enough.
     """
