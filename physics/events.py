@@ -86,18 +86,7 @@ def look_at_pair(contacts, first, last, slop):
 
 
 @kernel
-def compare_pairs(
-    # read
-    before,
-    contacts,
-    fell_asleep,
-    sensors,
-    persisting,
-    slop,
-    hit_speed,
-    # write
-    comparison_inout,
-):
+def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_speed, comparison_inout):
     """Compare the pairs that touched in the step before with the contacts of this step, both in the order of shape
     ids.
 

@@ -13,14 +13,7 @@ from physics.tables.step_state import PAIRS_TESTED
 
 
 @kernel
-def find_all(
-    # read
-    proxies,
-    changed,
-    # write
-    pairs_out,
-    work_inout,
-):
+def find_all(proxies, changed, pairs_out, work_inout):
     """List the pairs with at least one changed side.
 
     proxies PROXY rows, free slots have row -1; changed: slots. Return the number found. O(changed · n).
@@ -40,17 +33,7 @@ def find_all(
 
 
 @kernel
-def near_in_all(
-    # read
-    proxies,
-    lower_x,
-    lower_y,
-    upper_x,
-    upper_y,
-    # write
-    slots_out,
-    work_inout,
-):
+def near_in_all(proxies, lower_x, lower_y, upper_x, upper_y, slots_out, work_inout):
     """List the slots whose box meets a closed box [px], one by one. Return their number. O(n)."""
     found = 0
     for slot in range(len(proxies)):

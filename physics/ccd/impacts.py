@@ -18,13 +18,7 @@ from physics.tables.step_state import TOI_CALLS
 
 
 @kernel
-def list_paths(
-    # read
-    rows,
-    bodies,
-    # write
-    paths_out,
-):
+def list_paths(rows, bodies, paths_out):
     """Write centre of mass and angle before and after the step: x0 y0 angle0 x1 y1 angle1 [px, rad]. O(rows).
 
     A body with a sweep without rotation keeps its angle before the step.
@@ -56,14 +50,7 @@ def way_of(bodies, paths, row):
 
 
 @kernel
-def find_fast(
-    # read
-    rows,
-    bodies,
-    paths,
-    # write
-    fast_out,
-):
+def find_fast(rows, bodies, paths, fast_out):
     """Flag the bodies to sweep. Return (the number of bodies to look at, the number swept without rotation). O(rows).
 
     Modes "toi", "ray" and "swept" are always swept while they move; "auto" if a point may move by more than half the
@@ -108,16 +95,7 @@ def is_fast(bodies, paths, row, other):
 
 
 @kernel
-def find_outgrown(
-    # read
-    rows,
-    bodies,
-    shapes,
-    proxies,
-    fast,
-    # write
-    rows_out,
-):
+def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
     """List the shape rows of swept bodies that left their swept AABB. Return their number. O(rows)."""
     found = 0
     for k in range(len(rows)):
@@ -136,14 +114,7 @@ def find_outgrown(
 
 
 @kernel
-def foresee_paths(
-    # read
-    rows,
-    bodies,
-    dt,
-    # write
-    paths_out,
-):
+def foresee_paths(rows, bodies, dt, paths_out):
     """Write the paths (see list_paths) of the bodies in dt [s] without obstacles. O(rows)."""
     for k in range(len(rows)):
         i = rows[k]
@@ -339,13 +310,7 @@ def find_rotational_impacts(
 
 
 @kernel
-def move_back(
-    # read
-    rows,
-    paths,
-    # write
-    bodies_inout,
-):
+def move_back(rows, paths, bodies_inout):
     """Move the stopped dynamic bodies back to where they stopped; their velocities stay. O(rows)."""
     for k in range(len(rows)):
         i = rows[k]
@@ -391,18 +356,7 @@ def impact_point(body, shape, side, nx, ny, fraction, flew_on):
 
 
 @kernel
-def write_impacts(
-    # read
-    bodies,
-    shapes,
-    candidates,
-    impacts,
-    count,
-    dt,
-    response,
-    # write
-    manifolds_out,
-):
+def write_impacts(bodies, shapes, candidates, impacts, count, dt, response, manifolds_out):
     """Write a manifold for every impact that is the first of a body on its path, or of a sensor. Return their number.
 
     impacts (n, 8): candidate, fraction, normal, stops, feature, point. A point of nan is replaced by the edge, along

@@ -585,17 +585,7 @@ def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
 
 
 @kernel
-def advance_parts(
-    # read
-    a,
-    b,
-    motion_a,
-    motion_b,
-    # write
-    workspace,
-    impact_out,
-    totals_out,
-):
+def advance_parts(a, b, motion_a, motion_b, workspace, impact_out, totals_out):
     """Write (fraction or MISS, normal from A to B) of the first impact of a part of A with a part of B to impact_out
     (3,).
 
@@ -624,17 +614,7 @@ def advance_parts(
 
 
 @kernel
-def sweep_unions(
-    # read
-    a,
-    b,
-    motion_a,
-    motion_b,
-    # write
-    workspace,
-    impact_out,
-    totals_out,
-):
+def sweep_unions(a, b, motion_a, motion_b, workspace, impact_out, totals_out):
     """Write the result of advance_parts for shapes that are the union of their parts, which may lie flush: masks.
 
     By the rule of "rotational" above, a motion that leads no deeper than the overlap at the start is no impact. So
@@ -670,19 +650,7 @@ def sweep_unions(
 
 
 @kernel
-def advance_on_ground(
-    # read
-    geometry,
-    ground,
-    is_chain,
-    a,
-    motion_a,
-    motion_b,
-    # write
-    workspace,
-    impact_out,
-    totals_out,
-):
+def advance_on_ground(geometry, ground, is_chain, a, motion_a, motion_b, workspace, impact_out, totals_out):
     """Write the result of advance_parts against tiles (is_chain 0), through uncovered sides, or a chain (1), from its
     front.
 

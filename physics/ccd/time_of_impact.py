@@ -369,15 +369,7 @@ def find_impacts(
 
 
 @kernel
-def stop_at_impacts(
-    # read
-    shapes,
-    candidates,
-    impacts,
-    count,
-    # write
-    bodies_inout,
-):
+def stop_at_impacts(shapes, candidates, impacts, count, bodies_inout):
     """Set the free fraction of each body to its first impact with a shape that is no sensor. bodies_inout: BODY rows.
     O(impacts).
     """

@@ -57,16 +57,7 @@ def motion_of(b):
 
 
 @kernel
-def find_stirred(
-    # read
-    bodies,
-    shapes,
-    characters,
-    pairs,
-    count,
-    # write
-    stirred_out,
-):
+def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
     """Flag the characters that ride a body, stand on a belt, or may have met a body that is not static.
 
     pairs (count, 2): shape rows out of the broad phase. stirred_out (characters,). Return the greatest distance [px]
@@ -488,12 +479,7 @@ def carry_and_push(movers, walk_inout):
 
 
 @kernel
-def carry_all(
-    # read
-    movers,
-    # write
-    walk_inout,
-):
+def carry_all(movers, walk_inout):
     """Carry, push and press characters by all motion of the step. movers: see carry_and_push."""
     carry_and_push(movers, walk_inout)
     ride_bodies(walk_inout)

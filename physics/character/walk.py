@@ -337,14 +337,7 @@ def is_inside(me, walk_inout):
 
 
 @kernel
-def lead_out(
-    # read
-    me,
-    reach,
-    # write
-    walk_inout,
-    moved_inout,
-):
+def lead_out(me, reach, walk_inout, moved_inout):
     """Move a character out of a static solid towards the nearest free place, up before aside before down.
 
     It stays if there is none within `reach` [px]. walk_inout: a Walk with the shapes near. moved_inout: as walk writes
@@ -459,16 +452,7 @@ def knock(me, row, direction, speed, walk_inout):
 
 
 @kernel
-def press(
-    # read
-    shapes,
-    gravity_x,
-    gravity_y,
-    slow,
-    # write
-    characters_inout,
-    bodies_inout,
-):
+def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake bodies that they ride, and copy the velocity of their ground.
 
     gravity [px/s2]. slow [px/s]: slower ground is coming to rest, and is not kept awake. Store the point under their
@@ -508,13 +492,7 @@ def is_between(manifold, first, second):
 
 
 @kernel
-def write_weight(
-    # read
-    characters,
-    weight_rate,
-    # write
-    manifolds_inout,
-):
+def write_weight(characters, weight_rate, manifolds_inout):
     """Write the impulse of the weight of characters into the manifolds with their ground.
 
     weight_rate [px/s]: gravity times the step; the points of a pair share it. O(characters · manifolds).
@@ -669,15 +647,7 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
 
 
 @kernel
-def walk(
-    # read
-    me,
-    dx,
-    dy,
-    # write
-    walk_inout,
-    moved_out,
-):
+def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
     me: its row. walk_inout: a Walk. moved_out (4,): pixels moved along x and y, 1 if it was stopped along x, along y.
@@ -704,14 +674,7 @@ def walk(
 
 
 @kernel
-def is_stopped(
-    # read
-    me,
-    along_x,
-    along_y,
-    # write
-    walk_inout,
-):
+def is_stopped(me, along_x, along_y, walk_inout):
     """Return whether a character cannot move a single pixel; it is not moved. along_x, along_y: -1, 0 or 1. O(solids
     near).
     """

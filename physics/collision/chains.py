@@ -545,15 +545,7 @@ def was_across(batch, surface, other, most, workspace):
 
 
 @kernel
-def admit_to_surfaces(
-    # read
-    batch,
-    known,
-    # write
-    workspace,
-    kinds_inout,
-    counts_inout,
-):
+def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
     """Change the kind of the pairs of a surface and a hull that may touch to that of a chain, and drop the others.
 
     known: whether workspace.memory holds the last step; kinds_inout: the batch's. O(candidates + links near).

@@ -77,14 +77,7 @@ def is_asked(which, bodies, a, b):
 
 
 @kernel
-def collide_boxes(
-    # read
-    batch,
-    which,
-    # write
-    manifolds_out,
-    work_inout,
-):
+def collide_boxes(batch, which, manifolds_out, work_inout):
     """Write contacts of candidates from their AABBs alone: normal along the axis of least overlap, point in its middle.
 
     which: see is_asked. Return the number of contacts. O(candidates).
@@ -204,20 +197,7 @@ def is_of_child(a, b):
 
 
 @kernel
-def classify(
-    # read
-    bodies,
-    shapes,
-    candidates,
-    count,
-    margin,
-    lookahead,
-    which,
-    # write
-    kind_out,
-    counts_out,
-    work_inout,
-):
+def classify(bodies, shapes, candidates, count, margin, lookahead, which, kind_out, counts_out, work_inout):
     """Write the kind of every candidate pair and the number of pairs of each kind. O(candidates).
 
     counts_out[PARTED]: pairs with a part of another shape; counts_out[DRAWN_PAIRS]: pairs with a mask drawn for the
@@ -246,13 +226,7 @@ def classify(
 
 
 @kernel
-def remember_ground(
-    # read
-    batch,
-    previous,
-    # write
-    memory_out,
-):
+def remember_ground(batch, previous, memory_out):
     """Write the previous manifolds of each candidate with a tile grid or a surface: memory_out (count, 2) first row,
     number.
 

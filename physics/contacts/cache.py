@@ -193,14 +193,7 @@ def reset_impulses(contact_out):
 
 
 @kernel
-def write_caches(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    # write
-    contacts_inout,
-):
+def write_caches(geometry, bodies, shapes, contacts_inout):
     """Write the cache of every contact that was detected at the present poses, without forces. O(contacts)."""
     for i in range(len(contacts_inout)):
         reset_impulses(contacts_inout[i])
@@ -321,12 +314,7 @@ def update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, contact_ino
 
 
 @kernel
-def update_contacts(
-    # read
-    bodies,
-    # write
-    contacts_inout,
-):
+def update_contacts(bodies, contacts_inout):
     """Update separations, points and normals of all contacts to the present poses. O(contacts)."""
     row_a = -1
     row_b = -1
@@ -425,14 +413,7 @@ def is_unmoved(body):
 
 
 @subkernel
-def update_and_flag(
-    # read
-    shapes,
-    distance,
-    # write
-    bodies_inout,
-    contacts_inout,
-):
+def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
     """Update points, normals and separations of all contacts to the present poses, and flag those that can be recycled
     in the next step: see can_recycle. O(contacts)."""
     row_a = -1
@@ -461,16 +442,7 @@ def update_and_flag(
 
 
 @kernel
-def update_final_poses(
-    # read
-    shape_rows,
-    geometry,
-    distance,
-    # write
-    bodies_inout,
-    shapes_inout,
-    contacts_inout,
-):
+def update_final_poses(shape_rows, geometry, distance, bodies_inout, shapes_inout, contacts_inout):
     """Write the boxes of these shapes, and update all contacts to the present poses. O(rows + contacts).
 
     distance [px]: see can_recycle.

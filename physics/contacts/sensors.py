@@ -15,11 +15,7 @@ NO_CONTACTS, NO_ROWS = np.zeros(0, CONTACT), np.zeros(0, np.int64)
 
 
 @kernel
-def is_any_sensor(
-    # read
-    pairs,
-    shapes,
-):
+def is_any_sensor(pairs, shapes):
     """Return whether a side of any of the pairs of shape rows is a sensor. O(pairs)."""
     for i in range(len(pairs)):
         if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:

@@ -445,16 +445,7 @@ def copy_part(corners, part, count, corners_out):
 
 
 @kernel
-def separate_parts(
-    # read
-    a,
-    b,
-    # write
-    corners_a_out,
-    corners_b_out,
-    workspace,
-    totals_out,
-):
+def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
     """Write separation, normal and points of the nearest two parts to workspace.gap. Return the separation [px].
 
     a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch; totals_out (2,): rounds of GJK and EPA, caps hit. Parts

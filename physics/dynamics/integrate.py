@@ -25,18 +25,7 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
     """
 
     @kernel
-    def integrate_velocities(
-        # read
-        rows,
-        gravity_x,
-        gravity_y,
-        drag_rate,
-        wind_x,
-        wind_y,
-        dt,
-        # write
-        bodies_inout,
-    ):
+    def integrate_velocities(rows, gravity_x, gravity_y, drag_rate, wind_x, wind_y, dt, bodies_inout):
         """Add gravity [px/s2], collected forces and drag [1/s] towards the wind [px/s] to the velocities. O(rows)."""
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
@@ -69,14 +58,7 @@ def make_position_pass(rotation: bool) -> Callable:
     """Return the position pass over the moving bodies; with rotation they rotate about their centres of mass."""
 
     @kernel
-    def integrate_positions(
-        # read
-        rows,
-        dt,
-        # write
-        bodies_inout,
-        work_inout,
-    ):
+    def integrate_positions(rows, dt, bodies_inout, work_inout):
         """Move bodies by the free fraction of their motion in dt [s], and keep their previous poses. O(rows)."""
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]

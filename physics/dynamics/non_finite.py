@@ -115,14 +115,7 @@ def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
 
 
 @subkernel
-def take_broken_bodies(
-    # read
-    rows,
-    course,
-    # write
-    bodies_inout,
-    broken_out,
-):
+def take_broken_bodies(rows, course, bodies_inout, broken_out):
     """List the rows of bodies that a step cannot use, and quarantine them at their last finite pose.
 
     Return their number. O(rows).
@@ -155,15 +148,7 @@ def is_finite_character(character):
 
 
 @subkernel
-def take_broken_shapes(
-    # read
-    rows,
-    shapes,
-    first,
-    # write
-    bodies_inout,
-    broken_out,
-):
+def take_broken_shapes(rows, shapes, first, bodies_inout, broken_out):
     """List, from `first` on, the body rows of shapes with a number that a step cannot use, and quarantine the bodies.
 
     Return the end of the list. O(rows).
@@ -184,15 +169,7 @@ def take_broken_shapes(
 
 
 @subkernel
-def take_turned_grids(
-    # read
-    rows,
-    shapes,
-    first,
-    # write
-    bodies_inout,
-    broken_out,
-):
+def take_turned_grids(rows, shapes, first, bodies_inout, broken_out):
     """List, from `first` on, the body rows of rotated or rotating TILES among these shape rows, and quarantine them at
     angle 0.
 
@@ -214,14 +191,7 @@ def take_turned_grids(
 
 
 @subkernel
-def take_broken_characters(
-    # read
-    characters,
-    first,
-    # write
-    bodies_inout,
-    broken_out,
-):
+def take_broken_characters(characters, first, bodies_inout, broken_out):
     """List, from `first` on, the body rows of characters with a number that is not finite, and quarantine the bodies.
 
     Return the end of the list.
@@ -246,19 +216,7 @@ class Course(NamedTuple):
 
 
 @kernel
-def take_broken(
-    # read
-    rows,
-    shape_rows,
-    grid_rows,
-    shapes,
-    characters,
-    course,
-    # write
-    bodies_inout,
-    broken_out,
-    ends_out,
-):
+def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_inout, broken_out, ends_out):
     """List the rows of bodies that a step cannot use, and quarantine them. Return their number. O(rows + shape_rows).
 
     ends_out: the end of each of REASONS in the list; grid_rows: shape rows that may be grids; broken_out (bodies): each
@@ -272,14 +230,7 @@ def take_broken(
 
 
 @kernel
-def take_broken_by_solver(
-    # read
-    rows,
-    course,
-    # write
-    bodies_inout,
-    broken_out,
-):
+def take_broken_by_solver(rows, course, bodies_inout, broken_out):
     """List and quarantine bodies as take_broken does, by their body rows alone: used after a solver."""
     return take_broken_bodies(rows, course, bodies_inout, broken_out)
 

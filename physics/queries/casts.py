@@ -119,21 +119,7 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 
 
 @kernel
-def cast_ray_at_rows(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    rows,
-    x,
-    y,
-    dx,
-    dy,
-    # write
-    corners_inout,
-    hits_out,
-    work_inout,
-):
+def cast_ray_at_rows(geometry, bodies, shapes, rows, x, y, dx, dy, corners_inout, hits_out, work_inout):
     """Write (row, fraction, normal) of every listed shape that a ray from (x, y) by (dx, dy) [px] hits. Return their
     number.
 
@@ -153,16 +139,7 @@ def cast_ray_at_rows(
 
 
 @kernel
-def cast_ray_at_parts(
-    # read
-    parts,
-    dx,
-    dy,
-    # write
-    corners_inout,
-    hit_out,
-    work_inout,
-):
+def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
     """Write (fraction, normal) to hit_out[1:] for the first part that a ray from the origin by (dx, dy) [px] hits.
 
     Return whether it hits any. parts: Parts. corners_inout (16, 2): scratch. hit_out (4,). O(parts).
@@ -258,21 +235,7 @@ def cast_hull_at_rows(
 
 
 @kernel
-def nearest_hull(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    rows,
-    x,
-    y,
-    # write
-    point_inout,
-    corners_inout,
-    workspace,
-    nearest_out,
-    work_inout,
-):
+def nearest_hull(geometry, bodies, shapes, rows, x, y, point_inout, corners_inout, workspace, nearest_out, work_inout):
     """Write (distance, x, y) [px] of the point of the listed hulls nearest to (x, y). Return its row, -1 without any.
 
     rows: SHAPE rows in order; tiles, masks and chains are left out. Inside a hull the result is 0 and the point itself.

@@ -39,14 +39,7 @@ def is_within_limits(body):
 
 
 @kernel
-def find_moved(
-    # read
-    rows,
-    bodies,
-    # write
-    poses_inout,
-    moved_out,
-):
+def find_moved(rows, bodies, poses_inout, moved_out):
     """List the body rows whose pose differs from the last one read, and store the new poses. Return their number.
     O(rows).
 
@@ -68,17 +61,7 @@ def find_moved(
 
 
 @kernel
-def find_loose(
-    # read
-    rows,
-    bodies,
-    shapes,
-    proxies,
-    known,
-    # write
-    row_of_slot_inout,
-    loose_out,
-):
+def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_out):
     """List the shape rows that the broad phase may not find, and the row of each slot (-1: none). Return their number.
     O(rows).
 

@@ -322,17 +322,7 @@ def write_hull(geometry, shapes, row, x, y, angle, corners_out):
 
 
 @kernel
-def missing_rasters(
-    # read
-    rows,
-    bodies,
-    shapes,
-    rasters,
-    raster_of,
-    dt,
-    # write
-    missing_out,
-):
+def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
     """List (mask, bucket) of the masks at an angle not drawn yet, now or at the end of the step.
 
     rows: of shapes; bodies: BODY rows, shapes: SHAPE rows; dt [s]; missing_out (capacity, 2) int64. Returns the number;
@@ -382,14 +372,7 @@ def place_mask(rasters, raster_of, body, shape_inout):
 
 
 @kernel
-def place_masks(
-    # read
-    rows,
-    geometry,
-    bodies,
-    # write
-    shapes_inout,
-):
+def place_masks(rows, geometry, bodies, shapes_inout):
     """Write the raster of the masks in these rows at their bodies' poses, and its pixel column and row. O(rows)."""
     for k in range(len(rows)):
         s = shapes_inout[rows[k]]
@@ -401,14 +384,7 @@ def place_masks(
 
 
 @subkernel
-def refresh_boxes(
-    # read
-    rows,
-    geometry,
-    bodies,
-    # write
-    shapes_inout,
-):
+def refresh_boxes(rows, geometry, bodies, shapes_inout):
     """Write the tight AABB of the shapes in these rows at their bodies' poses, and the raster of a snapped mask.
     O(rows).
     """
@@ -447,13 +423,6 @@ def refresh_boxes(
 
 
 @kernel
-def refresh_aabbs(
-    # read
-    rows,
-    geometry,
-    bodies,
-    # write
-    shapes_inout,
-):
+def refresh_aabbs(rows, geometry, bodies, shapes_inout):
     """Write the tight AABBs of the shapes in these rows, see refresh_boxes. O(rows)."""
     refresh_boxes(rows, geometry, bodies, shapes_inout)
