@@ -203,9 +203,7 @@ class Background:
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
     def _urgency(self, waiting):
-        """Return the time spent in kernels of one code, divided by the amount of code to compile: their own, and parts
-        that are new.
-        """
+        """Return the time spent in kernels of one code over the amount to compile: their own, and new parts."""
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
 

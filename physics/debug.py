@@ -50,9 +50,7 @@ LINES = (POLYGON, CAPSULE, SEGMENT, CHAIN)
 
 
 class Structure(NamedTuple):
-    """The data structure of a broad phase: cells or node boxes with their depth, or intervals (axis, low, high, shape
-    id).
-    """
+    """The data structure of a broad phase: cells or node boxes with depth, or intervals (axis, low, high, id)."""
 
     kind: str  # brute, sweep, hash, tree
     rects: np.ndarray  # (m, 4) min_x min_y max_x max_y
@@ -266,9 +264,7 @@ def _drawn(world, rows):
 
 
 def mask_hits(world: World) -> list:
-    """Return (left, top, shared[row, col]) of every candidate pair of masks that share pixels now: the result of the
-    AND.
-    """
+    """Return (left, top, shared[row, col]) of every candidate pair of masks that share pixels now."""
     found = []
     rows = _candidate_rows(world)
     world.queries.refresh(world)

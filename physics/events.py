@@ -226,9 +226,7 @@ class Pairs:
         slop: float,
         hit_speed: float,
     ) -> Changes | None:
-        """Read the contacts of a step and return the changes. Return None, and change nothing, where a child shape
-        touches.
-        """
+        """Return the changes by the contacts of a step; None, without any change, where a child shape touches."""
         if self.count + len(contacts) > len(self.compared.keep):
             self._grow(2 * (self.count + len(contacts)))
         compared, changes = self.compared, self.changes

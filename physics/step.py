@@ -248,9 +248,7 @@ def next_span(span: float, dt: float, usual: float) -> float:
 
 
 def step_length(world: WorldState, dt: float | None) -> float:
-    """Return the length [s] of a step: world.dt for None, 0 for one that is too short to be computed. Raises
-    ValueError.
-    """
+    """Return the length [s] of a step: world.dt for None, 0 if too short to be computed. Raises ValueError."""
     dt = world.dt if dt is None else checks.number("dt", dt, low=0.0)
     return 0.0 if dt < SHORTEST_STEP else dt
 

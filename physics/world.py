@@ -264,9 +264,7 @@ class World(WorldState):
         )
 
     def remove_body(self, body: Body | int) -> None:
-        """Remove a body, given as a Body or an id. Raises KeyError if the world has no such body, TypeError,
-        ValueError.
-        """
+        """Remove a body, given as a Body or an id. Raises KeyError for an unknown body, TypeError, ValueError."""
         self._remove([self._identity("body", body)])
 
     def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
@@ -293,9 +291,7 @@ class World(WorldState):
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
     def digest(self) -> str:
-        """Return the blake2b-128 hash of the state that the next step depends on. It is independent of rows, times and
-        broad phase.
-        """
+        """Return the blake2b-128 hash of the state that the next step depends on, independent of rows and times."""
         return digest(self)
 
     def snapshot(self) -> Snapshot:
@@ -520,9 +516,7 @@ class World(WorldState):
     # --- queries: see queries/casts.py for what each returns --------------------------------------------------------
 
     def body(self, identity: Body | int) -> Body:
-        """Return the Body of an id, or of a Body. Raises KeyError for a body that is not in the world, TypeError,
-        ValueError.
-        """
+        """Return the Body of an id, or of a Body. Raises KeyError for an unknown body, TypeError, ValueError."""
         identity = self._identity("identity", identity)
         self._row_number(identity)
         return Body(self, identity)

@@ -356,10 +356,7 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
 
 @kernel
 def list_outside(rows, bodies, shapes, proxies, rows_out):
-    """List the shape rows whose AABB, as drawn, extends beyond their swept AABB. Return their number.
-
-    O(rows).
-    """
+    """List the shape rows whose AABB, as drawn, extends beyond their swept AABB. Return their number. O(rows)."""
     found = 0
     for k in range(len(rows)):
         s = shapes[rows[k]]

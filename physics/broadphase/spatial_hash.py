@@ -48,8 +48,7 @@ def bucket_at(level, cell_x, cell_y, mask):
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level whose cells are as large as the box; LEVELS if there is none or the box is too far
-    out."""
+    """Return the finest level with cells as large as the box; LEVELS without one or for a box too far out."""
     extent = max(upper_x - lower_x, upper_y - lower_y)
     size = base
     level = 0
@@ -502,8 +501,7 @@ class SpatialHashGrid:
         return SpatialHashGrid(self.cell)
 
     def update(self, arena: Arena) -> None:
-        """Move the changed proxies to their cells; enlarge the table and tune the cell size when the bodies have
-        doubled."""
+        """Move the changed proxies to their cells; enlarge the table and tune the cells when bodies have doubled."""
         proxies = arena.proxies
         changed = arena.changed
         alive = int(self.level_counts.sum()) + len(changed)  # a cheap upper bound

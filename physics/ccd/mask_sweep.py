@@ -71,9 +71,7 @@ def write_square(boxes, k, body, corners_out):
 
 @subkernel
 def pieces_of(shape, body, spans, as_ray):
-    """Return (first rectangle, number of pieces, whether they are rectangles) of a shape. A hull, and the point of a
-    ray, is one piece.
-    """
+    """Return (first rectangle, number of pieces, whether they are rectangles) of a shape; a hull or ray is one."""
     if shape.kind != MASK or (as_ray and body.continuous == RAY):
         return 0, 1, False
     return spans[shape.geometry, 0], spans[shape.geometry, 1], True
@@ -257,9 +255,7 @@ def sweep_squares(geometry, bodies, shapes, motions, row, other, one_way, square
 def first_shared(
     geometry, bodies, shapes, paths, row, other, one_way, squares, cuts_out, workspace, best_out, work_inout
 ):
-    """Write the result of impacts.first_meeting by pixels to best_out (5,): each moves up to its fraction, and then
-    rests.
-    """
+    """Write the result of impacts.first_meeting by pixels to best_out (5,)."""
     p = shapes[row].body_row
     q = shapes[other].body_row
     both = min(bodies[p].fraction, bodies[q].fraction)

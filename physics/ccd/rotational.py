@@ -64,9 +64,7 @@ def new_rotational_workspace() -> RotationalWorkspace:
 
 @subkernel
 def write_motion(motions, body_row, motion_out):
-    """Write start and change of the motion of one body. motions (bodies, 6): centre of mass [px] and angle, at start
-    and end.
-    """
+    """Write start and change of a body's motion. motions (bodies, 6): centre [px], angle, at start and end."""
     motion_out[CENTER_X] = motions[body_row, 0]
     motion_out[CENTER_Y] = motions[body_row, 1]
     motion_out[ANGLE] = motions[body_row, 2]
@@ -569,9 +567,7 @@ def begin_sweep(motion_a, motion_b, workspace, impact_out):
 
 @subkernel
 def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
-    """Return a lower bound [px] of the distance of the hulls in local_a and local_b before they move; below 0 they may
-    touch.
-    """
+    """Return a lower bound [px] of the gap of the hulls in local_a and local_b before they move."""
     r = workspace.advance
     place_at(r.local_a, a_count, r.motion_a, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.a)
     place_at(r.local_b, b_count, r.motion_b, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.b)

@@ -197,9 +197,7 @@ def _look(state, moving, strict=False) -> np.ndarray:
 
 
 def _masks_in(state) -> np.ndarray:
-    """Return the library rows of masks whose candidates are tested by pixels: all without response, otherwise those of
-    sensors.
-    """
+    """Return the library rows of masks tested by pixels: all without response, otherwise those of sensors."""
     if not state.library.masks:
         return NO_ROWS
     rows = state.pairs.rows
@@ -436,9 +434,7 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
 
 
 def _tell(state, met):
-    """Add the impacts to the contacts and the sensed pairs: they begin in this step, though the impulse follows in the
-    next.
-    """
+    """Add impacts to the contacts and sensed pairs: they begin in this step, the impulse follows in the next."""
     if not len(met):
         return
     written = _written(state, met, 0)

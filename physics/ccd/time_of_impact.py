@@ -191,9 +191,7 @@ def sweep_polygons(a, a_count, b, b_count, b_edges, dx, dy, slack):
 
 @subkernel
 def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, slack, corners_inout):
-    """Return (fraction or MISS, normal to the mover) of a moving circle or polygon, or a ray of its centre, against an
-    outline.
-    """
+    """Return (fraction or MISS, normal to the mover) of a circle, polygon or ray of its centre, and an outline."""
     s = shapes[row]
     if s.kind == CIRCLE:
         u, v = rotate(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
@@ -235,9 +233,7 @@ def is_fast(body, dt, only_straight):
 
 @subkernel
 def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
-    """Return (fraction or MISS, normal from other to row) of shape `row` against shape `other`, both moving through dt
-    [s].
-    """
+    """Return (fraction or MISS, normal to `row`) of shape `row` against shape `other`, both moving for dt [s]."""
     s = shapes[row]
     o = shapes[other]
     p = bodies[s.body_row]
@@ -281,9 +277,7 @@ def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
 
 @subkernel
 def is_straight(shape):
-    """Return whether the closed forms here handle a shape; rounded shapes and ground are left to the sweep with
-    rotation.
-    """
+    """Return whether the closed forms here handle a shape; the sweep with rotation handles all others."""
     return shape.kind == CIRCLE or shape.kind == BOUNDS or (shape.kind == POLYGON and shape.radius == 0.0)
 
 
@@ -370,9 +364,7 @@ def find_impacts(
 
 @kernel
 def stop_at_impacts(shapes, candidates, impacts, count, bodies_inout):
-    """Set the free fraction of each body to its first impact with a shape that is no sensor. bodies_inout: BODY rows.
-    O(impacts).
-    """
+    """Set the free fraction of each body to its first impact with a shape that is no sensor. O(impacts)."""
     for i in range(count):
         pair = int(impacts[i, 0])
         a = shapes[candidates[pair, 0]]
@@ -478,9 +470,7 @@ def reach_of(local, count):
 
 @subkernel
 def along(corners, motion, fraction, k, x, y, nx, ny):
-    """Return (place along n [px], velocity along n, curvature bound) of corner k at a fraction. x, y: origin of the
-    corners.
-    """
+    """Return (place along n [px], velocity along n, curvature bound) of corner k, seen from (x, y)."""
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
     turn = motion[TURN]
@@ -541,9 +531,7 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 
 @subkernel
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
-    """Return the speed along n [px per motion] of the point of a body at (x, y), seen from the start of another's
-    motion.
-    """
+    """Return the speed along n [px per motion] of a body's point at (x, y), from the start of another's motion."""
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
     return nx * (motion[MOVE_X] - motion[TURN] * arm_y) + ny * (motion[MOVE_Y] + motion[TURN] * arm_x)
@@ -551,9 +539,7 @@ def speed_of(motion, seen_from, fraction, x, y, nx, ny):
 
 @subkernel
 def touching_span(corners, count, nx, ny, side, band):
-    """Return (low, high) along the tangent (-ny, nx) of the corners that lie furthest along side · n, within a band
-    [px].
-    """
+    """Return (low, high) along the tangent (-ny, nx) of the corners furthest along side · n, within a band [px]."""
     furthest = -math.inf
     for k in range(count):
         furthest = max(furthest, side * (nx * corners[k, 0] + ny * corners[k, 1]))

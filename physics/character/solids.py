@@ -396,9 +396,7 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 @subkernel
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
-    """Return (depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs, through its free
-    edges.
-    """
+    """Return (depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs."""
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
     if count == 1:

@@ -57,9 +57,7 @@ def rise_onto(walk, me, rows, direction, slope):
 
 @subkernel
 def way_aside(walk, me, rows, direction):
-    """Return (pixels up by which a character can go one pixel to a side, or -1; the shape row that blocks it or -1;
-    slope).
-    """
+    """Return (pixels up to go one pixel to a side, or -1; the shape row that blocks it or -1; slope)."""
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
     if what == FREE:
@@ -94,9 +92,7 @@ def drop_onto(walk, me, rows, left, onto):
 
 @subkernel
 def is_wedged(walk, me, rows, slope):
-    """Return whether a character on ground too steep cannot slide down, because a solid stands at the foot of the
-    slope.
-    """
+    """Return whether a solid at the foot of a slope keeps a character from sliding down."""
     c = walk.characters[me]
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk, me, rows, c.left + side, c.top, side, 0, 0.0)
@@ -105,9 +101,7 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """Return the slope of the ground that a character slides down, within its fall on one pixel along; 0 if there is
-    none.
-    """
+    """Return the slope of the ground that a character slides down, within its fall on one pixel; 0 for none."""
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
         what, by, found = blocked_at(walk, me, rows, c.left, c.top + drop, 0, drop, 0.0)
@@ -170,9 +164,7 @@ def tile_slope(walk, row, x, y):
 
 @subkernel
 def slope_under_box(walk, me, row):
-    """Return the slope of the tile under the middle of a box's feet. At the end of a slope, a foot beside it still
-    stands on it.
-    """
+    """Return the slope of the tile under the middle of a box's feet, or under a foot beside it."""
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
     slope = tile_slope(walk, row, c.left + 0.5 * c.width, bottom)
@@ -327,9 +319,7 @@ def keep_still(walk, rows_inout):
 
 @subkernel
 def is_inside(me, walk_inout):
-    """Return whether a character overlaps a static solid. walk_inout.found: the shapes near it, of which the static
-    ones are kept. O(solids near).
-    """
+    """Return whether a character overlaps a static solid. walk_inout.found: the shapes near. O(solids near)."""
     c = walk_inout.characters[me]
     keep_still(walk_inout, walk_inout.found)
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top, 0, 0, 0.0)
@@ -675,9 +665,7 @@ def walk(me, dx, dy, walk_inout, moved_out):
 
 @kernel
 def is_stopped(me, along_x, along_y, walk_inout):
-    """Return whether a character cannot move a single pixel; it is not moved. along_x, along_y: -1, 0 or 1. O(solids
-    near).
-    """
+    """Return whether a character cannot move a pixel along_x, along_y (-1, 0 or 1); it is not moved."""
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)
     if along_x != 0:

@@ -229,8 +229,7 @@ def neighbour_separates(points, nx, ny, hull, x, y, face):
 
 @subkernel
 def push_at_open_end(link, points, hull, face, margin, manifold_out):
-    """Write one point on the plane across an open end if its separation exceeds `face` [px]. Return the number of
-    points."""
+    """Write one point on the plane across an open end if it is further than `face` [px]. Return the points."""
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
     best = face

@@ -358,8 +358,7 @@ def clamp(value, low, high):
 
 @subkernel
 def collide_aabb_corners(a, b, margin, manifold_out):
-    """Write one point between the nearest corners of two boxes separated along both axes. Return the number of
-    points."""
+    """Write one point between the nearest corners of two boxes apart along both axes. Return the points."""
     right = b.min_x > a.max_x
     below = b.min_y > a.max_y
     ax = a.max_x if right else a.min_x

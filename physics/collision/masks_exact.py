@@ -284,8 +284,7 @@ def shared_at(pair, u, v):
 
 @subkernel
 def area_normal(pair, area):
-    """Return (unit normal in the frame, whether there is one): the direction in which the shared area shrinks
-    fastest."""
+    """Return (unit normal in the frame along which the shared area shrinks fastest, whether there is one)."""
     before, _, _ = shared_at(pair, pair.u - 1.0, pair.v)
     behind, _, _ = shared_at(pair, pair.u + 1.0, pair.v)
     above, _, _ = shared_at(pair, pair.u, pair.v - 1.0)
@@ -351,8 +350,7 @@ def share_no_area(geometry, a, b):
 
 @subkernel
 def is_first_the_frame(geometry, a, b):
-    """Return whether A's raster is the frame of the test of two MASK rows: the unsnapped one, else the one of more
-    area."""
+    """Return whether A's raster is the frame of two MASK rows: the unsnapped one, else that of more area."""
     if a.snap or b.snap:
         return not a.snap
     rasters = geometry.rasters

@@ -67,8 +67,7 @@ def frame_of(a, b, feature, radii):
 
 @subkernel
 def is_corner(polygons, table, body, shape, corner, local_x, local_y):
-    """Return whether a point [px] in body space is the hull core's corner of this number; the number wraps to the
-    first."""
+    """Return whether a point [px] in body space is a hull core's corner; its number wraps to the first."""
     span = polygons[shape.geometry]
     c = table[span.offset + (corner if corner < span.count else 0)]
     return norm(c.x - local_x, c.y - local_y) <= SAME * body.extent
@@ -76,8 +75,7 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, cosine, sine, x, y, nx, ny, inside, behind):
-    """Return a point in body space, moved by `inside` [px] along the normal and `behind` [px] against the tangent
-    (-ny, nx)."""
+    """Return a point in body space, moved `inside` [px] along the normal, `behind` against the tangent."""
     return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, cosine, -sine)
 
 

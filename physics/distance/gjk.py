@@ -208,8 +208,7 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 
 @subkernel
 def write_edge_gap(a, b, i, j, k, m, nx, ny, gap_out):
-    """Write separation and nearest points for the edge of the difference from a[i] - b[j] to a[k] - b[m], with its
-    normal."""
+    """Write separation, normal and nearest points for the edge of the difference a[i] - b[j] to a[k] - b[m]."""
     ex, ey = difference_edge(a, b, i, j, k, m)
     length2 = ex * ex + ey * ey
     t = 0.0
@@ -230,8 +229,7 @@ def write_edge_gap(a, b, i, j, k, m, nx, ny, gap_out):
 
 @subkernel
 def write_nearest(a, b, state, simplex, gap_out):
-    """Write separation, normal and nearest points of the final simplex: edge normal, or direction between two
-    corners."""
+    """Write separation, normal (of the edge, or between two corners) and nearest points of the final simplex."""
     i = int(simplex[0, 0])
     j = int(simplex[0, 1])
     if state[COUNT] == 2.0:

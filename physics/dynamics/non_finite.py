@@ -139,8 +139,7 @@ def take_broken_bodies(rows, course, bodies_inout, broken_out):
 
 @subkernel
 def is_finite_character(character):
-    """Return whether all numbers of a character are finite (x - x == 0 only for finite x) and within the position
-    limit."""
+    """Return whether all numbers of a character are finite (x - x == 0) and within the position limit."""
     c = character
     total = c.offset_x + c.offset_y + c.climb + c.remainder_x + c.remainder_y + c.slope + c.mass + c.push
     total += c.foot_x + c.foot_y + c.carry_x + c.carry_y + c.belt + c.belt_x + c.push_vx + c.push_vy + c.deep

@@ -49,9 +49,7 @@ def inlined(function: Callable) -> Any:
 
 
 def noalias(function: Callable) -> Any:
-    """Return a subkernel whose arrays never overlap (noalias); otherwise a loop that reads one and writes another is
-    not vectorised.
-    """
+    """Return a subkernel whose arrays never overlap (noalias), so that a loop over two of them is vectorised."""
     return Part(function, noalias=True) if JIT else function
 
 

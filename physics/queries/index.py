@@ -30,9 +30,7 @@ ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates: cas
 
 @subkernel
 def is_within_limits(body):
-    """Return whether queries can find a body: it is simulated, and its pose is finite. Another one is quarantined by
-    the next step.
-    """
+    """Return whether queries can find a body: it is simulated, and its pose is finite and within the limits."""
     b = body
     there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < POSITION_LIMIT
     return there and not b.quarantined
@@ -246,9 +244,7 @@ class QueryIndex:
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
     def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Return the shape rows, in order, whose AABB meets a closed box [px] within rounding, without quarantined
-        bodies.
-        """
+        """Return the shape rows, in order, whose AABB meets a closed box [px], without quarantined bodies."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         self.asked.append(box)
@@ -320,9 +316,7 @@ def _nodes(tree, box):
 
 
 def _cells(grid, proxies, box):
-    """Return the cells that the box covers, per level; on a level with fewer bodies than cells, the cells of the
-    bodies.
-    """
+    """Return the cells that the box covers, per level, or those of the level's bodies where these are fewer."""
     found, (x0, y0, x1, y1) = [np.zeros((0, 4))], box
     for level in np.flatnonzero(grid.level_counts).tolist():
         size = grid.base * 2.0**level

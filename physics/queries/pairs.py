@@ -361,9 +361,7 @@ LOOKS = 1024  # steps of shapes that touch and do not approach
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """The result of time_of_impact: hit, the first fraction 0..1 at which they touch, point [px], unit normal from A to
-    B.
-    """
+    """The first impact: hit, fraction 0..1 at which they touch, point [px], unit normal from A to B."""
 
     hit: bool
     fraction: float

@@ -59,9 +59,7 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal) of a ray from (x, y), seen from the centre of a closed disc [px]; 0 for a start
-    inside.
-    """
+    """Return (fraction or MISS, normal) of a ray, seen from the centre of a closed disc [px]; 0 from inside."""
     if x * x + y * y <= radius * radius:
         back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
         return 0.0, back_x, back_y

@@ -265,9 +265,7 @@ def arc_primitives(x, y, radius, angle):
 
 @subkernel
 def next_cut(x, y, radius, width, height, after, until):
-    """Return the first angle after `after`, at most `until`, at which a circle around (x, y) crosses a line of
-    the box.
-    """
+    """Return the first angle in after..until at which a circle around (x, y) crosses a line of the box."""
     best = until
     for side in range(4):
         away = (0.0 - x if side == 0 else width - x) if side < 2 else (0.0 - y if side == 2 else height - y)
@@ -286,9 +284,7 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return the share, as line_share, of the arc around (x, y) [px] from an angle `start` to a larger one
-    `end` [rad].
-    """
+    """Return the share, as line_share, of the arc around (x, y) [px] from `start` to a larger `end` [rad]."""
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
@@ -325,9 +321,7 @@ def arc_share(x, y, radius, start, end, width, height):
 
 @subkernel
 def square_share(x, y, cosine, sine, width, height):
-    """Return (area, moment of x, moment of y) of a rotated unit square around (x, y) in the box 0..width x
-    0..height.
-    """
+    """Return (area, moment of x, moment of y) of a rotated unit square around (x, y) in 0..width x 0..height."""
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0

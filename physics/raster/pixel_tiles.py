@@ -407,9 +407,7 @@ class PixelTiles:
 
     @property
     def bounds(self) -> tuple[int, int, int, int] | None:
-        """Box (left, top, right, bottom) of the solid pixels in the raster, the last two exclusive; None
-        without any.
-        """
+        """Box (left, top, right, bottom) of the solid pixels, the last two exclusive; None without any."""
         if not len(self.nodes):
             return None
         left, top, right, bottom = self._totals[4:]

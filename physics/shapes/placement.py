@@ -55,9 +55,7 @@ def out_of_raster(raster, body, cosine, sine, x, y):
 
 @subkernel
 def raster_of_shape(geometry, shape):
-    """Return the raster row by which a MASK is tested: the one as drawn, or that of the angle 0 if it is not
-    snapped.
-    """
+    """Return the raster row by which a MASK is tested: as drawn, or that of the angle 0 if not snapped."""
     return shape.raster if shape.snap else geometry.raster_of[shape.geometry, 0]
 
 
@@ -143,17 +141,13 @@ def is_drawn_when_asked(shape):
 
 @subkernel
 def drawn_beyond(body, shape):
-    """Return how far [px] the pixels of a SHAPE row may be drawn beyond its AABB; 0 if the AABB is that of the
-    drawing.
-    """
+    """Return how far [px] the pixels of a SHAPE row may be drawn beyond its AABB; 0 if it is the drawing's."""
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel
 def raster_aabb(geometry, raster, x, y):
-    """Return the AABB [px] of the solid pixels of a raster with its body at (x, y); for an empty one the point
-    itself.
-    """
+    """Return the AABB [px] of a raster's solid pixels with its body at (x, y), which an empty one gets."""
     r = geometry.rasters[raster]
     if r.area == 0:
         return x, y, x, y
@@ -315,9 +309,7 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Returns their number and the rounding
-    [px].
-    """
+    """Write the world corners [px] of a hull to corners_out (16, 2). Return their number and the rounding [px]."""
     return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
@@ -385,9 +377,7 @@ def place_masks(rows, geometry, bodies, shapes_inout):
 
 @subkernel
 def refresh_boxes(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABB of the shapes in these rows at their bodies' poses, and the raster of a snapped mask.
-    O(rows).
-    """
+    """Write the tight AABBs of the shapes in these rows, and the raster of a snapped mask. O(rows)."""
     polygons = geometry.polygons
     table = geometry.corners
     rasters = geometry.rasters
