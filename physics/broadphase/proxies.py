@@ -57,6 +57,12 @@ def may_meet(proxies, a, b, work_inout):
 
 
 @subkernel
+def meets_box(row, box):
+    """Return whether the box of a row meets another closed box (lower x, y, upper x, y) [px]."""
+    return row.lower_x <= box[2] and row.upper_x >= box[0] and row.lower_y <= box[3] and row.upper_y >= box[1]
+
+
+@subkernel
 def write_pair(a, b, found, pairs_out):
     """Write a pair of slots if there is room, and return the new count, which may exceed the capacity.
 

@@ -170,14 +170,16 @@ def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
 
 
 @kernel
-def near_in_order(order, boxes, highest, lower, upper, other_lower, other_upper, slots_out, work_inout):
+def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
     """List the slots whose box meets a closed box, by binary search along the sorted axis. Return their number.
 
-    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: low and high along the axis, along the other;
-    highest (n,) [px]: running maximum of the high ends, by which boxes that end before the query are skipped. One giant
-    at the start defeats that. O(log n + boxes between).
+    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: low and high along the axis (0: x), along the
+    other; highest (n,) [px]: running maximum of the high ends, by which boxes that end before the query are skipped.
+    One giant at the start defeats that. O(log n + boxes between).
     """
     count = len(order)
+    lower = box[axis]
+    upper = box[axis + 2]
     first = 0
     last = count
     while first < last:
@@ -191,7 +193,7 @@ def near_in_order(order, boxes, highest, lower, upper, other_lower, other_upper,
     k = first
     while k < count and boxes[k, 0] <= upper:
         work_inout[PAIRS_TESTED] += 1
-        if boxes[k, 1] >= lower and boxes[k, 2] <= other_upper and boxes[k, 3] >= other_lower:
+        if boxes[k, 1] >= lower and boxes[k, 2] <= box[3 - axis] and boxes[k, 3] >= box[1 - axis]:
             slots_out[found] = order[k]
             found += 1
         k += 1
@@ -237,18 +239,7 @@ class Axis:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
-        other = 1 - self.axis
-        return near_in_order(
-            self.order,
-            self.boxes,
-            self.highest,
-            box[self.axis],
-            box[self.axis + 2],
-            box[other],
-            box[other + 2],
-            slots,
-            work,
-        )
+        return near_in_order(self.order, self.boxes, self.highest, self.axis, box, slots, work)
 
     def sweep(self, arena: Arena, pairs: np.ndarray, work: np.ndarray) -> int:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)

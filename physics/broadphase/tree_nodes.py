@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from physics.broadphase.proxies import overlaps, write_pair
+from physics.broadphase.proxies import meets_box, overlaps, write_pair
 from physics.jit import inlined, kernel, subkernel
 from physics.tables.step_state import NODES_VISITED
 
@@ -329,11 +329,12 @@ def write_bvh4(nodes, still, fours_out, kin_out):
 
 
 @inlined
-def push_met(bvh4, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_out):
+def push_met(bvh4, kin, at, box, depth, stack_out):
     """Push those of a BVH4 node's children that overlap a closed box [px] on a stack. Return its new depth.
 
     There is no branch: the next child overwrites one that does not overlap.
     """
+    lower_x, lower_y, upper_x, upper_y = box
     for lane in range(WIDTH):
         k = at * SIZE + lane
         meets = (
@@ -511,7 +512,7 @@ def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, 
 
 
 @kernel
-def query_trees(nodes, roots, lower_x, lower_y, upper_x, upper_y, stack_inout, slots_out, work_inout):
+def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
     """List the slots whose leaf meets a closed box [px], from the roots down. Return their number. O(log n + found)."""
     found = 0
     depth = 0
@@ -523,7 +524,7 @@ def query_trees(nodes, roots, lower_x, lower_y, upper_x, upper_y, stack_inout, s
         depth -= 1
         n = nodes[stack_inout[depth]]
         work_inout[NODES_VISITED] += 1
-        if n.lower_x > upper_x or n.upper_x < lower_x or n.lower_y > upper_y or n.upper_y < lower_y:
+        if not meets_box(n, box):
             continue
         if n.height > 0:
             stack_inout[depth] = n.child_a
@@ -559,12 +560,13 @@ def find_pairs_in_bvh4(proxies, changed, nodes, bvh4, kin, state, stack_inout, p
                     found = write_pair(a, b, found, pairs_out)
                 continue
             work_inout[NODES_VISITED] += 1
-            depth = push_met(bvh4, kin, at, p.lower_x, p.lower_y, p.upper_x, p.upper_y, depth, stack_inout)
+            box = (p.lower_x, p.lower_y, p.upper_x, p.upper_y)
+            depth = push_met(bvh4, kin, at, box, depth, stack_inout)
     return found
 
 
 @kernel
-def query_bvh4(nodes, bvh4, kin, roots, lower_x, lower_y, upper_x, upper_y, stack_inout, slots_out, work_inout):
+def query_bvh4(nodes, bvh4, kin, roots, box, stack_inout, slots_out, work_inout):
     """List the same slots as query_trees, four boxes at a time. Return their number. O(log n + found)."""
     found = 0
     depth = 0
@@ -577,7 +579,7 @@ def query_bvh4(nodes, bvh4, kin, roots, lower_x, lower_y, upper_x, upper_y, stac
             depth += 1
         else:
             work_inout[NODES_VISITED] += 1
-            if n.lower_x <= upper_x and n.upper_x >= lower_x and n.lower_y <= upper_y and n.upper_y >= lower_y:
+            if meets_box(n, box):
                 slots_out[found] = n.slot
                 found += 1
     while depth > 0:
@@ -588,5 +590,5 @@ def query_bvh4(nodes, bvh4, kin, roots, lower_x, lower_y, upper_x, upper_y, stac
             found += 1
             continue
         work_inout[NODES_VISITED] += 1
-        depth = push_met(bvh4, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_inout)
+        depth = push_met(bvh4, kin, at, box, depth, stack_inout)
     return found

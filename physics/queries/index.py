@@ -94,27 +94,13 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
 
 
 @kernel
-def rows_meeting(
-    # read
-    shapes,
-    row_of_slot,
-    slots,
-    slot_count,
-    loose,
-    loose_count,
-    lower_x,
-    lower_y,
-    upper_x,
-    upper_y,
-    # write
-    rows_out,
-    work_inout,
-):
+def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
     """List the rows of the slots, and the loose rows, whose AABB meets a closed box [px]. Return their number."""
+    lower_x, lower_y, upper_x, upper_y = box
     found = 0
-    for k in range(slot_count + loose_count):
-        if k >= slot_count:
-            row = loose[k - slot_count]
+    for k in range(len(slots) + len(loose)):
+        if k >= len(slots):
+            row = loose[k - len(slots)]
             work_inout[PAIRS_TESTED] += 1
         else:
             row = row_of_slot[slots[k]]
@@ -251,9 +237,8 @@ class QueryIndex:
         found = 0
         if self.asks_broadphase(world):
             found = world.broadphase.query_box(world.pairs.proxies, box, self.slots, self.work)
-        count = rows_meeting(
-            world.shapes, self.row_of_slot, self.slots, found, self.loose, self.loose_count, *box, self.rows, self.work
-        )
+        slots, loose = self.slots[:found], self.loose[: self.loose_count]
+        count = rows_meeting(world.shapes, self.row_of_slot, slots, loose, box, self.rows, self.work)
         return np.sort(self.rows[:count])
 
 
@@ -318,20 +303,19 @@ def _nodes(tree, box):
 def _cells(grid, proxies, box):
     """Return the cells that the box covers, per level, or those of the level's bodies where these are fewer."""
     found, (x0, y0, x1, y1) = [np.zeros((0, 4))], box
-    for level in np.flatnonzero(grid.level_counts).tolist():
+    for level in np.flatnonzero(grid.lists.level_counts).tolist():
         size = grid.base * 2.0**level
         if level < LEVELS and max(map(abs, box)) < CELL_RANGE * size:
             left, top, right, bottom = (floor(each * (1.0 / size)) for each in box)
-            if (right - left + 1) * (bottom - top + 1) <= grid.level_counts[level] + 4 and (x1 - x0) / size + (
-                y1 - y0
-            ) / size <= grid.level_counts[level] + 4:
+            most = grid.lists.level_counts[level] + 4
+            if (right - left + 1) * (bottom - top + 1) <= most and (x1 - x0) / size + (y1 - y0) / size <= most:
                 y, x = np.mgrid[top : bottom + 1, left : right + 1].reshape(2, -1) * size
                 found.append(np.stack([x, y, x + size, y + size], axis=1))
                 continue
-        slots, slot = [], int(grid.level_heads[level])
+        slots, slot = [], int(grid.lists.level_heads[level])
         while slot >= 0:
             slots.append(slot)
-            slot = int(grid.lists[slot, 1])
+            slot = int(grid.lists.lists[slot, 1])
         found.append(_boxes(proxies[slots]))
     return np.concatenate(found)
 
