@@ -14,6 +14,7 @@ from physics.collision.hulls import (
     distance_to_edge,
     find_max_separation,
     least_separation,
+    middle_of,
     move_corners,
     nearest_corners,
     part_feature,
@@ -289,11 +290,7 @@ def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out)
     count = hull.count
     radius = hull.radius
     face_hull = Hull(points, 2, 0.0, ALL_EDGES)
-    x = 0.0
-    y = 0.0
-    for k in range(count):
-        x += corners[k, 0] / count
-        y += corners[k, 1] / count
+    x, y = middle_of(corners, count)
     manifold_out[0] = 0.0
     if is_behind(link, points, x, y):
         return 0

@@ -108,6 +108,17 @@ def edge_normal(corners, count, k):
 
 
 @subkernel
+def middle_of(corners, count):
+    """Return the mean of so many corners [px]."""
+    x = 0.0
+    y = 0.0
+    for k in range(count):
+        x += corners[k, 0] / count
+        y += corners[k, 1] / count
+    return x, y
+
+
+@subkernel
 def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     """Return whether a corner is the nearest point of the outline to a point in the unit direction (nx, ny) from it.
 

@@ -411,18 +411,17 @@ def _first(a, move_a, b, move_b):
         x, y = (move_b[0][0] - move_a[0][0]) + (bx - ax), (move_b[0][1] - move_a[0][1]) + (by - ay)
         dx, dy = ((move_b[1][k] - move_b[0][k]) - (move_a[1][k] - move_a[0][k]) for k in (0, 1))
         return sweep_circles(x, y, dx, dy, a.radius + b.radius)
-    workspace, found, totals = new_rotational_workspace(), np.zeros(3), np.zeros(2)
-    parts_a, motion_a = _local(a, move_a)
+    workspace, found = new_rotational_workspace(), np.zeros(3)
+    parts_a, workspace.advance.motion_a[:] = _local(a, move_a)
     if b._is_ground:
         library = Library()
         row = library.add(b)[1]
-        advance_on_ground(
-            library.tables, row, int(b._kind == CHAIN), parts_a, motion_a, _motion(move_b), workspace, found, totals
-        )
+        workspace.advance.motion_b[:] = _motion(move_b)
+        advance_on_ground(library.tables, row, int(b._kind == CHAIN), parts_a, workspace, found)
     else:
-        parts_b, motion_b = _local(b, move_b)
+        parts_b, workspace.advance.motion_b[:] = _local(b, move_b)
         sweep = sweep_unions if MASK in (a._kind, b._kind) else advance_parts
-        sweep(parts_a, parts_b, motion_a, motion_b, workspace, found, totals)
+        sweep(parts_a, parts_b, workspace, found)
     return found.tolist()
 
 
