@@ -18,7 +18,7 @@ from physics.contacts.cache import update_contacts, update_contacts_at_final_pos
 from physics.contacts.matching import ContactCache, find_contacts
 from physics.contacts.sensors import sense
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, refresh_centers
-from physics.dynamics.non_finite import REASONS, quarantine, quarantine_solved
+from physics.dynamics.non_finite import quarantine, quarantine_solved
 from physics.edit import check_grid_stands
 from physics.effects import Effects
 from physics.islands import sleep
@@ -227,7 +227,7 @@ class Workspace:
         self.contacts = ContactLanes() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
         self.cache = ContactCache() if stacks else None
-        self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine
+        self._rows, self.broken = np.zeros(16, np.int64), np.zeros((16, 2), np.int64)  # see quarantine
 
     def rows_for(self, count: int) -> np.ndarray:
         """Return room for that many row numbers."""

@@ -134,11 +134,10 @@ def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_ou
 
     rows: SHAPE rows. corners_inout (16, 2): scratch. hits_out (rows, 4).
     """
-    x, y, dx, dy = ray
     found = 0
     for k in range(len(rows)):
         work_inout[NARROW_TESTS] += 1
-        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, rows[k], x, y, dx, dy, corners_inout)
+        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, rows[k], ray, corners_inout)
         if fraction <= 1.0:
             found = write_hit(rows[k], fraction, nx, ny, found, hits_out)
     return found

@@ -1,6 +1,9 @@
 """Masks as unions of pixel squares at any pose: overlap test, shared area and its centroid."""
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from physics.jit import subkernel
 from physics.jit.plain import word
@@ -28,6 +31,19 @@ from physics.raster.bits import (
 # rounding, share no area.
 
 ROUNDED = 2.0**-50  # relative to the size: rounding error of coordinates
+
+
+class SquaresPair(NamedTuple):
+    """Two masks as unions of pixel squares: A, the frame, and B, rotated and moved in the raster of A."""
+
+    rasters: np.ndarray  # RASTER
+    words: np.ndarray  # uint64
+    frame: int  # rows of RASTER
+    other: int
+    u: float  # [px] of B's top left corner
+    v: float
+    cosine: float  # of B's angle
+    sine: float
 
 
 @subkernel
@@ -126,29 +142,31 @@ def square_under(words, a, x, y, cosine, sine, near):
 
 
 @subkernel
-def first_upright(rasters, words, mask_a, mask_b, u, v):
+def first_upright(pair, u, v):
     """Return first_squares for equal angles: a pixel of B covers up to four of A, so up to four ANDs. O(words)."""
-    slack = slack_of(rasters[mask_a], rasters[mask_b])
+    slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     column = math.floor(u + slack)
     row = math.floor(v + slack)
     for down in range(2 if v - row > slack else 1):
         for across in range(2 if u - column > slack else 1):
-            found, x, y = first_pixel(rasters, words, mask_a, mask_b, column + across, row + down)
+            found, x, y = first_pixel(pair.rasters, pair.words, pair.frame, pair.other, column + across, row + down)
             if found:
                 return True, x, y, x - column - across, y - row - down
     return False, 0, 0, 0, 0
 
 
 @subkernel
-def first_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
-    """Return the first overlapping squares found: (found, column and row in A, column and row in B).
+def first_squares(pair, u, v):
+    """Return the first overlapping squares of a SquaresPair with B's corner at u, v [px].
 
-    O(pixels of B within A's bounds) at worst; the first hit ends the search.
+    (found, column and row in A, column and row in B). O(pixels of B within A's bounds) at worst; the first hit ends the
+    search.
     """
+    cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
-        return first_upright(rasters, words, mask_a, mask_b, u, v)
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+        return first_upright(pair, u, v)
+    a = pair.rasters[pair.frame]
+    b = pair.rasters[pair.other]
     reach = reach_of(cosine, sine)
     near = reach - slack_of(a, b)
     left, top, right, bottom = box_in_raster(a, b, u, v, cosine, sine)
@@ -172,19 +190,20 @@ def first_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
 
 
 @subkernel
-def squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, nx, ny, most):
+def squares_way_out(pair, nx, ny, most):
     """Return the least move [px] of B along a unit direction of A's raster that ends the overlap; > most for none.
 
     Two squares overlap on one interval of the move. Each pair found advances the move to the end of its interval, and
     no pair is found twice. O(first_squares · pairs found).
     """
+    cosine, sine = pair.cosine, pair.sine
     reach = reach_of(cosine, sine)
-    slack = slack_of(rasters[mask_a], rasters[mask_b])
+    slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     depth = 0.0
     while depth <= most:
-        x = u + depth * nx
-        y = v + depth * ny
-        found, i, j, column, row = first_squares(rasters, words, mask_a, mask_b, x, y, cosine, sine)
+        x = pair.u + depth * nx
+        y = pair.v + depth * ny
+        found, i, j, column, row = first_squares(pair, x, y)
         if not found:
             return depth
         dx = x + cosine * (column + 0.5) - sine * (row + 0.5) - (i + 0.5)
@@ -366,10 +385,14 @@ def share_under(words, a, x, y, cosine, sine):
 
 
 @subkernel
-def shared_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
-    """Return (area [px2], moment of x, moment of y) that two masks share; moments over area are the centroid."""
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+def shared_squares(pair, u, v):
+    """Return (area [px2], moment of x, moment of y) that a SquaresPair shares with B's corner at u, v [px].
+
+    The moments over the area are the centroid.
+    """
+    cosine, sine, words = pair.cosine, pair.sine, pair.words
+    a = pair.rasters[pair.frame]
+    b = pair.rasters[pair.other]
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
