@@ -537,19 +537,19 @@ def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
 class BodyDef(NamedTuple):
     """The arguments of World.add_body but shapes and motion."""
 
-    kind: str
-    angular_velocity: float
-    mass: float | None
-    material: Material
-    filter: Filter
-    sensor: bool
-    bullet: bool
-    continuous: str
-    fixed_rotation: bool
-    gravity_scale: float
-    allow_sleep: bool
-    tier: str | None
-    user: Any
+    kind: str = "dynamic"
+    angular_velocity: float = 0.0
+    mass: float | None = None
+    material: Material = Material()
+    filter: Filter = Filter.ALL
+    sensor: bool = False
+    bullet: bool = False
+    continuous: str = "auto"
+    fixed_rotation: bool = False
+    gravity_scale: float = 1.0
+    allow_sleep: bool = True
+    tier: str | None = None
+    user: Any = None
 
 
 def add_rows(

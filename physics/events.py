@@ -289,20 +289,11 @@ class Events:
 @stage(
     "events",
     reads=(
-        "effects",
-        "tolerances",
-        "bodies",
-        "contact_rows",
-        "sensed",
-        "fell_asleep",
-        "touching",
-        "sensing",
-        "sleeping_set",
-        "events",
-        "reported",
+        "effects", "tolerances", "bodies", "contact_rows", "sensed", "fell_asleep", "touching", "sensing",
+        "sleeping_set", "events", "reported",
     ),
     writes=("touching", "sensing", "sleeping_set", "events", "reported", "work"),
-)
+)  # fmt: skip
 def report_events(state: StepState) -> None:
     """Compare the pairs that touch with those of the step before, and report the changes."""
     contacts, events, tolerances, effects = state.contact_rows, state.events, state.tolerances, state.effects

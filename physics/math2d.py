@@ -31,6 +31,12 @@ def unit(x, y, fallback_x, fallback_y):
 
 
 @subkernel
+def clamp(value, low, high):
+    """Return the value clamped to low..high."""
+    return max(low, min(high, value))
+
+
+@subkernel
 def norm(x, y):
     """Return the length of a vector, without overflow."""
     largest = max(abs(x), abs(y))

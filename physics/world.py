@@ -217,21 +217,14 @@ class World(WorldState):
         positions: ArrayLike,
         velocities: ArrayLike | None = None,
         angles: ArrayLike | None = None,
-        kind: str = "dynamic",
-        angular_velocity: float = 0.0,
-        mass: float | None = None,
-        material: Material = PLAIN,
-        filter: Filter = Filter.ALL,
-        sensor: bool = False,
-        bullet: bool = False,
-        continuous: str = "auto",
-        fixed_rotation: bool = False,
-        gravity_scale: float = 1.0,
-        allow_sleep: bool = True,
-        tier: str | None = None,
-        user: Any = None,
+        **definition: Any,
     ) -> np.ndarray:
-        """Add a body of the same shape at each of positions (n, 2) [px] and return their ids. Raises as add_body."""
+        """Add a body of the same shape at each of positions (n, 2) [px] and return their ids.
+
+        definition: the other arguments of add_body, the same for all. Raises as add_body.
+        """
+        for name in sorted(definition.keys() - set(edit.BodyDef._fields)):
+            raise TypeError(f"World.add_bodies() got an unexpected keyword argument {name!r}")
         positions = checks.columns("positions", positions)
         if np.any(np.abs(positions) >= POSITION_LIMIT):
             raise ValueError(
@@ -240,28 +233,7 @@ class World(WorldState):
         n = len(positions)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
-        return edit.add_rows(
-            self,
-            (shape,),
-            positions,
-            velocities,
-            angles,
-            edit.BodyDef(
-                kind,
-                angular_velocity,
-                mass,
-                material,
-                filter,
-                sensor,
-                bullet,
-                continuous,
-                fixed_rotation,
-                gravity_scale,
-                allow_sleep,
-                tier,
-                user,
-            ),
-        )
+        return edit.add_rows(self, (shape,), positions, velocities, angles, edit.BodyDef(**definition))
 
     def remove_body(self, body: Body | int) -> None:
         """Remove a body, given as a Body or an id. Raises KeyError for an unknown body, TypeError, ValueError."""

@@ -10,7 +10,7 @@ from physics.jit import kernel, subkernel
 from physics.math2d import norm
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, STEPS_AHEAD
 from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import drawn_beyond, is_drawn_when_asked, refresh_boxes, snapped
+from physics.shapes.placement import PLACED, drawn_beyond, is_drawn_when_asked, refresh_boxes, snapped
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import PIXELS, PROXY
 from physics.tables.step_state import COUNTERS, FILTERED, PAIRS_TESTED, StepState, WorldTables, stage
@@ -396,12 +396,7 @@ def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
 @stage(
     "motion_rectangles",
     reads=("effects", "stacks", "tolerances", "gravity", "dt", "awake", "bodies", "shapes", "library", "pairs"),
-    writes=(
-        "pairs",
-        "changed_count",
-        "library",
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
-    ),
+    writes=("pairs", "changed_count", "library", *PLACED),
 )
 def motion_rectangles(state: StepState) -> None:
     """Update the AABBs, and the swept AABBs that no longer fit."""

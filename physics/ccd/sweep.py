@@ -27,6 +27,7 @@ from physics.islands.sleep import in_order, order_of
 from physics.jit import kernel
 from physics.math2d import rotate
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
+from physics.shapes.placement import PLACED
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.contact import CONTACT
 from physics.tables.shape import CHAIN, MASK, TILES
@@ -182,7 +183,6 @@ def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
 
 
 FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "workspace")
-PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))

@@ -7,7 +7,8 @@ import numpy as np
 
 from physics.distance.gjk import support
 from physics.jit import subkernel
-from physics.math2d import norm, unit
+from physics.math2d import clamp, norm, unit
+from physics.shapes.placement import box_corners
 from physics.tables.shape import TURNS
 
 # ---- features --------------------------------------------------------------------------------------------------------
@@ -334,20 +335,6 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
 
 
 @subkernel
-def box_corners(min_x, min_y, max_x, max_y, corners_out):
-    """Write the corners [px] of a box, clockwise on the screen from the top left. Return their number."""
-    corners_out[0, 0] = min_x
-    corners_out[0, 1] = min_y
-    corners_out[1, 0] = max_x
-    corners_out[1, 1] = min_y
-    corners_out[2, 0] = max_x
-    corners_out[2, 1] = max_y
-    corners_out[3, 0] = min_x
-    corners_out[3, 1] = max_y
-    return 4
-
-
-@subkernel
 def aabb_corners(shape, corners_out):
     """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Return their number."""
     return box_corners(shape.min_x, shape.min_y, shape.max_x, shape.max_y, corners_out)
@@ -359,12 +346,6 @@ def move_corners(count, x, y, corners_inout):
     for k in range(count):
         corners_inout[k, 0] += x
         corners_inout[k, 1] += y
-
-
-@subkernel
-def clamp(value, low, high):
-    """Return the value, clamped to low..high."""
-    return max(low, min(high, value))
 
 
 @subkernel

@@ -7,7 +7,6 @@ from physics.collision.hull_pairs import is_grazing
 from physics.collision.hulls import (
     ALL_EDGES,
     Hull,
-    box_corners,
     collide_hull_circle,
     collide_hulls,
     edge_normal,
@@ -17,6 +16,7 @@ from physics.collision.hulls import (
 from physics.collision.manifold import GRID_ANY, add_point, add_points, hull_of, make_pass, sides_by_kind
 from physics.collision.masks_exact import collide_mask_part, tested_aabb
 from physics.jit import inlined, subkernel
+from physics.shapes.placement import box_corners
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE, SOLID
 from physics.tables.shape import MASK, TILES
 from physics.tables.step_state import MASK_TESTS

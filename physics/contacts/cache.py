@@ -7,7 +7,7 @@ from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of, unit
 from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE, RECYCLE_WANDER
 from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import is_hull, refresh_boxes
+from physics.shapes.placement import PLACED, is_hull, refresh_boxes
 from physics.tables.contact import CORES, UPRIGHT, WITH_A, WITH_B
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 from physics.tables.step_state import StepState, stage
@@ -452,12 +452,7 @@ def update_final_poses(shape_rows, geometry, distance, bodies_inout, shapes_inou
 @stage(
     "final_poses",
     reads=("tolerances", "awake", "bodies", "shapes", "library", "contact_rows"),
-    writes=(
-        "contact_rows",
-        "library",
-        "bodies.has_current_contacts",
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
-    ),
+    writes=("contact_rows", "library", "bodies.has_current_contacts", *PLACED),
 )
 def update_contacts_at_final_poses(state: StepState) -> None:
     """Update boxes, and points, normals and separations of contacts, to the final poses."""

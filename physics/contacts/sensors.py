@@ -7,6 +7,7 @@ from physics.collision.hull_pairs import measure_approach
 from physics.collision.narrow_phase import SENSORS
 from physics.islands.sleep import in_order
 from physics.jit import kernel
+from physics.shapes.placement import PLACED
 from physics.tables.contact import CONTACT
 from physics.tables.step_state import StepState, stage
 from physics.tables.table import joined
@@ -36,16 +37,7 @@ def is_any_sensor(pairs, shapes):
         "swept_sensors",
         "workspace",
     ),
-    writes=(
-        "sensed",
-        "swept_sensors",
-        "pairs",
-        "broadphase",
-        "work",
-        "workspace",
-        "library",
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
-    ),
+    writes=("sensed", "swept_sensors", "pairs", "broadphase", "work", "workspace", "library", *PLACED),
 )
 def sense(state: StepState) -> None:
     """Detect sensor overlaps at the final poses, and add those of the sweeps."""

@@ -11,7 +11,7 @@ import numpy as np
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate, rotation_of
 from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import refresh_aabbs
+from physics.shapes.placement import PLACED, refresh_aabbs
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.step_state import BODIES_INTEGRATED, StepState, stage
 
@@ -150,7 +150,7 @@ def integrate_velocities(state: StepState) -> None:
         *(f"bodies.{name}" for name in ("x", "y", "angle", "previous_x", "previous_y", "previous_angle")),
         *(f"bodies.{name}" for name in ("center_x", "center_y", "has_current_contacts")),
         *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+        *PLACED,
     ),
 )
 def integrate_positions(state: StepState) -> None:

@@ -19,21 +19,9 @@ from physics.jit.plain import JIT, Builtin, copy_head, copy_row, popcount, put_i
 from physics.jit.tiers import StageKernel
 
 __all__ = [
-    "Builtin",
-    "DECORATORS",
-    "JIT",
-    "copy_head",
-    "copy_row",
-    "generic",
-    "inlined",
-    "kernel",
-    "popcount",
-    "put_in",
-    "registry",
-    "noalias",
-    "subkernel",
-    "word",
-]
+    "Builtin", "DECORATORS", "JIT", "copy_head", "copy_row", "generic", "inlined", "kernel", "popcount", "put_in",
+    "registry", "noalias", "subkernel", "word",
+]  # fmt: skip
 
 DECORATORS = ("generic", "inlined", "kernel", "noalias", "subkernel")  # by name, for what reads sources
 

@@ -11,8 +11,8 @@ from physics.broadphase.spatial_hash import CELL_RANGE, LEVELS, SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.broadphase.tree_nodes import ROOT_MOVING
 from physics.checks import Pair
+from physics.dynamics.non_finite import is_within_limits
 from physics.jit import kernel, subkernel
-from physics.settings import POSITION_LIMIT
 from physics.shapes.library import add_missing_rasters
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.step_state import COUNTERS, PAIRS_TESTED, WorldTables
@@ -29,11 +29,9 @@ ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates: cas
 
 
 @subkernel
-def is_within_limits(body):
+def is_found(body):
     """Return whether queries can find a body: it is simulated, and its pose is finite and within the limits."""
-    b = body
-    there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < POSITION_LIMIT
-    return there and not b.quarantined
+    return is_within_limits(body) and not body.quarantined
 
 
 @kernel
@@ -47,7 +45,7 @@ def find_moved(rows, bodies, poses_inout, moved_out):
     for n in range(len(rows)):
         k = rows[n]
         b = bodies[k]
-        if not is_within_limits(b):
+        if not is_found(b):
             continue
         if poses_inout[k, 0] != b.x or poses_inout[k, 1] != b.y or poses_inout[k, 2] != b.angle:
             poses_inout[k, 0] = b.x
@@ -70,7 +68,7 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
     for n in range(len(rows)):
         row = rows[n]
         s = shapes[row]
-        if not is_within_limits(bodies[s.body_row]):
+        if not is_found(bodies[s.body_row]):
             if s.proxy >= 0:
                 row_of_slot_inout[s.proxy] = -1
             continue

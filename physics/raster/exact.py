@@ -7,6 +7,7 @@ import numpy as np
 
 from physics.jit import subkernel
 from physics.jit.plain import word
+from physics.math2d import clamp
 from physics.raster.bits import (
     bits_from,
     both,
@@ -222,12 +223,6 @@ def squares_way_out(pair, nx, ny, most):
 
 
 @subkernel
-def between(value, low, high):
-    """Return the value clamped to low..high."""
-    return max(low, min(high, value))
-
-
-@subkernel
 def line_share(px, py, qx, qy, width, height):
     """Return the share of the line from p to q [px] in (area, moment of x, moment of y) in 0..width x 0..height.
 
@@ -236,8 +231,8 @@ def line_share(px, py, qx, qy, width, height):
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
-    start = between(py, 0.0, height)
-    end = between(qy, 0.0, height)
+    start = clamp(py, 0.0, height)
+    end = clamp(qy, 0.0, height)
     if start == end:
         return area, moment_x, moment_y
     slope = (qx - px) / (qy - py) if qy != py else 0.0
@@ -246,8 +241,8 @@ def line_share(px, py, qx, qy, width, height):
     first = 0.0
     second = 1.0
     if x0 != x1:
-        at_left = between(-x0 / (x1 - x0), 0.0, 1.0)
-        at_right = between((width - x0) / (x1 - x0), 0.0, 1.0)
+        at_left = clamp(-x0 / (x1 - x0), 0.0, 1.0)
+        at_right = clamp((width - x0) / (x1 - x0), 0.0, 1.0)
         first = min(at_left, at_right)
         second = max(at_left, at_right)
     for piece in range(3):
@@ -255,8 +250,8 @@ def line_share(px, py, qx, qy, width, height):
         high = first if piece == 0 else (second if piece == 1 else 1.0)
         if high <= low:
             continue
-        xa = between(x0 + low * (x1 - x0), 0.0, width)
-        xb = between(x0 + high * (x1 - x0), 0.0, width)
+        xa = clamp(x0 + low * (x1 - x0), 0.0, width)
+        xb = clamp(x0 + high * (x1 - x0), 0.0, width)
         ya = start + low * (end - start)
         yb = start + high * (end - start)
         dy = yb - ya

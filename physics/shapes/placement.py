@@ -101,6 +101,8 @@ def turn_of_mask(angle):
 # ---- placement -------------------------------------------------------------------------------------------------------
 # Placement of shapes at a pose: corners, raster on the pixel grid, AABB.
 
+# The fields that a stage writes with refresh_boxes.
+PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 TAU = math.tau
 WHOLE = 2.0**62  # floats below convert to int64; larger ones are undefined if compiled, an error if not
 NOWHERE = -(1 << 62)  # [px] pixel column or row of a non-finite or too large coordinate
@@ -164,6 +166,20 @@ def upright_aabb(raster, x, y):
     left = x - raster.origin_x
     top = y - raster.origin_y
     return left + raster.set_left, top + raster.set_top, left + raster.set_right, top + raster.set_bottom
+
+
+@subkernel
+def box_corners(min_x, min_y, max_x, max_y, corners_out):
+    """Write the corners [px] of a box, clockwise on the screen from the top left. Return their number."""
+    corners_out[0, 0] = min_x
+    corners_out[0, 1] = min_y
+    corners_out[1, 0] = max_x
+    corners_out[1, 1] = min_y
+    corners_out[2, 0] = max_x
+    corners_out[2, 1] = max_y
+    corners_out[3, 0] = min_x
+    corners_out[3, 1] = max_y
+    return 4
 
 
 @subkernel
@@ -296,15 +312,7 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
         cosine, sine = rotation_of(angle)
         return polygon_at(geometry.polygons, geometry.corners, shapes[row].geometry, x, y, cosine, sine, corners_out)
     min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, x, y, angle)
-    corners_out[0, 0] = min_x
-    corners_out[0, 1] = min_y
-    corners_out[1, 0] = max_x
-    corners_out[1, 1] = min_y
-    corners_out[2, 0] = max_x
-    corners_out[2, 1] = max_y
-    corners_out[3, 0] = min_x
-    corners_out[3, 1] = max_y
-    return 4
+    return box_corners(min_x, min_y, max_x, max_y, corners_out)
 
 
 @kernel
