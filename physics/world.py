@@ -23,7 +23,6 @@ from physics.islands.sleep import SleepingSet
 from physics.jit import tiers
 from physics.math2d import Vec2
 from physics.queries import casts
-from physics.queries import casts as queries
 from physics.queries.casts import RayHit
 from physics.queries.index import QueryIndex
 from physics.settings import ACCURACY, PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
@@ -521,25 +520,25 @@ class World(WorldState):
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit | None:
-        """Return the first shape that a ray [px] hits, or None. See queries.RayHit."""
-        hits = queries.ray_cast_all(self, origin, translation, filter, sensors, first=True)
+        """Return the first shape that a ray [px] hits, or None. See casts.RayHit."""
+        hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
 
     def ray_cast_all(self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list:
         """Return all shapes that a ray [px] hits, nearest first, ties by shape id."""
-        return queries.ray_cast_all(self, origin, translation, filter, sensors)
+        return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
     def shape_cast(self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL) -> RayHit | None:
         """Return the first shape that a moving shape touches, from a pose along a translation [px], or None."""
-        return queries.shape_cast(self, shape, pose, translation, filter)
+        return casts.shape_cast(self, shape, pose, translation, filter)
 
     def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:
         """Return (body, point, distance [px]) of the nearest point of any shape, or None."""
-        return queries.closest(self, point, filter)
+        return casts.closest(self, point, filter)
 
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL) -> list[Body]:
         """Return the bodies that a shape at a pose overlaps, in the order of ids."""
-        return queries.overlap(self, shape, pose, filter)
+        return casts.overlap(self, shape, pose, filter)
 
     def query_aabb(self, lower: Pair, upper: Pair) -> list[Body]:
         """Return the bodies with a shape whose AABB meets a closed box [px], in the order of ids."""
@@ -554,4 +553,4 @@ class World(WorldState):
 
     def query_point(self, point: Pair) -> list[Body]:
         """Return the bodies with a shape that contains a point [px], in the order of ids."""
-        return queries.query_point(self, point)
+        return casts.query_point(self, point)

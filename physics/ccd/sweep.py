@@ -203,15 +203,10 @@ def foresee_impacts(state: StepState) -> None:
     "narrow_phase",
     reads=(*FORESEEN, "impacts", "contact_rows", "swept_sensors"),
     writes=(
-        "contact_rows",
-        "swept_sensors",
-        "library",
-        "work",
-        "workspace",
-        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "fraction")),
-        *PLACED,
+        "contact_rows", "swept_sensors", "library", "work", "workspace",
+        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "fraction")), *PLACED,
     ),
-)
+)  # fmt: skip
 def detect_moved(state: StepState) -> None:
     """Find manifolds at the final poses, and add impacts on the way that the test at the final poses missed."""
     rows = state.awake.bodies
@@ -252,19 +247,10 @@ def _written(state, impacts, response) -> np.ndarray:
     "time_of_impact",
     reads=(*FORESEEN, "contact_rows", "swept_sensors", "broadphase"),
     writes=(
-        "contact_rows",
-        "swept_sensors",
-        "ghosts",
-        "pairs",
-        "broadphase",
-        "library",
-        "work",
-        "workspace",
-        "bodies.fraction",
-        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y")),
-        *PLACED,
+        "contact_rows", "swept_sensors", "ghosts", "pairs", "broadphase", "library", "work", "workspace",
+        "bodies.fraction", *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y")), *PLACED,
     ),
-)
+)  # fmt: skip
 def sweep_piles(state: StepState) -> None:
     """Find the fast bodies and their first impacts in the step, and move them there."""
     bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep

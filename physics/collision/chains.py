@@ -375,10 +375,7 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
     """
     geometry = batch.geometry
     bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    margin = batch.margin
-    links = geometry.links
+    shapes, candidates, margin, links = batch.shapes, batch.candidates, batch.margin, geometry.links
     points = workspace.a
     sign, row, other = sides_by_kind(batch, pair, CHAIN)
     o = shapes[other]

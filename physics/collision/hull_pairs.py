@@ -284,8 +284,7 @@ def set_tangential_offset(before, found, offset, manifolds_out):
 @inlined
 def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
     """Append the contact of two circles. Return the new count."""
-    bodies = batch.bodies
-    shapes = batch.shapes
+    bodies, shapes = batch.bodies, batch.shapes
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]
     ax, ay, a_radius = circle_at(bodies, shapes, row_a)
@@ -321,9 +320,7 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
 @inlined
 def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
     """Append the contact of a hull of two or more corners and a circle. Return the new count."""
-    bodies = batch.bodies
-    shapes = batch.shapes
-    margin = batch.margin
+    bodies, shapes, margin = batch.bodies, batch.shapes, batch.margin
     side, circle, polygon = sides_by_kind(batch, pair, CIRCLE)
     p = bodies[shapes[polygon].body_row]
     q = bodies[shapes[circle].body_row]
@@ -407,10 +404,7 @@ def is_grazing(a, b, batch, p, q, manifold):
 def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inout):
     """Append the contact of two hulls of two or more corners. Return the new count."""
     geometry = batch.geometry
-    bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    margin = batch.margin
+    bodies, shapes, candidates, margin = batch.bodies, batch.shapes, batch.candidates, batch.margin
     manifold = workspace.points
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]

@@ -581,9 +581,7 @@ def make_mask_pass(full: bool) -> Any:
     def collide_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
         """Append the contact of two masks as drawn, by AND of words. Return the new count."""
         shapes = batch.shapes
-        candidates = batch.candidates
-        rasters = batch.geometry.rasters
-        words = batch.geometry.words
+        candidates, rasters, words = batch.candidates, batch.geometry.rasters, batch.geometry.words
         a = shapes[candidates[pair, 0]]
         b = shapes[candidates[pair, 1]]
         dx = b.left - a.left

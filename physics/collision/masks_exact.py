@@ -364,10 +364,7 @@ def make_exact_mask_pass(full: bool) -> Any:
     @inlined
     def collide_exact_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
         """Append the contact of two masks at their exact poses. Return the new count."""
-        geometry = batch.geometry
-        bodies = batch.bodies
-        shapes = batch.shapes
-        candidates = batch.candidates
+        geometry, bodies, shapes, candidates = batch.geometry, batch.bodies, batch.shapes, batch.candidates
         rasters = geometry.rasters
         work_inout[MASK_TESTS] += 1
         a = shapes[candidates[pair, 0]]

@@ -82,8 +82,7 @@ def collide_boxes(batch, which, manifolds_out, work_inout):
 
     which: see is_asked. Return the number of contacts. O(candidates).
     """
-    shapes = batch.shapes
-    candidates = batch.candidates
+    shapes, candidates = batch.shapes, batch.candidates
     found = 0
     for i in range(batch.count):
         a = shapes[candidates[i, 0]]
@@ -431,16 +430,6 @@ class NarrowPhase:
             kept = self.raw
             self.raw = zeros_in_lines(2 * count, CONTACT)
             self.raw[: len(kept)] = kept  # recycled manifolds may be at the beginning
-
-
-def narrow_phase_for_queries() -> NarrowPhase:
-    """Return a narrow phase for queries: exact shapes, masks for hits alone."""
-    return NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
-
-
-def exact_narrow_phase() -> NarrowPhase:
-    """Return a narrow phase with all contact data."""
-    return NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
 
 
 def no_work() -> np.ndarray:

@@ -29,7 +29,7 @@ from physics.ccd.time_of_impact import (
 )
 from physics.checks import Pair, Pose
 from physics.collision.hulls import ALL_EDGES, Hull
-from physics.collision.narrow_phase import narrow_phase_for_queries
+from physics.collision.narrow_phase import NarrowPhase
 from physics.distance.gjk import (
     AX,
     AY,
@@ -489,7 +489,7 @@ def _contacts(world, bodies, shapes, rows):
     all_shapes = joined([world.shapes[rows], shapes])
     all_shapes["body_row"] = np.append(owners, len(others))
     pairs = np.stack([np.arange(len(rows)), np.full(len(rows), len(rows))], axis=1).astype(np.int64).reshape(-1, 2)
-    narrow = narrow_phase_for_queries()
+    narrow = NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
     return narrow.collide(world.library, all_bodies, all_shapes, pairs, 0.0, world.queries.work)
 
 

@@ -14,7 +14,7 @@ from physics.ccd.time_of_impact import MISS, TOLERANCE, sweep_circles
 from physics.checks import Pose
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
-from physics.collision.narrow_phase import exact_narrow_phase, kind_of_pair, no_work
+from physics.collision.narrow_phase import NarrowPhase, kind_of_pair, no_work
 from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate_parts, shape_separation
 from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
@@ -192,7 +192,7 @@ def _collide_hulls(rows, margin, swapped) -> Manifold:
 
 def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
     library, rows = any_pair(shape_a, pose_a, shape_b, pose_b)
-    narrow = exact_narrow_phase()
+    narrow = NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
 
     def points_of(swapped):
         return contacts_of(narrow.collide(library, rows.bodies, rows.shapes, PAIRS[swapped], margin, no_work()))

@@ -6,18 +6,9 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.jit import subkernel
-from physics.jit.plain import word
+from physics.jit.plain import popcount, word
 from physics.math2d import clamp
-from physics.raster.bits import (
-    bits_from,
-    both,
-    columns_up_to,
-    count_bits,
-    first_pixel,
-    is_set,
-    lowest_bit,
-    without_lowest,
-)
+from physics.raster.bits import bits_from, both, columns_up_to, first_pixel, is_set, lowest_bit, without_lowest
 
 # ---- exact -----------------------------------------------------------------------------------------------------------
 # Overlap of two masks as unions of pixel squares, one rotated and moved by any amount.
@@ -361,7 +352,7 @@ def share_under(words, a, x, y, cosine, sine):
     moment_y = 0.0
     solid = 0
     for j in range(max(0, row), min(a.height, row + 3)):
-        solid += count_bits(both(bits_from(words, a.offset + j * a.stride, a.stride, column), columns_up_to(3)))
+        solid += popcount(both(bits_from(words, a.offset + j * a.stride, a.stride, column), columns_up_to(3)))
     if solid == 9:
         return 1.0, x, y
     for j in range(max(0, row), min(a.height, row + 3)):

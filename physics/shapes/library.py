@@ -133,18 +133,7 @@ class Library:
         return fresh
 
     def _tables(self):
-        return Geometry(
-            self.polygons.data,
-            self.corners.data,
-            self.chains.data,
-            self.links.data,
-            self.link_blocks.data,
-            self.grids.data,
-            self.cells.data,
-            self.rasters.data,
-            self.words.data,
-            self.raster_of,
-        )
+        return Geometry._make((*(table.data for table in self.grown), self.raster_of))
 
     def add(self, shape: Shape) -> tuple[int, int, int]:
         """Return (kind, geometry row, kind inside a Bounds) of a shape, and add its geometry where it is new."""
