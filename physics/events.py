@@ -1,18 +1,23 @@
-"""Events: pairs that began, continued and ended to touch, and impacts, as arrays that are valid until the next step."""
+"""Events: pairs that began, continued and ended to touch, impacts and sensors, as arrays valid until the next step."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
+from physics.broadphase.proxies import cover_final_poses
+from physics.collision.hull_pairs import measure_approach
 from physics.collision.manifold import by_parent, is_before, is_of
+from physics.collision.narrow_phase import SENSORS
+from physics.islands.sleep import in_order
 from physics.jit import copy_row, kernel, subkernel
+from physics.shapes.placement import PLACED
 from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
 from physics.tables.step_state import CONTACTS, StepState, stage
 from physics.tables.table import joined, rows_of
 
 NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, CONTACT), np.zeros(0, EVENT), np.zeros(0, HIT)
-UNBROKEN = np.zeros(0, QUARANTINE)
+UNBROKEN, NO_ROWS = np.zeros(0, QUARANTINE), np.zeros(0, np.int64)
 
 
 @subkernel
@@ -275,6 +280,58 @@ class Pairs:
             self._make_room(2 * len(touching))
         self.count = len(touching)
         self.last.now[: self.count] = touching
+
+
+# ---- sensors ---------------------------------------------------------------------------------------------------------
+# Overlaps of sensors at the final poses of a step, in worlds that respond.
+
+
+@kernel
+def is_any_sensor(pairs, shapes):
+    """Return whether a side of any of the pairs of shape rows is a sensor. O(pairs)."""
+    for i in range(len(pairs)):
+        if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:
+            return True
+    return False
+
+
+@stage(
+    "sensors",
+    reads=(
+        "awake",
+        "bodies",
+        "shapes",
+        "library",
+        "pairs",
+        "broadphase",
+        *("effects", "stacks", "tolerances", "gravity", "dt"),  # for new swept AABBs
+        "swept_sensors",
+        "workspace",
+    ),
+    writes=("sensed", "swept_sensors", "pairs", "broadphase", "work", "workspace", "library", *PLACED),
+)
+def sense(state: StepState) -> None:
+    """Detect sensor overlaps at the final poses, and add those of the sweeps."""
+    bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
+    # Without sensors the loops are empty. The kernels are those of every step, so none is compiled when the first
+    # sensor is added.
+    asked = state.pairs.sensors > 0
+    cover_final_poses(state, state.awake.shapes if asked else NO_ROWS)
+    pairs = state.pairs.rows
+    if not is_any_sensor(pairs if asked else pairs[:0], shapes) and not len(swept):
+        state.sensed = NOTHING
+        return
+    sensed = state.workspace.sensing.collide(state.library, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
+    if len(swept):
+        known = sensed["shape_a"] << 32 | sensed["shape_b"]
+        swept = swept[~np.isin(swept["shape_a"] << 32 | swept["shape_b"], known)]
+        sensed = in_order(joined([sensed, swept]))
+        state.swept_sensors = swept[:0]
+    measure_approach(bodies, sensed)
+    state.sensed = sensed
+
+
+# ---- events ----------------------------------------------------------------------------------------------------------
 
 
 class Events:

@@ -16,7 +16,6 @@ from physics.checks import Pair
 from physics.collision.narrow_phase import NarrowPhase, detect_ended
 from physics.contacts.cache import update_contacts, update_contacts_at_final_poses
 from physics.contacts.matching import ContactCache, find_contacts
-from physics.contacts.sensors import sense
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, refresh_centers
 from physics.dynamics.non_finite import quarantine, quarantine_solved
 from physics.edit import check_grid_stands
@@ -184,7 +183,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (sweep_piles, e.continuous),
             (carry_characters, characters),
             (update_contacts_at_final_poses, True),
-            (sense, e.sensors),
+            (events.sense, e.sensors),
             (evaluate_contacts_before_sleep, e.sleeping),
             (events.report_events, True),
         )
@@ -199,7 +198,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (carry_characters, e.response and characters),
             (detect_moved if e.continuous else detect_ended, True),
             (PUSHING[solver], e.response),
-            (sense, e.response and e.sensors),
+            (events.sense, e.response and e.sensors),
             (events.report_events, True),
         )
     called = tuple(each for each, wanted in stages if wanted)

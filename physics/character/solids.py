@@ -13,12 +13,12 @@ from physics.collision.chains import (
     link_at,
     misses_box,
 )
+from physics.collision.hull_pairs import collide_circles
 from physics.collision.hulls import (
     ALL_EDGES,
     COVERED,
     COVERED_OVERLAP,
     Hull,
-    collide_circles,
     collide_hull_circle,
     collide_hulls,
     pushing_edges,

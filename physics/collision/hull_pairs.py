@@ -10,7 +10,6 @@ from physics.collision.hulls import (
     COVERED_OVERLAP,
     Hull,
     collide_aabbs,
-    collide_circles,
     collide_hull_circle,
     collide_hulls,
     edge_normal,
@@ -33,7 +32,7 @@ from physics.collision.manifold import (
     sides_by_kind,
 )
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import norm
+from physics.math2d import norm, unit
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import BOUNDS, CIRCLE
 
@@ -149,6 +148,18 @@ def speculative_rotation(a, b, speed, margin, lookahead):
         return margin
     turn = lookahead * (abs(a.angular_velocity) * a.extent + abs(b.angular_velocity) * b.extent)
     return max(margin, min(turn, 0.5 * min(a.extent, b.extent)))
+
+
+@subkernel
+def collide_circles(ax, ay, a_radius, bx, by, b_radius):
+    """Return (normal from A to B, point midway, separation) of two discs [px]. Equal centres push along +x. O(1)."""
+    dx = bx - ax
+    dy = by - ay
+    nx, ny = unit(dx, dy, 1.0, 0.0)
+    distance = norm(dx, dy)
+    separation = distance - (a_radius + b_radius)
+    along = 0.5 * (a_radius + (distance - b_radius))
+    return nx, ny, ax + along * nx, ay + along * ny, separation
 
 
 @subkernel

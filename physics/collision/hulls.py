@@ -251,21 +251,9 @@ def support_manifold(reference, edge, incident, flipped, manifold_out):
 
 
 # ---- circles ---------------------------------------------------------------------------------------------------------
-# Circles against circles and convex polygons, in closed form.
+# Circles against convex polygons, in closed form.
 
 COVERED = -1  # in place of a feature: the centre is inside, and no edge is touchable
-
-
-@subkernel
-def collide_circles(ax, ay, a_radius, bx, by, b_radius):
-    """Return (normal from A to B, point midway, separation) of two discs [px]. Equal centres push along +x. O(1)."""
-    dx = bx - ax
-    dy = by - ay
-    nx, ny = unit(dx, dy, 1.0, 0.0)
-    distance = norm(dx, dy)
-    separation = distance - (a_radius + b_radius)
-    along = 0.5 * (a_radius + (distance - b_radius))
-    return nx, ny, ax + along * nx, ay + along * ny, separation
 
 
 @subkernel
