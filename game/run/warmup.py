@@ -102,7 +102,7 @@ class StderrProgress:
     """
 
     def __init__(self, quiet: float = 1.0) -> None:
-        self.started = self.told = perf_counter()
+        self.started = self.written = perf_counter()
         self.quiet = quiet
         self.shown = False
 
@@ -113,8 +113,8 @@ class StderrProgress:
             return
         if sys.stderr.isatty():
             sys.stderr.write(f"\rhitbox: compiling the physics, {done} of {total} ready, {now - self.started:.0f} s ")
-        elif not self.shown or now - self.told >= 10.0:
-            self.told = now
+        elif not self.shown or now - self.written >= 10.0:
+            self.written = now
             sys.stderr.write(f"hitbox: compiling the physics, {done} of {total} ready\n")
         self.shown = True
         sys.stderr.flush()

@@ -212,8 +212,8 @@ def _take_out(state, broken):
     bodies, shapes = state.bodies, state.shapes
     rows, reasons = broken[np.argsort(broken[:, 0])].T
     ids = bodies["id"][rows]
-    told = np.array([(ids[k], REASONS[reason]) for k, reason in enumerate(reasons)], QUARANTINE)
-    state.events.quarantined = np.sort(np.concatenate([state.events.quarantined, told]))
+    reported = np.array([(ids[k], REASONS[reason]) for k, reason in enumerate(reasons)], QUARANTINE)
+    state.events.quarantined = np.sort(np.concatenate([state.events.quarantined, reported]))
     own = np.isin(shapes["body"], ids)
     state.pairs.free_proxies(shapes["proxy"][own])
     shapes["proxy"][own] = -1
