@@ -1,7 +1,6 @@
 """Compilation beside the program, or ahead of it, in worker processes."""
 
 import json
-import sys
 import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Mapping
@@ -9,7 +8,7 @@ from contextlib import suppress
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
-from time import perf_counter, sleep
+from time import sleep
 from typing import Any
 
 from physics.jit import JIT, tiers
@@ -203,9 +202,7 @@ class Background:
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
     def _urgency(self, waiting):
-        """Return the time spent in kernels of one code, divided by the amount of code to compile: their own, and parts
-        that are new.
-        """
+        """Return the time spent in kernels of one code over the amount to compile: their own, and new parts."""
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
 
@@ -362,34 +359,3 @@ def _spread(found):
         covered.update(parts_of(first[0]))
         order.append(first)
     return order
-
-
-class StderrProgress:
-    """Progress of compilation on standard error once it has taken a second: one line of a terminal, else a line every
-    ten seconds.
-    """
-
-    def __init__(self, quiet: float = 1.0) -> None:
-        self.started = self.told = perf_counter()
-        self.quiet = quiet
-        self.shown = False
-
-    def __call__(self, done: int, total: int, name: str) -> None:
-        """Write the progress if it is time to."""
-        now = perf_counter()
-        if sys.stderr is None or now - self.started < self.quiet:
-            return
-        if sys.stderr.isatty():
-            sys.stderr.write(f"\rhitbox: compiling the physics, {done} of {total} ready, {now - self.started:.0f} s ")
-        elif not self.shown or now - self.told >= 10.0:
-            self.told = now
-            sys.stderr.write(f"hitbox: compiling the physics, {done} of {total} ready\n")
-        self.shown = True
-        sys.stderr.flush()
-
-    def end(self) -> None:
-        """Write the total time if progress was written."""
-        if self.shown and sys.stderr is not None:
-            lead = "\r" if sys.stderr.isatty() else ""
-            sys.stderr.write(f"{lead}hitbox: physics compiled in {perf_counter() - self.started:.0f} s{' ' * 24}\n")
-            sys.stderr.flush()

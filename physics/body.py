@@ -188,9 +188,7 @@ class Body(Handle):
             row["torque"] += (x - row["center_x"]) * force[1] - (y - row["center_y"]) * force[0]
 
     def apply_impulse(self, impulse: Pair, point: Pair | None = None) -> None:
-        """Change the velocity by impulse / mass. At a point [px] off the centre of mass, change the angular velocity
-        too.
-        """
+        """Change the velocity by impulse / mass, at a point [px] off the centre the angular velocity, too."""
         self.world._unlocked()
         impulse = checks.vector("impulse", impulse)
         point = None if point is None else checks.vector("point", point)
@@ -310,9 +308,7 @@ class Body(Handle):
 
     @property
     def sensor(self) -> bool:
-        """Whether the shapes that have no own value are sensors, which report contacts and do not respond. Sensors
-        count in the mass.
-        """
+        """Whether the shapes without an own value are sensors, which do not respond. They count in the mass."""
         return self._definitions["sensor"].item()
 
     @sensor.setter

@@ -149,9 +149,7 @@ def _values_of(world, identity) -> edit.BodyDef:
     """Return the values of a fragment's body, except its mass."""
     row, given = world._body_row(identity), world._definitions.rows[world._row_number(identity)]
     return edit.BodyDef(
-        kind="dynamic",
         angular_velocity=row["angular_velocity"].item(),
-        mass=None,
         material=edit.material_of(world, identity),
         filter=edit.filter_of(world, identity),
         sensor=given["sensor"].item(),
@@ -160,8 +158,6 @@ def _values_of(world, identity) -> edit.BodyDef:
         fixed_rotation=bool(row["fixed_rotation"]),
         gravity_scale=row["gravity_scale"].item(),
         allow_sleep=bool(row["allow_sleep"]),
-        tier=None,
-        user=None,
     )
 
 

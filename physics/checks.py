@@ -23,9 +23,7 @@ LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 def number(
     name: str, value: Any, low: float | None = None, above: float | None = None, high: float | None = None
 ) -> float:
-    """Return a finite float within bounds: low and high are inclusive, above is exclusive. Raises TypeError or
-    ValueError.
-    """
+    """Return a finite float; low and high are allowed, above is not. Raises TypeError or ValueError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number (got {shown(value)})")
     try:
@@ -133,9 +131,7 @@ def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
 
 
 def columns(name: str, value: Any, count: int | None = None, width: int = 2) -> np.ndarray:
-    """Return a finite float64 array (n, width), or (n,) for width 1, as a C-ordered copy. Raises TypeError or
-    ValueError.
-    """
+    """Return a finite float64 array (n, width), or (n,), as a C-ordered copy. Raises TypeError or ValueError."""
     try:
         array = np.array(value)
     except ValueError:

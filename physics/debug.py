@@ -17,42 +17,19 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PART, POL
 from physics.world import World
 
 __all__ = [
-    "bounds",
-    "contact_points",
-    "drawn_masks",
-    "impact_ghosts",
-    "islands",
-    "mask_hits",
-    "masks",
-    "motion",
-    "outlines",
-    "pairs",
-    "part_edges",
-    "shape_rows",
-    "structure",
-    "visited",
-]
+    "bounds", "contact_points", "drawn_masks", "impact_ghosts", "islands", "mask_hits", "masks", "motion", "outlines",
+    "pairs", "part_edges", "shape_rows", "structure", "visited",
+]  # fmt: skip
 
 ROW = np.dtype(
-    [
-        ("shape", np.int64),
-        ("body", np.int64),
-        ("kind", np.int64),
-        ("membership", np.int64),
-        ("mask", np.int64),
-        ("sensor", np.bool_),
-        ("awake", np.bool_),
-    ]
+    [(name, np.int64) for name in ("shape", "body", "kind", "membership", "mask")]
+    + [(name, np.bool_) for name in ("sensor", "awake")]
 )
-
-
 LINES = (POLYGON, CAPSULE, SEGMENT, CHAIN)
 
 
 class Structure(NamedTuple):
-    """The data structure of a broad phase: cells or node boxes with their depth, or intervals (axis, low, high, shape
-    id).
-    """
+    """The data structure of a broad phase: cells or node boxes with depth, or intervals (axis, low, high, id)."""
 
     kind: str  # brute, sweep, hash, tree
     rects: np.ndarray  # (m, 4) min_x min_y max_x max_y
@@ -63,10 +40,7 @@ class Structure(NamedTuple):
 EDGE = np.dtype(
     [
         ("row", np.int64),  # of the part in world.shapes
-        (
-            "ax",
-            np.float64,
-        ),  # [px] from here to b, clockwise on the screen; a rounded part's real edge lies radius outside
+        ("ax", np.float64),  # [px] from here to b, clockwise; a rounded part's real edge lies radius outside
         ("ay", np.float64),
         ("bx", np.float64),
         ("by", np.float64),
@@ -266,9 +240,7 @@ def _drawn(world, rows):
 
 
 def mask_hits(world: World) -> list:
-    """Return (left, top, shared[row, col]) of every candidate pair of masks that share pixels now: the result of the
-    AND.
-    """
+    """Return (left, top, shared[row, col]) of every candidate pair of masks that share pixels now."""
     found = []
     rows = _candidate_rows(world)
     world.queries.refresh(world)

@@ -543,19 +543,19 @@ def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
 class BodyDef(NamedTuple):
     """The arguments of World.add_body but shapes and motion."""
 
-    kind: str
-    angular_velocity: float
-    mass: float | None
-    material: Material
-    filter: Filter
-    sensor: bool
-    bullet: bool
-    continuous: str
-    fixed_rotation: bool
-    gravity_scale: float
-    allow_sleep: bool
-    tier: str | None
-    user: Any
+    kind: str = "dynamic"
+    angular_velocity: float = 0.0
+    mass: float | None = None
+    material: Material = Material()
+    filter: Filter = Filter.ALL
+    sensor: bool = False
+    bullet: bool = False
+    continuous: str = "auto"
+    fixed_rotation: bool = False
+    gravity_scale: float = 1.0
+    allow_sleep: bool = True
+    tier: str | None = None
+    user: Any = None
 
 
 def add_rows(
@@ -566,9 +566,7 @@ def add_rows(
     angles: Sequence[float] | np.ndarray,
     wanted: BodyDef,
 ) -> np.ndarray:
-    """Check the arguments of new bodies, append BODY, GIVEN and SHAPE rows, and return the ids. Raises TypeError,
-    ValueError.
-    """
+    """Check the arguments of new bodies, append their rows, and return the ids. Raises TypeError, ValueError."""
     world._unlocked()
     kind = KINDS.index(checks.choice("kind", wanted.kind, KINDS))
     material, filter = checked_material(wanted.material), checked_filter(wanted.filter)
@@ -658,9 +656,7 @@ def checked_bullet(world: WorldState, value: Any) -> bool:
 
 
 def checked_continuous(world: WorldState, value: Any) -> int:
-    """Return the number of a kind of continuous collision. Raises TypeError, and ValueError for one that needs the
-    effect continuous.
-    """
+    """Return the number of a kind of continuous collision. Raises TypeError, ValueError (effect continuous)."""
     swept = CONTINUOUS.index(checks.choice("continuous", value, CONTINUOUS))
     world._needs("continuous", f"continuous={value!r}", swept not in (OFF, AUTO))
     return swept
@@ -767,9 +763,7 @@ def touch(world: WorldState, ids: Any) -> None:
 
 
 def set_kind(world: WorldState, identity: int, kind: str) -> None:
-    """Set the kind of a body. Raises ValueError for a dynamic TileGrid, and for the body of a character, which is
-    kinematic.
-    """
+    """Set the kind of a body. Raises ValueError for a dynamic TileGrid, and for a character, which is kinematic."""
     world._unlocked()
     row = world._body_row(identity)
     if kind != "kinematic" and (world.characters.rows["body"] == identity).any():

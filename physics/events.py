@@ -1,18 +1,23 @@
-"""Events: pairs that began, continued and ended to touch, and impacts, as arrays that are valid until the next step."""
+"""Events: pairs that began, continued and ended to touch, impacts and sensors, as arrays valid until the next step."""
 
 import math
 from typing import NamedTuple
 
 import numpy as np
 
+from physics.broadphase.proxies import cover_final_poses
+from physics.collision.hull_pairs import measure_approach
 from physics.collision.manifold import by_parent, is_before, is_of
+from physics.collision.narrow_phase import SENSORS
+from physics.islands.sleep import in_order
 from physics.jit import copy_row, kernel, subkernel
+from physics.shapes.placement import PLACED
 from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
 from physics.tables.step_state import CONTACTS, StepState, stage
 from physics.tables.table import joined, rows_of
 
 NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, CONTACT), np.zeros(0, EVENT), np.zeros(0, HIT)
-UNBROKEN = np.zeros(0, QUARANTINE)
+UNBROKEN, NO_ROWS = np.zeros(0, QUARANTINE), np.zeros(0, np.int64)
 
 
 @subkernel
@@ -86,18 +91,7 @@ def look_at_pair(contacts, first, last, slop):
 
 
 @kernel
-def compare_pairs(
-    # read
-    before,
-    contacts,
-    fell_asleep,
-    sensors,
-    persisting,
-    slop,
-    hit_speed,
-    # write
-    comparison_inout,
-):
+def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_speed, comparison_inout):
     """Compare the pairs that touched in the step before with the contacts of this step, both in the order of shape
     ids.
 
@@ -237,9 +231,7 @@ class Pairs:
         slop: float,
         hit_speed: float,
     ) -> Changes | None:
-        """Read the contacts of a step and return the changes. Return None, and change nothing, where a child shape
-        touches.
-        """
+        """Return the changes by the contacts of a step; None, without any change, where a child shape touches."""
         if self.count + len(contacts) > len(self.compared.keep):
             self._grow(2 * (self.count + len(contacts)))
         compared, changes = self.compared, self.changes
@@ -290,6 +282,58 @@ class Pairs:
         self.last.now[: self.count] = touching
 
 
+# ---- sensors ---------------------------------------------------------------------------------------------------------
+# Overlaps of sensors at the final poses of a step, in worlds that respond.
+
+
+@kernel
+def is_any_sensor(pairs, shapes):
+    """Return whether a side of any of the pairs of shape rows is a sensor. O(pairs)."""
+    for i in range(len(pairs)):
+        if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:
+            return True
+    return False
+
+
+@stage(
+    "sensors",
+    reads=(
+        "awake",
+        "bodies",
+        "shapes",
+        "library",
+        "pairs",
+        "broadphase",
+        *("effects", "stacks", "tolerances", "gravity", "dt"),  # for new swept AABBs
+        "swept_sensors",
+        "workspace",
+    ),
+    writes=("sensed", "swept_sensors", "pairs", "broadphase", "work", "workspace", "library", *PLACED),
+)
+def sense(state: StepState) -> None:
+    """Detect sensor overlaps at the final poses, and add those of the sweeps."""
+    bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
+    # Without sensors the loops are empty. The kernels are those of every step, so none is compiled when the first
+    # sensor is added.
+    asked = state.pairs.sensors > 0
+    cover_final_poses(state, state.awake.shapes if asked else NO_ROWS)
+    pairs = state.pairs.rows
+    if not is_any_sensor(pairs if asked else pairs[:0], shapes) and not len(swept):
+        state.sensed = NOTHING
+        return
+    sensed = state.workspace.sensing.collide(state.library, bodies, shapes, pairs, 0.0, state.work, which=SENSORS)
+    if len(swept):
+        known = sensed["shape_a"] << 32 | sensed["shape_b"]
+        swept = swept[~np.isin(swept["shape_a"] << 32 | swept["shape_b"], known)]
+        sensed = in_order(joined([sensed, swept]))
+        state.swept_sensors = swept[:0]
+    measure_approach(bodies, sensed)
+    state.sensed = sensed
+
+
+# ---- events ----------------------------------------------------------------------------------------------------------
+
+
 class Events:
     """Events of the last step, one structured array for each kind."""
 
@@ -302,20 +346,11 @@ class Events:
 @stage(
     "events",
     reads=(
-        "effects",
-        "tolerances",
-        "bodies",
-        "contact_rows",
-        "sensed",
-        "fell_asleep",
-        "touching",
-        "sensing",
-        "sleeping_set",
-        "events",
-        "reported",
+        "effects", "tolerances", "bodies", "contact_rows", "sensed", "fell_asleep", "touching", "sensing",
+        "sleeping_set", "events", "reported",
     ),
     writes=("touching", "sensing", "sleeping_set", "events", "reported", "work"),
-)
+)  # fmt: skip
 def report_events(state: StepState) -> None:
     """Compare the pairs that touch with those of the step before, and report the changes."""
     contacts, events, tolerances, effects = state.contact_rows, state.events, state.tolerances, state.effects

@@ -31,6 +31,12 @@ def unit(x, y, fallback_x, fallback_y):
 
 
 @subkernel
+def clamp(value, low, high):
+    """Return the value clamped to low..high."""
+    return max(low, min(high, value))
+
+
+@subkernel
 def norm(x, y):
     """Return the length of a vector, without overflow."""
     largest = max(abs(x), abs(y))
@@ -115,9 +121,7 @@ class Vec2(NamedTuple):
         return self[0] * y - self[1] * x
 
     def rotated(self, angle: float) -> "Vec2":
-        """Return the vector rotated by an angle [rad], clockwise on the screen. Raises TypeError, and ValueError for a
-        non-finite angle.
-        """
+        """Return the vector rotated clockwise on the screen by a finite angle [rad]. Raises TypeError, ValueError."""
         if not _is_number(angle):
             raise TypeError(f"angle must be a number (got {angle!r})")
         if not math.isfinite(angle):
@@ -126,9 +130,7 @@ class Vec2(NamedTuple):
         return Vec2(cosine * self[0] - sine * self[1], sine * self[0] + cosine * self[1])
 
     def normalized(self) -> "Vec2":
-        """Return the vector of the same direction and length 1. Raises ValueError for the zero vector and for a
-        non-finite one.
-        """
+        """Return the vector of the same direction and length 1. Raises ValueError for a zero or non-finite one."""
         largest = max(abs(self[0]), abs(self[1]))
         if largest == 0.0 or not (math.isfinite(self[0]) and math.isfinite(self[1])):
             raise ValueError(f"a vector must be finite and longer than 0 to be normalized (got {tuple(self)})")

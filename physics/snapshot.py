@@ -94,21 +94,11 @@ ABANDONED = 3600.0  # [s] without a write after which a file counts as abandoned
 SETTINGS = ("solver", "dt", "substeps", "accuracy", "restitution_speed", "gravity", "drag", "wind")  # it restores these
 FIELDS = ("gravity", "drag", "wind")  # they stay, and are inert, in a world whose effects were replaced
 DAMAGE = (
-    ValueError,
-    TypeError,
-    KeyError,
-    IndexError,
-    EOFError,
+    ValueError, TypeError, KeyError, IndexError, EOFError,
     OSError,  # of data that is marked as bzip2 and is not
-    lzma.LZMAError,
-    OverflowError,
-    AttributeError,
-    zipfile.BadZipFile,
-    zlib.error,
-    RuntimeError,
-    SyntaxError,
+    lzma.LZMAError, OverflowError, AttributeError, zipfile.BadZipFile, zlib.error, RuntimeError, SyntaxError,
     tokenize.TokenError,
-)
+)  # fmt: skip
 TABLES = {
     "bodies": BODY,
     "given": BODY_DEF,
@@ -375,26 +365,9 @@ SHAPE_COLUMNS = ("id", "membership", "mask", "sensor")
 NARROW = {"kind": np.int8, "continuous": np.int8, "membership": np.uint32, "mask": np.uint32}
 KEYS = ("shape_a", "shape_b", "feature", "normal_impulse", "tangent_impulse")
 WALK = (
-    "body",
-    "left",
-    "top",
-    "remainder_x",
-    "remainder_y",
-    "riding",
-    "riding_shape",
-    "slope",
-    "grounded",
-    "squeezed",
-    "pressed",
-    "carry_x",
-    "carry_y",
-    "belt",
-    "belt_x",
-    "push_vx",
-    "push_vy",
-    "deep",
-    "wedged",
-)
+    "body", "left", "top", "remainder_x", "remainder_y", "riding", "riding_shape", "slope", "grounded", "squeezed",
+    "pressed", "carry_x", "carry_y", "belt", "belt_x", "push_vx", "push_vy", "deep", "wedged",
+)  # fmt: skip
 
 
 def digest(world: WorldState) -> str:

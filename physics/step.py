@@ -16,9 +16,8 @@ from physics.checks import Pair
 from physics.collision.narrow_phase import NarrowPhase, detect_ended
 from physics.contacts.cache import update_contacts, update_contacts_at_final_poses
 from physics.contacts.matching import ContactCache, find_contacts
-from physics.contacts.sensors import sense
 from physics.dynamics.integrate import integrate_positions, integrate_velocities, refresh_centers
-from physics.dynamics.non_finite import REASONS, quarantine, quarantine_solved
+from physics.dynamics.non_finite import quarantine, quarantine_solved
 from physics.edit import check_grid_stands
 from physics.effects import Effects
 from physics.islands import sleep
@@ -184,7 +183,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (sweep_piles, e.continuous),
             (carry_characters, characters),
             (update_contacts_at_final_poses, True),
-            (sense, e.sensors),
+            (events.sense, e.sensors),
             (evaluate_contacts_before_sleep, e.sleeping),
             (events.report_events, True),
         )
@@ -199,7 +198,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (carry_characters, e.response and characters),
             (detect_moved if e.continuous else detect_ended, True),
             (PUSHING[solver], e.response),
-            (sense, e.response and e.sensors),
+            (events.sense, e.response and e.sensors),
             (events.report_events, True),
         )
     called = tuple(each for each, wanted in stages if wanted)
@@ -227,7 +226,7 @@ class Workspace:
         self.contacts = ContactLanes() if stacks else PushSet()
         self.islands = IslandWorkspace() if effects.sleeping else None
         self.cache = ContactCache() if stacks else None
-        self._rows, self.ends = np.zeros(16, np.int64), np.zeros(len(REASONS), np.int64)  # see quarantine
+        self._rows, self.broken = np.zeros(16, np.int64), np.zeros((16, 2), np.int64)  # see quarantine
 
     def rows_for(self, count: int) -> np.ndarray:
         """Return room for that many row numbers."""
@@ -248,9 +247,7 @@ def next_span(span: float, dt: float, usual: float) -> float:
 
 
 def step_length(world: WorldState, dt: float | None) -> float:
-    """Return the length [s] of a step: world.dt for None, 0 for one that is too short to be computed. Raises
-    ValueError.
-    """
+    """Return the length [s] of a step: world.dt for None, 0 if too short to be computed. Raises ValueError."""
     dt = world.dt if dt is None else checks.number("dt", dt, low=0.0)
     return 0.0 if dt < SHORTEST_STEP else dt
 

@@ -74,9 +74,7 @@ def run_warmup(
     solver: str | None = None,
     pieces: Iterable[str] | None = None,
 ) -> None:
-    """Run small worlds that call all kernels of a world with these effects, in any form. Arguments and errors as of
-    warmup().
-    """
+    """Run small worlds that call all kernels of a world with these effects. Arguments and errors as of warmup()."""
     for _, run in _runs(effects, broadphase, solver, pieces):
         run()
 
@@ -191,9 +189,7 @@ def _ground(effects, solver, tiles):
 
 
 def _rest(effects, solver):
-    """Run contacts that are matched in place, a new one beside them, sleep and waking, with substeps by load and by
-    number.
-    """
+    """Run contacts matched in place, a new one beside them, sleep and waking, with substeps by load and number."""
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3), (-7.95, 0.0)):  # as near as is found; nearer
         world.add_body(Circle(4), position=place)

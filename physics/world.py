@@ -23,7 +23,6 @@ from physics.islands.sleep import SleepingSet
 from physics.jit import tiers
 from physics.math2d import Vec2
 from physics.queries import casts
-from physics.queries import casts as queries
 from physics.queries.casts import RayHit
 from physics.queries.index import QueryIndex
 from physics.settings import ACCURACY, PIXELS_PER_METER, POSITION_LIMIT, STANDARD_GRAVITY, tolerances
@@ -217,21 +216,14 @@ class World(WorldState):
         positions: ArrayLike,
         velocities: ArrayLike | None = None,
         angles: ArrayLike | None = None,
-        kind: str = "dynamic",
-        angular_velocity: float = 0.0,
-        mass: float | None = None,
-        material: Material = PLAIN,
-        filter: Filter = Filter.ALL,
-        sensor: bool = False,
-        bullet: bool = False,
-        continuous: str = "auto",
-        fixed_rotation: bool = False,
-        gravity_scale: float = 1.0,
-        allow_sleep: bool = True,
-        tier: str | None = None,
-        user: Any = None,
+        **definition: Any,
     ) -> np.ndarray:
-        """Add a body of the same shape at each of positions (n, 2) [px] and return their ids. Raises as add_body."""
+        """Add a body of the same shape at each of positions (n, 2) [px] and return their ids.
+
+        definition: the other arguments of add_body, the same for all. Raises as add_body.
+        """
+        for name in sorted(definition.keys() - set(edit.BodyDef._fields)):
+            raise TypeError(f"World.add_bodies() got an unexpected keyword argument {name!r}")
         positions = checks.columns("positions", positions)
         if np.any(np.abs(positions) >= POSITION_LIMIT):
             raise ValueError(
@@ -240,33 +232,10 @@ class World(WorldState):
         n = len(positions)
         velocities = np.zeros((n, 2)) if velocities is None else checks.columns("velocities", velocities, n)
         angles = np.zeros(n) if angles is None else checks.columns("angles", angles, n, width=1)
-        return edit.add_rows(
-            self,
-            (shape,),
-            positions,
-            velocities,
-            angles,
-            edit.BodyDef(
-                kind,
-                angular_velocity,
-                mass,
-                material,
-                filter,
-                sensor,
-                bullet,
-                continuous,
-                fixed_rotation,
-                gravity_scale,
-                allow_sleep,
-                tier,
-                user,
-            ),
-        )
+        return edit.add_rows(self, (shape,), positions, velocities, angles, edit.BodyDef(**definition))
 
     def remove_body(self, body: Body | int) -> None:
-        """Remove a body, given as a Body or an id. Raises KeyError if the world has no such body, TypeError,
-        ValueError.
-        """
+        """Remove a body, given as a Body or an id. Raises KeyError for an unknown body, TypeError, ValueError."""
         self._remove([self._identity("body", body)])
 
     def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
@@ -293,9 +262,7 @@ class World(WorldState):
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
     def digest(self) -> str:
-        """Return the blake2b-128 hash of the state that the next step depends on. It is independent of rows, times and
-        broad phase.
-        """
+        """Return the blake2b-128 hash of the state that the next step depends on, independent of rows and times."""
         return digest(self)
 
     def snapshot(self) -> Snapshot:
@@ -519,9 +486,7 @@ class World(WorldState):
     # --- queries: see queries/casts.py for what each returns --------------------------------------------------------
 
     def body(self, identity: Body | int) -> Body:
-        """Return the Body of an id, or of a Body. Raises KeyError for a body that is not in the world, TypeError,
-        ValueError.
-        """
+        """Return the Body of an id, or of a Body. Raises KeyError for an unknown body, TypeError, ValueError."""
         identity = self._identity("identity", identity)
         self._row_number(identity)
         return Body(self, identity)
@@ -554,25 +519,25 @@ class World(WorldState):
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit | None:
-        """Return the first shape that a ray [px] hits, or None. See queries.RayHit."""
-        hits = queries.ray_cast_all(self, origin, translation, filter, sensors, first=True)
+        """Return the first shape that a ray [px] hits, or None. See casts.RayHit."""
+        hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
 
     def ray_cast_all(self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list:
         """Return all shapes that a ray [px] hits, nearest first, ties by shape id."""
-        return queries.ray_cast_all(self, origin, translation, filter, sensors)
+        return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
     def shape_cast(self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL) -> RayHit | None:
         """Return the first shape that a moving shape touches, from a pose along a translation [px], or None."""
-        return queries.shape_cast(self, shape, pose, translation, filter)
+        return casts.shape_cast(self, shape, pose, translation, filter)
 
     def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:
         """Return (body, point, distance [px]) of the nearest point of any shape, or None."""
-        return queries.closest(self, point, filter)
+        return casts.closest(self, point, filter)
 
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL) -> list[Body]:
         """Return the bodies that a shape at a pose overlaps, in the order of ids."""
-        return queries.overlap(self, shape, pose, filter)
+        return casts.overlap(self, shape, pose, filter)
 
     def query_aabb(self, lower: Pair, upper: Pair) -> list[Body]:
         """Return the bodies with a shape whose AABB meets a closed box [px], in the order of ids."""
@@ -587,4 +552,4 @@ class World(WorldState):
 
     def query_point(self, point: Pair) -> list[Body]:
         """Return the bodies with a shape that contains a point [px], in the order of ids."""
-        return queries.query_point(self, point)
+        return casts.query_point(self, point)

@@ -170,9 +170,7 @@ class WorldState:
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT_POINT rows of the pairs that touched, exchanged impulses or met on their way in the last step, in
-        order of shape ids.
-        """
+        """CONTACT_POINT rows of the pairs that touched or met in the last step, in order of shape ids."""
         if self._contacts is None:
             self._contacts = contacts_of(with_areas(self, self.reported_rows()))
         return self._contacts
@@ -188,9 +186,7 @@ class WorldState:
         return contacts_of(with_areas(self, self.sleeping_set.contacts()))
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
-        """Store the CONTACT rows that `contacts` reports, of which the flagged ones count. The points are listed on
-        demand.
-        """
+        """Store the CONTACT rows that `contacts` reports, and which of them count; points are listed on demand."""
         self._reported, self._contacts = (rows, keep), None
 
     @property
@@ -199,9 +195,7 @@ class WorldState:
         return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids: Any) -> np.ndarray:
-        """Return the row numbers in `world.bodies` of one body or many, given as Bodies or ids. Raises KeyError for an
-        unknown id.
-        """
+        """Return the row numbers in `world.bodies` of bodies, given as Bodies or ids. Raises KeyError."""
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
         ids = np.asarray(ids, np.int64)
@@ -275,9 +269,7 @@ class WorldState:
         return int(value)
 
     def _identities(self, name: str, value: Any, repeats: bool = False) -> np.ndarray:
-        """Return the ids of one body or of many as a flat array, each once unless repeats are allowed. Raises
-        TypeError, ValueError.
-        """
+        """Return the ids of one body or many, each once unless repeats are allowed. Raises TypeError, ValueError."""
         if isinstance(value, (Handle, int, np.integer)):
             value = [value]
         if isinstance(value, np.ndarray) and value.dtype != np.object_:

@@ -13,8 +13,8 @@ def warm_up(processes=None):
     if importlib.util.find_spec("numba") is None:
         return
     from game.registry import Registry
-    from game.run.warmup import jobs_of
-    from physics.background import StderrProgress, compile_jobs
+    from game.run.warmup import StderrProgress, jobs_of
+    from physics.background import compile_jobs
     from scenes import SCENES
 
     progress = StderrProgress(quiet=5.0)

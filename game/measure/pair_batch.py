@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.collision.narrow_phase import narrow_phase_for_queries, no_work
+from physics.collision.narrow_phase import NarrowPhase, no_work
 from physics.shapes.kinds import checked_shapes
 from physics.shapes.library import Library, describe
 from physics.shapes.placement import refresh_aabbs
@@ -57,7 +57,8 @@ class PairBatch:
                 first = last
         refresh_aabbs(np.arange(len(self.shapes)), self.library.tables, self.bodies, self.shapes)
         self.candidates, self.pair_of = self._near(rows[0], rows[1], np.random.default_rng(seed + 1))
-        self.narrow_phase, self.found = narrow_phase_for_queries(), np.zeros(0, CONTACT)
+        self.narrow_phase = NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
+        self.found = np.zeros(0, CONTACT)
 
     def __len__(self) -> int:
         return self.count

@@ -22,8 +22,9 @@ from game.report.runners import connect, run_here, run_in_processes, run_on_dask
 from game.report.store import DATA, Store
 from game.run.headless import start_dummy_display
 from game.run.options import Options
+from game.run.warmup import StderrProgress
 from physics import SOLVERS, Effects
-from physics.background import StderrProgress, compile_jobs
+from physics.background import compile_jobs
 
 
 def run_report(options: Options, registry: Registry) -> int:

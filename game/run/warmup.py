@@ -8,7 +8,7 @@ import physics
 from game.registry import Registry
 from game.scene import Scene
 from physics import Effects
-from physics.background import StderrProgress, compile_ahead, compile_jobs
+from physics.background import compile_ahead, compile_jobs
 from physics.jit import tiers
 from physics.warmup import run_warmup
 
@@ -94,3 +94,34 @@ def draw_bar(out: TextIO, share: float, name: str) -> None:
     filled = int(share * BAR)
     out.write(f"\r[{'#' * filled}{'.' * (BAR - filled)}] {share:4.0%} {name:<32.32}")
     out.flush()
+
+
+class StderrProgress:
+    """Progress of compilation on standard error once it has taken a second: one line of a terminal, else a line every
+    ten seconds.
+    """
+
+    def __init__(self, quiet: float = 1.0) -> None:
+        self.started = self.written = perf_counter()
+        self.quiet = quiet
+        self.shown = False
+
+    def __call__(self, done: int, total: int, name: str) -> None:
+        """Write the progress if it is time to."""
+        now = perf_counter()
+        if sys.stderr is None or now - self.started < self.quiet:
+            return
+        if sys.stderr.isatty():
+            sys.stderr.write(f"\rhitbox: compiling the physics, {done} of {total} ready, {now - self.started:.0f} s ")
+        elif not self.shown or now - self.written >= 10.0:
+            self.written = now
+            sys.stderr.write(f"hitbox: compiling the physics, {done} of {total} ready\n")
+        self.shown = True
+        sys.stderr.flush()
+
+    def end(self) -> None:
+        """Write the total time if progress was written."""
+        if self.shown and sys.stderr is not None:
+            lead = "\r" if sys.stderr.isatty() else ""
+            sys.stderr.write(f"{lead}hitbox: physics compiled in {perf_counter() - self.started:.0f} s{' ' * 24}\n")
+            sys.stderr.flush()

@@ -7,20 +7,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.proxies import Arena, Box, Query, find_pairs, overlaps, write_pair
+from physics.broadphase.proxies import Arena, Box, Query, find_pairs, meets_box, overlaps, write_pair
 from physics.jit import kernel
 from physics.tables.step_state import PAIRS_TESTED
 
 
 @kernel
-def find_all(
-    # read
-    proxies,
-    changed,
-    # write
-    pairs_out,
-    work_inout,
-):
+def find_all(proxies, changed, pairs_out, work_inout):
     """List the pairs with at least one changed side.
 
     proxies PROXY rows, free slots have row -1; changed: slots. Return the number found. O(changed · n).
@@ -40,17 +33,7 @@ def find_all(
 
 
 @kernel
-def near_in_all(
-    # read
-    proxies,
-    lower_x,
-    lower_y,
-    upper_x,
-    upper_y,
-    # write
-    slots_out,
-    work_inout,
-):
+def near_in_all(proxies, box, slots_out, work_inout):
     """List the slots whose box meets a closed box [px], one by one. Return their number. O(n)."""
     found = 0
     for slot in range(len(proxies)):
@@ -58,7 +41,7 @@ def near_in_all(
         if p.row < 0:
             continue
         work_inout[PAIRS_TESTED] += 1
-        if p.lower_x <= upper_x and p.upper_x >= lower_x and p.lower_y <= upper_y and p.upper_y >= lower_y:
+        if meets_box(p, box):
             slots_out[found] = slot
             found += 1
     return found
@@ -93,4 +76,4 @@ class BruteForce:
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
-        return near_in_all(proxies, *box, slots, work)
+        return near_in_all(proxies, box, slots, work)

@@ -210,8 +210,8 @@ class DynamicTree:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         roots = self.state[ROOT_MOVING:]
         if self.width == WIDTH:
-            return query_bvh4(self.nodes, self.bvh4, self.kin, roots, *box, self.stack, slots, work)
-        return query_trees(self.nodes, roots, *box, self.stack, slots, work)
+            return query_bvh4(self.nodes, self.bvh4, self.kin, roots, box, self.stack, slots, work)
+        return query_trees(self.nodes, roots, box, self.stack, slots, work)
 
     @property
     def height(self) -> int:

@@ -72,8 +72,7 @@ class PairList:
         return self.arena.proxies
 
     def ids(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) owner ids of the candidates, whose rows refer to the given SHAPE rows unless named
-        before."""
+        """Return the (n, 2) owner ids of the candidates; their rows refer to SHAPE rows unless named before."""
         if self.known_ids is None:
             owners = np.sort(self.name(shapes), axis=1)  # new parts of a mask are in rows after those of later shapes
             keys = np.unique(owners[:, 0] << 32 | owners[:, 1])  # each once, in the order of both
@@ -142,8 +141,7 @@ class PairList:
         return self.changed
 
     def rename(self, shapes: np.ndarray) -> None:
-        """Write the new shape rows to the proxies after rows have moved. The next update writes those of the
-        candidates."""
+        """Write the new shape rows to the proxies after rows have moved; the next update writes the candidates'."""
         tell_rows(shapes, self.proxies)
         self.moved = True
 

@@ -10,7 +10,7 @@ from physics.jit import kernel, subkernel
 from physics.math2d import norm
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, AHEAD_FRACTION, STEPS_AHEAD
 from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import drawn_beyond, is_drawn_when_asked, refresh_boxes, snapped
+from physics.shapes.placement import PLACED, drawn_beyond, is_drawn_when_asked, refresh_boxes, snapped
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import PIXELS, PROXY
 from physics.tables.step_state import COUNTERS, FILTERED, PAIRS_TESTED, StepState, WorldTables, stage
@@ -26,15 +26,7 @@ Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> number of pa
 
 
 @subkernel
-def overlaps(
-    # read
-    proxies,
-    # scalars
-    a,
-    b,
-    # write
-    work_inout,
-):
+def overlaps(proxies, a, b, work_inout):
     """Return whether two proxies may pair: the closed boxes touch and the filters agree.
 
     proxies PROXY rows, boxes in px; a, b are slots; work_inout: counters. O(1).
@@ -48,15 +40,7 @@ def overlaps(
 
 
 @subkernel
-def may_meet(
-    # read
-    proxies,
-    # scalars
-    a,
-    b,
-    # write
-    work_inout,
-):
+def may_meet(proxies, a, b, work_inout):
     """Return whether two touching boxes may pair. O(1).
 
     Excluded are two static boxes, two sleeping ones, boxes of one body, planes that avoid each other, and filtered
@@ -73,14 +57,13 @@ def may_meet(
 
 
 @subkernel
-def write_pair(
-    # scalars
-    a,
-    b,
-    found,
-    # write
-    pairs_out,
-):
+def meets_box(row, box):
+    """Return whether the box of a row meets another closed box (lower x, y, upper x, y) [px]."""
+    return row.lower_x <= box[2] and row.upper_x >= box[0] and row.lower_y <= box[3] and row.upper_y >= box[1]
+
+
+@subkernel
+def write_pair(a, b, found, pairs_out):
     """Write a pair of slots if there is room, and return the new count, which may exceed the capacity.
 
     pairs_out (capacity, 2) int32. If the count exceeds the capacity, the caller enlarges the array and repeats the
@@ -199,16 +182,7 @@ def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
 
 
 @kernel
-def keep_pairs(
-    # read
-    states,
-    old,
-    old_rows,
-    old_count,
-    # write
-    kept_out,
-    rows_out,
-):
+def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
     """Copy the pairs with no changed or freed side and at least one awake side, in their order.
 
     states (proxies,) int8 of write_states(); old, kept_out (capacity, 2) int32 slots; old_rows, rows_out (capacity, 2)
@@ -228,15 +202,7 @@ def keep_pairs(
 
 
 @kernel
-def pair_keys(
-    # read
-    proxies,
-    pairs,
-    count,
-    # write
-    pairs_inout,
-    keys_out,
-):
+def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
     """Order each pair by shape row and write a key that sorts by both rows.
 
     pairs, pairs_inout: the same (capacity, 2) int32 slots; keys_out int64. O(pairs).
@@ -254,18 +220,7 @@ def pair_keys(
 
 
 @kernel
-def merge_pairs(
-    # read
-    shapes,
-    kept,
-    kept_rows,
-    kept_count,
-    keys,
-    new_count,
-    # write
-    pairs_out,
-    candidates_out,
-):
+def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out, candidates_out):
     """Merge the kept pairs with the sorted keys of the new ones.
 
     shapes SHAPE rows; kept (n, 2) slots in row order, kept_rows their shape rows; keys int64 row << 32 | row, sorted;
@@ -321,17 +276,7 @@ class Reach(NamedTuple):
 
 
 @kernel
-def update_rectangles(
-    # read
-    rows,
-    geometry,
-    bodies,
-    reach,
-    # write
-    shapes_inout,
-    proxies_inout,
-    changed_out,
-):
+def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout, changed_out):
     """Write the AABBs of these shape rows and the swept AABBs that no longer fit, and list the changed slots.
 
     Return the number of slots. reach: see Reach. O(rows).
@@ -416,19 +361,8 @@ def update_rectangles(
 
 
 @kernel
-def list_outside(
-    # read
-    rows,
-    bodies,
-    shapes,
-    proxies,
-    # write
-    rows_out,
-):
-    """List the shape rows whose AABB, as drawn, extends beyond their swept AABB. Return their number.
-
-    O(rows).
-    """
+def list_outside(rows, bodies, shapes, proxies, rows_out):
+    """List the shape rows whose AABB, as drawn, extends beyond their swept AABB. Return their number. O(rows)."""
     found = 0
     for k in range(len(rows)):
         s = shapes[rows[k]]
@@ -462,12 +396,7 @@ def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
 @stage(
     "motion_rectangles",
     reads=("effects", "stacks", "tolerances", "gravity", "dt", "awake", "bodies", "shapes", "library", "pairs"),
-    writes=(
-        "pairs",
-        "changed_count",
-        "library",
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
-    ),
+    writes=("pairs", "changed_count", "library", *PLACED),
 )
 def motion_rectangles(state: StepState) -> None:
     """Update the AABBs, and the swept AABBs that no longer fit."""

@@ -1,12 +1,13 @@
 """A uniform grid in a hash table, with coarser grids above it for larger boxes (hierarchical spatial hash)."""
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, overlaps, write_pair
+from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, meets_box, overlaps, write_pair
 from physics.jit import kernel, subkernel
 from physics.tables.step_state import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED, REINSERTS
 
@@ -34,6 +35,25 @@ ENTRY = np.dtype(
 )
 
 
+class Cells(NamedTuple):
+    """The lists of proxies in the cells of all levels, and on each level."""
+
+    levels: np.ndarray  # (slots,) level, or -1
+    heads: np.ndarray  # (buckets,) first entry; a power of two of them
+    entries: np.ndarray  # ENTRY, four for each slot
+    lists: np.ndarray  # (slots, 2) previous and next slot of the level
+    level_heads: np.ndarray  # (LEVELS + 1,) first slot
+    level_counts: np.ndarray  # (LEVELS + 1,) number of slots
+
+
+def empty_cells(slots: int, buckets: int) -> Cells:
+    """Return room for so many slots and buckets, without proxies."""
+    entries = np.zeros(4 * slots, ENTRY)
+    entries["bucket"] = -1
+    levels, heads, lists = np.full(slots, -1), np.full(buckets, -1), np.full((slots, 2), -1)
+    return Cells(levels, heads, entries, lists, np.full(LEVELS + 1, -1), np.zeros(LEVELS + 1, np.int64))
+
+
 @subkernel
 def cell_of(coordinate, inverse_size):
     """Return the cell of a coordinate [px]."""
@@ -48,8 +68,7 @@ def bucket_at(level, cell_x, cell_y, mask):
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level whose cells are as large as the box; LEVELS if there is none or the box is too far
-    out."""
+    """Return the finest level with cells as large as the box; LEVELS without one or for a box too far out."""
     extent = max(upper_x - lower_x, upper_y - lower_y)
     size = base
     level = 0
@@ -63,133 +82,95 @@ def level_of(lower_x, lower_y, upper_x, upper_y, base):
 
 
 @subkernel
-def take_out(
-    # scalars
-    slot,
-    # write
-    levels_inout,
-    heads_inout,
-    entries_inout,
-    lists_inout,
-    level_heads_inout,
-    level_counts_inout,
-    work_inout,
-):
-    """Unlink a slot from its cells and from the list of its level. O(4)."""
-    level = levels_inout[slot]
-    if level < 0:
-        return
-    for k in range(4 * slot, 4 * slot + 4):
-        e = entries_inout[k]
-        if e.bucket >= 0:
-            work_inout[CELLS_TOUCHED] += 1
-            if e.previous >= 0:
-                entries_inout[e.previous].next = e.next
-            else:
-                heads_inout[e.bucket] = e.next
-            if e.next >= 0:
-                entries_inout[e.next].previous = e.previous
-            e.bucket = -1
-    before = lists_inout[slot, 0]
-    after = lists_inout[slot, 1]
-    if before >= 0:
-        lists_inout[before, 1] = after
-    else:
-        level_heads_inout[level] = after
-    if after >= 0:
-        lists_inout[after, 0] = before
-    level_counts_inout[level] -= 1
-    levels_inout[slot] = -1
+def write_box(proxy, entry_out):
+    """Copy the box of a PROXY row to an ENTRY row."""
+    entry_out.lower_x = proxy.lower_x
+    entry_out.lower_y = proxy.lower_y
+    entry_out.upper_x = proxy.upper_x
+    entry_out.upper_y = proxy.upper_y
 
 
 @subkernel
-def put_in(
-    # read
-    proxies,
-    # scalars
-    slot,
-    level,
-    base,
-    mask,
-    # write
-    levels_inout,
-    heads_inout,
-    entries_inout,
-    lists_inout,
-    level_heads_inout,
-    level_counts_inout,
-    work_inout,
-):
+def take_out(slot, cells_inout, work_inout):
+    """Unlink a slot from its cells and from the list of its level. O(4)."""
+    entries = cells_inout.entries
+    lists = cells_inout.lists
+    level = cells_inout.levels[slot]
+    if level < 0:
+        return
+    for k in range(4 * slot, 4 * slot + 4):
+        e = entries[k]
+        if e.bucket >= 0:
+            work_inout[CELLS_TOUCHED] += 1
+            if e.previous >= 0:
+                entries[e.previous].next = e.next
+            else:
+                cells_inout.heads[e.bucket] = e.next
+            if e.next >= 0:
+                entries[e.next].previous = e.previous
+            e.bucket = -1
+    before = lists[slot, 0]
+    after = lists[slot, 1]
+    if before >= 0:
+        lists[before, 1] = after
+    else:
+        cells_inout.level_heads[level] = after
+    if after >= 0:
+        lists[after, 0] = before
+    cells_inout.level_counts[level] -= 1
+    cells_inout.levels[slot] = -1
+
+
+@subkernel
+def put_in(proxies, slot, level, base, cells_inout, work_inout):
     """Link a slot into the cells its box touches and into the list of its level. O(4)."""
     p = proxies[slot]
-    levels_inout[slot] = level
-    lists_inout[slot, 0] = -1
-    lists_inout[slot, 1] = level_heads_inout[level]
-    if level_heads_inout[level] >= 0:
-        lists_inout[level_heads_inout[level], 0] = slot
-    level_heads_inout[level] = slot
-    level_counts_inout[level] += 1
+    heads = cells_inout.heads
+    entries = cells_inout.entries
+    level_heads = cells_inout.level_heads
+    cells_inout.levels[slot] = level
+    cells_inout.lists[slot, 0] = -1
+    cells_inout.lists[slot, 1] = level_heads[level]
+    if level_heads[level] >= 0:
+        cells_inout.lists[level_heads[level], 0] = slot
+    level_heads[level] = slot
+    cells_inout.level_counts[level] += 1
     if level == LEVELS:
         return
+    mask = len(heads) - 1
     inverse = 1.0 / (base * (1 << level))
     k = 4 * slot
     for cell_y in range(cell_of(p.lower_y, inverse), cell_of(p.upper_y, inverse) + 1):
         for cell_x in range(cell_of(p.lower_x, inverse), cell_of(p.upper_x, inverse) + 1):
             bucket = bucket_at(level, cell_x, cell_y, mask)
-            e = entries_inout[k]
-            e.lower_x = p.lower_x
-            e.lower_y = p.lower_y
-            e.upper_x = p.upper_x
-            e.upper_y = p.upper_y
+            e = entries[k]
+            write_box(p, e)
             e.level = level
             e.cell_x = cell_x
             e.cell_y = cell_y
             e.bucket = bucket
             e.previous = -1
-            e.next = heads_inout[bucket]
+            e.next = heads[bucket]
             if e.next >= 0:
-                entries_inout[e.next].previous = k
-            heads_inout[bucket] = k
+                entries[e.next].previous = k
+            heads[bucket] = k
             work_inout[CELLS_TOUCHED] += 1
             k += 1
 
 
 @kernel
-def place_changed(
-    # read
-    proxies,
-    changed,
-    base,
-    # write
-    levels_inout,
-    heads_inout,
-    entries_inout,
-    lists_inout,
-    level_heads_inout,
-    level_counts_inout,
-    work_inout,
-):
+def place_changed(proxies, changed, base, cells_inout, work_inout):
     """Move the changed proxies to the cells they touch; one that stays in its cells is only updated. O(changed).
 
-    changed: slots; levels_inout (slots) level or -1; heads_inout: first entry of each bucket; entries_inout four per
-    slot; lists_inout (slots, 2) previous and next of the level. A box that spans more than two cells along an axis, by
-    its ends on cell borders, goes to the next coarser level.
+    changed: slots. A box that spans more than two cells along an axis, by its ends on cell borders, goes to the next
+    coarser level.
     """
-    mask = len(heads_inout) - 1
+    entries = cells_inout.entries
     for i in range(len(changed)):
         slot = changed[i]
         p = proxies[slot]
         if p.row < 0:
-            take_out(
-                slot,
-                levels_inout,
-                heads_inout,
-                entries_inout,
-                lists_inout,
-                level_heads_inout,
-                level_counts_inout,
-                work_inout,
-            )
+            take_out(slot, cells_inout, work_inout)
             continue
         level = level_of(p.lower_x, p.lower_y, p.upper_x, p.upper_y, base)
         if level < LEVELS:
@@ -201,9 +182,9 @@ def place_changed(
                 inverse *= 0.5
                 columns = cell_of(p.upper_x, inverse) - cell_of(p.lower_x, inverse) + 1
                 rows = cell_of(p.upper_y, inverse) - cell_of(p.lower_y, inverse) + 1
-            if level == levels_inout[slot] and level < LEVELS:
-                first = entries_inout[4 * slot]
-                last = entries_inout[4 * slot + columns * rows - 1]
+            if level == cells_inout.levels[slot] and level < LEVELS:
+                first = entries[4 * slot]
+                last = entries[4 * slot + columns * rows - 1]
                 if (
                     first.bucket >= 0
                     and first.cell_x == cell_of(p.lower_x, inverse)
@@ -211,39 +192,13 @@ def place_changed(
                     and last.bucket >= 0
                     and last.cell_x == cell_of(p.upper_x, inverse)
                     and last.cell_y == cell_of(p.upper_y, inverse)
-                    and (columns * rows == 4 or entries_inout[4 * slot + columns * rows].bucket < 0)
+                    and (columns * rows == 4 or entries[4 * slot + columns * rows].bucket < 0)
                 ):
                     for k in range(4 * slot, 4 * slot + columns * rows):
-                        e = entries_inout[k]
-                        e.lower_x = p.lower_x
-                        e.lower_y = p.lower_y
-                        e.upper_x = p.upper_x
-                        e.upper_y = p.upper_y
+                        write_box(p, entries[k])
                     continue
-        take_out(
-            slot,
-            levels_inout,
-            heads_inout,
-            entries_inout,
-            lists_inout,
-            level_heads_inout,
-            level_counts_inout,
-            work_inout,
-        )
-        put_in(
-            proxies,
-            slot,
-            level,
-            base,
-            mask,
-            levels_inout,
-            heads_inout,
-            entries_inout,
-            lists_inout,
-            level_heads_inout,
-            level_counts_inout,
-            work_inout,
-        )
+        take_out(slot, cells_inout, work_inout)
+        put_in(proxies, slot, level, base, cells_inout, work_inout)
         work_inout[REINSERTS] += 1
 
 
@@ -290,28 +245,15 @@ def follow(entries, p, level, count, chains_inout, near_out):
 
 
 @kernel
-def find_in_cells(
-    # read
-    proxies,
-    changed,
-    base,
-    levels,
-    heads,
-    entries,
-    lists,
-    level_heads,
-    level_counts,
-    # write
-    chains_out,
-    near_out,
-    pairs_out,
-    work_inout,
-):
+def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out, work_inout):
     """List the pairs with a changed side: per level from the cells the box touches, or from the level's list.
 
     A pair that shares several cells is reported in the cell of the lower corner of the shared rectangle. Return the
     number of pairs. O(cells + candidates); the number of cells is at most proportional to the outline of the box.
     """
+    heads = cells.heads
+    entries = cells.entries
+    level_counts = cells.level_counts
     mask = len(heads) - 1
     found = 0
     tested = 0
@@ -323,7 +265,7 @@ def find_in_cells(
         for level in range(LEVELS + 1):
             if level_counts[level] == 0:
                 continue
-            by_list = level == LEVELS or levels[a] == LEVELS
+            by_list = level == LEVELS or cells.levels[a] == LEVELS
             first_x = 0
             first_y = 0
             last_x = -1
@@ -342,11 +284,11 @@ def find_in_cells(
                     rows = last_y - first_y + 1
                     by_list = columns * rows > 4 * (columns + rows)
             if by_list:
-                b = level_heads[level]
+                b = cells.level_heads[level]
                 while b >= 0:
                     if b != a and not (proxies[b].changed and b < a) and overlaps(proxies, a, b, work_inout):
                         found = write_pair(a, b, found, pairs_out)
-                    b = lists[b, 1]
+                    b = cells.lists[b, 1]
                 continue
             cell_x = first_x
             cell_y = first_y
@@ -381,28 +323,15 @@ def find_in_cells(
 
 
 @kernel
-def near_in_cells(
-    # read
-    base,
-    heads,
-    entries,
-    lists,
-    level_heads,
-    level_counts,
-    proxies,
-    lower_x,
-    lower_y,
-    upper_x,
-    upper_y,
-    # write
-    slots_out,
-    work_inout,
-):
+def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
     """List the slots whose box meets a closed box [px], by the cells or the list of each level. Return their number.
 
     A slot in several cells is taken from the cell of the lower corner of the shared rectangle. O(cells + boxes in
     them); the number of cells is at most proportional to the level's proxies.
     """
+    heads = cells.heads
+    level_counts = cells.level_counts
+    lower_x, lower_y, upper_x, upper_y = box
     mask = len(heads) - 1
     reach = max(max(abs(lower_x), abs(upper_x)), max(abs(lower_y), abs(upper_y)))
     found = 0
@@ -423,30 +352,26 @@ def near_in_cells(
             rows = cell_of(upper_y, inverse) - cell_of(lower_y, inverse) + 1
             by_list = columns * rows > level_counts[level] + 4
         if by_list:
-            slot = level_heads[level]
+            slot = cells.level_heads[level]
             while slot >= 0:
-                p = proxies[slot]
                 work_inout[PAIRS_TESTED] += 1
-                if p.lower_x <= upper_x and p.upper_x >= lower_x and p.lower_y <= upper_y and p.upper_y >= lower_y:
+                if meets_box(proxies[slot], box):
                     slots_out[found] = slot
                     found += 1
-                slot = lists[slot, 1]
+                slot = cells.lists[slot, 1]
             continue
         for cell_y in range(cell_of(lower_y, inverse), cell_of(upper_y, inverse) + 1):
             for cell_x in range(cell_of(lower_x, inverse), cell_of(upper_x, inverse) + 1):
                 work_inout[NODES_VISITED] += 1
                 k = heads[bucket_at(level, cell_x, cell_y, mask)]
                 while k >= 0:
-                    e = entries[k]
+                    e = cells.entries[k]
                     work_inout[PAIRS_TESTED] += 1
                     if (
                         e.level == level
                         and e.cell_x == cell_x
                         and e.cell_y == cell_y
-                        and e.lower_x <= upper_x
-                        and e.upper_x >= lower_x
-                        and e.lower_y <= upper_y
-                        and e.upper_y >= lower_y
+                        and meets_box(e, box)
                         and cell_of(max(lower_x, e.lower_x), inverse) == cell_x
                         and cell_of(max(lower_y, e.lower_y), inverse) == cell_y
                     ):
@@ -482,16 +407,7 @@ class SpatialHashGrid:
         self.base = self.cell or 0.0
         self.tuned_for = 0
         self.chains, self.near_entries = np.zeros((CHAINS, 3), np.int64), np.zeros(NEAR, np.int64)
-        self._clear(0, 16)
-
-    def _clear(self, slots, buckets):
-        self.levels = np.full(slots, -1, np.int64)
-        self.heads = np.full(buckets, -1, np.int64)
-        self.entries = np.zeros(4 * slots, ENTRY)
-        self.entries["bucket"] = -1
-        self.lists = np.full((slots, 2), -1, np.int64)
-        self.level_heads = np.full(LEVELS + 1, -1, np.int64)
-        self.level_counts = np.zeros(LEVELS + 1, np.int64)
+        self.lists = empty_cells(0, 16)
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
@@ -502,30 +418,25 @@ class SpatialHashGrid:
         return SpatialHashGrid(self.cell)
 
     def update(self, arena: Arena) -> None:
-        """Move the changed proxies to their cells; enlarge the table and tune the cell size when the bodies have
-        doubled."""
+        """Move the changed proxies to their cells; enlarge the table and tune the cells when bodies have doubled."""
         proxies = arena.proxies
         changed = arena.changed
-        alive = int(self.level_counts.sum()) + len(changed)  # a cheap upper bound
-        coarse = int(self.level_counts[2:LEVELS].sum())
+        alive = int(self.lists.level_counts.sum()) + len(changed)  # a cheap upper bound
+        coarse = int(self.lists.level_counts[2:LEVELS].sum())
+        slots, buckets = len(self.lists.levels), len(self.lists.heads)
         retune = self.cell is None and (alive > 2 * self.tuned_for or 2 * coarse > max(alive, 8))
-        if retune or alive > len(self.heads) or len(proxies) > len(self.levels):
+        if retune or alive > buckets or len(proxies) > slots:
             rows = np.flatnonzero(proxies["row"] >= 0)
             if self.cell is None and retune and len(rows):
                 self.base = self._tuned(proxies[rows])
                 self.tuned_for = max(len(rows), 8)
-            buckets = len(self.heads)
             while buckets < 2 * alive:
                 buckets *= 2
-            self._clear(
-                max(len(proxies), 2 * len(self.levels) if len(proxies) > len(self.levels) else len(self.levels)),
-                buckets,
-            )
+            if len(proxies) > slots:
+                slots = max(len(proxies), 2 * slots)
+            self.lists = empty_cells(slots, buckets)
             changed = rows
-        place_changed(proxies, changed, self.base, *self._state(), arena.work)
-
-    def _state(self):
-        return self.levels, self.heads, self.entries, self.lists, self.level_heads, self.level_counts
+        place_changed(proxies, changed, self.base, self.lists, arena.work)
 
     @staticmethod
     def _tuned(boxes):
@@ -538,33 +449,18 @@ class SpatialHashGrid:
     def query(self, arena: Arena) -> Query:
         """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_in_cells(
-            arena.proxies, arena.changed, self.base, *self._state(), self.chains, self.near_entries, pairs, work
+            arena.proxies, arena.changed, self.base, self.lists, self.chains, self.near_entries, pairs, work
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
-        return near_in_cells(
-            self.base,
-            self.heads,
-            self.entries,
-            self.lists,
-            self.level_heads,
-            self.level_counts,
-            proxies,
-            *box,
-            slots,
-            work,
-        )
+        return near_in_cells(self.base, self.lists, proxies, box, slots, work)
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:
         """Return the occupied cells: (m, 4) rectangles [px] and (m,) levels, for drawing."""
-        used = self.entries[self.entries["bucket"] >= 0]
-        level = np.repeat(self.levels, 4)[self.entries["bucket"] >= 0]
-        cells = (
-            np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0)
-            if len(used)
-            else np.zeros((0, 3), np.int64)
-        )
+        linked = self.lists.entries["bucket"] >= 0
+        used, level = self.lists.entries[linked], np.repeat(self.lists.levels, 4)[linked]
+        cells = np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0)
         size = self.base * 2.0 ** cells[:, 0]
         low = cells[:, 1:] * size[:, None]
         return np.concatenate([low, low + size[:, None]], axis=1), cells[:, 0]

@@ -20,14 +20,7 @@ SWAP_BUDGET = 16  # swaps per body after which a full sort is cheaper than inser
 
 
 @kernel
-def refresh_order(
-    # read
-    proxies,
-    axis,
-    # write
-    order_inout,
-    lower_out,
-):
+def refresh_order(proxies, axis, order_inout, lower_out):
     """Drop freed slots from the order and read the lower ends along the axis.
 
     order_inout: slots; lower_out [px]. Return the number of slots left. O(n).
@@ -44,15 +37,7 @@ def refresh_order(
 
 
 @kernel
-def insertion_sort(
-    # scalars
-    count,
-    budget,
-    # write
-    order_inout,
-    lower_inout,
-    work_inout,
-):
+def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
     """Sort nearly sorted lower ends by insertion sort. Return 0, or 1 when the budget of swaps was exceeded.
 
     order_inout: slots; lower_inout [px]. O(n + swaps).
@@ -76,16 +61,7 @@ def insertion_sort(
 
 
 @kernel
-def sort_boxes(
-    # read
-    proxies,
-    order,
-    count,
-    axis,
-    # write
-    boxes_out,
-    next_changed_out,
-):
+def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
     """Copy the boxes into sorted order, where the sweep reads them sequentially.
 
     boxes_out (n, 4) float64 [px]: low and high along the axis, low and high along the other; next_changed_out: place
@@ -105,17 +81,7 @@ def sort_boxes(
 
 
 @kernel
-def sweep_one(
-    # read
-    proxies,
-    order,
-    count,
-    boxes,
-    next_changed,
-    # write
-    pairs_out,
-    work_inout,
-):
+def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout):
     """Sweep the sorted intervals; test each overlap with a changed side. Return the number of pairs.
 
     order: slots; boxes (n, 4) [px]; next_changed: places. An unchanged proxy is tested against changed neighbours only,
@@ -159,17 +125,7 @@ def sweep_one(
 
 
 @kernel
-def sweep_intervals(
-    # read
-    proxies,
-    order,
-    count,
-    boxes,
-    next_changed,
-    # write
-    keys_out,
-    work_inout,
-):
+def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_inout):
     """Write the interval overlaps along one axis as keys slot << 32 | slot. Return their number."""
     found = 0
     for i in range(count):
@@ -192,17 +148,7 @@ def sweep_intervals(
 
 
 @kernel
-def intersect(
-    # read
-    proxies,
-    keys_x,
-    count_x,
-    keys_y,
-    count_y,
-    # write
-    pairs_out,
-    work_inout,
-):
+def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
     """Write the pairs that are in both sorted key lists and may meet. Return their number. O(both lists)."""
     found = 0
     i = 0
@@ -224,26 +170,16 @@ def intersect(
 
 
 @kernel
-def near_in_order(
-    # read
-    order,
-    boxes,
-    highest,
-    lower,
-    upper,
-    other_lower,
-    other_upper,
-    # write
-    slots_out,
-    work_inout,
-):
+def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
     """List the slots whose box meets a closed box, by binary search along the sorted axis. Return their number.
 
-    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: low and high along the axis, along the other;
-    highest (n,) [px]: running maximum of the high ends, by which boxes that end before the query are skipped. One giant
-    at the start defeats that. O(log n + boxes between).
+    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: low and high along the axis (0: x), along the
+    other; highest (n,) [px]: running maximum of the high ends, by which boxes that end before the query are skipped.
+    One giant at the start defeats that. O(log n + boxes between).
     """
     count = len(order)
+    lower = box[axis]
+    upper = box[axis + 2]
     first = 0
     last = count
     while first < last:
@@ -257,7 +193,7 @@ def near_in_order(
     k = first
     while k < count and boxes[k, 0] <= upper:
         work_inout[PAIRS_TESTED] += 1
-        if boxes[k, 1] >= lower and boxes[k, 2] <= other_upper and boxes[k, 3] >= other_lower:
+        if boxes[k, 1] >= lower and boxes[k, 2] <= box[3 - axis] and boxes[k, 3] >= box[1 - axis]:
             slots_out[found] = order[k]
             found += 1
         k += 1
@@ -303,18 +239,7 @@ class Axis:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
-        other = 1 - self.axis
-        return near_in_order(
-            self.order,
-            self.boxes,
-            self.highest,
-            box[self.axis],
-            box[self.axis + 2],
-            box[other],
-            box[other + 2],
-            slots,
-            work,
-        )
+        return near_in_order(self.order, self.boxes, self.highest, self.axis, box, slots, work)
 
     def sweep(self, arena: Arena, pairs: np.ndarray, work: np.ndarray) -> int:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from physics.broadphase.proxies import overlaps, write_pair
+from physics.broadphase.proxies import meets_box, overlaps, write_pair
 from physics.jit import inlined, kernel, subkernel
 from physics.tables.step_state import NODES_VISITED
 
@@ -310,14 +310,7 @@ def write_four(index, nodes, fours_out, kin_out):
 
 
 @kernel
-def write_stale(
-    # write
-    nodes_inout,
-    stale_inout,
-    state_inout,
-    fours_out,
-    kin_out,
-):
+def write_stale(nodes_inout, stale_inout, state_inout, fours_out, kin_out):
     """Write the BVH4 nodes in the stale list, and empty it. O(stale)."""
     for k in range(state_inout[STALE]):
         n = nodes_inout[stale_inout[k]]
@@ -328,14 +321,7 @@ def write_stale(
 
 
 @kernel
-def write_bvh4(
-    # read
-    nodes,
-    still,
-    # write
-    fours_out,
-    kin_out,
-):
+def write_bvh4(nodes, still, fours_out, kin_out):
     """Write the BVH4 node of every inner node of the static tree (still 1) or the moving one (0). O(nodes)."""
     for index in range(len(nodes)):
         if nodes[index].height > 0 and nodes[index].still == (still == 1):
@@ -343,11 +329,12 @@ def write_bvh4(
 
 
 @inlined
-def push_met(bvh4, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_out):
+def push_met(bvh4, kin, at, box, depth, stack_out):
     """Push those of a BVH4 node's children that overlap a closed box [px] on a stack. Return its new depth.
 
     There is no branch: the next child overwrites one that does not overlap.
     """
+    lower_x, lower_y, upper_x, upper_y = box
     for lane in range(WIDTH):
         k = at * SIZE + lane
         meets = (
@@ -406,18 +393,7 @@ def spread(along, leaves, first, last):
 
 
 @kernel
-def rebuild(
-    # read
-    leaf_of,
-    still,
-    # write
-    leaves_out,
-    spans_out,
-    twice_x_out,
-    twice_y_out,
-    nodes_inout,
-    state_inout,
-):
+def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nodes_inout, state_inout):
     """Rebuild the tree of the static leaves (still 1) or of the moving ones (0) by median splits.
 
     leaf_of (slots): leaf or -1; scratch: leaves_out (slots), spans_out (slots, 4), twice_x_out, twice_y_out (nodes):
@@ -500,17 +476,7 @@ def rebuild(
 
 
 @kernel
-def find_pairs_in_trees(
-    # read
-    proxies,
-    changed,
-    nodes,
-    state,
-    # write
-    stack_inout,
-    pairs_out,
-    work_inout,
-):
+def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, work_inout):
     """List the pairs with a changed side, by descending both trees with each changed box.
 
     changed: slots; stack_inout: scratch. Return the number of pairs. O(changed · log n + pairs).
@@ -546,19 +512,7 @@ def find_pairs_in_trees(
 
 
 @kernel
-def query_trees(
-    # read
-    nodes,
-    roots,
-    lower_x,
-    lower_y,
-    upper_x,
-    upper_y,
-    # write
-    stack_inout,
-    slots_out,
-    work_inout,
-):
+def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
     """List the slots whose leaf meets a closed box [px], from the roots down. Return their number. O(log n + found)."""
     found = 0
     depth = 0
@@ -570,7 +524,7 @@ def query_trees(
         depth -= 1
         n = nodes[stack_inout[depth]]
         work_inout[NODES_VISITED] += 1
-        if n.lower_x > upper_x or n.upper_x < lower_x or n.lower_y > upper_y or n.upper_y < lower_y:
+        if not meets_box(n, box):
             continue
         if n.height > 0:
             stack_inout[depth] = n.child_a
@@ -583,19 +537,7 @@ def query_trees(
 
 
 @kernel
-def find_pairs_in_bvh4(
-    # read
-    proxies,
-    changed,
-    nodes,
-    bvh4,
-    kin,
-    state,
-    # write
-    stack_inout,
-    pairs_out,
-    work_inout,
-):
+def find_pairs_in_bvh4(proxies, changed, nodes, bvh4, kin, state, stack_inout, pairs_out, work_inout):
     """List the same pairs as find_pairs_in_trees, four boxes at a time. O(changed · log n + pairs)."""
     found = 0
     for i in range(len(changed)):
@@ -618,26 +560,13 @@ def find_pairs_in_bvh4(
                     found = write_pair(a, b, found, pairs_out)
                 continue
             work_inout[NODES_VISITED] += 1
-            depth = push_met(bvh4, kin, at, p.lower_x, p.lower_y, p.upper_x, p.upper_y, depth, stack_inout)
+            box = (p.lower_x, p.lower_y, p.upper_x, p.upper_y)
+            depth = push_met(bvh4, kin, at, box, depth, stack_inout)
     return found
 
 
 @kernel
-def query_bvh4(
-    # read
-    nodes,
-    bvh4,
-    kin,
-    roots,
-    lower_x,
-    lower_y,
-    upper_x,
-    upper_y,
-    # write
-    stack_inout,
-    slots_out,
-    work_inout,
-):
+def query_bvh4(nodes, bvh4, kin, roots, box, stack_inout, slots_out, work_inout):
     """List the same slots as query_trees, four boxes at a time. Return their number. O(log n + found)."""
     found = 0
     depth = 0
@@ -650,7 +579,7 @@ def query_bvh4(
             depth += 1
         else:
             work_inout[NODES_VISITED] += 1
-            if n.lower_x <= upper_x and n.upper_x >= lower_x and n.lower_y <= upper_y and n.upper_y >= lower_y:
+            if meets_box(n, box):
                 slots_out[found] = n.slot
                 found += 1
     while depth > 0:
@@ -661,5 +590,5 @@ def query_bvh4(
             found += 1
             continue
         work_inout[NODES_VISITED] += 1
-        depth = push_met(bvh4, kin, at, lower_x, lower_y, upper_x, upper_y, depth, stack_inout)
+        depth = push_met(bvh4, kin, at, box, depth, stack_inout)
     return found

@@ -3,12 +3,14 @@
 import math
 
 from physics.ccd.rotational import stands_deep, sweep_rotational
-from physics.ccd.time_of_impact import MISS, has_closed_form, write_impact
+from physics.ccd.time_of_impact import MISS, sweep_circle_polygon, sweep_circles, sweep_polygons
+from physics.collision.hulls import ALL_EDGES, Hull, collide_polygon_circle, middle_of
 from physics.collision.manifold import open_manifold
 from physics.jit import kernel, subkernel
 from physics.math2d import norm, rotate
+from physics.shapes.placement import corners_at, is_hull
 from physics.tables.body import AUTO, DYNAMIC, KINEMATIC, OFF, RAY, STATIC, SWEPT, TOI
-from physics.tables.shape import CHAIN, MASK, TILES
+from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, POLYGON, TILES
 from physics.tables.step_state import TOI_CALLS
 
 # ---- paths -----------------------------------------------------------------------------------------------------------
@@ -18,13 +20,7 @@ from physics.tables.step_state import TOI_CALLS
 
 
 @kernel
-def list_paths(
-    # read
-    rows,
-    bodies,
-    # write
-    paths_out,
-):
+def list_paths(rows, bodies, paths_out):
     """Write centre of mass and angle before and after the step: x0 y0 angle0 x1 y1 angle1 [px, rad]. O(rows).
 
     A body with a sweep without rotation keeps its angle before the step.
@@ -56,14 +52,7 @@ def way_of(bodies, paths, row):
 
 
 @kernel
-def find_fast(
-    # read
-    rows,
-    bodies,
-    paths,
-    # write
-    fast_out,
-):
+def find_fast(rows, bodies, paths, fast_out):
     """Flag the bodies to sweep. Return (the number of bodies to look at, the number swept without rotation). O(rows).
 
     Modes "toi", "ray" and "swept" are always swept while they move; "auto" if a point may move by more than half the
@@ -108,16 +97,7 @@ def is_fast(bodies, paths, row, other):
 
 
 @kernel
-def find_outgrown(
-    # read
-    rows,
-    bodies,
-    shapes,
-    proxies,
-    fast,
-    # write
-    rows_out,
-):
+def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
     """List the shape rows of swept bodies that left their swept AABB. Return their number. O(rows)."""
     found = 0
     for k in range(len(rows)):
@@ -136,14 +116,7 @@ def find_outgrown(
 
 
 @kernel
-def foresee_paths(
-    # read
-    rows,
-    bodies,
-    dt,
-    # write
-    paths_out,
-):
+def foresee_paths(rows, bodies, dt, paths_out):
     """Write the paths (see list_paths) of the bodies in dt [s] without obstacles. O(rows)."""
     for k in range(len(rows)):
         i = rows[k]
@@ -167,6 +140,175 @@ def cut_path(paths, row, start, end, cut_out):
         cut_out[row, 3 + k] = paths[row, 3 + k] if end == 1.0 else paths[row, k] + end * whole
 
 
+# ---- straight --------------------------------------------------------------------------------------------------------
+# First impacts of bodies that move without rotation: circles, convex polygons and rays, in closed form, relative to the
+# other shape. Overlaps deeper than the slop at the start are left to the sweep of rotational.py.
+
+
+@subkernel
+def is_straight(shape):
+    """Return whether the closed forms handle a shape; the sweep with rotation handles all others."""
+    return shape.kind == CIRCLE or shape.kind == BOUNDS or (shape.kind == POLYGON and shape.radius == 0.0)
+
+
+@subkernel
+def has_closed_form(mover, other, mode):
+    """Return whether a fast shape is swept here: by its own outline, or as a ray from the centre of any hull."""
+    if mode == RAY:
+        return is_straight(other) and is_hull(mover.kind)
+    return is_straight(other) and is_straight(mover)
+
+
+@subkernel
+def sweep_disc(x, y, radius, move, outline, slack):
+    """Return (fraction or MISS, normal from the outline) of a disc at (x, y), moved by (dx, dy), and a resting Hull."""
+    corners, count, _, edges = outline
+    fraction, nx, ny = sweep_circle_polygon(corners, count, edges, x, y, move[0], move[1], radius)
+    if fraction == 0.0:
+        hit, _, _, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
+        if hit and separation < -slack:
+            return MISS, nx, ny
+    return fraction, nx, ny
+
+
+@subkernel
+def sweep_pair(row, other, dt, sweep, scratch):
+    """Return (fraction or MISS, normal to `row`) of shape `row` against shape `other`, both moving for dt [s]."""
+    geometry, bodies, shapes, slack = sweep.geometry, sweep.bodies, sweep.shapes, sweep.slack
+    s = shapes[row]
+    o = shapes[other]
+    p = bodies[s.body_row]
+    q = bodies[o.body_row]
+    ray = p.continuous == RAY
+    dx = dt * p.vx
+    dy = dt * p.vy
+    if q.kind != STATIC:
+        dx -= dt * q.vx
+        dy -= dt * q.vy
+    # A disc by its centre and radius, a ray by the middle of the mover, a polygon by its corners.
+    radius = 0.0
+    count = 0
+    if s.kind == CIRCLE:
+        u, v = rotate(s.local_x, s.local_y, math.cos(p.angle), math.sin(p.angle))
+        x = p.x + u
+        y = p.y + v
+        if not ray:
+            radius = s.radius
+    else:
+        count = corners_at(geometry, shapes, row, p.x, p.y, p.angle, scratch.b)
+        x, y = middle_of(scratch.b, count)
+    if o.kind == CIRCLE:
+        u, v = rotate(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
+        if s.kind == CIRCLE or ray:
+            x = x - q.x - u
+            y = y - q.y - v
+            radius += o.radius
+            fraction, nx, ny = sweep_circles(x, y, dx, dy, radius)
+            is_deep = s.kind == CIRCLE and fraction == 0.0 and norm(x, y) < radius - slack
+            return MISS if is_deep else fraction, nx, ny
+        # The circle moves the opposite way, against the polygon at rest.
+        outline = Hull(scratch.b, count, 0.0, ALL_EDGES)
+        fraction, nx, ny = sweep_disc(q.x + u, q.y + v, o.radius, (-dx, -dy), outline, slack)
+        return fraction, -nx, -ny
+    outline = Hull(scratch.a, corners_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.a), 0.0, ALL_EDGES)
+    if s.kind == CIRCLE:
+        return sweep_disc(x, y, radius, (dx, dy), outline, slack)
+    if ray:
+        return sweep_circle_polygon(scratch.a, outline.count, ALL_EDGES, x, y, dx, dy, 0.0)
+    return sweep_polygons(scratch.b, count, scratch.a, outline.count, (dx, dy), slack)
+
+
+@subkernel
+def asks_sweep(body, dt, only_straight):
+    """Return whether the continuous mode of a body needs a sweep without rotation in this step of dt [s].
+
+    "auto" does if it moves by more than half its size. only_straight: see find_impacts.
+    """
+    if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
+        return False
+    if body.continuous == AUTO:
+        return not only_straight and norm(body.vx, body.vy) * dt > body.inradius
+    return True
+
+
+@subkernel
+def write_impact(pair, impact, from_a, stops, found, impacts_out):
+    """Write an impact of a candidate pair if there is room. Return the count, which may exceed the capacity.
+
+    impact: (fraction, normal from the obstacle to the mover, feature: index of tiles or link). from_a: the mover is A.
+    """
+    if found < impacts_out.shape[0]:
+        fraction, nx, ny, feature = impact
+        impacts_out[found, 0] = float(pair)
+        impacts_out[found, 1] = fraction
+        impacts_out[found, 2] = -nx if from_a else nx
+        impacts_out[found, 3] = -ny if from_a else ny
+        impacts_out[found, 4] = 1.0 if stops else 0.0
+        impacts_out[found, 5] = float(feature)
+    return found + 1
+
+
+@kernel
+def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
+    """List (candidate, fraction, normal from A to B, stops, -1) of the pairs that a fast body meets within dt [s].
+
+    Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at the
+    end of the step removes it, and a body that slides along the ground is not held. only_straight: leave bodies that
+    rotate to the sweep with rotation. scratch: a Workspace. impacts_out (n, 8) float64, without points. Return the
+    number found. O(candidates).
+    """
+    bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
+    found = 0
+    for i in range(len(candidates)):
+        a = shapes[candidates[i, 0]]
+        b = shapes[candidates[i, 1]]
+        p = bodies[a.body_row]
+        q = bodies[b.body_row]
+        a_fast = asks_sweep(p, dt, only_straight)
+        b_fast = asks_sweep(q, dt, only_straight)
+        if not (a_fast or b_fast):
+            continue
+        from_a = a_fast and a.kind != TILES
+        if from_a and b_fast and b.kind != TILES and p.continuous == RAY and q.continuous != RAY:
+            from_a = False
+        mover = candidates[i, 0] if from_a else candidates[i, 1]
+        other = candidates[i, 1] if from_a else candidates[i, 0]
+        body = p if from_a else q
+        if shapes[mover].kind == TILES or not has_closed_form(shapes[mover], shapes[other], body.continuous):
+            continue
+        sweep_inout.work[TOI_CALLS] += 1
+        fraction, nx, ny = sweep_pair(mover, other, dt, sweep_inout, scratch)
+        if fraction > 1.0:
+            continue
+        dx = body.vx
+        dy = body.vy
+        rest = q if from_a else p
+        if rest.kind != STATIC:
+            dx -= rest.vx
+            dy -= rest.vy
+        stops = -(nx * dx + ny * dy) * dt > 0.25 * body.min_half_extent
+        found = write_impact(i, (fraction, nx, ny, -1), from_a, stops, found, impacts_out)
+    return found
+
+
+@kernel
+def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
+    """Set the free fraction of each body to its first impact with a shape that is no sensor. O(impacts)."""
+    for i in range(len(impacts)):
+        pair = int(impacts[i, 0])
+        a = shapes[candidates[pair, 0]]
+        b = shapes[candidates[pair, 1]]
+        if a.sensor or b.sensor or impacts[i, 4] == 0.0:
+            continue
+        p = bodies_inout[a.body_row]
+        q = bodies_inout[b.body_row]
+        # A kinematic body goes on and pushes the body that it meets.
+        if p.kind == DYNAMIC:
+            p.fraction = min(p.fraction, impacts[i, 1])
+        if q.kind == DYNAMIC:
+            q.fraction = min(q.fraction, impacts[i, 1])
+
+
 # ---- impacts ---------------------------------------------------------------------------------------------------------
 # The sweep over one step of bodies that also rotate: the first impact of each fast body, and where it stops.
 #
@@ -176,32 +318,29 @@ def cut_path(paths, row, start, end, cut_out):
 
 
 @subkernel
-def first_meeting(geometry, bodies, shapes, paths, mover, other, slack, one_way, cuts_out, workspace, work_inout):
+def first_meeting(mover, other, slack, sweep_inout):
     """Return the first impact of `mover` with `other` as (fraction or MISS, normal from other to mover, feature).
 
     Each body moves up to its fraction of the step, and then rests.
     """
-    p = shapes[mover].body_row
-    q = shapes[other].body_row
+    bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
+    p = sweep_inout.shapes[mover].body_row
+    q = sweep_inout.shapes[other].body_row
     far_p = bodies[p].fraction
     far_q = bodies[q].fraction
     both = min(far_p, far_q)
     if both > 0.0:
-        cut_path(paths, p, 0.0, both, cuts_out)
-        cut_path(paths, q, 0.0, both, cuts_out)
-        fraction, nx, ny, feature = sweep_rotational(
-            geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, -1, workspace, work_inout
-        )
+        cut_path(paths, p, 0.0, both, cuts)
+        cut_path(paths, q, 0.0, both, cuts)
+        fraction, nx, ny, feature = sweep_rotational(mover, other, slack, -1, sweep_inout)
         if fraction <= 1.0:
             return fraction * both, nx, ny, feature
     last = max(far_p, far_q)
     if last == both:
         return MISS, 0.0, -1.0, -1
-    cut_path(paths, p, min(both, far_p), far_p, cuts_out)
-    cut_path(paths, q, min(both, far_q), far_q, cuts_out)
-    fraction, nx, ny, feature = sweep_rotational(
-        geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, -1, workspace, work_inout
-    )
+    cut_path(paths, p, min(both, far_p), far_p, cuts)
+    cut_path(paths, q, min(both, far_q), far_q, cuts)
+    fraction, nx, ny, feature = sweep_rotational(mover, other, slack, -1, sweep_inout)
     if fraction <= 1.0:
         return both + fraction * (last - both), nx, ny, feature
     return MISS, 0.0, -1.0, -1
@@ -246,56 +385,51 @@ def goes_on(bodies, paths, mover, other, fraction, nx, ny):
     return max(-(nx * dx + ny * dy), turns)
 
 
+@subkernel
+def is_swept(moving, a, b, sweep_inout):
+    """Return whether a pair of SHAPE rows is swept: one body is fast. moving: see find_rotational_impacts."""
+    bodies, paths, fast = sweep_inout.bodies, sweep_inout.paths, sweep_inout.fast
+    rest_where_it_is(bodies, a.body_row, paths, fast)
+    rest_where_it_is(bodies, b.body_row, paths, fast)
+    is_one_fast = fast[a.body_row] or fast[b.body_row] or is_fast(bodies, paths, a.body_row, b.body_row)
+    if not (is_one_fast or is_fast(bodies, paths, b.body_row, a.body_row)):
+        return False
+    still = stands_still(bodies, paths, a.body_row) or stands_still(bodies, paths, b.body_row)
+    if still == (moving == 1):
+        return False
+    p = bodies[a.body_row]
+    q = bodies[b.body_row]
+    return not (sweep_inout.stacking and p.kind == DYNAMIC and q.kind == DYNAMIC and not (p.bullet or q.bullet))
+
+
+@subkernel
+def is_first_mover(a, b, bodies, fast):
+    """Return whether A of two SHAPE rows is swept: the body that can be stopped, otherwise the fast one.
+
+    The two move relative to each other.
+    """
+    is_dynamic = bodies[a.body_row].kind == DYNAMIC
+    return fast[a.body_row] if is_dynamic == (bodies[b.body_row].kind == DYNAMIC) else is_dynamic
+
+
 @kernel
-def find_rotational_impacts(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    count,
-    moving,
-    stacking,
-    rotation,
-    slack,
-    one_way,
-    # write
-    paths_inout,
-    fast_inout,
-    cuts_out,
-    workspace,
-    impacts_out,
-    work_inout,
-):
+def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
     """List (candidate, fraction, normal from A to B, stops, feature) of the pairs that a fast body meets on its path.
 
-    paths_inout (bodies, 6) from list_paths. fast (bodies) bool. moving: 0 for pairs with resting bodies, 1 for the
-    others. stacking: two dynamic bodies are left to the solver unless one is a bullet; without it, motion into the
-    other by less than a quarter of the half extent does not stop a body, because the contact removes it at once.
-    rotation: without it, pairs with a closed form were found by that. slack [px]: see sweep_part. impacts_out (n, 8).
-    Return the number found. O(candidates).
+    moving: 0 for pairs with resting bodies, 1 for the others. Without stacking, motion into the other by less than a
+    quarter of the half extent does not stop a body, because the contact removes it at once. rotation: without it, pairs
+    with a closed form were found by that. impacts_out (n, 8). Return the number found. O(candidates).
     """
+    bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
+    stacking, slack = sweep_inout.stacking, sweep_inout.slack
     found = 0
-    for i in range(count):
+    for i in range(len(candidates)):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        rest_where_it_is(bodies, a.body_row, paths_inout, fast_inout)
-        rest_where_it_is(bodies, b.body_row, paths_inout, fast_inout)
-        fast = fast_inout[a.body_row] or fast_inout[b.body_row]
-        fast = fast or is_fast(bodies, paths_inout, a.body_row, b.body_row)
-        if not (fast or is_fast(bodies, paths_inout, b.body_row, a.body_row)):
+        if not is_swept(moving, a, b, sweep_inout):
             continue
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
-        still = stands_still(bodies, paths_inout, a.body_row) or stands_still(bodies, paths_inout, b.body_row)
-        if still == (moving == 1):
-            continue
-        if stacking and p.kind == DYNAMIC and q.kind == DYNAMIC and not (p.bullet or q.bullet):
-            continue
-        # The body that can be stopped is swept, otherwise the fast one: they move relative to each other.
-        ground_a = a.kind == TILES or a.kind == CHAIN or a.kind == MASK
-        first = fast_inout[a.body_row] if (p.kind == DYNAMIC) == (q.kind == DYNAMIC) else p.kind == DYNAMIC
-        from_a = first and not ground_a
+        is_ground = a.kind == TILES or a.kind == CHAIN or a.kind == MASK
+        from_a = not is_ground and is_first_mover(a, b, bodies, sweep_inout.fast)
         mover = candidates[i, 0] if from_a else candidates[i, 1]
         other = candidates[i, 1] if from_a else candidates[i, 0]
         kind = shapes[mover].kind
@@ -305,47 +439,27 @@ def find_rotational_impacts(
         straight = mode == RAY or mode == SWEPT or (mode == AUTO and not (stacking or rotation))
         if straight and has_closed_form(shapes[mover], shapes[other], mode):
             # From deep inside, by the rule of the other shapes.
-            if not stands_deep(geometry, bodies, shapes, paths_inout, mover, other, slack, workspace):
+            if not stands_deep(mover, other, sweep_inout):
                 continue
-        work_inout[TOI_CALLS] += 1
-        fraction, nx, ny, feature = first_meeting(
-            geometry, bodies, shapes, paths_inout, mover, other, slack, one_way, cuts_out, workspace, work_inout
-        )
+        sweep_inout.work[TOI_CALLS] += 1
+        fraction, nx, ny, feature = first_meeting(mover, other, slack, sweep_inout)
         if fraction > 1.0:
             continue
         m = shapes[mover].body_row
         o = shapes[other].body_row
         room_left = 0.25 * bodies[m].min_half_extent
-        stops = stacking or goes_on(bodies, paths_inout, m, o, fraction, nx, ny) > room_left
+        stops = stacking or goes_on(bodies, sweep_inout.paths, m, o, fraction, nx, ny) > room_left
         if not stops and (shapes[other].kind == TILES or shapes[other].kind == CHAIN):
             # The part that it may pass need not be all of the ground: a ball that rolls down a wall has a floor.
-            later, u, v, part = first_meeting(
-                geometry,
-                bodies,
-                shapes,
-                paths_inout,
-                mover,
-                other,
-                slack + room_left,
-                one_way,
-                cuts_out,
-                workspace,
-                work_inout,
-            )
+            later, u, v, part = first_meeting(mover, other, slack + room_left, sweep_inout)
             if later <= 1.0:
                 fraction, nx, ny, feature, stops = later, u, v, part, True
-        found = write_impact(i, fraction, nx, ny, feature, from_a, stops, found, impacts_out)
+        found = write_impact(i, (fraction, nx, ny, feature), from_a, stops, found, impacts_out)
     return found
 
 
 @kernel
-def move_back(
-    # read
-    rows,
-    paths,
-    # write
-    bodies_inout,
-):
+def move_back(rows, paths, bodies_inout):
     """Move the stopped dynamic bodies back to where they stopped; their velocities stay. O(rows)."""
     for k in range(len(rows)):
         i = rows[k]
@@ -391,18 +505,7 @@ def impact_point(body, shape, side, nx, ny, fraction, flew_on):
 
 
 @kernel
-def write_impacts(
-    # read
-    bodies,
-    shapes,
-    candidates,
-    impacts,
-    count,
-    dt,
-    response,
-    # write
-    manifolds_out,
-):
+def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_out):
     """Write a manifold for every impact that is the first of a body on its path, or of a sensor. Return their number.
 
     impacts (n, 8): candidate, fraction, normal, stops, feature, point. A point of nan is replaced by the edge, along
@@ -410,7 +513,7 @@ def write_impacts(
     poses: the motion of a side after the impact.
     """
     found = 0
-    for i in range(count):
+    for i in range(len(impacts)):
         pair = int(impacts[i, 0])
         a = shapes[candidates[pair, 0]]
         b = shapes[candidates[pair, 1]]

@@ -10,8 +10,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.ccd.impacts import cut_path, is_fast, rest_where_it_is, stands_still
+from physics.ccd.impacts import cut_path, is_first_mover, is_swept, write_impact
 from physics.ccd.rotational import (
+    Mover,
     depth_at_start,
     gap_at_start,
     place_mover,
@@ -22,13 +23,13 @@ from physics.ccd.rotational import (
     write_local,
     write_motion,
 )
-from physics.ccd.time_of_impact import ANGLE, CENTER_X, CENTER_Y, MISS, MOVE_X, MOVE_Y, TURN, reach_of, write_impact
+from physics.ccd.time_of_impact import ANGLE, CENTER_X, CENTER_Y, MISS, MOVE_X, MOVE_Y, TURN, reach_of
 from physics.distance.gjk import AX, AY, NX, NY
 from physics.jit import kernel, subkernel
 from physics.math2d import norm, rotate
 from physics.shapes.library import Library
 from physics.shapes.placement import exact_aabb, rounding
-from physics.tables.body import DYNAMIC, RAY
+from physics.tables.body import RAY
 from physics.tables.shape import CHAIN, MASK, TILES
 from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 
@@ -71,9 +72,7 @@ def write_square(boxes, k, body, corners_out):
 
 @subkernel
 def pieces_of(shape, body, spans, as_ray):
-    """Return (first rectangle, number of pieces, whether they are rectangles) of a shape. A hull, and the point of a
-    ray, is one piece.
-    """
+    """Return (first rectangle, number of pieces, whether they are rectangles) of a shape; a hull or ray is one."""
     if shape.kind != MASK or (as_ray and body.continuous == RAY):
         return 0, 1, False
     return spans[shape.geometry, 0], spans[shape.geometry, 1], True
@@ -81,16 +80,15 @@ def pieces_of(shape, body, spans, as_ray):
 
 @subkernel
 def write_single(geometry, bodies, shapes, row, workspace):
-    """Write the one piece of a mover to workspace.mover. Return its number of corners and its rounding radius [px]."""
-    body = bodies[shapes[row].body_row]
+    """Write the one piece of a mover to workspace.mover. Return it as a Mover."""
     if shapes[row].kind == MASK:
         workspace.mover[0, 0] = 0.0
         workspace.mover[0, 1] = 0.0
-        return 1, 0.0
+        return Mover(1, 0.0, 0.0, 0.0)
     count = write_local(geometry, bodies, shapes, row, workspace.advance.motion_a, workspace.mover)
-    if body.continuous == RAY:
-        return shrink_to_middle(count, workspace.mover), 0.0
-    return count, rounding(shapes, row)
+    if bodies[shapes[row].body_row].continuous == RAY:
+        return Mover(shrink_to_middle(count, workspace.mover), 0.0, 0.0, 0.0)
+    return Mover(count, rounding(shapes, row), 0.0, 0.0)
 
 
 @subkernel
@@ -107,14 +105,16 @@ def misses_square(boxes, k, body, x, y, dx, dy, reach):
 
 
 @subkernel
-def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, workspace, best_out):
+def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out):
     """Sweep one piece of the mover, in workspace.mover, past the pieces of the other shape.
 
     depth [px]: the overlap at the start; negative: measure and return it. body: of the other shape. span: see
-    pieces_of. n, radius_b: corners of the one piece in local_b. best_out (5,): see sweep_squares. O(pieces near).
+    pieces_of. hull: the one piece in local_b. best_out (5,): see sweep_squares. O(pieces near).
     """
     r = workspace.advance
     first, pieces, are_squares = span
+    count, radius, _, _ = mover
+    n, radius_b, _, _ = hull
     reach = reach_of(workspace.mover, count) + radius
     turns = r.motion_b[TURN] != 0.0
     cosine = math.cos(r.motion_b[ANGLE])
@@ -135,12 +135,12 @@ def sweep_on_pieces(count, radius, depth, body, squares, span, n, radius_b, work
         apart = gap_at_start(count, radius, n, radius_b, workspace)
         if depth < 0.0:
             if apart <= 0.0:
-                deepest = max(deepest, depth_at_start(count, radius, n, radius_b, workspace))
+                deepest = max(deepest, depth_at_start(mover, n, radius_b, workspace))
             continue
         travel = norm(move_x, move_y) + abs(r.motion_a[TURN]) * reach + abs(r.motion_b[TURN]) * reach_of(r.local_b, n)
         if apart > travel * min(1.0, best_out[0]):
             continue
-        fraction, _ = sweep_part(count, radius, n, radius_b, 0.0, depth, 0.0, workspace)
+        fraction, _ = sweep_part(mover, n, radius_b, depth, workspace)
         if fraction < best_out[0]:
             best_out[0] = fraction
             best_out[1] = -r.gap.gap[NX]
@@ -163,39 +163,16 @@ def middle_of_mask(geometry, shape, body, angle):
 
 
 @subkernel
-def sweep_on_ground(geometry, other, body, middle, count, radius, one_way, workspace, best_out):
+def sweep_on_ground(geometry, other, body, middle, mover, one_way, workspace, best_out):
     """Sweep one piece of the mover, in workspace.mover, past tiles or a chain (SHAPE row `other`).
 
-    middle: of the mover, which lies in front of a link, or behind it, as a whole.
+    middle: of the whole mover, which decides on which side of a link it is.
     """
+    local = (body.local_center_x, body.local_center_y)
     if other.kind == TILES:
-        fraction, nx, ny, _ = sweep_tiles(
-            geometry,
-            other.geometry,
-            body.local_center_x,
-            body.local_center_y,
-            count,
-            radius,
-            0.0,
-            0.0,
-            one_way,
-            -1,
-            workspace,
-        )
+        fraction, nx, ny, _ = sweep_tiles(geometry, other.geometry, local, mover, one_way, -1, workspace)
     else:
-        fraction, nx, ny, _ = sweep_chain_seen_from(
-            geometry,
-            other.geometry,
-            body.local_center_x,
-            body.local_center_y,
-            middle,
-            count,
-            radius,
-            0.0,
-            0.0,
-            -1,
-            workspace,
-        )
+        fraction, nx, ny, _ = sweep_chain_seen_from(geometry, other.geometry, local, middle, mover, -1, workspace)
     if fraction < best_out[0]:
         best_out[0] = fraction
         best_out[1] = nx
@@ -205,37 +182,38 @@ def sweep_on_ground(geometry, other, body, middle, count, radius, one_way, works
 
 
 @subkernel
-def sweep_squares(geometry, bodies, shapes, motions, row, other, one_way, squares, workspace, best_out, work_inout):
+def sweep_squares(row, other, squares, sweep_inout, best_out):
     """Sweep shape `row` against shape `other`, at least one of them a mask, both moving. See sweep_rotational.
 
     Write (fraction or MISS, normal from other to row, point [px], nan if unknown) to best_out (5,). O(pieces · pieces
     near).
     """
+    geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
+    workspace = sweep_inout.workspace
+    r = workspace.advance
     s = shapes[row]
     o = shapes[other]
     p = bodies[s.body_row]
     q = bodies[o.body_row]
-    r = workspace.advance
-    work_inout[TOI_CALLS] += 1
-    write_motion(motions, s.body_row, r.motion_a)
-    write_motion(motions, o.body_row, r.motion_b)
+    sweep_inout.work[TOI_CALLS] += 1
+    write_motion(sweep_inout.cuts, s.body_row, r.motion_a)
+    write_motion(sweep_inout.cuts, o.body_row, r.motion_b)
     r.totals[0] = 0.0
     r.totals[1] = 0.0
     best_out[0] = MISS
     best_out[1] = 0.0
     best_out[2] = -1.0
     first, pieces, are_squares = pieces_of(s, p, squares.spans, True)
-    count = 4
-    radius = 0.0
+    mover = Mover(4, 0.0, 0.0, 0.0)
     if not are_squares:
-        count, radius = write_single(geometry, bodies, shapes, row, workspace)
+        mover = write_single(geometry, bodies, shapes, row, workspace)
     on_ground = o.kind == TILES or o.kind == CHAIN
     span = pieces_of(o, q, squares.spans, False)
-    n = 4
-    radius_b = 0.0
+    hull = Mover(4, 0.0, 0.0, 0.0)
     if not on_ground and o.kind != MASK:
-        n = write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b)
-        radius_b = rounding(shapes, other)
+        hull = Mover(
+            write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b), rounding(shapes, other), 0.0, 0.0
+        )
     middle = middle_of_mask(geometry, s, p, r.motion_a[ANGLE]) if are_squares else (0.0, 0.0)
     depth = 0.0
     for asked in range(2):
@@ -243,25 +221,20 @@ def sweep_squares(geometry, bodies, shapes, motions, row, other, one_way, square
             if are_squares:
                 write_square(squares.boxes, k, p, workspace.mover)
             if not on_ground:
-                found = sweep_on_pieces(
-                    count, radius, depth if asked == 1 else -1.0, q, squares, span, n, radius_b, workspace, best_out
-                )
-                depth = max(depth, found)
+                allowed = depth if asked == 1 else -1.0
+                depth = max(depth, sweep_on_pieces(mover, allowed, q, squares, span, hull, workspace, best_out))
             elif asked == 1:
-                sweep_on_ground(geometry, o, q, middle, count, radius, one_way, workspace, best_out)
-    work_inout[GJK_ITERATIONS] += int(r.totals[0])
-    work_inout[CAP_HITS] += int(r.totals[1])
+                sweep_on_ground(geometry, o, q, middle, mover, sweep_inout.one_way, workspace, best_out)
+    sweep_inout.work[GJK_ITERATIONS] += int(r.totals[0])
+    sweep_inout.work[CAP_HITS] += int(r.totals[1])
 
 
 @subkernel
-def first_shared(
-    geometry, bodies, shapes, paths, row, other, one_way, squares, cuts_out, workspace, best_out, work_inout
-):
-    """Write the result of impacts.first_meeting by pixels to best_out (5,): each moves up to its fraction, and then
-    rests.
-    """
-    p = shapes[row].body_row
-    q = shapes[other].body_row
+def first_shared(row, other, squares, sweep_inout, best_out):
+    """Write the result of impacts.first_meeting by pixels to best_out (5,)."""
+    bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
+    p = sweep_inout.shapes[row].body_row
+    q = sweep_inout.shapes[other].body_row
     both = min(bodies[p].fraction, bodies[q].fraction)
     last = max(bodies[p].fraction, bodies[q].fraction)
     start = 0.0
@@ -269,11 +242,9 @@ def first_shared(
     best_out[0] = MISS
     for _ in range(2):
         if end > start:
-            cut_path(paths, p, min(start, bodies[p].fraction), min(end, bodies[p].fraction), cuts_out)
-            cut_path(paths, q, min(start, bodies[q].fraction), min(end, bodies[q].fraction), cuts_out)
-            sweep_squares(
-                geometry, bodies, shapes, cuts_out, row, other, one_way, squares, workspace, best_out, work_inout
-            )
+            cut_path(paths, p, min(start, bodies[p].fraction), min(end, bodies[p].fraction), cuts)
+            cut_path(paths, q, min(start, bodies[q].fraction), min(end, bodies[q].fraction), cuts)
+            sweep_squares(row, other, squares, sweep_inout, best_out)
             if best_out[0] <= 1.0:
                 best_out[0] = start + best_out[0] * (end - start)
                 return
@@ -282,73 +253,29 @@ def first_shared(
 
 
 @kernel
-def find_shared_areas(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    count,
-    moving,
-    stacking,
-    one_way,
-    squares,
-    # write
-    paths_inout,
-    fast_inout,
-    cuts_out,
-    workspace,
-    best_out,
-    impacts_out,
-    work_inout,
-):
-    """List (candidate, fraction, normal from A to B, 0, -1, point) of pairs with a mask that come to share area on a
-    fast path.
+def find_shared_areas(moving, squares, sweep_inout, best_out, impacts_out):
+    """List (candidate, fraction, normal from A to B, 0, -1, point) of the pairs with a mask that come to share area.
 
-    The arguments are those of find_rotational_impacts. squares: Squares of all masks among the candidates. best_out
-    (5,): scratch. No body is stopped: with response these are the pairs of sensors. Return the number found.
-    O(candidates).
+    moving: see find_rotational_impacts. squares: Squares of all masks among the candidates. best_out (5,): scratch. No
+    body is stopped: with response these are the pairs of sensors. Return the number found. O(candidates).
     """
+    shapes, candidates = sweep_inout.shapes, sweep_inout.candidates
     found = 0
-    for i in range(count):
+    for i in range(len(candidates)):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        if a.kind != MASK and b.kind != MASK:
+        if (a.kind != MASK and b.kind != MASK) or not is_swept(moving, a, b, sweep_inout):
             continue
-        rest_where_it_is(bodies, a.body_row, paths_inout, fast_inout)
-        rest_where_it_is(bodies, b.body_row, paths_inout, fast_inout)
-        fast = fast_inout[a.body_row] or fast_inout[b.body_row]
-        fast = fast or is_fast(bodies, paths_inout, a.body_row, b.body_row)
-        if not (fast or is_fast(bodies, paths_inout, b.body_row, a.body_row)):
-            continue
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
-        still = stands_still(bodies, paths_inout, a.body_row) or stands_still(bodies, paths_inout, b.body_row)
-        if still == (moving == 1):
-            continue
-        if stacking and p.kind == DYNAMIC and q.kind == DYNAMIC and not (p.bullet or q.bullet):
-            continue
-        first = fast_inout[a.body_row] if (p.kind == DYNAMIC) == (q.kind == DYNAMIC) else p.kind == DYNAMIC
-        from_a = b.kind == TILES or b.kind == CHAIN or (first and a.kind != TILES and a.kind != CHAIN)
+        from_a = b.kind == TILES or b.kind == CHAIN
+        if not from_a and a.kind != TILES and a.kind != CHAIN:
+            from_a = is_first_mover(a, b, sweep_inout.bodies, sweep_inout.fast)
         mover = candidates[i, 0] if from_a else candidates[i, 1]
         other = candidates[i, 1] if from_a else candidates[i, 0]
-        first_shared(
-            geometry,
-            bodies,
-            shapes,
-            paths_inout,
-            mover,
-            other,
-            one_way,
-            squares,
-            cuts_out,
-            workspace,
-            best_out,
-            work_inout,
-        )
+        first_shared(mover, other, squares, sweep_inout, best_out)
         if best_out[0] <= 1.0:
             if found < impacts_out.shape[0]:
                 impacts_out[found, 6] = best_out[3]
                 impacts_out[found, 7] = best_out[4]
-            found = write_impact(i, best_out[0], best_out[1], best_out[2], -1, from_a, False, found, impacts_out)
+            impact = (best_out[0], best_out[1], best_out[2], -1)
+            found = write_impact(i, impact, from_a, False, found, impacts_out)
     return found

@@ -24,14 +24,14 @@ from physics.ccd.time_of_impact import (
     separate_at,
 )
 from physics.collision.chains import lies_across
-from physics.collision.hulls import ALL_EDGES, Hull, part_feature
+from physics.collision.hulls import ALL_EDGES, Hull, middle_of, part_feature
 from physics.collision.tiles import tile_at
 from physics.distance.gjk import FIRST_A, FIRST_B, NX, NY, copy_part
 from physics.jit import kernel, subkernel
 from physics.math2d import norm, rotate
 from physics.shapes.placement import hull_at, is_hull, rounding
 from physics.tables.body import DYNAMIC, RAY
-from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY
+from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY, Geometry
 from physics.tables.shape import BOUNDS, CHAIN, PART, TILES
 from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 
@@ -58,15 +58,39 @@ class RotationalWorkspace(NamedTuple):
     mover: np.ndarray  # (16, 2) its corners from its centre of mass [px], at angle 0
 
 
+class Mover(NamedTuple):
+    """The hull that moves. Its corners are in workspace.mover."""
+
+    count: int  # of its corners
+    radius: float  # [px] rounding
+    half: float  # [px] smallest half extent of its body; 0 for no core
+    slack: float  # [px] depth that is allowed in addition to that at the start; 0 for rounding alone
+
+
+class Sweep(NamedTuple):
+    """The pairs that may meet in a step, and the paths of their bodies."""
+
+    geometry: Geometry
+    bodies: np.ndarray  # BODY
+    shapes: np.ndarray  # SHAPE
+    candidates: np.ndarray  # (n, 2) int64 shape rows
+    stacking: bool  # two dynamic bodies are left to the solver unless one is a bullet
+    one_way: bool  # one-way shapes take part
+    slack: float  # [px] see Mover
+    paths: np.ndarray  # (bodies, 6) centre of mass [px] and angle, at the start and at the end of the step
+    fast: np.ndarray  # (bodies,) bool: bodies to sweep
+    cuts: np.ndarray  # (bodies, 6) the parts of two paths that are swept next
+    workspace: RotationalWorkspace
+    work: np.ndarray  # counters
+
+
 def new_rotational_workspace() -> RotationalWorkspace:
     return RotationalWorkspace(new_advance_workspace(), np.zeros((16, 2)))
 
 
 @subkernel
 def write_motion(motions, body_row, motion_out):
-    """Write start and change of the motion of one body. motions (bodies, 6): centre of mass [px] and angle, at start
-    and end.
-    """
+    """Write start and change of a body's motion. motions (bodies, 6): centre [px], angle, at start and end."""
     motion_out[CENTER_X] = motions[body_row, 0]
     motion_out[CENTER_Y] = motions[body_row, 1]
     motion_out[ANGLE] = motions[body_row, 2]
@@ -103,10 +127,10 @@ def place_mover(count, workspace):
 
 
 @subkernel
-def depth_at_start(count, radius, other_count, other_radius, workspace):
+def depth_at_start(mover, other_count, other_radius, workspace):
     """Return the depth [px] of the mover in workspace.advance.local_b before it moves; 0 if they do not overlap."""
-    place_mover(count, workspace)
-    return max(0.0, -separate_at(count, radius, other_count, other_radius, 0.0, workspace.advance))
+    place_mover(mover.count, workspace)
+    return max(0.0, -separate_at(mover.count, mover.radius, other_count, other_radius, 0.0, workspace.advance))
 
 
 @subkernel
@@ -127,11 +151,12 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 
 
 @subkernel
-def back_to(count, radius, other_count, other_radius, depth, fraction, size, workspace):
+def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
     """Return the fraction, before one at which the mover is deeper than `depth` [px], at which it was that deep.
 
     Newton's method starts from there, so that an earlier contact with a covered side of the piece is not found.
     """
+    count, radius, _, _ = mover
     gap = workspace.advance.gap.gap
     nx = gap[NX]
     ny = gap[NY]
@@ -150,13 +175,12 @@ def back_to(count, radius, other_count, other_radius, depth, fraction, size, wor
 
 
 @subkernel
-def sweep_part(count, radius, other_count, other_radius, half, depth, slack, workspace):
-    """Return (fraction or MISS, whether the core hit it) of the mover against a convex piece,
-    workspace.advance.local_b.
+def sweep_part(mover, other_count, other_radius, depth, workspace):
+    """Return (fraction or MISS, whether the core hit it) of the mover against a piece, workspace.advance.local_b.
 
-    half [px]: smallest half extent of the mover, 0 for no core. depth [px]: depth that is allowed in any case, that of
-    the mover in the whole of the piece. slack [px]: additional allowed depth, 0 for rounding alone.
+    depth [px]: depth that is allowed in any case, that of the mover in the whole of the piece.
     """
+    count, radius, half, slack = mover
     reach = place_mover(count, workspace)
     if count == 1 and radius == 0.0:  # the point of a ray has no depth: touching is an impact
         fraction = advance(1, 0.0, other_count, other_radius, workspace.advance)
@@ -175,7 +199,7 @@ def sweep_part(count, radius, other_count, other_radius, half, depth, slack, wor
     fraction = advance(count, radius - sink - depth, other_count, other_radius, workspace.advance)
     if fraction > 1.0:
         return MISS, False
-    return back_to(count, radius, other_count, other_radius, depth, fraction, size, workspace), False
+    return back_to(mover, other_count, other_radius, depth, fraction, size, workspace), False
 
 
 @subkernel
@@ -193,22 +217,21 @@ def swept_box(reach, motion_a, motion_b):
 
 
 @subkernel
-def feet_of(count, radius, local_y, workspace):
+def feet_of(mover, local_y, workspace):
     """Return how far down [px] the mover reaches before it moves, seen from the origin of a grid."""
     motion = workspace.advance.motion_a
     cosine = math.cos(motion[ANGLE])
     sine = math.sin(motion[ANGLE])
     feet = -math.inf
-    for k in range(count):
+    for k in range(mover.count):
         u, v = rotate(workspace.mover[k, 0], workspace.mover[k, 1], cosine, sine)
-        feet = max(feet, v + radius)
+        feet = max(feet, v + mover.radius)
     return feet + motion[CENTER_Y] - workspace.advance.motion_b[CENTER_Y] + local_y
 
 
 @subkernel
-def place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace):
-    """Write the part of a tile that stops the mover to workspace.advance.local_b. Return its number of corners, 0 for
-    none.
+def place_tile(geometry, grid, line, column, local, stood, workspace):
+    """Write the part of a tile that stops the mover to workspace.advance.local_b. Return its corners, 0 for none.
 
     Of a one-way tile it is the top, for a mover whose feet are no lower than `stood` [px].
     """
@@ -216,28 +239,28 @@ def place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
     kind = geometry.cells[g.offset + line * g.columns + column].kind
     if kind == EMPTY or (kind == ONE_WAY and stood > line * g.tile_size):
         return 0
-    corners, edges = tile_at(geometry, grid, -local_x, -local_y, line, column, workspace.advance.local_b)
+    corners, edges = tile_at(geometry, grid, -local[0], -local[1], line, column, workspace.advance.local_b)
     if kind == ONE_WAY:
         return 2
     return 0 if edges == ALL_EDGES else corners  # covered on all sides, so it is never hit first
 
 
 @subkernel
-def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, one_way, but, workspace):
+def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
     """Return (fraction or MISS, normal from the tiles, feature) of the mover against the tiles in its swept box.
 
-    local_x, local_y [px]: centre of mass of the grid in its body space; a grid does not rotate. half, slack: see
-    sweep_part. one_way: whether one-way tiles take part, which stop motion from above. but: the feature to ignore, or
-    -1. O(cells in the box).
+    local: centre of mass (x, y) [px] of the grid in its body space; a grid does not rotate. one_way: whether one-way
+    tiles take part, which stop motion from above. but: the feature to ignore, or -1. O(cells in the box).
     """
+    local_x, local_y = local
     g = geometry.grids[grid]
     size = g.tile_size
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
-    reach = reach_of(workspace.mover, count) + radius
+    reach = reach_of(workspace.mover, mover.count) + mover.radius
     left, top, right, bottom = swept_box(reach, motion, other)
     falls = one_way and motion[MOVE_Y] > other[MOVE_Y]
-    stood = feet_of(count, radius, local_y, workspace) - slack if falls else math.inf
+    stood = feet_of(mover, local_y, workspace) - mover.slack if falls else math.inf
     first_row = max(0, math.ceil((top + local_y) / size) - 1)
     last_row = min(g.rows - 1, math.floor((bottom + local_y) / size))
     first_column = max(0, math.ceil((left + local_x) / size) - 1)
@@ -250,23 +273,23 @@ def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, on
     depth = 0.0
     for line in range(max(first_row, math.floor((y - reach) / size)), high_row + 1):
         for column in range(low, high + 1):
-            corners = place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
+            corners = place_tile(geometry, grid, line, column, local, stood, workspace)
             if corners > 0:
-                depth = max(depth, depth_at_start(count, radius, corners, 0.0, workspace))
+                depth = max(depth, depth_at_start(mover, corners, 0.0, workspace))
     best = MISS
     best_x = 0.0
     best_y = -1.0
     feature = -1
     for line in range(first_row, last_row + 1):
         for column in range(first_column, last_column + 1):
-            corners = place_tile(geometry, grid, line, column, local_x, local_y, stood, workspace)
+            corners = place_tile(geometry, grid, line, column, local, stood, workspace)
             if corners == 0:
                 continue
             first = geometry.cells[g.offset + line * g.columns + column].first
             part = part_feature(line * g.columns + first, 0)
             if part == but:
                 continue
-            fraction, core = sweep_part(count, radius, corners, 0.0, half, depth, slack, workspace)
+            fraction, _ = sweep_part(mover, corners, 0.0, depth, workspace)
             if fraction < best:
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
@@ -276,12 +299,12 @@ def sweep_tiles(geometry, grid, local_x, local_y, count, radius, half, slack, on
 
 
 @subkernel
-def place_link(link, local_x, local_y, workspace):
+def place_link(link, local, workspace):
     """Write the ends of a link to workspace.advance.local_b."""
-    workspace.advance.local_b[0, 0] = link.ax - local_x
-    workspace.advance.local_b[0, 1] = link.ay - local_y
-    workspace.advance.local_b[1, 0] = link.bx - local_x
-    workspace.advance.local_b[1, 1] = link.by - local_y
+    workspace.advance.local_b[0, 0] = link.ax - local[0]
+    workspace.advance.local_b[0, 1] = link.ay - local[1]
+    workspace.advance.local_b[1, 0] = link.bx - local[0]
+    workspace.advance.local_b[1, 1] = link.by - local[1]
 
 
 @subkernel
@@ -291,20 +314,8 @@ def ahead_of(ax, ay, bx, by, u, v):
 
 
 @subkernel
-def middle_of(count, corners):
-    """Return the mean of so many corners [px]."""
-    x = 0.0
-    y = 0.0
-    for k in range(count):
-        x += corners[k, 0] / count
-        y += corners[k, 1] / count
-    return x, y
-
-
-@subkernel
-def is_before(link, local_x, local_y, middle, fraction, core, workspace):
-    """Return whether the mover's middle [px from its centre of mass], or its centre of mass, is in front of a link at a
-    fraction.
+def is_before(link, local, middle, fraction, core, workspace):
+    """Return whether the mover's middle [px from its centre of mass], or that centre, is in front of a link.
 
     Beyond an end where the chain bends to its front, it has to be in front of the neighbour, too.
     """
@@ -319,8 +330,8 @@ def is_before(link, local_x, local_y, middle, fraction, core, workspace):
     x = motion[CENTER_X] - other[CENTER_X] + fraction * (motion[MOVE_X] - other[MOVE_X]) + middle_x
     y = motion[CENTER_Y] - other[CENTER_Y] + fraction * (motion[MOVE_Y] - other[MOVE_Y]) + middle_y
     u, v = rotate(x, y, math.cos(angle), -math.sin(angle))
-    u += local_x
-    v += local_y
+    u += local[0]
+    v += local[1]
     if ahead_of(link.ax, link.ay, link.bx, link.by, u, v) < 0.0:
         return False
     tx = link.bx - link.ax
@@ -335,93 +346,82 @@ def is_before(link, local_x, local_y, middle, fraction, core, workspace):
 
 
 @subkernel
-def misses_block(box, local_x, local_y, left, top, right, bottom):
+def misses_block(block, local, box):
     """Return whether the links of a block lie beside a box [px], seen from the chain's moving point."""
-    return (
-        box.min_x - local_x > right
-        or box.max_x - local_x < left
-        or box.min_y - local_y > bottom
-        or box.max_y - local_y < top
-    )
+    left, top, right, bottom = box
+    x, y = local
+    return block.min_x - x > right or block.max_x - x < left or block.min_y - y > bottom or block.max_y - y < top
 
 
 @subkernel
-def depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, workspace):
+def depth_in_chain(geometry, chain, local, middle, mover, workspace):
     """Return the depth [px] of the mover, before it moves, in the links that its middle is in front of."""
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
-    reach = reach_of(workspace.mover, count) + radius
+    reach = reach_of(workspace.mover, mover.count) + mover.radius
     x, y = rotate(
         motion[CENTER_X] - other[CENTER_X],
         motion[CENTER_Y] - other[CENTER_Y],
         math.cos(other[ANGLE]),
         -math.sin(other[ANGLE]),
     )
+    box = (x - reach, y - reach, x + reach, y + reach)
     depth = 0.0
     for block in range(span.blocks):
-        box = geometry.link_blocks[span.first_block + block]
-        if misses_block(box, local_x, local_y, x - reach, y - reach, x + reach, y + reach):
+        if misses_block(geometry.link_blocks[span.first_block + block], local, box):
             continue
         first = span.offset + block * BLOCK_LINKS
         for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
             link = geometry.links[k]
-            place_link(link, local_x, local_y, workspace)
-            if is_before(link, local_x, local_y, middle, 0.0, False, workspace):
-                depth = max(depth, depth_at_start(count, radius, 2, 0.0, workspace))
+            place_link(link, local, workspace)
+            if is_before(link, local, middle, 0.0, False, workspace):
+                depth = max(depth, depth_at_start(mover, 2, 0.0, workspace))
     return depth
 
 
 @subkernel
-def starts_across(geometry, chain, local_x, local_y, count, radius, slack, workspace):
-    """Return whether the mover starts deeper than slack [px] across a one-way surface, and so passes it."""
+def starts_across(geometry, chain, local, mover, workspace):
+    """Return whether the mover starts deeper than its slack across a one-way surface, and so passes it."""
+    count, radius, _, slack = mover
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
-    u, v = rotate(local_x, local_y, math.cos(other[ANGLE]), math.sin(other[ANGLE]))
+    u, v = rotate(local[0], local[1], math.cos(other[ANGLE]), math.sin(other[ANGLE]))
     place_at(workspace.mover, count, motion, 0.0, motion[CENTER_X], motion[CENTER_Y], workspace.advance.a)
-    return lies_across(
-        geometry,
-        chain,
-        other[CENTER_X] - motion[CENTER_X] - u,
-        other[CENTER_Y] - motion[CENTER_Y] - v,
-        other[ANGLE],
-        Hull(workspace.advance.a, count, radius, ALL_EDGES),
-        slack,
-        workspace.advance.b,
-    )
+    x = other[CENTER_X] - motion[CENTER_X] - u
+    y = other[CENTER_Y] - motion[CENTER_Y] - v
+    hull = Hull(workspace.advance.a, count, radius, ALL_EDGES)
+    return lies_across(geometry, chain, x, y, other[ANGLE], hull, slack, workspace.advance.b)
 
 
 @subkernel
-def sweep_chain(geometry, chain, local_x, local_y, count, radius, half, slack, but, workspace):
-    """Return (fraction or MISS, normal from the chain, feature) of the mover against the links within reach, from their
-    front.
+def sweep_chain(geometry, chain, local, mover, but, workspace):
+    """Return (fraction or MISS, normal from the chain, feature) of the mover against the links near, from their front.
 
-    half, slack: see sweep_part. but: the feature to ignore, or -1. O(links near the path).
+    but: the feature to ignore, or -1. O(links near the path).
     """
-    middle = middle_of(count, workspace.mover)
-    return sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radius, half, slack, but, workspace)
+    middle = middle_of(workspace.mover, mover.count)
+    return sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
 
 
 @subkernel
-def sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radius, half, slack, but, workspace):
+def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace):
     """Return the result of sweep_chain for a mover that is a piece of a shape.
 
-    The middle of the whole shape, (x, y) [px] from its centre of mass at angle 0, decides which links it is in front
-    of.
+    The middle of the whole shape, (x, y) [px] from its centre of mass at angle 0, decides on the side of a link.
     """
     span = geometry.chains[chain]
     other = workspace.advance.motion_b
-    reach = reach_of(workspace.mover, count) + radius
+    reach = reach_of(workspace.mover, mover.count) + mover.radius
     turns = other[ANGLE] != 0.0 or other[TURN] != 0.0
-    left, top, right, bottom = swept_box(reach, workspace.advance.motion_a, other)
-    depth = depth_in_chain(geometry, chain, local_x, local_y, middle, count, radius, workspace)
+    box = swept_box(reach, workspace.advance.motion_a, other)
+    depth = depth_in_chain(geometry, chain, local, middle, mover, workspace)
     best = MISS
     best_x = 0.0
     best_y = -1.0
     feature = -1
     for block in range(span.blocks):
-        box = geometry.link_blocks[span.first_block + block]
-        if not turns and misses_block(box, local_x, local_y, left, top, right, bottom):
+        if not turns and misses_block(geometry.link_blocks[span.first_block + block], local, box):
             continue
         first = span.offset + block * BLOCK_LINKS
         for k in range(first, min(first + BLOCK_LINKS, span.offset + span.count)):
@@ -429,11 +429,11 @@ def sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radi
             if part == but:
                 continue
             link = geometry.links[k]
-            place_link(link, local_x, local_y, workspace)
-            fraction, core = sweep_part(count, radius, 2, 0.0, half, depth, slack, workspace)
+            place_link(link, local, workspace)
+            fraction, core = sweep_part(mover, 2, 0.0, depth, workspace)
             # The point of a ray is on the link at the impact, so its start decides on the side.
-            when = 0.0 if count == 1 and radius == 0.0 else fraction
-            if fraction < best and is_before(link, local_x, local_y, middle, when, core, workspace):
+            when = 0.0 if mover.count == 1 and mover.radius == 0.0 else fraction
+            if fraction < best and is_before(link, local, middle, when, core, workspace):
                 best = fraction
                 best_x = -workspace.advance.gap.gap[NX]
                 best_y = -workspace.advance.gap.gap[NY]
@@ -448,103 +448,85 @@ def sweep_chain_seen_from(geometry, chain, local_x, local_y, middle, count, radi
 @subkernel
 def shrink_to_middle(count, mover_inout):
     """Reduce a hull to the mean of its corners, which is swept as a ray. Return 1, the number of corners left."""
-    x = 0.0
-    y = 0.0
-    for k in range(count):
-        x += mover_inout[k, 0] / count
-        y += mover_inout[k, 1] / count
-    mover_inout[0, 0] = x
-    mover_inout[0, 1] = y
+    mover_inout[0, 0], mover_inout[0, 1] = middle_of(mover_inout, count)
     return 1
 
 
 @subkernel
-def sweep_hull(count, radius, half, core_b, n, radius_b, slack, workspace):
+def sweep_hull(mover, core_b, n, radius_b, workspace):
     """Return (fraction or MISS, normal from the other) of the mover against the hull in workspace.advance.local_b.
 
     core_b [px]: radius of the other's core, 0 for none.
     """
-    depth = depth_at_start(count, radius, n, radius_b, workspace)
-    fraction, core = sweep_part(count, radius, n, radius_b, half, depth, slack, workspace)
+    depth = depth_at_start(mover, n, radius_b, workspace)
+    fraction, core = sweep_part(mover, n, radius_b, depth, workspace)
     if core and fraction > 1.0 and core_b > 0.0:
         # A deep overlap: their cores must not change places.
         workspace.advance.local_b[0, 0] = 0.0
         workspace.advance.local_b[0, 1] = 0.0
-        fraction = sweep_core(CORE * half, 1, core_b, workspace)
+        fraction = sweep_core(CORE * mover.half, 1, core_b, workspace)
     return fraction, -workspace.advance.gap.gap[NX], -workspace.advance.gap.gap[NY]
 
 
 @subkernel
-def stands_deep(geometry, bodies, shapes, motions, row, other, slack, workspace):
-    """Return whether a hull overlaps another deeper than slack [px] before both move. See sweep_rotational."""
-    write_motion(motions, shapes[row].body_row, workspace.advance.motion_a)
-    write_motion(motions, shapes[other].body_row, workspace.advance.motion_b)
-    count = write_local(geometry, bodies, shapes, row, workspace.advance.motion_a, workspace.mover)
-    n = write_local(geometry, bodies, shapes, other, workspace.advance.motion_b, workspace.advance.local_b)
-    return depth_at_start(count, rounding(shapes, row), n, rounding(shapes, other), workspace) > slack
+def stands_deep(row, other, sweep_inout):
+    """Return whether a hull overlaps another deeper than the slack before both move. See sweep_rotational."""
+    geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
+    workspace = sweep_inout.workspace
+    r = workspace.advance
+    write_motion(sweep_inout.paths, shapes[row].body_row, r.motion_a)
+    write_motion(sweep_inout.paths, shapes[other].body_row, r.motion_b)
+    count = write_local(geometry, bodies, shapes, row, r.motion_a, workspace.mover)
+    n = write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b)
+    mover = Mover(count, rounding(shapes, row), 0.0, 0.0)
+    return depth_at_start(mover, n, rounding(shapes, other), workspace) > sweep_inout.slack
 
 
 @subkernel
-def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_way, but, workspace, work_inout):
-    """Sweep shape `row` against shape `other`, both moving through a step.
+def sweep_rotational(row, other, slack, but, sweep_inout):
+    """Sweep shape `row` against shape `other`, both moving along their parts of the paths, sweep_inout.cuts.
 
-    Return (fraction or MISS, normal from other to row, feature: index of tiles or link, -1 of a hull). motions (bodies,
-    6) float64, by body row: centre of mass [px] and angle, at the start and at the end of the step. row: a hull. other:
-    a hull, tiles or a chain, from its front; MISS for other kinds. slack [px]: see sweep_part. one_way: whether one-way
-    shapes take part. but: the feature of tiles or links to ignore, or -1.
+    Return (fraction or MISS, normal from other to row, feature: index of tiles or link, -1 of a hull). row: a hull.
+    other: a hull, tiles or a chain, from its front; MISS for other kinds. slack [px]: see Mover. but: the feature of
+    tiles or links to ignore, or -1.
     """
+    geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
+    workspace = sweep_inout.workspace
+    r = workspace.advance
+    one_way = sweep_inout.one_way
     s = shapes[row]
     o = shapes[other]
     if not is_hull(s.kind) or not (is_hull(o.kind) or o.kind == TILES or o.kind == CHAIN):
         return MISS, 0.0, -1.0, -1
-    work_inout[TOI_CALLS] += 1
+    sweep_inout.work[TOI_CALLS] += 1
     a = bodies[s.body_row]
     b = bodies[o.body_row]
-    half = a.min_half_extent
-    radius = rounding(shapes, row)
-    write_motion(motions, s.body_row, workspace.advance.motion_a)
-    write_motion(motions, o.body_row, workspace.advance.motion_b)
-    count = write_local(geometry, bodies, shapes, row, workspace.advance.motion_a, workspace.mover)
+    local = (b.local_center_x, b.local_center_y)
+    write_motion(sweep_inout.cuts, s.body_row, r.motion_a)
+    write_motion(sweep_inout.cuts, o.body_row, r.motion_b)
+    mover = Mover(
+        write_local(geometry, bodies, shapes, row, r.motion_a, workspace.mover),
+        rounding(shapes, row),
+        a.min_half_extent,
+        slack,
+    )
     if a.continuous == RAY:
-        count = shrink_to_middle(count, workspace.mover)
-        radius = 0.0
-        half = 0.0
-    workspace.advance.totals[0] = 0.0
-    workspace.advance.totals[1] = 0.0
+        mover = Mover(shrink_to_middle(mover.count, workspace.mover), 0.0, 0.0, slack)
+    r.totals[0] = 0.0
+    r.totals[1] = 0.0
     if o.kind == TILES:
-        fraction, nx, ny, feature = sweep_tiles(
-            geometry,
-            o.geometry,
-            b.local_center_x,
-            b.local_center_y,
-            count,
-            radius,
-            half,
-            slack,
-            one_way,
-            but,
-            workspace,
-        )
-    elif (
-        o.role == PART
-        and o.kind == CHAIN
-        and (
-            not one_way
-            or starts_across(geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, slack, workspace)
-        )
-    ):
-        return MISS, 0.0, -1.0, -1
+        fraction, nx, ny, feature = sweep_tiles(geometry, o.geometry, local, mover, one_way, but, workspace)
     elif o.kind == CHAIN:
-        fraction, nx, ny, feature = sweep_chain(
-            geometry, o.geometry, b.local_center_x, b.local_center_y, count, radius, half, slack, but, workspace
-        )
+        if o.role == PART and (not one_way or starts_across(geometry, o.geometry, local, mover, workspace)):
+            return MISS, 0.0, -1.0, -1
+        fraction, nx, ny, feature = sweep_chain(geometry, o.geometry, local, mover, but, workspace)
     else:
         feature = -1
-        n = write_local(geometry, bodies, shapes, other, workspace.advance.motion_b, workspace.advance.local_b)
+        n = write_local(geometry, bodies, shapes, other, r.motion_b, r.local_b)
         core_b = CORE * b.min_half_extent if b.kind == DYNAMIC else 0.0
-        fraction, nx, ny = sweep_hull(count, radius, half, core_b, n, rounding(shapes, other), slack, workspace)
-    work_inout[GJK_ITERATIONS] += int(workspace.advance.totals[0])
-    work_inout[CAP_HITS] += int(workspace.advance.totals[1])
+        fraction, nx, ny = sweep_hull(mover, core_b, n, rounding(shapes, other), workspace)
+    sweep_inout.work[GJK_ITERATIONS] += int(r.totals[0])
+    sweep_inout.work[CAP_HITS] += int(r.totals[1])
     return fraction, nx, ny, feature
 
 
@@ -553,25 +535,29 @@ def sweep_rotational(geometry, bodies, shapes, motions, row, other, slack, one_w
 
 
 @subkernel
-def begin_sweep(motion_a, motion_b, workspace, impact_out):
-    """Write two motions and reset the result. Return the relative translation of the first [px]."""
+def begin_sweep(workspace, impact_out):
+    """Reset the result of a sweep. Return the relative translation of the first [px]."""
     r = workspace.advance
-    for k in range(6):
-        r.motion_a[k] = motion_a[k]
-        r.motion_b[k] = motion_b[k]
     r.totals[0] = 0.0
     r.totals[1] = 0.0
     impact_out[0] = MISS
     impact_out[1] = 1.0
     impact_out[2] = 0.0
-    return norm(motion_b[MOVE_X] - motion_a[MOVE_X], motion_b[MOVE_Y] - motion_a[MOVE_Y])
+    return norm(r.motion_b[MOVE_X] - r.motion_a[MOVE_X], r.motion_b[MOVE_Y] - r.motion_a[MOVE_Y])
+
+
+@subkernel
+def keep_first(fraction, nx, ny, impact_out):
+    """Write an impact if it is the first so far."""
+    if fraction < impact_out[0]:
+        impact_out[0] = fraction
+        impact_out[1] = nx
+        impact_out[2] = ny
 
 
 @subkernel
 def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
-    """Return a lower bound [px] of the distance of the hulls in local_a and local_b before they move; below 0 they may
-    touch.
-    """
+    """Return a lower bound [px] of the gap of the hulls in local_a and local_b before they move."""
     r = workspace.advance
     place_at(r.local_a, a_count, r.motion_a, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.a)
     place_at(r.local_b, b_count, r.motion_b, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.b)
@@ -585,131 +571,69 @@ def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
 
 
 @kernel
-def advance_parts(
-    # read
-    a,
-    b,
-    motion_a,
-    motion_b,
-    # write
-    workspace,
-    impact_out,
-    totals_out,
-):
-    """Write (fraction or MISS, normal from A to B) of the first impact of a part of A with a part of B to impact_out
-    (3,).
+def advance_parts(a, b, workspace, impact_out):
+    """Write (fraction or MISS, normal from A to B) of the first impact of a part of A with a part of B to impact_out.
 
-    a, b: Parts in body space. motion_a, motion_b (6,): see AdvanceWorkspace. workspace: RotationalWorkspace. totals_out
-    (2,): rounds of GJK and EPA, caps hit. Pairs that cannot meet before the first impact so far are skipped. O(parts of
-    A · parts of B).
+    a, b: Parts in body space. workspace: RotationalWorkspace, with both motions, and afterwards the totals. impact_out
+    (3,). Pairs that cannot meet before the first impact so far are skipped. O(parts of A · parts of B).
     """
     r = workspace.advance
-    path = begin_sweep(motion_a, motion_b, workspace, impact_out)
+    path = begin_sweep(workspace, impact_out)
     for i in range(len(a.counts)):
         copy_part(a.corners, i, a.counts[i], r.local_a)
         reach_a = reach_of(r.local_a, a.counts[i])
         for j in range(len(b.counts)):
             copy_part(b.corners, j, b.counts[j], r.local_b)
             apart = gap_at_start(a.counts[i], a.radii[i], b.counts[j], b.radii[j], workspace)
-            travel = path + abs(motion_a[TURN]) * reach_a + abs(motion_b[TURN]) * reach_of(r.local_b, b.counts[j])
-            if apart > travel * min(1.0, impact_out[0]):
-                continue
-            fraction = advance(a.counts[i], a.radii[i], b.counts[j], b.radii[j], r)
-            if fraction < impact_out[0]:
-                impact_out[0] = fraction
-                impact_out[1] = r.gap.gap[NX]
-                impact_out[2] = r.gap.gap[NY]
-    totals_out[0] = r.totals[0]
-    totals_out[1] = r.totals[1]
+            travel = path + abs(r.motion_a[TURN]) * reach_a + abs(r.motion_b[TURN]) * reach_of(r.local_b, b.counts[j])
+            if apart <= travel * min(1.0, impact_out[0]):
+                fraction = advance(a.counts[i], a.radii[i], b.counts[j], b.radii[j], r)
+                keep_first(fraction, r.gap.gap[NX], r.gap.gap[NY], impact_out)
 
 
 @kernel
-def sweep_unions(
-    # read
-    a,
-    b,
-    motion_a,
-    motion_b,
-    # write
-    workspace,
-    impact_out,
-    totals_out,
-):
+def sweep_unions(a, b, workspace, impact_out):
     """Write the result of advance_parts for shapes that are the union of their parts, which may lie flush: masks.
 
     By the rule of "rotational" above, a motion that leads no deeper than the overlap at the start is no impact. So
     seams between parts and grazing contacts are no impacts. O(parts of A · parts of B).
     """
     r = workspace.advance
-    path = begin_sweep(motion_a, motion_b, workspace, impact_out)
+    path = begin_sweep(workspace, impact_out)
     depth = 0.0
     for i in range(len(a.counts)):
-        copy_part(a.corners, i, a.counts[i], r.local_a)
-        copy_part(a.corners, i, a.counts[i], workspace.mover)
+        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0)
+        copy_part(a.corners, i, mover.count, r.local_a)
+        copy_part(a.corners, i, mover.count, workspace.mover)
         for j in range(len(b.counts)):
             copy_part(b.corners, j, b.counts[j], r.local_b)
-            if gap_at_start(a.counts[i], a.radii[i], b.counts[j], b.radii[j], workspace) <= 0.0:
-                depth = max(depth, depth_at_start(a.counts[i], a.radii[i], b.counts[j], b.radii[j], workspace))
+            if gap_at_start(mover.count, mover.radius, b.counts[j], b.radii[j], workspace) <= 0.0:
+                depth = max(depth, depth_at_start(mover, b.counts[j], b.radii[j], workspace))
     for i in range(len(a.counts)):
-        copy_part(a.corners, i, a.counts[i], workspace.mover)
-        reach_a = place_mover(a.counts[i], workspace)
+        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0)
+        copy_part(a.corners, i, mover.count, workspace.mover)
         for j in range(len(b.counts)):
-            place_mover(a.counts[i], workspace)
+            reach_a = place_mover(mover.count, workspace)
             copy_part(b.corners, j, b.counts[j], r.local_b)
-            apart = gap_at_start(a.counts[i], a.radii[i], b.counts[j], b.radii[j], workspace)
-            travel = path + abs(motion_a[TURN]) * reach_a + abs(motion_b[TURN]) * reach_of(r.local_b, b.counts[j])
-            if apart > travel * min(1.0, impact_out[0]):
-                continue
-            fraction, _ = sweep_part(a.counts[i], a.radii[i], b.counts[j], b.radii[j], 0.0, depth, 0.0, workspace)
-            if fraction < impact_out[0]:
-                impact_out[0] = fraction
-                impact_out[1] = r.gap.gap[NX]
-                impact_out[2] = r.gap.gap[NY]
-    totals_out[0] = r.totals[0]
-    totals_out[1] = r.totals[1]
+            apart = gap_at_start(mover.count, mover.radius, b.counts[j], b.radii[j], workspace)
+            travel = path + abs(r.motion_a[TURN]) * reach_a + abs(r.motion_b[TURN]) * reach_of(r.local_b, b.counts[j])
+            if apart <= travel * min(1.0, impact_out[0]):
+                fraction, _ = sweep_part(mover, b.counts[j], b.radii[j], depth, workspace)
+                keep_first(fraction, r.gap.gap[NX], r.gap.gap[NY], impact_out)
 
 
 @kernel
-def advance_on_ground(
-    # read
-    geometry,
-    ground,
-    is_chain,
-    a,
-    motion_a,
-    motion_b,
-    # write
-    workspace,
-    impact_out,
-    totals_out,
-):
-    """Write the result of advance_parts against tiles (is_chain 0), through uncovered sides, or a chain (1), from its
-    front.
+def advance_on_ground(geometry, ground, is_chain, a, workspace, impact_out):
+    """Write the result of advance_parts against the grid or chain (is_chain 1) in row `ground` of the geometry.
 
-    ground: row of the grid or chain.
+    Tiles are hit through uncovered sides, a chain from its front.
     """
-    r = workspace.advance
-    r.totals[0] = 0.0
-    r.totals[1] = 0.0
-    impact_out[0] = MISS
-    impact_out[1] = 1.0
-    impact_out[2] = 0.0
+    begin_sweep(workspace, impact_out)
     for i in range(len(a.counts)):
-        for k in range(6):
-            r.motion_a[k] = motion_a[k]
-            r.motion_b[k] = motion_b[k]
-        copy_part(a.corners, i, a.counts[i], workspace.mover)
+        mover = Mover(a.counts[i], a.radii[i], 0.0, 0.0)
+        copy_part(a.corners, i, mover.count, workspace.mover)
         if is_chain == 1:
-            fraction, nx, ny, _ = sweep_chain(
-                geometry, ground, 0.0, 0.0, a.counts[i], a.radii[i], 0.0, 0.0, -1, workspace
-            )
+            fraction, nx, ny, _ = sweep_chain(geometry, ground, (0.0, 0.0), mover, -1, workspace)
         else:
-            fraction, nx, ny, _ = sweep_tiles(
-                geometry, ground, 0.0, 0.0, a.counts[i], a.radii[i], 0.0, 0.0, True, -1, workspace
-            )
-        if fraction < impact_out[0]:
-            impact_out[0] = fraction
-            impact_out[1] = -nx
-            impact_out[2] = -ny
-    totals_out[0] = r.totals[0]
-    totals_out[1] = r.totals[1]
+            fraction, nx, ny, _ = sweep_tiles(geometry, ground, (0.0, 0.0), mover, True, -1, workspace)
+        keep_first(fraction, -nx, -ny, impact_out)

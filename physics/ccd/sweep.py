@@ -7,16 +7,17 @@ import numpy as np
 from physics.ccd.impacts import (
     cut_path,
     find_fast,
+    find_impacts,
     find_outgrown,
     find_rotational_impacts,
     foresee_paths,
     list_paths,
     move_back,
+    stop_at_impacts,
     write_impacts,
 )
 from physics.ccd.mask_sweep import NO_SQUARES, find_shared_areas, squares_of
-from physics.ccd.rotational import BEFORE, new_rotational_workspace, sweep_rotational
-from physics.ccd.time_of_impact import find_impacts, stop_at_impacts
+from physics.ccd.rotational import BEFORE, Sweep, new_rotational_workspace, sweep_rotational
 from physics.collision.hull_pairs import measure_approach
 from physics.collision.manifold import new_workspace
 from physics.collision.narrow_phase import detect, place_swept_contacts
@@ -26,6 +27,7 @@ from physics.islands.sleep import in_order, order_of
 from physics.jit import kernel
 from physics.math2d import rotate
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
+from physics.shapes.placement import PLACED
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.contact import CONTACT
 from physics.tables.shape import CHAIN, MASK, TILES
@@ -42,30 +44,16 @@ MEETINGS = 2  # parts of one pusher in a round: the two sides of a corner
 
 
 @kernel
-def push_ahead(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    count,
-    slack,
-    one_way,
-    paths,
-    # write
-    cuts_out,
-    workspace,
-    moves_inout,
-    work_inout,
-):
+def push_ahead(sweep_inout, moves_inout):
     """Extend the moves of stopped bodies so that no kinematic body overlaps them until the end of the step.
 
-    paths (bodies, 6) from list_paths. slack [px]: see rotational.sweep_part. moves_inout (bodies, 2) [px]: translation
-    of each from where it stopped, at its body's fraction of the step. Return the number of pushes. Each push is along a
-    line, so a corner needs two, and a further call adds none. O(candidates).
+    moves_inout (bodies, 2) [px]: translation of each from where it stopped, at its body's fraction of the step. Return
+    the number of pushes. Each push is along a line, so a corner needs two, and a further call adds none. O(candidates).
     """
+    bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
+    cuts, slack = sweep_inout.cuts, sweep_inout.slack
     found = 0
-    for i in range(count):
+    for i in range(len(candidates)):
         for side in range(2):
             mover = candidates[i, side]
             other = candidates[i, 1 - side]
@@ -77,30 +65,28 @@ def push_ahead(
             kind = shapes[mover].kind
             if kind == TILES or kind == CHAIN or kind == MASK or shapes[mover].sensor or shapes[other].sensor:
                 continue
-            cut_path(paths, pusher, b.fraction, 1.0, cuts_out)
+            cut_path(sweep_inout.paths, pusher, b.fraction, 1.0, cuts)
             for k in range(0, 6, 3):
                 share = 0.0 if k == 0 else 1.0
-                cuts_out[row, k] = b.center_x + share * moves_inout[row, 0]
-                cuts_out[row, k + 1] = b.center_y + share * moves_inout[row, 1]
-                cuts_out[row, k + 2] = b.angle
+                cuts[row, k] = b.center_x + share * moves_inout[row, 0]
+                cuts[row, k + 1] = b.center_y + share * moves_inout[row, 1]
+                cuts[row, k + 2] = b.angle
             but = -1
             for _ in range(MEETINGS):
-                fraction, nx, ny, feature = sweep_rotational(
-                    geometry, bodies, shapes, cuts_out, mover, other, slack, one_way, but, workspace, work_inout
-                )
+                fraction, nx, ny, feature = sweep_rotational(mover, other, slack, but, sweep_inout)
                 if fraction >= 1.0:
                     break
                 # The final place of the pusher's point that is now at the body's centre of mass, relative to its own
                 # motion.
                 left = 1.0 - fraction
-                x = cuts_out[row, 0] + fraction * moves_inout[row, 0]
-                y = cuts_out[row, 1] + fraction * moves_inout[row, 1]
-                u = x - (cuts_out[pusher, 3] - left * (cuts_out[pusher, 3] - cuts_out[pusher, 0]))
-                v = y - (cuts_out[pusher, 4] - left * (cuts_out[pusher, 4] - cuts_out[pusher, 1]))
-                turn = left * (cuts_out[pusher, 5] - cuts_out[pusher, 2])
+                x = cuts[row, 0] + fraction * moves_inout[row, 0]
+                y = cuts[row, 1] + fraction * moves_inout[row, 1]
+                u = x - (cuts[pusher, 3] - left * (cuts[pusher, 3] - cuts[pusher, 0]))
+                v = y - (cuts[pusher, 4] - left * (cuts[pusher, 4] - cuts[pusher, 1]))
+                turn = left * (cuts[pusher, 5] - cuts[pusher, 2])
                 w, z = rotate(u, v, math.cos(turn), math.sin(turn))
-                dx = cuts_out[pusher, 3] + w - x - left * moves_inout[row, 0]
-                dy = cuts_out[pusher, 4] + z - y - left * moves_inout[row, 1]
+                dx = cuts[pusher, 3] + w - x - left * moves_inout[row, 0]
+                dy = cuts[pusher, 4] + z - y - left * moves_inout[row, 1]
                 ahead = nx * dx + ny * dy
                 if ahead > BEFORE * slack:
                     moves_inout[row, 0] += ahead * nx
@@ -143,63 +129,44 @@ class Sweeper:
         if len(self.impacts) < candidates:
             self.impacts = np.full((2 * candidates, 8), np.nan)
 
+    def pairs_of(self, state: StepState, strict: bool = False) -> Sweep:
+        """Return the Sweep of the candidates of a step. strict: any depth stops, as with stacking."""
+        return Sweep(
+            state.library.tables,
+            state.bodies,
+            state.shapes,
+            state.pairs.rows,
+            strict or state.stacks,
+            state.effects.one_way,
+            state.tolerances.slop,
+            self.paths,
+            self.fast,
+            self.cuts,
+            self.turning,
+            state.work,
+        )
+
 
 def _look(state, moving, strict=False) -> np.ndarray:
     """Return impacts (n, 8) of fast bodies with resting (moving 0) or moving ones (1). strict: any depth stops."""
-    sweeper, rows = state.workspace.sweep, state.pairs.rows
+    sweeper = state.workspace.sweep
     sweeper.grow(state)
-    found = find_rotational_impacts(
-        state.library.tables,
-        state.bodies,
-        state.shapes,
-        rows,
-        len(rows),
-        moving,
-        strict or state.stacks,
-        state.effects.rotation,
-        state.tolerances.slop,
-        state.effects.one_way,
-        sweeper.paths,
-        sweeper.fast,
-        sweeper.cuts,
-        sweeper.turning,
-        sweeper.impacts,
-        state.work,
-    )
-    impacts = sweeper.impacts[:found].copy()
+    sweep = sweeper.pairs_of(state, strict)
+    impacts = sweeper.impacts[: find_rotational_impacts(moving, state.effects.rotation, sweep, sweeper.impacts)].copy()
     masks = _masks_in(state)
     if not len(masks):
         return impacts
     if sweeper.squares_in is not state.library:
         sweeper.squares, sweeper.squares_in = NO_SQUARES, state.library
     sweeper.squares = squares_of(state.library, masks, sweeper.squares)
-    found = find_shared_areas(
-        state.library.tables,
-        state.bodies,
-        state.shapes,
-        rows,
-        len(rows),
-        moving,
-        strict or state.stacks,
-        state.effects.one_way,
-        sweeper.squares,
-        sweeper.paths,
-        sweeper.fast,
-        sweeper.cuts,
-        sweeper.turning,
-        sweeper.best,
-        sweeper.impacts,
-        state.work,
-    )
+    found = find_shared_areas(moving, sweeper.squares, sweep, sweeper.best, sweeper.impacts)
     shared = sweeper.impacts[:found].copy()
     sweeper.impacts[:, 6:] = np.nan  # the other sweeps know no point
     return np.concatenate([impacts, shared])
 
 
 def _masks_in(state) -> np.ndarray:
-    """Return the library rows of masks whose candidates are tested by pixels: all without response, otherwise those of
-    sensors.
-    """
+    """Return the library rows of masks tested by pixels: all without response, otherwise those of sensors."""
     if not state.library.masks:
         return NO_ROWS
     rows = state.pairs.rows
@@ -209,26 +176,13 @@ def _masks_in(state) -> np.ndarray:
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
     """Return impacts (n, 8) of the bodies whose sweep has a closed form."""
-    sweeper, rows = state.workspace.sweep, state.pairs.rows
+    sweeper = state.workspace.sweep
     sweeper.grow(state)
-    found = find_impacts(
-        state.library.tables,
-        bodies,
-        state.shapes,
-        rows,
-        len(rows),
-        dt,
-        state.tolerances.slop,
-        int(only_straight),
-        sweeper.workspace,
-        sweeper.impacts,
-        state.work,
-    )
-    return sweeper.impacts[:found].copy()
+    sweep = sweeper.pairs_of(state)._replace(bodies=bodies)
+    return sweeper.impacts[: find_impacts(dt, only_straight, sweep, sweeper.workspace, sweeper.impacts)].copy()
 
 
 FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "workspace")
-PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
@@ -242,22 +196,17 @@ def foresee_impacts(state: StepState) -> None:
         found = np.concatenate([found, _look(state, 0), _look(state, 1)])
     state.impacts = found
     if state.effects.response:
-        stop_at_impacts(state.shapes, state.pairs.rows, found, len(found), bodies)
+        stop_at_impacts(state.shapes, state.pairs.rows, found, bodies)
 
 
 @stage(
     "narrow_phase",
     reads=(*FORESEEN, "impacts", "contact_rows", "swept_sensors"),
     writes=(
-        "contact_rows",
-        "swept_sensors",
-        "library",
-        "work",
-        "workspace",
-        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "fraction")),
-        *PLACED,
+        "contact_rows", "swept_sensors", "library", "work", "workspace",
+        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "fraction")), *PLACED,
     ),
-)
+)  # fmt: skip
 def detect_moved(state: StepState) -> None:
     """Find manifolds at the final poses, and add impacts on the way that the test at the final poses missed."""
     rows = state.awake.bodies
@@ -289,9 +238,7 @@ def detect_moved(state: StepState) -> None:
 def _written(state, impacts, response) -> np.ndarray:
     """Return CONTACT rows of the impacts that are the first of a body, with the approach speeds."""
     workspace = np.zeros(len(impacts), CONTACT)
-    found = write_impacts(
-        state.bodies, state.shapes, state.pairs.rows, impacts, len(impacts), state.dt, response, workspace
-    )
+    found = write_impacts(state.bodies, state.shapes, state.pairs.rows, impacts, state.dt, response, workspace)
     measure_approach(state.bodies, workspace[:found])
     return workspace[:found]
 
@@ -300,19 +247,10 @@ def _written(state, impacts, response) -> np.ndarray:
     "time_of_impact",
     reads=(*FORESEEN, "contact_rows", "swept_sensors", "broadphase"),
     writes=(
-        "contact_rows",
-        "swept_sensors",
-        "ghosts",
-        "pairs",
-        "broadphase",
-        "library",
-        "work",
-        "workspace",
-        "bodies.fraction",
-        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y")),
-        *PLACED,
+        "contact_rows", "swept_sensors", "ghosts", "pairs", "broadphase", "library", "work", "workspace",
+        "bodies.fraction", *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y")), *PLACED,
     ),
-)
+)  # fmt: skip
 def sweep_piles(state: StepState) -> None:
     """Find the fast bodies and their first impacts in the step, and move them there."""
     bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep
@@ -355,14 +293,14 @@ def _sweep_straight(state) -> np.ndarray:
         moved[name] = moved["previous_" + name]
     moved["angle"] = moved["previous_angle"]
     impacts = _look_straight(state, moved, dt, True)
-    stop_at_impacts(state.shapes, state.pairs.rows, impacts, len(impacts), state.bodies)
+    stop_at_impacts(state.shapes, state.pairs.rows, impacts, state.bodies)
     return impacts
 
 
 def _sweep_rotational(state) -> np.ndarray:
     """Find impacts with resting bodies, then, in rounds, with moving ones, which may be stopped, too."""
     found = [_look(state, 0)]
-    stop_at_impacts(state.shapes, state.pairs.rows, found[0], len(found[0]), state.bodies)
+    stop_at_impacts(state.shapes, state.pairs.rows, found[0], state.bodies)
     found.append(_look(state, 1))
     while len(found[-1]) and _stop(state, found[-1]):
         if len(found) == IMPACT_ROUNDS:
@@ -377,7 +315,7 @@ def _stop(state, impacts) -> bool:
     """Stop the bodies of these impacts. Return whether any stops earlier than before."""
     rows = state.awake.bodies
     before = state.bodies["fraction"][rows]
-    stop_at_impacts(state.shapes, state.pairs.rows, impacts, len(impacts), state.bodies)
+    stop_at_impacts(state.shapes, state.pairs.rows, impacts, state.bodies)
     # The same impact may come out slightly earlier from shortened paths, which is no new stop.
     return bool((state.bodies["fraction"][rows] < before - SAME_FRACTION).any())
 
@@ -387,23 +325,10 @@ def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
 
     stopped: rows of bodies that were stopped at their fraction of the paths. Return whether any was pushed.
     """
-    sweeper, bodies, pairs = state.workspace.sweep, state.bodies, state.pairs.rows
+    sweeper, bodies = state.workspace.sweep, state.bodies
     moves = np.zeros((len(bodies), 2))
     for rounds in range(PUSH_ROUNDS):
-        if not push_ahead(
-            state.library.tables,
-            bodies,
-            state.shapes,
-            pairs,
-            len(pairs),
-            state.tolerances.slop,
-            state.effects.one_way,
-            sweeper.paths,
-            sweeper.cuts,
-            sweeper.turning,
-            moves,
-            state.work,
-        ):
+        if not push_ahead(sweeper.pairs_of(state), moves):
             break
         state.work[CAP_HITS] += rounds == PUSH_ROUNDS - 1
     rows = stopped[moves[stopped].any(axis=1)]
@@ -430,15 +355,13 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
     sweeper.fast[rows] = True
     bodies["fraction"][rows] = 1.0
     walls = _look(state, 0, strict=True)
-    stop_at_impacts(state.shapes, state.pairs.rows, walls, len(walls), bodies)
+    stop_at_impacts(state.shapes, state.pairs.rows, walls, bodies)
     shift_bodies(bodies, rows, moves * bodies["fraction"][rows][:, None])
     bodies["fraction"][rows] = fractions
 
 
 def _tell(state, met):
-    """Add the impacts to the contacts and the sensed pairs: they begin in this step, though the impulse follows in the
-    next.
-    """
+    """Add impacts to the contacts and sensed pairs: they begin in this step, the impulse follows in the next."""
     if not len(met):
         return
     written = _written(state, met, 0)

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.collision.hulls import ALL_EDGES, collide_polygon_circle, edge_normal
+from physics.collision.hulls import collide_polygon_circle, edge_normal
 from physics.distance.gjk import (
     AX,
     AY,
@@ -19,15 +19,15 @@ from physics.distance.gjk import (
     new_gap_workspace,
     shape_separation,
 )
-from physics.jit import kernel, subkernel
+from physics.jit import subkernel
 from physics.math2d import norm, rotate, unit
-from physics.shapes.placement import corners_at, is_hull
-from physics.tables.body import AUTO, DYNAMIC, OFF, RAY, STATIC, TOI
-from physics.tables.shape import BOUNDS, CIRCLE, POLYGON, TILES
-from physics.tables.step_state import TOI_CALLS
 
 # ---- closed form -----------------------------------------------------------------------------------------------------
 # First time of impact in closed form, of two shapes that move along a line without rotation: discs, polygons, rays.
+#
+# Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines, so the relative
+# motion enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: quadratic per corner, linear
+# per edge (Ericson, Real-Time Collision Detection, 5.5).
 
 MISS = 2.0  # a fraction beyond the step
 
@@ -128,19 +128,20 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 
 
 @subkernel
-def half_planes(a, a_count, b, b_count, edges, side, dx, dy, slack, enter, leave, entering, nx, ny):
+def half_planes(a, a_count, b, b_count, side, move, slack, clip):
     """Clip the time of overlap by the faces of one outline.
 
-    side: 1 for the faces of B, which A's corners cross; -1 for those of A, crossed by B's corners. A face that is
-    crossed by less than `slack` [px] does not count. Return (enter, leave, entering face or -1 - face of A, normal from
-    B to A).
+    side: 1 for the faces of B, which A's corners cross; -1 for those of A, crossed by B's corners. move: of A (x, y)
+    [px]. A face that is crossed by less than `slack` [px] does not count. clip, and the result: (enter, leave, entering
+    face or -1 - face of A, normal from B to A).
     """
+    enter, leave, entering, nx, ny = clip
     for k in range(b_count):
         mx, my = edge_normal(b, b_count, k)
         gap = math.inf
         for i in range(a_count):
             gap = min(gap, mx * (a[i, 0] - b[k, 0]) + my * (a[i, 1] - b[k, 1]))
-        speed = side * (mx * dx + my * dy)
+        speed = side * (mx * move[0] + my * move[1])
         if gap + slack > 0.0:
             if speed >= 0.0:
                 return MISS, leave, entering, nx, ny
@@ -156,244 +157,22 @@ def half_planes(a, a_count, b, b_count, edges, side, dx, dy, slack, enter, leave
 
 
 @subkernel
-def sweep_polygons(a, a_count, b, b_count, b_edges, dx, dy, slack):
-    """Return (fraction or MISS, normal from B to A) of polygon A moved by (dx, dy) against B at rest [px].
+def sweep_polygons(a, a_count, b, b_count, move, slack):
+    """Return (fraction or MISS, normal from B to A) of polygon A moved by (x, y) against B at rest [px].
 
-    b_edges: bits of B's edges that may be hit. slack [px]: shallower overlaps do not count. A deeper overlap at the
-    start is MISS, and left to the contact solver.
+    slack [px]: shallower overlaps do not count. A deeper overlap at the start is MISS, and left to the contact solver.
     """
-    enter, leave, entering, nx, ny = half_planes(
-        a, a_count, b, b_count, b_edges, 1.0, dx, dy, slack, -1.0, 1.0, 0, 0.0, -1.0
-    )
-    if enter <= 1.0:
-        enter, leave, entering, nx, ny = half_planes(
-            b, b_count, a, a_count, ALL_EDGES, -1.0, dx, dy, slack, enter, leave, entering, nx, ny
-        )
+    clip = half_planes(a, a_count, b, b_count, 1.0, move, slack, (-1.0, 1.0, 0, 0.0, -1.0))
+    if clip[0] <= 1.0:
+        clip = half_planes(b, b_count, a, a_count, -1.0, move, slack, clip)
+    enter, leave, _, nx, ny = clip
     if enter < 0.0 or enter > leave or enter > 1.0:
         return MISS, nx, ny
-    if entering >= 0 and not (b_edges >> entering) & 1:
-        return MISS, nx, ny
     # From "slack deep" back to touching.
-    approach = -(nx * dx + ny * dy)
+    approach = -(nx * move[0] + ny * move[1])
     if approach <= 0.0:
         return MISS, nx, ny
     return max(0.0, enter - slack / approach), nx, ny
-
-
-# ---- linear ----------------------------------------------------------------------------------------------------------
-# First time of impact of shapes that move without rotation: circles and convex polygons, against each other.
-#
-# Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines, so the relative
-# motion enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: quadratic per corner, linear
-# per edge (Ericson, Real-Time Collision Detection, 5.5). All are in closed form, relative to B. Overlaps deeper than
-# the slop at the start are left to the sweep of rotational.py.
-
-
-@subkernel
-def sweep_shape(geometry, shapes, row, x, y, angle, ray, dx, dy, target, target_count, slack, corners_inout):
-    """Return (fraction or MISS, normal to the mover) of a moving circle or polygon, or a ray of its centre, against an
-    outline.
-    """
-    s = shapes[row]
-    if s.kind == CIRCLE:
-        u, v = rotate(s.local_x, s.local_y, math.cos(angle), math.sin(angle))
-        radius = 0.0 if ray else s.radius
-        fraction, nx, ny = sweep_circle_polygon(target, target_count, ALL_EDGES, x + u, y + v, dx, dy, radius)
-        if fraction == 0.0 and s.radius > 0.0:
-            hit, mx, my, _, _, separation, _ = collide_polygon_circle(
-                target, target_count, ALL_EDGES, x + u, y + v, radius
-            )
-            if hit and separation < -slack:
-                return MISS, nx, ny
-        return fraction, nx, ny
-    count = corners_at(geometry, shapes, row, x, y, angle, corners_inout)
-    if ray:
-        middle_x = 0.0
-        middle_y = 0.0
-        for k in range(count):
-            middle_x += corners_inout[k, 0] / count
-            middle_y += corners_inout[k, 1] / count
-        return sweep_circle_polygon(target, target_count, ALL_EDGES, middle_x, middle_y, dx, dy, 0.0)
-    return sweep_polygons(corners_inout, count, target, target_count, ALL_EDGES, dx, dy, slack)
-
-
-@subkernel
-def is_fast(body, dt, only_straight):
-    """Return whether the continuous mode of a body needs a sweep in this step; "auto" does if it moves by more than
-    half its size.
-
-    only_straight: 1 to leave bodies that rotate to the sweep with rotation.
-    """
-    if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
-        return False
-    if body.continuous == AUTO and only_straight == 1:
-        return False
-    if body.continuous == AUTO:
-        return norm(body.vx, body.vy) * dt > body.inradius
-    return True
-
-
-@subkernel
-def sweep_pair(geometry, bodies, shapes, row, other, ray, dt, slack, scratch):
-    """Return (fraction or MISS, normal from other to row) of shape `row` against shape `other`, both moving through dt
-    [s].
-    """
-    s = shapes[row]
-    o = shapes[other]
-    p = bodies[s.body_row]
-    q = bodies[o.body_row]
-    dx = dt * p.vx
-    dy = dt * p.vy
-    if q.kind != STATIC:
-        dx -= dt * q.vx
-        dy -= dt * q.vy
-    if o.kind == CIRCLE:
-        u, v = rotate(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
-        if s.kind == CIRCLE:
-            w, z = rotate(s.local_x, s.local_y, math.cos(p.angle), math.sin(p.angle))
-            radius = o.radius + (0.0 if ray else s.radius)
-            x = p.x + w - q.x - u
-            y = p.y + z - q.y - v
-            fraction, nx, ny = sweep_circles(x, y, dx, dy, radius)
-            if fraction == 0.0 and norm(x, y) < radius - slack:
-                return MISS, nx, ny
-            return fraction, nx, ny
-        count = corners_at(geometry, shapes, row, p.x, p.y, p.angle, scratch.a)
-        if ray:
-            x = 0.0
-            y = 0.0
-            for k in range(count):
-                x += scratch.a[k, 0] / count
-                y += scratch.a[k, 1] / count
-            return sweep_circles(x - q.x - u, y - q.y - v, dx, dy, o.radius)
-        # The circle moves the opposite way, against the polygon at rest.
-        x = q.x + u
-        y = q.y + v
-        fraction, nx, ny = sweep_circle_polygon(scratch.a, count, ALL_EDGES, x, y, -dx, -dy, o.radius)
-        if fraction == 0.0:
-            hit, mx, my, _, _, separation, _ = collide_polygon_circle(scratch.a, count, ALL_EDGES, x, y, o.radius)
-            if hit and separation < -slack:
-                return MISS, -nx, -ny
-        return fraction, -nx, -ny
-    count = corners_at(geometry, shapes, other, q.x, q.y, q.angle, scratch.a)
-    return sweep_shape(geometry, shapes, row, p.x, p.y, p.angle, ray, dx, dy, scratch.a, count, slack, scratch.b)
-
-
-@subkernel
-def is_straight(shape):
-    """Return whether the closed forms here handle a shape; rounded shapes and ground are left to the sweep with
-    rotation.
-    """
-    return shape.kind == CIRCLE or shape.kind == BOUNDS or (shape.kind == POLYGON and shape.radius == 0.0)
-
-
-@subkernel
-def has_closed_form(mover, other, mode):
-    """Return whether a fast shape is swept here: by its own outline, or as a ray from the centre of any hull."""
-    if mode == RAY:
-        return is_straight(other) and is_hull(mover.kind)
-    return is_straight(other) and is_straight(mover)
-
-
-@subkernel
-def write_impact(pair, fraction, nx, ny, feature, from_a, stops, found, impacts_out):
-    """Write an impact of a candidate pair if there is room. Return the count, which may exceed the capacity.
-
-    nx, ny: from the obstacle to the mover, which is A of the pair if from_a. feature: index of tiles or link.
-    """
-    if found < impacts_out.shape[0]:
-        impacts_out[found, 0] = float(pair)
-        impacts_out[found, 1] = fraction
-        impacts_out[found, 2] = -nx if from_a else nx
-        impacts_out[found, 3] = -ny if from_a else ny
-        impacts_out[found, 4] = 1.0 if stops else 0.0
-        impacts_out[found, 5] = float(feature)
-    return found + 1
-
-
-@kernel
-def find_impacts(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    candidates,
-    count,
-    dt,
-    slack,
-    only_straight,
-    # write
-    scratch,
-    impacts_out,
-    work_inout,
-):
-    """List (candidate, fraction, normal from A to B, stops, -1) of the pairs that a fast body meets within dt [s].
-
-    Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at the
-    end of the step removes it, and a body that slides along the ground is not held. slack [px]. only_straight: see
-    is_fast. impacts_out (n, 8) float64, without points. Return the number found. O(candidates).
-    """
-    found = 0
-    for i in range(count):
-        a = shapes[candidates[i, 0]]
-        b = shapes[candidates[i, 1]]
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
-        a_fast = is_fast(p, dt, only_straight)
-        b_fast = is_fast(q, dt, only_straight)
-        if not (a_fast or b_fast):
-            continue
-        from_a = a_fast and a.kind != TILES
-        if from_a and b_fast and b.kind != TILES and p.continuous == RAY and q.continuous != RAY:
-            from_a = False
-        mover = candidates[i, 0] if from_a else candidates[i, 1]
-        other = candidates[i, 1] if from_a else candidates[i, 0]
-        body = p if from_a else q
-        if shapes[mover].kind == TILES or not has_closed_form(shapes[mover], shapes[other], body.continuous):
-            continue
-        work_inout[TOI_CALLS] += 1
-        fraction, nx, ny = sweep_pair(
-            geometry, bodies, shapes, mover, other, body.continuous == RAY, dt, slack, scratch
-        )
-        if fraction > 1.0:
-            continue
-        dx = body.vx
-        dy = body.vy
-        rest = q if from_a else p
-        if rest.kind != STATIC:
-            dx -= rest.vx
-            dy -= rest.vy
-        stops = -(nx * dx + ny * dy) * dt > 0.25 * body.min_half_extent
-        found = write_impact(i, fraction, nx, ny, -1, from_a, stops, found, impacts_out)
-    return found
-
-
-@kernel
-def stop_at_impacts(
-    # read
-    shapes,
-    candidates,
-    impacts,
-    count,
-    # write
-    bodies_inout,
-):
-    """Set the free fraction of each body to its first impact with a shape that is no sensor. bodies_inout: BODY rows.
-    O(impacts).
-    """
-    for i in range(count):
-        pair = int(impacts[i, 0])
-        a = shapes[candidates[pair, 0]]
-        b = shapes[candidates[pair, 1]]
-        if a.sensor or b.sensor or impacts[i, 4] == 0.0:
-            continue
-        p = bodies_inout[a.body_row]
-        q = bodies_inout[b.body_row]
-        # A kinematic body goes on and pushes the body that it meets.
-        if p.kind == DYNAMIC:
-            p.fraction = min(p.fraction, impacts[i, 1])
-        if q.kind == DYNAMIC:
-            q.fraction = min(q.fraction, impacts[i, 1])
 
 
 # ---- advance ---------------------------------------------------------------------------------------------------------
@@ -486,9 +265,7 @@ def reach_of(local, count):
 
 @subkernel
 def along(corners, motion, fraction, k, x, y, nx, ny):
-    """Return (place along n [px], velocity along n, curvature bound) of corner k at a fraction. x, y: origin of the
-    corners.
-    """
+    """Return (place along n [px], velocity along n, curvature bound) of corner k, seen from (x, y)."""
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
     turn = motion[TURN]
@@ -549,9 +326,7 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 
 @subkernel
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
-    """Return the speed along n [px per motion] of the point of a body at (x, y), seen from the start of another's
-    motion.
-    """
+    """Return the speed along n [px per motion] of a body's point at (x, y), from the start of another's motion."""
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
     return nx * (motion[MOVE_X] - motion[TURN] * arm_y) + ny * (motion[MOVE_Y] + motion[TURN] * arm_x)
@@ -559,9 +334,7 @@ def speed_of(motion, seen_from, fraction, x, y, nx, ny):
 
 @subkernel
 def touching_span(corners, count, nx, ny, side, band):
-    """Return (low, high) along the tangent (-ny, nx) of the corners that lie furthest along side · n, within a band
-    [px].
-    """
+    """Return (low, high) along the tangent (-ny, nx) of the corners furthest along side · n, within a band [px]."""
     furthest = -math.inf
     for k in range(count):
         furthest = max(furthest, side * (nx * corners[k, 0] + ny * corners[k, 1]))

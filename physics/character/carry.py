@@ -10,7 +10,6 @@ from physics.character.solids import (
     GIVE,
     aabb_of,
     blocked_at,
-    box_corners,
     character_of,
     find_own_rows,
     gather,
@@ -39,7 +38,7 @@ from physics.collision.hulls import ALL_EDGES
 from physics.islands.sleep import disturb
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate
-from physics.shapes.placement import aabb_at, refresh_aabbs
+from physics.shapes.placement import PLACED, aabb_at, box_corners, refresh_aabbs
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.shape import PIXELS
 from physics.tables.step_state import StepState, stage
@@ -57,16 +56,7 @@ def motion_of(b):
 
 
 @kernel
-def find_stirred(
-    # read
-    bodies,
-    shapes,
-    characters,
-    pairs,
-    count,
-    # write
-    stirred_out,
-):
+def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
     """Flag the characters that ride a body, stand on a belt, or may have met a body that is not static.
 
     pairs (count, 2): shape rows out of the broad phase. stirred_out (characters,). Return the greatest distance [px]
@@ -407,7 +397,7 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
         if c.is_box:
             return True
         count, radius = place_outline(walk_inout, me, at_x, at_y)
-        box_corners(left, top, right - left, bottom - top, walk_inout.scratch.theirs)
+        box_corners(left, top, right, bottom, walk_inout.scratch.theirs)
         depth, nx, ny, x, y = meet_hull(walk_inout.scratch, count, radius, 4, 0.0, ALL_EDGES, math.inf)
         return depth > walk_inout.settings.slop
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
@@ -488,12 +478,7 @@ def carry_and_push(movers, walk_inout):
 
 
 @kernel
-def carry_all(
-    # read
-    movers,
-    # write
-    walk_inout,
-):
+def carry_all(movers, walk_inout):
     """Carry, push and press characters by all motion of the step. movers: see carry_and_push."""
     carry_and_push(movers, walk_inout)
     ride_bodies(walk_inout)
@@ -503,36 +488,16 @@ def carry_all(
 @stage(
     "carry",
     reads=(
-        "effects",
-        "tolerances",
-        "gravity",
-        "dt",
-        "steps",
-        "broadphase",
-        "bodies",
-        "shapes",
-        "characters",
-        "library",
-        "pairs",
-        "contact_rows",
-        "awake",
-        "queries",
-        "workspace",
+        "effects", "tolerances", "gravity", "dt", "steps", "broadphase", "bodies", "shapes", "characters", "library",
+        "pairs", "contact_rows", "awake", "queries", "workspace",
     ),
     writes=(
-        "characters",
-        "contact_rows",
+        "characters", "contact_rows",
         "awake",  # its room for the shapes that moved
-        "pairs",
-        "broadphase",
-        "library",
-        "queries",
-        "work",
-        "workspace",
-        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "force_x", "force_y", "torque")),
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+        "pairs", "broadphase", "library", "queries", "work", "workspace",
+        *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "force_x", "force_y", "torque")), *PLACED,
     ),
-)
+)  # fmt: skip
 def carry_characters(state: StepState) -> None:
     """Move the characters that solids carry or push. Those that moved meet others in the same step."""
     characters = state.characters
@@ -559,31 +524,15 @@ def carry_characters(state: StepState) -> None:
 @stage(
     "weigh",
     reads=(
-        "effects",
-        "tolerances",
-        "gravity",
-        "bodies",
-        "shapes",
-        "characters",
-        "contact_rows",
-        "awake",
-        "sleeping_set",
-        "pairs",
-        "touching",
-        "sensing",
+        "effects", "tolerances", "gravity", "bodies", "shapes", "characters", "contact_rows", "awake", "sleeping_set",
+        "pairs", "touching", "sensing",
     ),
     writes=(
-        "characters",
-        "contact_rows",
-        "awake",
-        "sleeping_set",
-        "pairs",
-        "touching",
-        "sensing",
+        "characters", "contact_rows", "awake", "sleeping_set", "pairs", "touching", "sensing",
         *(f"bodies.{name}" for name in ("awake", "active", "sleep_time", "island", "vx", "vy")),
         *(f"bodies.{name}" for name in ("force_x", "force_y", "torque")),
     ),
-)
+)  # fmt: skip
 def apply_character_weight(state: StepState) -> None:
     """Apply the weight of characters to their ground before a step, and wake it when they came, left or walked."""
     characters, bodies = state.characters, state.bodies

@@ -1,6 +1,4 @@
-"""Character: the player of a platformer, moved by whole pixels, with the ground, walls and slopes that a jump depends
-on.
-"""
+"""Character: the player of a platformer, moved by whole pixels, with ground, walls and slopes."""
 
 import math
 from typing import Any, NamedTuple

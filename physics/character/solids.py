@@ -13,12 +13,12 @@ from physics.collision.chains import (
     link_at,
     misses_box,
 )
+from physics.collision.hull_pairs import collide_circles
 from physics.collision.hulls import (
     ALL_EDGES,
     COVERED,
     COVERED_OVERLAP,
     Hull,
-    collide_circles,
     collide_hull_circle,
     collide_hulls,
     pushing_edges,
@@ -28,7 +28,7 @@ from physics.collision.tiles import pushing_edges_on_tile, run_at, tile_at
 from physics.dynamics.non_finite import is_finite_character
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate
-from physics.shapes.placement import aabb_at, corners_at, hull_at, rounding
+from physics.shapes.placement import aabb_at, box_corners, corners_at, hull_at, rounding
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.geometry import BLOCK_LINKS, EMPTY, ONE_WAY, SLOPE, Geometry
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, PART, PIXELS, POLYGON, TILES
@@ -109,25 +109,11 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 
 
 @subkernel
-def box_corners(left, top, width, height, corners_out):
-    """Write the corners of a box of pixels."""
-    corners_out[0, 0] = left
-    corners_out[0, 1] = top
-    corners_out[1, 0] = left + width
-    corners_out[1, 1] = top
-    corners_out[2, 0] = left + width
-    corners_out[2, 1] = top + height
-    corners_out[3, 0] = left
-    corners_out[3, 1] = top + height
-
-
-@subkernel
 def place_outline(walk, me, left, top):
     """Write the character's corners at a pixel to scratch.mine. Return their number and rounding radius."""
     c = walk.characters[me]
     if c.is_box:
-        box_corners(left, top, c.width, c.height, walk.scratch.mine)
-        return 4, 0.0
+        return box_corners(left, top, left + c.width, top + c.height, walk.scratch.mine), 0.0
     x = left + c.offset_x
     y = top + c.offset_y
     count = hull_at(walk.geometry, walk.shapes, c.shape_row, x, y, 0.0, walk.scratch.mine)
@@ -396,9 +382,7 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 @subkernel
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
-    """Return (depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs, through its free
-    edges.
-    """
+    """Return (depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs."""
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
     if count == 1:

@@ -57,9 +57,7 @@ def rise_onto(walk, me, rows, direction, slope):
 
 @subkernel
 def way_aside(walk, me, rows, direction):
-    """Return (pixels up by which a character can go one pixel to a side, or -1; the shape row that blocks it or -1;
-    slope).
-    """
+    """Return (pixels up to go one pixel to a side, or -1; the shape row that blocks it or -1; slope)."""
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
     if what == FREE:
@@ -94,9 +92,7 @@ def drop_onto(walk, me, rows, left, onto):
 
 @subkernel
 def is_wedged(walk, me, rows, slope):
-    """Return whether a character on ground too steep cannot slide down, because a solid stands at the foot of the
-    slope.
-    """
+    """Return whether a solid at the foot of a slope keeps a character from sliding down."""
     c = walk.characters[me]
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk, me, rows, c.left + side, c.top, side, 0, 0.0)
@@ -105,9 +101,7 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """Return the slope of the ground that a character slides down, within its fall on one pixel along; 0 if there is
-    none.
-    """
+    """Return the slope of the ground that a character slides down, within its fall on one pixel; 0 for none."""
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
         what, by, found = blocked_at(walk, me, rows, c.left, c.top + drop, 0, drop, 0.0)
@@ -170,9 +164,7 @@ def tile_slope(walk, row, x, y):
 
 @subkernel
 def slope_under_box(walk, me, row):
-    """Return the slope of the tile under the middle of a box's feet. At the end of a slope, a foot beside it still
-    stands on it.
-    """
+    """Return the slope of the tile under the middle of a box's feet, or under a foot beside it."""
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
     slope = tile_slope(walk, row, c.left + 0.5 * c.width, bottom)
@@ -327,9 +319,7 @@ def keep_still(walk, rows_inout):
 
 @subkernel
 def is_inside(me, walk_inout):
-    """Return whether a character overlaps a static solid. walk_inout.found: the shapes near it, of which the static
-    ones are kept. O(solids near).
-    """
+    """Return whether a character overlaps a static solid. walk_inout.found: the shapes near. O(solids near)."""
     c = walk_inout.characters[me]
     keep_still(walk_inout, walk_inout.found)
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top, 0, 0, 0.0)
@@ -337,14 +327,7 @@ def is_inside(me, walk_inout):
 
 
 @kernel
-def lead_out(
-    # read
-    me,
-    reach,
-    # write
-    walk_inout,
-    moved_inout,
-):
+def lead_out(me, reach, walk_inout, moved_inout):
     """Move a character out of a static solid towards the nearest free place, up before aside before down.
 
     It stays if there is none within `reach` [px]. walk_inout: a Walk with the shapes near. moved_inout: as walk writes
@@ -459,16 +442,7 @@ def knock(me, row, direction, speed, walk_inout):
 
 
 @kernel
-def press(
-    # read
-    shapes,
-    gravity_x,
-    gravity_y,
-    slow,
-    # write
-    characters_inout,
-    bodies_inout,
-):
+def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake bodies that they ride, and copy the velocity of their ground.
 
     gravity [px/s2]. slow [px/s]: slower ground is coming to rest, and is not kept awake. Store the point under their
@@ -508,13 +482,7 @@ def is_between(manifold, first, second):
 
 
 @kernel
-def write_weight(
-    # read
-    characters,
-    weight_rate,
-    # write
-    manifolds_inout,
-):
+def write_weight(characters, weight_rate, manifolds_inout):
     """Write the impulse of the weight of characters into the manifolds with their ground.
 
     weight_rate [px/s]: gravity times the step; the points of a pair share it. O(characters · manifolds).
@@ -669,15 +637,7 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
 
 
 @kernel
-def walk(
-    # read
-    me,
-    dx,
-    dy,
-    # write
-    walk_inout,
-    moved_out,
-):
+def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
     me: its row. walk_inout: a Walk. moved_out (4,): pixels moved along x and y, 1 if it was stopped along x, along y.
@@ -704,17 +664,8 @@ def walk(
 
 
 @kernel
-def is_stopped(
-    # read
-    me,
-    along_x,
-    along_y,
-    # write
-    walk_inout,
-):
-    """Return whether a character cannot move a single pixel; it is not moved. along_x, along_y: -1, 0 or 1. O(solids
-    near).
-    """
+def is_stopped(me, along_x, along_y, walk_inout):
+    """Return whether a character cannot move a pixel along_x, along_y (-1, 0 or 1); it is not moved."""
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)
     if along_x != 0:

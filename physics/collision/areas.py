@@ -56,15 +56,7 @@ def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
 
 
 @kernel
-def count_areas(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    # write
-    workspace,
-    manifolds_inout,
-):
+def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
     """Write the area [px2] of every manifold with an area, at the present poses and rasters. O(pixels shared)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
@@ -120,13 +112,7 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
 
 
 @kernel
-def put_back(
-    # read
-    full,
-    places,
-    # write
-    manifolds_out,
-):
+def put_back(full, places, manifolds_out):
     """Copy each manifold over that of its pair; places (pairs,) are the rows of these."""
     for i in range(len(full)):
         copy_manifold(full, i, places[full[i].candidate], manifolds_out)

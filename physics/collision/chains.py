@@ -24,6 +24,7 @@ from physics.collision.hulls import (
     distance_to_edge,
     find_max_separation,
     least_separation,
+    middle_of,
     move_corners,
     nearest_corners,
     part_feature,
@@ -239,8 +240,7 @@ def neighbour_separates(points, nx, ny, hull, x, y, face):
 
 @subkernel
 def push_at_open_end(link, points, hull, face, margin, manifold_out):
-    """Write one point on the plane across an open end if its separation exceeds `face` [px]. Return the number of
-    points."""
+    """Write one point on the plane across an open end if it is further than `face` [px]. Return the points."""
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
     best = face
@@ -300,11 +300,7 @@ def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out)
     count = hull.count
     radius = hull.radius
     face_hull = Hull(points, 2, 0.0, ALL_EDGES)
-    x = 0.0
-    y = 0.0
-    for k in range(count):
-        x += corners[k, 0] / count
-        y += corners[k, 1] / count
+    x, y = middle_of(corners, count)
     manifold_out[0] = 0.0
     if is_behind(link, points, x, y):
         return 0
@@ -389,10 +385,7 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
     """
     geometry = batch.geometry
     bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    margin = batch.margin
-    links = geometry.links
+    shapes, candidates, margin, links = batch.shapes, batch.candidates, batch.margin, geometry.links
     points = workspace.a
     sign, row, other = sides_by_kind(batch, pair, CHAIN)
     o = shapes[other]
@@ -591,15 +584,7 @@ def was_across(batch, surface, other, most, workspace):
 
 
 @kernel
-def admit_to_surfaces(
-    # read
-    batch,
-    known,
-    # write
-    workspace,
-    kinds_inout,
-    counts_inout,
-):
+def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
     """Change the kind of the pairs of a surface and a hull that may touch to that of a chain, and drop the others.
 
     known: whether workspace.memory holds the last step; kinds_inout: the batch's. O(candidates + links near).

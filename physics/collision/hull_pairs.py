@@ -11,7 +11,6 @@ from physics.collision.hulls import (
     COVERED_OVERLAP,
     Hull,
     collide_aabbs,
-    collide_circles,
     collide_hull_circle,
     collide_hulls,
     edge_normal,
@@ -34,7 +33,7 @@ from physics.collision.manifold import (
     sides_by_kind,
 )
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import norm
+from physics.math2d import norm, unit
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import BOUNDS, CIRCLE
 
@@ -150,6 +149,18 @@ def speculative_rotation(a, b, speed, margin, lookahead):
         return margin
     turn = lookahead * (abs(a.angular_velocity) * a.extent + abs(b.angular_velocity) * b.extent)
     return max(margin, min(turn, 0.5 * min(a.extent, b.extent)))
+
+
+@subkernel
+def collide_circles(ax, ay, a_radius, bx, by, b_radius):
+    """Return (normal from A to B, point midway, separation) of two discs [px]. Equal centres push along +x. O(1)."""
+    dx = bx - ax
+    dy = by - ay
+    nx, ny = unit(dx, dy, 1.0, 0.0)
+    distance = norm(dx, dy)
+    separation = distance - (a_radius + b_radius)
+    along = 0.5 * (a_radius + (distance - b_radius))
+    return nx, ny, ax + along * nx, ay + along * ny, separation
 
 
 @subkernel
@@ -345,8 +356,7 @@ def set_tangential_offset(before, found, offset, manifolds_out):
 @inlined
 def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
     """Append the contact of two circles. Return the new count."""
-    bodies = batch.bodies
-    shapes = batch.shapes
+    bodies, shapes = batch.bodies, batch.shapes
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]
     ax, ay, a_radius = circle_at(bodies, shapes, row_a)
@@ -382,9 +392,7 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
 @inlined
 def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
     """Append the contact of a hull of two or more corners and a circle. Return the new count."""
-    bodies = batch.bodies
-    shapes = batch.shapes
-    margin = batch.margin
+    bodies, shapes, margin = batch.bodies, batch.shapes, batch.margin
     side, circle, polygon = sides_by_kind(batch, pair, CIRCLE)
     p = bodies[shapes[polygon].body_row]
     q = bodies[shapes[circle].body_row]
@@ -468,10 +476,7 @@ def is_grazing(a, b, batch, p, q, manifold):
 def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inout):
     """Append the contact of two hulls of two or more corners. Return the new count."""
     geometry = batch.geometry
-    bodies = batch.bodies
-    shapes = batch.shapes
-    candidates = batch.candidates
-    margin = batch.margin
+    bodies, shapes, candidates, margin = batch.bodies, batch.shapes, batch.candidates, batch.margin
     manifold = workspace.points
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]

@@ -7,7 +7,8 @@ import numpy as np
 
 from physics.distance.gjk import support
 from physics.jit import subkernel
-from physics.math2d import norm, unit
+from physics.math2d import clamp, norm, unit
+from physics.shapes.placement import box_corners
 from physics.tables.shape import TURNS
 
 # ---- features --------------------------------------------------------------------------------------------------------
@@ -105,6 +106,17 @@ def edge_normal(corners, count, k):
     if length == 0.0:
         return 0.0, -1.0
     return dy / length, -dx / length
+
+
+@subkernel
+def middle_of(corners, count):
+    """Return the mean of so many corners [px]."""
+    x = 0.0
+    y = 0.0
+    for k in range(count):
+        x += corners[k, 0] / count
+        y += corners[k, 1] / count
+    return x, y
 
 
 @subkernel
@@ -239,21 +251,9 @@ def support_manifold(reference, edge, incident, flipped, manifold_out):
 
 
 # ---- circles ---------------------------------------------------------------------------------------------------------
-# Circles against circles and convex polygons, in closed form.
+# Circles against convex polygons, in closed form.
 
 COVERED = -1  # in place of a feature: the centre is inside, and no edge is touchable
-
-
-@subkernel
-def collide_circles(ax, ay, a_radius, bx, by, b_radius):
-    """Return (normal from A to B, point midway, separation) of two discs [px]. Equal centres push along +x. O(1)."""
-    dx = bx - ax
-    dy = by - ay
-    nx, ny = unit(dx, dy, 1.0, 0.0)
-    distance = norm(dx, dy)
-    separation = distance - (a_radius + b_radius)
-    along = 0.5 * (a_radius + (distance - b_radius))
-    return nx, ny, ax + along * nx, ay + along * ny, separation
 
 
 @subkernel
@@ -323,20 +323,6 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
 
 
 @subkernel
-def box_corners(min_x, min_y, max_x, max_y, corners_out):
-    """Write the corners [px] of a box, clockwise on the screen from the top left. Return their number."""
-    corners_out[0, 0] = min_x
-    corners_out[0, 1] = min_y
-    corners_out[1, 0] = max_x
-    corners_out[1, 1] = min_y
-    corners_out[2, 0] = max_x
-    corners_out[2, 1] = max_y
-    corners_out[3, 0] = min_x
-    corners_out[3, 1] = max_y
-    return 4
-
-
-@subkernel
 def aabb_corners(shape, corners_out):
     """Write the corners [px] of a SHAPE row's AABB, clockwise on the screen from the top left. Return their number."""
     return box_corners(shape.min_x, shape.min_y, shape.max_x, shape.max_y, corners_out)
@@ -351,15 +337,8 @@ def move_corners(count, x, y, corners_inout):
 
 
 @subkernel
-def clamp(value, low, high):
-    """Return the value, clamped to low..high."""
-    return max(low, min(high, value))
-
-
-@subkernel
 def collide_aabb_corners(a, b, margin, manifold_out):
-    """Write one point between the nearest corners of two boxes separated along both axes. Return the number of
-    points."""
+    """Write one point between the nearest corners of two boxes apart along both axes. Return the points."""
     right = b.min_x > a.max_x
     below = b.min_y > a.max_y
     ax = a.max_x if right else a.min_x

@@ -296,15 +296,7 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
     """
 
     @kernel
-    def collide_pairs(
-        # read
-        batch,
-        # write
-        workspace,
-        manifolds_out,
-        found,
-        work_inout,
-    ):
+    def collide_pairs(batch, workspace, manifolds_out, found, work_inout):
         """Append the contacts of all pairs of the kind from `found` on. Return the new count. O(candidates)."""
         kinds = batch.kinds
         block = workspace.block
@@ -354,15 +346,7 @@ def is_of(contact, shape_a, shape_b):
 
 
 @kernel
-def place_in_order(
-    # read
-    manifolds,
-    count,
-    candidate_count,
-    # write
-    starts_out,
-    manifolds_out,
-):
+def place_in_order(manifolds, count, candidate_count, starts_out, manifolds_out):
     """Copy manifolds to the order of their candidates, stable within one candidate (counting sort).
 
     manifolds, manifolds_out CONTACT rows; starts_out (candidates + 1): scratch. O(manifolds + candidates).
@@ -381,12 +365,7 @@ def place_in_order(
 
 
 @kernel
-def write_contacts(
-    # read
-    manifolds,
-    # write
-    contacts_out,
-):
+def write_contacts(manifolds, contacts_out):
     """Write a CONTACT_POINT row for every point of the manifolds. Return their number. O(manifolds)."""
     found = 0
     for i in range(len(manifolds)):

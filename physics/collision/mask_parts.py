@@ -109,18 +109,7 @@ def hulls_of_pair(batch, pair, workspace):
 
 
 @kernel
-def write_fallback(
-    # read
-    batch,
-    pairs,
-    last_x,
-    last_y,
-    # write
-    workspace,
-    starts_out,
-    faces_out,
-    manifolds_out,
-):
+def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_out, manifolds_out):
     """Write the manifold that moves B out of A in the shortest direction, for candidates `pairs` of parts of these two.
 
     last_x, last_y: the direction of the last step, or 0. starts_out (pairs + 1,), faces_out (FACES · pairs, 4):
@@ -164,15 +153,7 @@ def depth_of(manifold):
 
 
 @kernel
-def find_deep(
-    # read
-    bodies,
-    manifolds,
-    count,
-    deep,
-    # write
-    flags_out,
-):
+def find_deep(bodies, manifolds, count, deep, flags_out):
     """Flag (count,) the manifolds of parts deeper than `deep` [px] in which a side is dynamic. Return how many."""
     found = 0
     for i in range(count):
@@ -187,13 +168,7 @@ def find_deep(
 
 
 @kernel
-def drop_opposed_rows(
-    # read
-    order,
-    deep,
-    # write
-    manifolds_inout,
-):
+def drop_opposed_rows(order, deep, manifolds_inout):
     """Drop deep manifolds (flags) that a shallower manifold of the same pair opposes; order: sorted by owners.
 
     Return how many are left, moved to the front. O(manifolds · those of a pair).

@@ -83,9 +83,7 @@ class Remainders(NamedTuple):
 
 @subkernel
 def separation_along(pair, remainders, nx, ny, most):
-    """Return the least whole number of pixels along the normal that ends the overlap of a RasterPair; > most if none up
-    to it does.
-    """
+    """Return the least whole number of pixels along the normal that ends the overlap; > most for none up to it."""
     rasters = pair.rasters
     words = pair.words
     a = rasters[pair.a]
@@ -212,9 +210,7 @@ def hull_bounds(hull):
 
 @subkernel
 def pixels_under(raster, hull):
-    """Return (first column, last + 1, first row, last + 1) of the pixels of a PlacedRaster under the bounds of a
-    Hull.
-    """
+    """Return (first column, last + 1, first row, last + 1) of a PlacedRaster's pixels under a Hull's bounds."""
     r = raster.rasters[raster.row]
     min_x, min_y, max_x, max_y = hull_bounds(hull)
     first_x, last_x = pixel_range(min_x, max_x, raster.left, r.set_left, r.set_right)
@@ -551,9 +547,7 @@ def collide_mask_rounded(raster, hull, depths_out):
 
 @subkernel
 def collide_mask_hull(raster, hull, depths_out):
-    """Return the result of collide_mask_circle for any Hull, in the space of a PlacedRaster. depths_out (16,):
-    scratch.
-    """
+    """Return the result of collide_mask_circle for any Hull in a PlacedRaster's space. depths_out (16,): scratch."""
     if hull.count == 1:
         return collide_mask_circle(raster, hull, depths_out)
     if hull.radius > 0.0:
@@ -587,9 +581,7 @@ def make_mask_pass(full: bool) -> Any:
     def collide_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
         """Append the contact of two masks as drawn, by AND of words. Return the new count."""
         shapes = batch.shapes
-        candidates = batch.candidates
-        rasters = batch.geometry.rasters
-        words = batch.geometry.words
+        candidates, rasters, words = batch.candidates, batch.geometry.rasters, batch.geometry.words
         a = shapes[candidates[pair, 0]]
         b = shapes[candidates[pair, 1]]
         dx = b.left - a.left

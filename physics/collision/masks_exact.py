@@ -1,9 +1,7 @@
 """Masks that are not snapped, at their exact poses, against masks, hulls and tiles."""
 
 import math
-from typing import Any, NamedTuple
-
-import numpy as np
+from typing import Any
 
 from physics.collision.hulls import ALL_EDGES, Hull, aabb_corners, edge_normal, pixel_feature
 from physics.collision.manifold import MASK_HULL, MASKS_EXACT, add_manifold, hull_of, make_pass, sides_by_kind
@@ -13,6 +11,7 @@ from physics.math2d import cosine_and_sine, norm, rotate, unit
 from physics.raster.bits import is_set
 from physics.raster.exact import (
     ROUNDED,
+    SquaresPair,
     arc_share,
     first_squares,
     line_share,
@@ -263,33 +262,13 @@ def boxes_normal(a, b):
     return nx, ny, x != 0.0 or y != 0.0
 
 
-class SquaresPair(NamedTuple):
-    """Two masks as unions of pixel squares, the second rotated and moved in the raster of the first, the frame."""
-
-    rasters: np.ndarray  # RASTER
-    words: np.ndarray  # uint64
-    frame: int  # rows of RASTER
-    other: int
-    u: float  # [px] of the other's top left corner
-    v: float
-    cosine: float  # of the other's angle
-    sine: float
-
-
-@subkernel
-def shared_at(pair, u, v):
-    """Return (area [px2], moments) of the squares that a SquaresPair shares, with the other's corner at u, v [px]."""
-    return shared_squares(pair.rasters, pair.words, pair.frame, pair.other, u, v, pair.cosine, pair.sine)
-
-
 @subkernel
 def area_normal(pair, area):
-    """Return (unit normal in the frame, whether there is one): the direction in which the shared area shrinks
-    fastest."""
-    before, _, _ = shared_at(pair, pair.u - 1.0, pair.v)
-    behind, _, _ = shared_at(pair, pair.u + 1.0, pair.v)
-    above, _, _ = shared_at(pair, pair.u, pair.v - 1.0)
-    below, _, _ = shared_at(pair, pair.u, pair.v + 1.0)
+    """Return (unit normal in the frame along which the shared area shrinks fastest, whether there is one)."""
+    before, _, _ = shared_squares(pair, pair.u - 1.0, pair.v)
+    behind, _, _ = shared_squares(pair, pair.u + 1.0, pair.v)
+    above, _, _ = shared_squares(pair, pair.u, pair.v - 1.0)
+    below, _, _ = shared_squares(pair, pair.u, pair.v + 1.0)
     nx, ny = unit(before - behind, above - below, 1.0, 0.0)
     return nx, ny, norm(before - behind, above - below) > NOISE * area
 
@@ -298,9 +277,7 @@ def area_normal(pair, area):
 def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
     """Return the move [px] along a normal in the world that ends the overlap; > most if none up to it does."""
     rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
-    return squares_way_out(
-        pair.rasters, pair.words, pair.frame, pair.other, pair.u, pair.v, pair.cosine, pair.sine, rx, ry, most
-    )
+    return squares_way_out(pair, rx, ry, most)
 
 
 @subkernel
@@ -311,7 +288,7 @@ def exact_contact(pair, a, b, turn_cosine, turn_sine):
     a, b: their SHAPE rows; turn: cosine and sine of A's angle. The point is the centroid of the overlap. The separation
     is negative: minus the move along the normal that ends the overlap.
     """
-    area, x, y = shared_at(pair, pair.u, pair.v)
+    area, x, y = shared_squares(pair, pair.u, pair.v)
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     area = max(area, slack * slack)
     axis_x, axis_y, least = least_overlap(a.max_x - b.min_x, b.max_x - a.min_x, a.max_y - b.min_y, b.max_y - a.min_y)
@@ -351,12 +328,19 @@ def share_no_area(geometry, a, b):
 
 @subkernel
 def is_first_the_frame(geometry, a, b):
-    """Return whether A's raster is the frame of the test of two MASK rows: the unsnapped one, else the one of more
-    area."""
+    """Return whether A's raster is the frame of two MASK rows: the unsnapped one, else that of more area."""
     if a.snap or b.snap:
         return not a.snap
     rasters = geometry.rasters
     return rasters[raster_of_shape(geometry, a)].area >= rasters[raster_of_shape(geometry, b)].area
+
+
+@subkernel
+def squares_pair(geometry, bodies, frame, other):
+    """Return the SquaresPair of two MASK rows; the frame is not snapped."""
+    u, v, cosine, sine = raster_in_raster(geometry, bodies[frame.body_row], frame, bodies[other.body_row], other)
+    rows = raster_of_shape(geometry, frame), raster_of_shape(geometry, other)
+    return SquaresPair(geometry.rasters, geometry.words, rows[0], rows[1], u, v, cosine, sine)
 
 
 @subkernel
@@ -367,11 +351,8 @@ def exact_mask_area(geometry, bodies, a, b):
     first = is_first_the_frame(geometry, a, b)
     f = a if first else b
     o = b if first else a
-    u, v, cosine, sine = raster_in_raster(geometry, bodies[f.body_row], f, bodies[o.body_row], o)
-    area, _, _ = shared_squares(
-        geometry.rasters, geometry.words, raster_of_shape(geometry, f), raster_of_shape(geometry, o), u, v, cosine, sine
-    )
-    return area
+    pair = squares_pair(geometry, bodies, f, o)
+    return shared_squares(pair, pair.u, pair.v)[0]
 
 
 def make_exact_mask_pass(full: bool) -> Any:
@@ -383,12 +364,8 @@ def make_exact_mask_pass(full: bool) -> Any:
     @inlined
     def collide_exact_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
         """Append the contact of two masks at their exact poses. Return the new count."""
-        geometry = batch.geometry
-        bodies = batch.bodies
-        shapes = batch.shapes
-        candidates = batch.candidates
+        geometry, bodies, shapes, candidates = batch.geometry, batch.bodies, batch.shapes, batch.candidates
         rasters = geometry.rasters
-        words = geometry.words
         work_inout[MASK_TESTS] += 1
         a = shapes[candidates[pair, 0]]
         b = shapes[candidates[pair, 1]]
@@ -398,28 +375,24 @@ def make_exact_mask_pass(full: bool) -> Any:
         f = a if first else b
         o = b if first else a
         p = bodies[f.body_row]
-        frame = raster_of_shape(geometry, f)
-        other = raster_of_shape(geometry, o)
-        u, v, cosine, sine = raster_in_raster(geometry, p, f, bodies[o.body_row], o)
-        hit, x, y, column, row = first_squares(rasters, words, frame, other, u, v, cosine, sine)
+        squares = squares_pair(geometry, bodies, f, o)
+        hit, x, y, column, row = first_squares(squares, squares.u, squares.v)
         if not hit:
             return found
         if first:
-            feature = pixel_feature(y, x, rasters[frame].width)
+            feature = pixel_feature(y, x, rasters[squares.frame].width)
         else:
-            feature = pixel_feature(row, column, rasters[other].width)
+            feature = pixel_feature(row, column, rasters[squares.other].width)
         turn_cosine, turn_sine = cosine_and_sine(p.angle, p.angle)
         px = x + 0.5
         py = y + 0.5
         area = 0.0
         separation = -1.0
         if full:
-            area, px, py, nx, ny, separation = exact_contact(
-                SquaresPair(rasters, words, frame, other, u, v, cosine, sine), f, o, turn_cosine, turn_sine
-            )
+            area, px, py, nx, ny, separation = exact_contact(squares, f, o, turn_cosine, turn_sine)
         else:
             nx, ny, _ = boxes_normal(f, o)
-        px, py = out_of_raster(rasters[frame], p, turn_cosine, turn_sine, px, py)
+        px, py = out_of_raster(rasters[squares.frame], p, turn_cosine, turn_sine, px, py)
         sign = 1.0 if first else -1.0
         point = (sign * nx, sign * ny, px, py, separation, area, feature)
         return add_manifold(shapes, candidates, pair, point, manifolds_out, found)

@@ -77,20 +77,12 @@ def is_asked(which, bodies, a, b):
 
 
 @kernel
-def collide_boxes(
-    # read
-    batch,
-    which,
-    # write
-    manifolds_out,
-    work_inout,
-):
+def collide_boxes(batch, which, manifolds_out, work_inout):
     """Write contacts of candidates from their AABBs alone: normal along the axis of least overlap, point in its middle.
 
     which: see is_asked. Return the number of contacts. O(candidates).
     """
-    shapes = batch.shapes
-    candidates = batch.candidates
+    shapes, candidates = batch.shapes, batch.candidates
     found = 0
     for i in range(batch.count):
         a = shapes[candidates[i, 0]]
@@ -204,40 +196,28 @@ def is_of_child(a, b):
 
 
 @kernel
-def classify(
-    # read
-    bodies,
-    shapes,
-    candidates,
-    count,
-    margin,
-    lookahead,
-    which,
-    # write
-    kind_out,
-    counts_out,
-    work_inout,
-):
+def classify(batch, which, kinds_out, counts_out, work_inout):
     """Write the kind of every candidate pair and the number of pairs of each kind. O(candidates).
 
-    counts_out[PARTED]: pairs with a part of another shape; counts_out[DRAWN_PAIRS]: pairs with a mask drawn for the
-    test. which: ALL, NO_SENSORS, SENSORS, or SOLIDS. SOLIDS are pairs whose contact can change, with boxes within
-    `margin` [px], or that meet within `lookahead` [s]. All other pairs are NOTHING.
+    counts_out[WITH_CHILD]: pairs with a part of another shape; counts_out[DRAWN_PAIRS]: pairs with a mask drawn for the
+    test. which: ALL, NO_SENSORS, SENSORS, or SOLIDS. SOLIDS are pairs whose contact can change, with boxes within the
+    batch's margin, or that meet within its lookahead. All other pairs are NOTHING.
     """
+    bodies, shapes, candidates = batch.bodies, batch.shapes, batch.candidates
     for i in range(len(counts_out)):
         counts_out[i] = 0
     sensors = 0
-    for i in range(count):
+    for i in range(batch.count):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        kind = kind_asked(bodies, a, b, margin, lookahead, which)
-        kind_out[i] = kind
+        kind = kind_asked(bodies, a, b, batch.margin, batch.lookahead, which)
+        kinds_out[i] = kind
         counts_out[kind] += 1
         if kind != NOTHING:
             counts_out[WITH_CHILD] += int(is_of_child(a, b))
             counts_out[DRAWN_PAIRS] += int(is_drawn_when_asked(a) or is_drawn_when_asked(b))
             sensors += int(a.sensor or b.sensor)
-    work_inout[NARROW_TESTS] += count - counts_out[NOTHING]
+    work_inout[NARROW_TESTS] += batch.count - counts_out[NOTHING]
     work_inout[SENSOR_TESTS] += sensors
 
 
@@ -246,13 +226,7 @@ def classify(
 
 
 @kernel
-def remember_ground(
-    # read
-    batch,
-    previous,
-    # write
-    memory_out,
-):
+def remember_ground(batch, previous, memory_out):
     """Write the previous manifolds of each candidate with a tile grid or a surface: memory_out (count, 2) first row,
     number.
 
@@ -318,27 +292,21 @@ class NarrowPhase:
         which: int = ALL,
         bias: float = 0.0,
         previous: np.ndarray | None = None,
-        graze: float = 0.0,
-        lookahead: float = 0.0,
     ) -> np.ndarray:
-        """Return the manifolds of the candidate pairs, in their order: a view that the call after the next one
-        overwrites.
+        """Return the manifolds of the candidate pairs, in their order: a view that the call after the next overwrites.
 
         The masks among them are drawn at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2)
-        int64 shape rows; margin [px]: largest gap of a contact; work: counters; which: see classify; bias [px]: see
-        hulls.collide_hulls. previous: manifolds of the last step, which report the bodies on one-way ground. graze
-        [px], lookahead [s]: see Batch.
+        int64 shape rows; margin [px]: largest gap of a contact; work: counters; which: see classify; bias
+        [px]: see hulls.collide_hulls. previous: manifolds of the last step, which report the bodies on one-way ground.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
-        count = len(candidates)
-        margin, bias, graze, lookahead = float(margin), float(bias), float(graze), float(lookahead)
-        batch = self.batch_of(library, bodies, shapes, candidates, margin, bias, graze, lookahead)
+        batch = self.batch_of(library, bodies, shapes, candidates, float(margin), float(bias), 0.0, 0.0)
         if self.boxes_only:
             return self.find_boxes(batch, which, work)
-        classify(bodies, shapes, candidates, count, margin, lookahead, which, self.kinds, self.counts, work)
+        classify(batch, which, self.kinds, self.counts, work)
         if self.counts[DRAWN_PAIRS]:
-            draw_masks(library, np.unique(candidates[self.kinds[:count] != NOTHING]), bodies, shapes)
+            draw_masks(library, np.unique(candidates[self.kinds[: batch.count] != NOTHING]), bodies, shapes)
             batch = batch._replace(geometry=library.tables)
         return self.complete(batch, previous, 0, work)
 
@@ -462,16 +430,6 @@ class NarrowPhase:
             kept = self.raw
             self.raw = zeros_in_lines(2 * count, CONTACT)
             self.raw[: len(kept)] = kept  # recycled manifolds may be at the beginning
-
-
-def narrow_phase_for_queries() -> NarrowPhase:
-    """Return a narrow phase for queries: exact shapes, masks for hits alone."""
-    return NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
-
-
-def exact_narrow_phase() -> NarrowPhase:
-    """Return a narrow phase with all contact data."""
-    return NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
 
 
 def no_work() -> np.ndarray:

@@ -17,7 +17,6 @@ from physics.collision.hull_pairs import (
 from physics.collision.hulls import (
     ALL_EDGES,
     Hull,
-    box_corners,
     collide_hull_circle,
     collide_hulls,
     edge_normal,
@@ -27,6 +26,7 @@ from physics.collision.hulls import (
 from physics.collision.manifold import GRID_ANY, add_point, add_points, hull_of, make_pass, sides_by_kind
 from physics.collision.masks_exact import collide_mask_part, tested_aabb
 from physics.jit import inlined, subkernel
+from physics.shapes.placement import box_corners
 from physics.tables.geometry import EMPTY, ONE_WAY, SLOPE, SOLID
 from physics.tables.shape import MASK, TILES
 from physics.tables.step_state import MASK_TESTS
@@ -88,8 +88,7 @@ def run_at(geometry, grid, x, y, row, column, under, corners_out):
     The bits of `edges` are those of tile_at, for one rectangle, so that no seam between its cells is felt. under: first
     and last column under the other shape; top and bottom are touchable where a cell among these is not covered.
     """
-    grids = geometry.grids
-    cells = geometry.cells
+    grids, cells = geometry.grids, geometry.cells
     low, high = under
     g = grids[grid]
     cell = cells[g.offset + row * g.columns + column]
@@ -127,8 +126,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
     tile has four corners, a slope three or four. A tile with all edges covered is touchable everywhere, because a body
     inside it must get out.
     """
-    grids = geometry.grids
-    cells = geometry.cells
+    grids, cells = geometry.grids, geometry.cells
     g = grids[grid]
     cell = cells[g.offset + row * g.columns + column]
     left = x + column * g.tile_size
@@ -238,10 +236,7 @@ def make_grid_pass(one_way: bool) -> Any:
         """Append the contacts of a tile grid and another shape, run by run. Return the new count."""
         geometry = batch.geometry
         bodies = batch.bodies
-        shapes = batch.shapes
-        candidates = batch.candidates
-        margin = batch.margin
-        cells = geometry.cells
+        shapes, candidates, margin, cells = batch.shapes, batch.candidates, batch.margin, geometry.cells
         tile = workspace.a
         sign, row, other = sides_by_kind(batch, pair, TILES)
         s = shapes[row]

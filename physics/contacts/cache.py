@@ -9,7 +9,7 @@ from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of, unit
 from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE, RECYCLE_WANDER
 from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import is_hull, refresh_boxes
+from physics.shapes.placement import PLACED, is_hull, refresh_boxes
 from physics.tables.contact import CORES, UPRIGHT, WITH_A, WITH_B
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 from physics.tables.step_state import StepState, stage
@@ -69,8 +69,7 @@ def frame_of(a, b, feature, radii):
 
 @subkernel
 def is_corner(polygons, table, body, shape, corner, local_x, local_y):
-    """Return whether a point [px] in body space is the hull core's corner of this number; the number wraps to the
-    first."""
+    """Return whether a point [px] in body space is a hull core's corner; its number wraps to the first."""
     span = polygons[shape.geometry]
     c = table[span.offset + (corner if corner < span.count else 0)]
     return norm(c.x - local_x, c.y - local_y) <= SAME * body.extent
@@ -78,8 +77,7 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, cosine, sine, x, y, nx, ny, inside, behind):
-    """Return a point in body space, moved by `inside` [px] along the normal and `behind` [px] against the tangent
-    (-ny, nx)."""
+    """Return a point in body space, moved `inside` [px] along the normal, `behind` against the tangent."""
     return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, cosine, -sine)
 
 
@@ -197,14 +195,7 @@ def reset_impulses(contact_out):
 
 
 @kernel
-def write_caches(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    # write
-    contacts_inout,
-):
+def write_caches(geometry, bodies, shapes, contacts_inout):
     """Write the cache of every contact that was detected at the present poses, without forces. O(contacts)."""
     for i in range(len(contacts_inout)):
         reset_impulses(contacts_inout[i])
@@ -325,12 +316,7 @@ def update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, contact_ino
 
 
 @kernel
-def update_contacts(
-    # read
-    bodies,
-    # write
-    contacts_inout,
-):
+def update_contacts(bodies, contacts_inout):
     """Update separations, points and normals of all contacts to the present poses. O(contacts)."""
     row_a = -1
     row_b = -1
@@ -429,14 +415,7 @@ def is_unmoved(body):
 
 
 @subkernel
-def update_and_flag(
-    # read
-    shapes,
-    distance,
-    # write
-    bodies_inout,
-    contacts_inout,
-):
+def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
     """Update points, normals and separations of all contacts to the present poses, and flag those that can be recycled
     in the next step: see can_recycle. O(contacts)."""
     row_a = -1
@@ -465,16 +444,7 @@ def update_and_flag(
 
 
 @kernel
-def update_final_poses(
-    # read
-    shape_rows,
-    geometry,
-    distance,
-    # write
-    bodies_inout,
-    shapes_inout,
-    contacts_inout,
-):
+def update_final_poses(shape_rows, geometry, distance, bodies_inout, shapes_inout, contacts_inout):
     """Write the boxes of these shapes, and update all contacts to the present poses. O(rows + contacts).
 
     distance [px]: see can_recycle.
@@ -486,12 +456,7 @@ def update_final_poses(
 @stage(
     "final_poses",
     reads=("tolerances", "awake", "bodies", "shapes", "library", "contact_rows"),
-    writes=(
-        "contact_rows",
-        "library",
-        "bodies.has_current_contacts",
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
-    ),
+    writes=("contact_rows", "library", "bodies.has_current_contacts", *PLACED),
 )
 def update_contacts_at_final_poses(state: StepState) -> None:
     """Update boxes, and points, normals and separations of contacts, to the final poses."""

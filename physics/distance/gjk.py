@@ -207,9 +207,15 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 
 
 @subkernel
-def write_edge_gap(a, b, i, j, k, m, nx, ny, gap_out):
-    """Write separation and nearest points for the edge of the difference from a[i] - b[j] to a[k] - b[m], with its
-    normal."""
+def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
+    """Write separation, normal and nearest points for the edge of the difference between two places.
+
+    places: the simplex or the polytope, whose rows begin with a corner of A and one of B.
+    """
+    i = int(places[p, 0])
+    j = int(places[p, 1])
+    k = int(places[q, 0])
+    m = int(places[q, 1])
     ex, ey = difference_edge(a, b, i, j, k, m)
     length2 = ex * ex + ey * ey
     t = 0.0
@@ -230,15 +236,11 @@ def write_edge_gap(a, b, i, j, k, m, nx, ny, gap_out):
 
 @subkernel
 def write_nearest(a, b, state, simplex, gap_out):
-    """Write separation, normal and nearest points of the final simplex: edge normal, or direction between two
-    corners."""
-    i = int(simplex[0, 0])
-    j = int(simplex[0, 1])
-    if state[COUNT] == 2.0:
-        write_edge_gap(a, b, i, j, int(simplex[1, 0]), int(simplex[1, 1]), state[NORMAL_X], state[NORMAL_Y], gap_out)
-        return
-    write_edge_gap(a, b, i, j, i, j, state[NORMAL_X], state[NORMAL_Y], gap_out)
-    gap_out[SEPARATION] = norm(simplex[0, 2], simplex[0, 3])
+    """Write separation, normal (of the edge, or between two corners) and nearest points of the final simplex."""
+    q = 1 if state[COUNT] == 2.0 else 0
+    write_edge_gap(a, b, simplex, 0, q, state[NORMAL_X], state[NORMAL_Y], gap_out)
+    if q == 0:
+        gap_out[SEPARATION] = norm(simplex[0, 2], simplex[0, 3])
 
 
 @subkernel
@@ -361,23 +363,11 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
 def write_depth(a, b, count, polytope, gap_out):
     """Write separation (minus the depth), normal and points of the nearest edge. For a single point: normal (1, 0)."""
     if count < 2:
-        i = int(polytope[0, 0])
-        j = int(polytope[0, 1])
-        write_edge_gap(a, b, i, j, i, j, 1.0, 0.0, gap_out)
+        write_edge_gap(a, b, polytope, 0, 0, 1.0, 0.0, gap_out)
         return
     k = shallowest_edge(polytope, count)
     n = k + 1 if k + 1 < count else 0
-    write_edge_gap(
-        a,
-        b,
-        int(polytope[k, 0]),
-        int(polytope[k, 1]),
-        int(polytope[n, 0]),
-        int(polytope[n, 1]),
-        polytope[k, 2],
-        polytope[k, 3],
-        gap_out,
-    )
+    write_edge_gap(a, b, polytope, k, n, polytope[k, 2], polytope[k, 3], gap_out)
 
 
 @subkernel
@@ -445,16 +435,7 @@ def copy_part(corners, part, count, corners_out):
 
 
 @kernel
-def separate_parts(
-    # read
-    a,
-    b,
-    # write
-    corners_a_out,
-    corners_b_out,
-    workspace,
-    totals_out,
-):
+def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
     """Write separation, normal and points of the nearest two parts to workspace.gap. Return the separation [px].
 
     a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch; totals_out (2,): rounds of GJK and EPA, caps hit. Parts

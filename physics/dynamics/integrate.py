@@ -11,7 +11,7 @@ import numpy as np
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate, rotation_of
 from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import refresh_aabbs
+from physics.shapes.placement import PLACED, refresh_aabbs
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.step_state import BODIES_INTEGRATED, StepState, stage
 
@@ -25,18 +25,7 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
     """
 
     @kernel
-    def integrate_velocities(
-        # read
-        rows,
-        gravity_x,
-        gravity_y,
-        drag_rate,
-        wind_x,
-        wind_y,
-        dt,
-        # write
-        bodies_inout,
-    ):
+    def integrate_velocities(rows, gravity_x, gravity_y, drag_rate, wind_x, wind_y, dt, bodies_inout):
         """Add gravity [px/s2], collected forces and drag [1/s] towards the wind [px/s] to the velocities. O(rows)."""
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
@@ -70,14 +59,7 @@ def make_position_pass(rotation: bool) -> Callable:
     """Return the position pass over the moving bodies; with rotation they rotate about their centres of mass."""
 
     @kernel
-    def integrate_positions(
-        # read
-        rows,
-        dt,
-        # write
-        bodies_inout,
-        work_inout,
-    ):
+    def integrate_positions(rows, dt, bodies_inout, work_inout):
         """Move bodies by the free fraction of their motion in dt [s], and keep their previous poses. O(rows)."""
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
@@ -169,7 +151,7 @@ def integrate_velocities(state: StepState) -> None:
         *(f"bodies.{name}" for name in ("x", "y", "angle", "previous_x", "previous_y", "previous_angle")),
         *(f"bodies.{name}" for name in ("center_x", "center_y", "has_current_contacts")),
         *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
+        *PLACED,
     ),
 )
 def integrate_positions(state: StepState) -> None:

@@ -16,46 +16,27 @@ from physics.tables.contact import QUARANTINE
 from physics.tables.shape import TILES
 from physics.tables.step_state import StepState, stage
 
-NOT_FINITE = "a number of the body is not finite, beyond what a double resolves, or below 0 where it may not be"
-BAD_SHAPE = "a number of one of its shapes is not finite, too large, or below 0 where it may not be"
-BAD_WALK = "a number of its character is not finite"
-TURNED = "a TileGrid cannot turn: its angle and angular velocity must be 0"
-REASONS = (NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK)  # in the order of the checks
+NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK = range(4)
+REASONS = (
+    "a number of the body is not finite, beyond what a double resolves, or below 0 where it may not be",
+    "a number of one of its shapes is not finite, too large, or below 0 where it may not be",
+    "a TileGrid cannot turn: its angle and angular velocity must be 0",
+    "a number of its character is not finite",
+)
 NO_ROWS = np.zeros(0, np.int64)
 LARGEST = 1e100  # of inverse masses and of surface values: products of two larger ones overflow a double
 REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
 READS = (
-    "bodies",
-    "shapes",
-    "awake",
-    "sleeping_set",
-    "pairs",
-    "contact_rows",
-    "touching",
-    "sensing",
-    "tolerances",
-    "library",
-    "effects",
-    "gravity",
-    "characters",
-    "dt",
-)
+    "bodies", "shapes", "awake", "sleeping_set", "pairs", "contact_rows", "touching", "sensing", "tolerances",
+    "library", "effects", "gravity", "characters", "dt",
+)  # fmt: skip
 WRITES = (
-    "events",
-    "pairs",
-    "awake",
-    "sleeping_set",
-    "contact_rows",
-    "touching",
-    "sensing",
-    "shapes.proxy",
-    "bodies.sleep_time",
-    "bodies.island",
+    "events", "pairs", "awake", "sleeping_set", "contact_rows", "touching", "sensing", "shapes.proxy",
+    "bodies.sleep_time", "bodies.island",
     *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "awake", "active", "quarantined")),
-    *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-    "bodies.has_current_contacts",
+    *(f"bodies.settled_{name}" for name in ("x", "y", "angle")), "bodies.has_current_contacts",
     *(f"bodies.{name}" for name in REST),
-)
+)  # fmt: skip
 
 
 @subkernel
@@ -115,125 +96,12 @@ def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
 
 
 @subkernel
-def take_broken_bodies(
-    # read
-    rows,
-    course,
-    # write
-    bodies_inout,
-    broken_out,
-):
-    """List the rows of bodies that a step cannot use, and quarantine them at their last finite pose.
-
-    Return their number. O(rows).
-    """
-    found = 0
-    for k in range(len(rows)):
-        b = bodies_inout[rows[k]]
-        if b.quarantined:
-            continue
-        there = is_within_limits(b)
-        if not there or not is_finite_in_step(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
-            broken_out[found] = rows[k]
-            found += 1
-            if not there:
-                b.x = b.settled_x
-                b.y = b.settled_y
-                b.angle = b.settled_angle
-            disable_body(b)
-    return found
-
-
-@subkernel
 def is_finite_character(character):
-    """Return whether all numbers of a character are finite (x - x == 0 only for finite x) and within the position
-    limit."""
+    """Return whether all numbers of a character are finite (x - x == 0) and within the position limit."""
     c = character
     total = c.offset_x + c.offset_y + c.climb + c.remainder_x + c.remainder_y + c.slope + c.mass + c.push
     total += c.foot_x + c.foot_y + c.carry_x + c.carry_y + c.belt + c.belt_x + c.push_vx + c.push_vy + c.deep
     return total - total == 0.0 and abs(total) < POSITION_LIMIT
-
-
-@subkernel
-def take_broken_shapes(
-    # read
-    rows,
-    shapes,
-    first,
-    # write
-    bodies_inout,
-    broken_out,
-):
-    """List, from `first` on, the body rows of shapes with a number that a step cannot use, and quarantine the bodies.
-
-    Return the end of the list. O(rows).
-    """
-    found = first
-    for k in range(len(rows)):
-        s = shapes[rows[k]]
-        place = abs(s.local_x) + abs(s.local_y) + s.radius
-        surface = s.friction + abs(s.restitution) + abs(s.rolling_resistance) + abs(s.surface_speed)
-        if place < POSITION_LIMIT and surface < LARGEST and s.radius >= 0.0 and s.friction >= 0.0:
-            continue
-        b = bodies_inout[s.body_row]
-        if not b.quarantined:
-            broken_out[found] = s.body_row
-            found += 1
-            disable_body(b)
-    return found
-
-
-@subkernel
-def take_turned_grids(
-    # read
-    rows,
-    shapes,
-    first,
-    # write
-    bodies_inout,
-    broken_out,
-):
-    """List, from `first` on, the body rows of rotated or rotating TILES among these shape rows, and quarantine them at
-    angle 0.
-
-    Only a direct write to the table can rotate a grid. Return the end of the list. O(rows).
-    """
-    found = first
-    for k in range(len(rows)):
-        s = shapes[rows[k]]
-        if s.kind != TILES:
-            continue
-        b = bodies_inout[s.body_row]
-        if b.quarantined or (b.angle == 0.0 and b.angular_velocity == 0.0):
-            continue
-        broken_out[found] = s.body_row
-        found += 1
-        b.angle = 0.0
-        disable_body(b)
-    return found
-
-
-@subkernel
-def take_broken_characters(
-    # read
-    characters,
-    first,
-    # write
-    bodies_inout,
-    broken_out,
-):
-    """List, from `first` on, the body rows of characters with a number that is not finite, and quarantine the bodies.
-
-    Return the end of the list.
-    """
-    found = first
-    for k in range(len(characters)):
-        b = bodies_inout[characters[k].body_row]
-        if not b.quarantined and not is_finite_character(characters[k]):
-            broken_out[found] = characters[k].body_row
-            found += 1
-            disable_body(b)
-    return found
 
 
 class Course(NamedTuple):
@@ -245,41 +113,69 @@ class Course(NamedTuple):
     dt: float  # [s]
 
 
-@kernel
-def take_broken(
-    # read
-    rows,
-    shape_rows,
-    grid_rows,
-    shapes,
-    characters,
-    course,
-    # write
-    bodies_inout,
-    broken_out,
-    ends_out,
-):
-    """List the rows of bodies that a step cannot use, and quarantine them. Return their number. O(rows + shape_rows).
+@subkernel
+def take_body(row, reason, found, bodies_inout, broken_out):
+    """Quarantine a body, and list its row and the reason. Return the new count."""
+    disable_body(bodies_inout[row])
+    broken_out[found, 0] = row
+    broken_out[found, 1] = reason
+    return found + 1
 
-    ends_out: the end of each of REASONS in the list; grid_rows: shape rows that may be grids; broken_out (bodies): each
-    body is listed once.
+
+@subkernel
+def take_broken_bodies(rows, course, bodies_inout, broken_out):
+    """List the bodies that a step cannot use, and quarantine them at their last finite pose. Return their number."""
+    found = 0
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
+        if b.quarantined:
+            continue
+        there = is_within_limits(b)
+        if not there or not is_finite_in_step(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
+            if not there:
+                b.x = b.settled_x
+                b.y = b.settled_y
+                b.angle = b.settled_angle
+            found = take_body(rows[k], NOT_FINITE, found, bodies_inout, broken_out)
+    return found
+
+
+@subkernel
+def is_finite_shape(shape):
+    """Return whether a step can use the numbers of a shape."""
+    s = shape
+    place = abs(s.local_x) + abs(s.local_y) + s.radius
+    surface = s.friction + abs(s.restitution) + abs(s.rolling_resistance) + abs(s.surface_speed)
+    return place < POSITION_LIMIT and surface < LARGEST and s.radius >= 0.0 and s.friction >= 0.0
+
+
+@kernel
+def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_inout, broken_out):
+    """List the bodies that a step cannot use, and quarantine them. Return their number. O(rows + shape_rows).
+
+    grid_rows: shape rows that may be grids, which only a direct write to the table can rotate; broken_out (bodies, 2):
+    row and reason, each body once.
     """
-    ends_out[0] = take_broken_bodies(rows, course, bodies_inout, broken_out)
-    ends_out[1] = take_broken_shapes(shape_rows, shapes, ends_out[0], bodies_inout, broken_out)
-    ends_out[2] = take_turned_grids(grid_rows, shapes, ends_out[1], bodies_inout, broken_out)
-    ends_out[3] = take_broken_characters(characters, ends_out[2], bodies_inout, broken_out)
-    return ends_out[3]
+    found = take_broken_bodies(rows, course, bodies_inout, broken_out)
+    for k in range(len(shape_rows)):
+        s = shapes[shape_rows[k]]
+        if not (is_finite_shape(s) or bodies_inout[s.body_row].quarantined):
+            found = take_body(s.body_row, BAD_SHAPE, found, bodies_inout, broken_out)
+    for k in range(len(grid_rows)):
+        s = shapes[grid_rows[k]]
+        b = bodies_inout[s.body_row]
+        if s.kind == TILES and not (b.quarantined or (b.angle == 0.0 and b.angular_velocity == 0.0)):
+            b.angle = 0.0
+            found = take_body(s.body_row, TURNED, found, bodies_inout, broken_out)
+    for k in range(len(characters)):
+        row = characters[k].body_row
+        if not (bodies_inout[row].quarantined or is_finite_character(characters[k])):
+            found = take_body(row, BAD_WALK, found, bodies_inout, broken_out)
+    return found
 
 
 @kernel
-def take_broken_by_solver(
-    # read
-    rows,
-    course,
-    # write
-    bodies_inout,
-    broken_out,
-):
+def take_broken_by_solver(rows, course, bodies_inout, broken_out):
     """List and quarantine bodies as take_broken does, by their body rows alone: used after a solver."""
     return take_broken_bodies(rows, course, bodies_inout, broken_out)
 
@@ -290,11 +186,14 @@ def quarantine(state: StepState) -> None:
     awake, bodies, workspace = state.awake, state.bodies, state.workspace
     gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
     course = Course(*gravity, state.tolerances.speed_limit, state.dt)
-    broken, ends = workspace.rows_for(len(bodies)), workspace.ends
+    if len(workspace.broken) < len(bodies):
+        workspace.broken = np.zeros((2 * len(bodies), 2), np.int64)
     grids = awake.shapes if state.library.grids.count else NO_ROWS
-    if take_broken(awake.bodies, awake.shapes, grids, state.shapes, state.characters, course, bodies, broken, ends):
-        reasons = np.repeat(np.array(REASONS), np.diff(ends, prepend=0))
-        _take_out(state, dict(zip(broken[: len(reasons)].tolist(), reasons.tolist(), strict=True)))
+    found = take_broken(
+        awake.bodies, awake.shapes, grids, state.shapes, state.characters, course, bodies, workspace.broken
+    )
+    if found:
+        _take_out(state, workspace.broken[:found])
 
 
 @stage("quarantine_solved", reads=(*READS, "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
@@ -302,24 +201,23 @@ def quarantine_solved(state: StepState) -> None:
     """Disable the bodies that a solver did not keep finite, with their contacts, before sweeps and reports."""
     if not state.non_finite_count:
         return
-    broken, course = state.workspace.rows_for(len(state.bodies)), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
-    found = take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)
-    ids = _take_out(state, dict.fromkeys(broken[:found].tolist(), NOT_FINITE))
+    broken, course = np.zeros((len(state.bodies), 2), np.int64), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
+    ids = _take_out(state, broken[: take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)])
     kept = ~(np.isin(state.contact_rows["body_a"], ids) | np.isin(state.contact_rows["body_b"], ids))
     state.contact_rows = state.contact_rows[kept]
 
 
-def _take_out(state, told):
-    """Remove bodies from the broad phase and from the awake rows; told: {body row: reason}. Return their ids."""
+def _take_out(state, broken):
+    """Remove bodies from the broad phase and from the awake rows; broken (n, 2): row and reason. Return their ids."""
     bodies, shapes = state.bodies, state.shapes
-    broken = np.array(sorted(told), np.int64)
-    ids = bodies["id"][broken]
-    rows = np.array([(bodies["id"][row], told[row]) for row in sorted(told)], QUARANTINE)
-    state.events.quarantined = np.sort(np.concatenate([state.events.quarantined, rows]))
+    rows, reasons = broken[np.argsort(broken[:, 0])].T
+    ids = bodies["id"][rows]
+    reported = np.array([(ids[k], REASONS[reason]) for k, reason in enumerate(reasons)], QUARANTINE)
+    state.events.quarantined = np.sort(np.concatenate([state.events.quarantined, reported]))
     own = np.isin(shapes["body"], ids)
     state.pairs.free_proxies(shapes["proxy"][own])
     shapes["proxy"][own] = -1
-    refresh_centers(broken, bodies)
+    refresh_centers(np.ascontiguousarray(rows), bodies)
     disturb(state, ids)
     state.awake.start_over()
     return ids

@@ -19,21 +19,9 @@ from physics.jit.plain import JIT, Builtin, copy_head, copy_row, popcount, put_i
 from physics.jit.tiers import StageKernel
 
 __all__ = [
-    "Builtin",
-    "DECORATORS",
-    "JIT",
-    "copy_head",
-    "copy_row",
-    "generic",
-    "inlined",
-    "kernel",
-    "popcount",
-    "put_in",
-    "registry",
-    "noalias",
-    "subkernel",
-    "word",
-]
+    "Builtin", "DECORATORS", "JIT", "copy_head", "copy_row", "generic", "inlined", "kernel", "popcount", "put_in",
+    "registry", "noalias", "subkernel", "word",
+]  # fmt: skip
 
 DECORATORS = ("generic", "inlined", "kernel", "noalias", "subkernel")  # by name, for what reads sources
 
@@ -49,9 +37,7 @@ def inlined(function: Callable) -> Any:
 
 
 def noalias(function: Callable) -> Any:
-    """Return a subkernel whose arrays never overlap (noalias); otherwise a loop that reads one and writes another is
-    not vectorised.
-    """
+    """Return a subkernel whose arrays never overlap (noalias), so that a loop over two of them is vectorised."""
     return Part(function, noalias=True) if JIT else function
 
 

@@ -106,9 +106,7 @@ def _describe_code(code):
 
 
 def _describe(value, names=()):
-    """Yield texts that distinguish this value from all others. names: attributes that are read of a module of this
-    package.
-    """
+    """Yield texts that distinguish this value from others. names: attributes read of a module of this package."""
     kind = type(value)
     if value is None or kind in (bool, int, float, complex, str, bytes):
         yield f"{kind.__name__} {value!r}"

@@ -42,9 +42,7 @@ def compiling() -> Iterator[None]:
 
 @contextmanager
 def measured() -> Iterator[Callable[[], float]]:
-    """Yield a function that returns the seconds of compiling and loading so far in the context; 0 if nothing was
-    compiled.
-    """
+    """Yield a function that returns the seconds of compiling and loading so far in the context."""
     before = seconds + loading
     yield lambda: seconds + loading - before
 

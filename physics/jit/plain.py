@@ -50,9 +50,7 @@ _kept: dict[int, tuple[ref, "TableView"]] = {}  # id of an array -> the array, a
 
 
 class TableView:
-    """A structured array as a sequence of rows; `view[i].x = 1.0` writes the array. Raises TypeError for a row that C
-    cannot hold.
-    """
+    """A structured array as rows; `view[i].x = 1.0` writes it. Raises TypeError for a row that C cannot hold."""
 
     __slots__ = ("rows",)
 

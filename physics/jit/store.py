@@ -212,9 +212,7 @@ class Store:
             warnings.warn(line, stacklevel=3)
 
     def sweep(self) -> None:
-        """Remove the files that were not used for KEPT, the least recently used ones beyond LIMIT, and leftovers of
-        killed processes.
-        """
+        """Remove files unused for KEPT, the least recently used beyond LIMIT, and leftovers of killed processes."""
         self._swept = True
         now = time.time()
         found = []

@@ -146,9 +146,7 @@ def decoded(line: str) -> Any:
 
 
 class Task:
-    """Work for one process. urgency(): the largest goes first. done(answer) is called in the worker's thread, with None
-    after a failure.
-    """
+    """Work for one process: the largest urgency() first; done(answer), or done(None), runs in its thread."""
 
     def __init__(self, order: Any, urgency: Callable[[], float], done: Callable[[Any], object]) -> None:
         self.order, self.urgency, self.done = order, urgency, done
@@ -244,9 +242,7 @@ class Workers:
                 self._changed.notify_all()
 
     def _ask(self, number, order):
-        """Return (whether it answered, its answer). A process that has died or hangs is ended, and replaced at the next
-        task.
-        """
+        """Return (whether it answered, its answer). A dead or hanging process is replaced at the next task."""
         process = self._processes.get(number)
         if process is None or process.poll() is not None:
             process = start_module(self.module, HITBOX_CACHE_DIR=str(store().folder))

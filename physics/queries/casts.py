@@ -8,6 +8,7 @@ import numpy as np
 
 from physics import checks
 from physics.ccd.rotational import (
+    Mover,
     advance_parts,
     new_rotational_workspace,
     place_mover,
@@ -21,15 +22,14 @@ from physics.ccd.time_of_impact import (
     CENTER_X,
     CENTER_Y,
     MISS,
-    MOVE_X,
-    MOVE_Y,
     TOUCHING_BAND,
-    TURN,
     advance,
+    new_advance_workspace,
     reach_of,
 )
 from physics.checks import Pair, Pose
-from physics.collision.narrow_phase import narrow_phase_for_queries
+from physics.collision.hulls import ALL_EDGES, Hull
+from physics.collision.narrow_phase import NarrowPhase
 from physics.distance.gjk import (
     AX,
     AY,
@@ -43,7 +43,7 @@ from physics.distance.gjk import (
     separate_parts,
     shape_separation,
 )
-from physics.jit import kernel
+from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
 from physics.queries.index import AskedWorld, IndexedWorld
 from physics.queries.rays import cast_on_disc, cast_on_hull, cast_on_shape
@@ -118,51 +118,33 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 # A ray, a shape that moves without rotation, or a point, against listed shapes that stand still.
 
 
+@subkernel
+def write_hit(row, fraction, nx, ny, found, hits_out):
+    """Write (row, fraction, normal) of a hit, and return the new count."""
+    hits_out[found, 0] = float(row)
+    hits_out[found, 1] = fraction
+    hits_out[found, 2] = nx
+    hits_out[found, 3] = ny
+    return found + 1
+
+
 @kernel
-def cast_ray_at_rows(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    rows,
-    x,
-    y,
-    dx,
-    dy,
-    # write
-    corners_inout,
-    hits_out,
-    work_inout,
-):
-    """Write (row, fraction, normal) of every listed shape that a ray from (x, y) by (dx, dy) [px] hits. Return their
-    number.
+def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_out, work_inout):
+    """Write (row, fraction, normal) of every listed shape that a ray (x, y, dx, dy) [px] hits. Return their number.
 
     rows: SHAPE rows. corners_inout (16, 2): scratch. hits_out (rows, 4).
     """
     found = 0
     for k in range(len(rows)):
         work_inout[NARROW_TESTS] += 1
-        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, rows[k], x, y, dx, dy, corners_inout)
+        fraction, nx, ny = cast_on_shape(geometry, bodies, shapes, rows[k], ray, corners_inout)
         if fraction <= 1.0:
-            hits_out[found, 0] = float(rows[k])
-            hits_out[found, 1] = fraction
-            hits_out[found, 2] = nx
-            hits_out[found, 3] = ny
-            found += 1
+            found = write_hit(rows[k], fraction, nx, ny, found, hits_out)
     return found
 
 
 @kernel
-def cast_ray_at_parts(
-    # read
-    parts,
-    dx,
-    dy,
-    # write
-    corners_inout,
-    hit_out,
-    work_inout,
-):
+def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
     """Write (fraction, normal) to hit_out[1:] for the first part that a ray from the origin by (dx, dy) [px] hits.
 
     Return whether it hits any. parts: Parts. corners_inout (16, 2): scratch. hit_out (4,). O(parts).
@@ -184,62 +166,36 @@ def cast_ray_at_parts(
 
 
 @kernel
-def cast_hull_at_rows(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    rows,
-    corners,
-    count,
-    radius,
-    x,
-    y,
-    dx,
-    dy,
-    # write
-    workspace,
-    hits_out,
-    work_inout,
-):
-    """Write (row, fraction, normal to the hull) of every listed shape that a moving rounded hull hits. Return their
-    number.
+def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out, work_inout):
+    """Write (row, fraction, normal to the hull) of every listed shape that a moving hull hits. Return their number.
 
-    rows: SHAPE rows without masks. corners (16, 2) [px] from (x, y), `count` of them, moved by (dx, dy). workspace:
-    RotationalWorkspace. hits_out (rows, 4). Touching at the start is a hit at 0 if the hull approaches.
+    rows: SHAPE rows without masks. hull: a Hull, from its centre of rotation. workspace: RotationalWorkspace, with the
+    hull's motion. hits_out (rows, 4). Touching at the start is a hit at 0 if the hull approaches.
     """
     r = workspace.advance
+    corners, count, radius, _ = hull
+    mover = Mover(count, radius, 0.0, 0.0)
     found = 0
     for k in range(len(rows)):
         s = shapes[rows[k]]
         b = bodies[s.body_row]
         work_inout[TOI_CALLS] += 1
-        r.motion_a[CENTER_X] = x
-        r.motion_a[CENTER_Y] = y
-        r.motion_a[ANGLE] = 0.0
-        r.motion_a[MOVE_X] = dx
-        r.motion_a[MOVE_Y] = dy
-        r.motion_a[TURN] = 0.0
         r.motion_b[CENTER_X] = b.x
         r.motion_b[CENTER_Y] = b.y
         r.motion_b[ANGLE] = b.angle if s.kind == CHAIN else 0.0
-        r.motion_b[MOVE_X] = 0.0
-        r.motion_b[MOVE_Y] = 0.0
-        r.motion_b[TURN] = 0.0
         r.totals[0] = 0.0
         r.totals[1] = 0.0
         for i in range(count):
             workspace.mover[i, 0] = corners[i, 0]
             workspace.mover[i, 1] = corners[i, 1]
         if s.kind == TILES:
-            fraction, nx, ny, _ = sweep_tiles(
-                geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, True, -1, workspace
-            )
+            fraction, nx, ny, _ = sweep_tiles(geometry, s.geometry, (0.0, 0.0), mover, True, -1, workspace)
         elif s.kind == CHAIN:
             near = TOUCHING_BAND * (reach_of(workspace.mover, count) + radius)
-            if s.role == PART and starts_across(geometry, s.geometry, 0.0, 0.0, count, radius, near, workspace):
+            across = Mover(count, radius, 0.0, near)
+            if s.role == PART and starts_across(geometry, s.geometry, (0.0, 0.0), across, workspace):
                 continue
-            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, 0.0, 0.0, count, radius, 0.0, 0.0, -1, workspace)
+            fraction, nx, ny, _ = sweep_chain(geometry, s.geometry, (0.0, 0.0), mover, -1, workspace)
         else:
             n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)
             place_mover(count, workspace)
@@ -249,35 +205,19 @@ def cast_hull_at_rows(
         work_inout[GJK_ITERATIONS] += int(r.totals[0])
         work_inout[CAP_HITS] += int(r.totals[1])
         if fraction < MISS:
-            hits_out[found, 0] = float(rows[k])
-            hits_out[found, 1] = fraction
-            hits_out[found, 2] = nx
-            hits_out[found, 3] = ny
-            found += 1
+            found = write_hit(rows[k], fraction, nx, ny, found, hits_out)
     return found
 
 
 @kernel
-def nearest_hull(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    rows,
-    x,
-    y,
-    # write
-    point_inout,
-    corners_inout,
-    workspace,
-    nearest_out,
-    work_inout,
-):
-    """Write (distance, x, y) [px] of the point of the listed hulls nearest to (x, y). Return its row, -1 without any.
+def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, work_inout):
+    """Write (distance, x, y) [px] of the place on the listed hulls nearest to a point. Return its row, -1 without any.
 
     rows: SHAPE rows in order; tiles, masks and chains are left out. Inside a hull the result is 0 and the point itself.
-    point_inout, corners_inout (16, 2): scratch. workspace: GapWorkspace.
+    workspace: AdvanceWorkspace.
     """
+    x, y = point
+    own, corners = workspace.local_a, workspace.local_b
     best = -1
     nearest_out[0] = math.inf
     for k in range(len(rows)):
@@ -286,19 +226,18 @@ def nearest_hull(
             continue
         b = bodies[s.body_row]
         # Relative to the point, so that precision does not depend on the distance from the origin.
-        point_inout[0, 0] = 0.0
-        point_inout[0, 1] = 0.0
-        n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners_inout)
-        distance = max(
-            0.0, shape_separation(point_inout, 1, 0.0, corners_inout, n, rounding(shapes, rows[k]), 0, 0, workspace)
-        )
+        own[0, 0] = 0.0
+        own[0, 1] = 0.0
+        n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners)
+        gap = shape_separation(own, 1, 0.0, corners, n, rounding(shapes, rows[k]), 0, 0, workspace.gap)
+        distance = max(0.0, gap)
         work_inout[NARROW_TESTS] += 1
-        work_inout[GJK_ITERATIONS] += int(workspace.state[ROUNDS])
+        work_inout[GJK_ITERATIONS] += int(workspace.gap.state[ROUNDS])
         if distance < nearest_out[0]:
             best = rows[k]
             nearest_out[0] = distance
-            nearest_out[1] = x + (workspace.gap[BX] if distance > 0.0 else 0.0)
-            nearest_out[2] = y + (workspace.gap[BY] if distance > 0.0 else 0.0)
+            nearest_out[1] = x + (workspace.gap.gap[BX] if distance > 0.0 else 0.0)
+            nearest_out[2] = y + (workspace.gap.gap[BY] if distance > 0.0 else 0.0)
     return best
 
 
@@ -349,7 +288,7 @@ def ray_cast_all(
         by_parts, others = _beside(world, rows[masks], x, y, dx, dy, beyond), rows[~masks]
         workspace = np.zeros((len(others), 4))
         found = cast_ray_at_rows(
-            world.library.tables, world.bodies, world.shapes, others, x, y, dx, dy, corners, workspace, index.work
+            world.library.tables, world.bodies, world.shapes, others, (x, y, dx, dy), corners, workspace, index.work
         )
         hits = np.concatenate([hits, workspace[:found], *_rays_at_outlines(world, by_parts, x, y, dx, dy)])
         # The pieces so far contain the nearest hit.
@@ -434,37 +373,26 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
     """Return (row, fraction, normal to the probe) of the hits of a probe; of a mask its first row."""
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
-    s = world.shapes[rows]
+    r, s = workspace.advance, world.shapes[rows]
+    r.motion_a[:] = 0.0, 0.0, 0.0, dx, dy, 0.0
     of_masks = (s["kind"] == MASK) | ((s["role"] == PART) & (s["kind"] != CHAIN))
     alone = ~of_masks if shape._is_convex else np.zeros(len(rows), bool)
     if alone.any():
-        found = cast_hull_at_rows(
-            world.library.tables,
-            world.bodies,
-            world.shapes,
-            rows[alone],
-            probe.corners[0],
-            int(probe.counts[0]),
-            float(probe.radii[0]),
-            x,
-            y,
-            dx,
-            dy,
-            workspace,
-            hits,
-            work,
-        )
-    moving, still = np.array([0.0, 0.0, 0.0, dx, dy, 0.0]), np.zeros(6)
+        tables = world.library.tables
+        hull = Hull(probe.corners[0], int(probe.counts[0]), float(probe.radii[0]), ALL_EDGES)
+        r.motion_a[:2] = x, y
+        found = cast_hull_at_rows(tables, world.bodies, world.shapes, rows[alone], hull, workspace, hits, work)
+    r.motion_a[:2] = r.motion_b[:] = 0.0
     sweep_by = sweep_unions if shape._kind == MASK else advance_parts
     for owner in np.unique(s["parent"][~alone]).tolist():
         same = rows[~alone & (s["parent"] == owner)]
-        impact, totals = np.zeros(3), np.zeros(2)
+        impact = np.zeros(3)
         other = _outline_at(world, same, x, y, probe, (dx, dy), feet)
         sweep = sweep_unions if of_masks[~alone & (s["parent"] == owner)].any() else sweep_by
-        sweep(probe, other, moving, still, workspace, impact, totals)
+        sweep(probe, other, workspace, impact)
         work[TOI_CALLS] += 1
-        work[GJK_ITERATIONS] += int(totals[0])
-        work[CAP_HITS] += int(totals[1])
+        work[GJK_ITERATIONS] += int(r.totals[0])
+        work[CAP_HITS] += int(r.totals[1])
         if impact[0] < MISS:
             hits[found] = same[0], impact[0], -impact[1], -impact[2]
             found += 1
@@ -517,25 +445,17 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
 
 def _nearest(world, rows, x, y):
     """Return (row, distance, point) of the nearest point of the shapes in these rows, or None."""
-    nearest, workspace, work = np.zeros(3), new_gap_workspace(), world.queries.work
-    point, corners = np.zeros((16, 2)), np.zeros((16, 2))
-    best = nearest_hull(
-        world.library.tables, world.bodies, world.shapes, rows, x, y, point, corners, workspace, nearest, work
-    )
+    nearest, workspace, work = np.zeros(3), new_advance_workspace(), world.queries.work
+    best = nearest_hull(world.library.tables, world.bodies, world.shapes, rows, (x, y), workspace, nearest, work)
     found = [(float(nearest[0]), best, (float(nearest[1]), float(nearest[2])))] if best >= 0 else []
     alone = parts_of([[(0.0, 0.0)]])
     for row in rows.tolist():
         if not is_hull(int(world.shapes["kind"][row])):
-            parts = _swept_parts(world, row, x, y, y)
-            gap = separate_parts(alone, parts, point, corners, workspace, np.zeros(2))
+            parts, place = _swept_parts(world, row, x, y, y), workspace.gap.gap
+            gap = separate_parts(alone, parts, workspace.local_a, workspace.local_b, workspace.gap, np.zeros(2))
             if math.isfinite(gap):
-                found.append(
-                    (
-                        max(gap, 0.0),
-                        row,
-                        (x + float(workspace.gap[BX]), y + float(workspace.gap[BY])) if gap > 0.0 else (x, y),
-                    )
-                )
+                at = (x + float(place[BX]), y + float(place[BY])) if gap > 0.0 else (x, y)
+                found.append((max(gap, 0.0), row, at))
     if not found:
         return None
     gap, row, at = min(found)
@@ -569,7 +489,7 @@ def _contacts(world, bodies, shapes, rows):
     all_shapes = joined([world.shapes[rows], shapes])
     all_shapes["body_row"] = np.append(owners, len(others))
     pairs = np.stack([np.arange(len(rows)), np.full(len(rows), len(rows))], axis=1).astype(np.int64).reshape(-1, 2)
-    narrow = narrow_phase_for_queries()
+    narrow = NarrowPhase(full_masks=False, one_way=False, boxes_only=False)
     return narrow.collide(world.library, all_bodies, all_shapes, pairs, 0.0, world.queries.work)
 
 

@@ -11,8 +11,8 @@ from physics.broadphase.spatial_hash import CELL_RANGE, LEVELS, SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.broadphase.tree_nodes import ROOT_MOVING
 from physics.checks import Pair
+from physics.dynamics.non_finite import is_within_limits
 from physics.jit import kernel, subkernel
-from physics.settings import POSITION_LIMIT
 from physics.shapes.library import add_missing_rasters
 from physics.shapes.placement import refresh_aabbs
 from physics.tables.step_state import COUNTERS, PAIRS_TESTED, WorldTables
@@ -29,24 +29,13 @@ ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates: cas
 
 
 @subkernel
-def is_within_limits(body):
-    """Return whether queries can find a body: it is simulated, and its pose is finite. Another one is quarantined by
-    the next step.
-    """
-    b = body
-    there = abs(b.x) < POSITION_LIMIT and abs(b.y) < POSITION_LIMIT and abs(b.angle) < POSITION_LIMIT
-    return there and not b.quarantined
+def is_found(body):
+    """Return whether queries can find a body: it is simulated, and its pose is finite and within the limits."""
+    return is_within_limits(body) and not body.quarantined
 
 
 @kernel
-def find_moved(
-    # read
-    rows,
-    bodies,
-    # write
-    poses_inout,
-    moved_out,
-):
+def find_moved(rows, bodies, poses_inout, moved_out):
     """List the body rows whose pose differs from the last one read, and store the new poses. Return their number.
     O(rows).
 
@@ -56,7 +45,7 @@ def find_moved(
     for n in range(len(rows)):
         k = rows[n]
         b = bodies[k]
-        if not is_within_limits(b):
+        if not is_found(b):
             continue
         if poses_inout[k, 0] != b.x or poses_inout[k, 1] != b.y or poses_inout[k, 2] != b.angle:
             poses_inout[k, 0] = b.x
@@ -68,17 +57,7 @@ def find_moved(
 
 
 @kernel
-def find_loose(
-    # read
-    rows,
-    bodies,
-    shapes,
-    proxies,
-    known,
-    # write
-    row_of_slot_inout,
-    loose_out,
-):
+def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_out):
     """List the shape rows that the broad phase may not find, and the row of each slot (-1: none). Return their number.
     O(rows).
 
@@ -89,7 +68,7 @@ def find_loose(
     for n in range(len(rows)):
         row = rows[n]
         s = shapes[row]
-        if not is_within_limits(bodies[s.body_row]):
+        if not is_found(bodies[s.body_row]):
             if s.proxy >= 0:
                 row_of_slot_inout[s.proxy] = -1
             continue
@@ -113,27 +92,13 @@ def find_loose(
 
 
 @kernel
-def rows_meeting(
-    # read
-    shapes,
-    row_of_slot,
-    slots,
-    slot_count,
-    loose,
-    loose_count,
-    lower_x,
-    lower_y,
-    upper_x,
-    upper_y,
-    # write
-    rows_out,
-    work_inout,
-):
+def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
     """List the rows of the slots, and the loose rows, whose AABB meets a closed box [px]. Return their number."""
+    lower_x, lower_y, upper_x, upper_y = box
     found = 0
-    for k in range(slot_count + loose_count):
-        if k >= slot_count:
-            row = loose[k - slot_count]
+    for k in range(len(slots) + len(loose)):
+        if k >= len(slots):
+            row = loose[k - len(slots)]
             work_inout[PAIRS_TESTED] += 1
         else:
             row = row_of_slot[slots[k]]
@@ -263,18 +228,15 @@ class QueryIndex:
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
     def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Return the shape rows, in order, whose AABB meets a closed box [px] within rounding, without quarantined
-        bodies.
-        """
+        """Return the shape rows, in order, whose AABB meets a closed box [px], without quarantined bodies."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         self.asked.append(box)
         found = 0
         if self.asks_broadphase(world):
             found = world.broadphase.query_box(world.pairs.proxies, box, self.slots, self.work)
-        count = rows_meeting(
-            world.shapes, self.row_of_slot, self.slots, found, self.loose, self.loose_count, *box, self.rows, self.work
-        )
+        slots, loose = self.slots[:found], self.loose[: self.loose_count]
+        count = rows_meeting(world.shapes, self.row_of_slot, slots, loose, box, self.rows, self.work)
         return np.sort(self.rows[:count])
 
 
@@ -337,24 +299,21 @@ def _nodes(tree, box):
 
 
 def _cells(grid, proxies, box):
-    """Return the cells that the box covers, per level; on a level with fewer bodies than cells, the cells of the
-    bodies.
-    """
+    """Return the cells that the box covers, per level, or those of the level's bodies where these are fewer."""
     found, (x0, y0, x1, y1) = [np.zeros((0, 4))], box
-    for level in np.flatnonzero(grid.level_counts).tolist():
+    for level in np.flatnonzero(grid.lists.level_counts).tolist():
         size = grid.base * 2.0**level
         if level < LEVELS and max(map(abs, box)) < CELL_RANGE * size:
             left, top, right, bottom = (floor(each * (1.0 / size)) for each in box)
-            if (right - left + 1) * (bottom - top + 1) <= grid.level_counts[level] + 4 and (x1 - x0) / size + (
-                y1 - y0
-            ) / size <= grid.level_counts[level] + 4:
+            most = grid.lists.level_counts[level] + 4
+            if (right - left + 1) * (bottom - top + 1) <= most and (x1 - x0) / size + (y1 - y0) / size <= most:
                 y, x = np.mgrid[top : bottom + 1, left : right + 1].reshape(2, -1) * size
                 found.append(np.stack([x, y, x + size, y + size], axis=1))
                 continue
-        slots, slot = [], int(grid.level_heads[level])
+        slots, slot = [], int(grid.lists.level_heads[level])
         while slot >= 0:
             slots.append(slot)
-            slot = int(grid.lists[slot, 1])
+            slot = int(grid.lists.lists[slot, 1])
         found.append(_boxes(proxies[slots]))
     return np.concatenate(found)
 

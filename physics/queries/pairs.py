@@ -14,7 +14,7 @@ from physics.ccd.time_of_impact import MISS, TOLERANCE, sweep_circles
 from physics.checks import Pose
 from physics.collision.hull_pairs import collide_circle_pairs, collide_polygon_circle_pairs, collide_polygon_pairs
 from physics.collision.manifold import CIRCLES, POLYGON_CIRCLE, POLYGONS, Batch, contacts_of, new_workspace
-from physics.collision.narrow_phase import exact_narrow_phase, kind_of_pair, no_work
+from physics.collision.narrow_phase import NarrowPhase, kind_of_pair, no_work
 from physics.distance.gjk import AX, AY, BX, BY, NX, NY, ROUNDS, new_gap_workspace, separate_parts, shape_separation
 from physics.jit import kernel, subkernel
 from physics.math2d import Vec2
@@ -192,7 +192,7 @@ def _collide_hulls(rows, margin, swapped) -> Manifold:
 
 def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
     library, rows = any_pair(shape_a, pose_a, shape_b, pose_b)
-    narrow = exact_narrow_phase()
+    narrow = NarrowPhase(full_masks=True, one_way=True, boxes_only=False)
 
     def points_of(swapped):
         return contacts_of(narrow.collide(library, rows.bodies, rows.shapes, PAIRS[swapped], margin, no_work()))
@@ -361,9 +361,7 @@ LOOKS = 1024  # steps of shapes that touch and do not approach
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """The result of time_of_impact: hit, the first fraction 0..1 at which they touch, point [px], unit normal from A to
-    B.
-    """
+    """The first impact: hit, fraction 0..1 at which they touch, point [px], unit normal from A to B."""
 
     hit: bool
     fraction: float
@@ -413,18 +411,17 @@ def _first(a, move_a, b, move_b):
         x, y = (move_b[0][0] - move_a[0][0]) + (bx - ax), (move_b[0][1] - move_a[0][1]) + (by - ay)
         dx, dy = ((move_b[1][k] - move_b[0][k]) - (move_a[1][k] - move_a[0][k]) for k in (0, 1))
         return sweep_circles(x, y, dx, dy, a.radius + b.radius)
-    workspace, found, totals = new_rotational_workspace(), np.zeros(3), np.zeros(2)
-    parts_a, motion_a = _local(a, move_a)
+    workspace, found = new_rotational_workspace(), np.zeros(3)
+    parts_a, workspace.advance.motion_a[:] = _local(a, move_a)
     if b._is_ground:
         library = Library()
         row = library.add(b)[1]
-        advance_on_ground(
-            library.tables, row, int(b._kind == CHAIN), parts_a, motion_a, _motion(move_b), workspace, found, totals
-        )
+        workspace.advance.motion_b[:] = _motion(move_b)
+        advance_on_ground(library.tables, row, int(b._kind == CHAIN), parts_a, workspace, found)
     else:
-        parts_b, motion_b = _local(b, move_b)
+        parts_b, workspace.advance.motion_b[:] = _local(b, move_b)
         sweep = sweep_unions if MASK in (a._kind, b._kind) else advance_parts
-        sweep(parts_a, parts_b, motion_a, motion_b, workspace, found, totals)
+        sweep(parts_a, parts_b, workspace, found)
     return found.tolist()
 
 

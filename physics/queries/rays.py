@@ -59,9 +59,7 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal) of a ray from (x, y), seen from the centre of a closed disc [px]; 0 for a start
-    inside.
-    """
+    """Return (fraction or MISS, normal) of a ray, seen from the centre of a closed disc [px]; 0 from inside."""
     if x * x + y * y <= radius * radius:
         back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
         return 0.0, back_x, back_y
@@ -134,25 +132,26 @@ def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
 
 
 @subkernel
-def cast_on_chain(chains, links, blocks, chain, x, y, cosine, sine, dx, dy, block_links):
-    """Return (fraction or MISS, normal) of a ray and the links of a chain, hit from their front.
+def cast_on_chain(geometry, chain, body, ray):
+    """Return (fraction or MISS, normal) of a ray and the links of a body's chain, hit from their front.
 
-    x, y [px]: start relative to the chain's body, in world directions. cosine, sine: of the body's angle. block_links:
-    links per block. A ray of zero length tests whether its point is on the line. O(blocks + links near the ray).
+    A ray of zero length tests whether its point is on the line. O(blocks + links near the ray).
     """
-    span = chains[chain]
-    x, y = rotate(x, y, cosine, -sine)
-    dx, dy = rotate(dx, dy, cosine, -sine)
+    cosine = math.cos(body.angle)
+    sine = math.sin(body.angle)
+    x, y = rotate(ray[0] - body.x, ray[1] - body.y, cosine, -sine)
+    dx, dy = rotate(ray[2], ray[3], cosine, -sine)
+    span = geometry.chains[chain]
     point = dx == 0.0 and dy == 0.0
     best = MISS
     best_x = 0.0
     best_y = -1.0
     for block in range(span.blocks):
-        box = blocks[span.first_block + block]
+        box = geometry.link_blocks[span.first_block + block]
         if not crosses_box(x, y, dx, dy, box.min_x, box.min_y, box.max_x, box.max_y):
             continue
-        for k in range(block * block_links, min(span.count, (block + 1) * block_links)):
-            link = links[span.offset + k]
+        for k in range(block * BLOCK_LINKS, min(span.count, (block + 1) * BLOCK_LINKS)):
+            link = geometry.links[span.offset + k]
             if point:
                 if distance_to_edge(link.ax, link.ay, link.bx, link.by, x, y) == 0.0:
                     return 0.0, 0.0, -1.0
@@ -216,8 +215,9 @@ def start_cell(position, step, size, count):
 
 
 @subkernel
-def cast_on_cell(geometry, grid, row, column, x, y, dx, dy, corners_inout):
+def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
     """Return (fraction or MISS, normal) of a ray, seen from the grid's origin [px], and a cell. One-way from above."""
+    x, y, dx, dy = ray
     g = geometry.grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return MISS, 0.0, -1.0
@@ -229,12 +229,13 @@ def cast_on_cell(geometry, grid, row, column, x, y, dx, dy, corners_inout):
 
 
 @subkernel
-def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
+def cast_on_tiles(geometry, grid, ray, corners_inout):
     """Return (fraction or MISS, normal) of a ray, seen from the grid's origin [px], and its closed tiles.
 
     A ray along a border hits the tiles on both sides, one through a corner all four, so the cells around each crossing
     are tested, too. O(cells on the way).
     """
+    x, y, dx, dy = ray
     g = geometry.grids[grid]
     size = g.tile_size
     enter, leave = enter_box(x, y, dx, dy, g.columns * size, g.rows * size)
@@ -251,7 +252,7 @@ def cast_on_tiles(geometry, grid, x, y, dx, dy, corners_inout):
         # This cell and its neighbours: a border belongs to both sides.
         for j in range(-1, 2):
             for i in range(-1, 2):
-                fraction, nx, ny = cast_on_cell(geometry, grid, row + j, column + i, x, y, dx, dy, corners_inout)
+                fraction, nx, ny = cast_on_cell(geometry, grid, row + j, column + i, ray, corners_inout)
                 if fraction < best:
                     best = fraction
                     best_x = nx
@@ -326,12 +327,12 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 
 
 @subkernel
-def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
-    """Return (fraction or MISS, normal) of a ray from (x, y) by (dx, dy) [px] and a shape. A ray of zero length tests
-    its point.
+def cast_on_shape(geometry, bodies, shapes, row, ray, corners_inout):
+    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] and a shape; of zero length it tests its point.
 
     Only points are tested against the pixels of a mask; rays are cast at its outline.
     """
+    x, y, dx, dy = ray
     s = shapes[row]
     b = bodies[s.body_row]
     point = dx == 0.0 and dy == 0.0
@@ -344,23 +345,11 @@ def cast_on_shape(geometry, bodies, shapes, row, x, y, dx, dy, corners_inout):
             return 0.0, back_x, back_y
         if point:
             return MISS, 0.0, -1.0
-        return cast_on_tiles(geometry, s.geometry, x - b.x, y - b.y, dx, dy, corners_inout)
+        return cast_on_tiles(geometry, s.geometry, (x - b.x, y - b.y, dx, dy), corners_inout)
     if s.kind == MASK:
         return 0.0 if is_in_mask(geometry, s, b, x, y) else MISS, 0.0, -1.0
     if s.kind == CHAIN:
-        return cast_on_chain(
-            geometry.chains,
-            geometry.links,
-            geometry.link_blocks,
-            s.geometry,
-            x - b.x,
-            y - b.y,
-            math.cos(b.angle),
-            math.sin(b.angle),
-            dx,
-            dy,
-            BLOCK_LINKS,
-        )
+        return cast_on_chain(geometry, s.geometry, b, ray)
     count = corners_at(geometry, shapes, row, b.x, b.y, b.angle, corners_inout)
     radius = rounding(shapes, row)
     if count == 2 or radius > 0.0:

@@ -48,12 +48,6 @@ def lowest_bit(value):
 
 
 @subkernel
-def count_bits(value):
-    """Return the number of set bits."""
-    return popcount(value)
-
-
-@subkernel
 def sum_of_places(value):
     """Return the sum of the indices of all set bits (Knuth 4A, 7.1.3).
 
@@ -264,12 +258,12 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
         a = words[word(row_a + row)]
         b = words[word(from_b + row)]
         shared = both(a, moved(b, up, down, kept))
-        bits = count_bits(shared)
+        bits = popcount(shared)
         area += bits
         sum_x += sum_of_places(shared)
         sum_y += bits * row
-        more += count_bits(both(a, moved(b, left_up, left_down, left_kept)))
-        more -= count_bits(both(a, moved(b, right_up, right_down, right_kept)))
+        more += popcount(both(a, moved(b, left_up, left_down, left_kept)))
+        more -= popcount(both(a, moved(b, right_up, right_down, right_kept)))
     return area, sum_x, sum_y, more
 
 
@@ -284,14 +278,14 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
         return area
     if a.stride == 1 and b.stride == 1:
         for y in range(top, bottom):
-            area += count_bits(shared_word(words, a.offset + y, left, b.offset + y - dy, left - dx))
+            area += popcount(shared_word(words, a.offset + y, left, b.offset + y - dy, left - dx))
         return area
     for y in range(top, bottom):
         row_a = a.offset + y * a.stride
         row_b = b.offset + (y - dy) * b.stride
         x = left
         while x < right:
-            area += count_bits(
+            area += popcount(
                 both(
                     both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
                     columns_up_to(right - x),
@@ -321,7 +315,7 @@ def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
                 both(bits_from(words, row_a, a.stride, x), bits_from(words, row_b, b.stride, x - dx)),
                 columns_up_to(right - x),
             )
-            bits = count_bits(shared)
+            bits = popcount(shared)
             area += bits
             sum_x += bits * x + sum_of_places(shared)
             sum_y += bits * y

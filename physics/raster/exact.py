@@ -1,19 +1,14 @@
 """Masks as unions of pixel squares at any pose: overlap test, shared area and its centroid."""
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from physics.jit import subkernel
-from physics.jit.plain import word
-from physics.raster.bits import (
-    bits_from,
-    both,
-    columns_up_to,
-    count_bits,
-    first_pixel,
-    is_set,
-    lowest_bit,
-    without_lowest,
-)
+from physics.jit.plain import popcount, word
+from physics.math2d import clamp
+from physics.raster.bits import bits_from, both, columns_up_to, first_pixel, is_set, lowest_bit, without_lowest
 
 # ---- exact -----------------------------------------------------------------------------------------------------------
 # Overlap of two masks as unions of pixel squares, one rotated and moved by any amount.
@@ -28,6 +23,19 @@ from physics.raster.bits import (
 # rounding, share no area.
 
 ROUNDED = 2.0**-50  # relative to the size: rounding error of coordinates
+
+
+class SquaresPair(NamedTuple):
+    """Two masks as unions of pixel squares: A, the frame, and B, rotated and moved in the raster of A."""
+
+    rasters: np.ndarray  # RASTER
+    words: np.ndarray  # uint64
+    frame: int  # rows of RASTER
+    other: int
+    u: float  # [px] of B's top left corner
+    v: float
+    cosine: float  # of B's angle
+    sine: float
 
 
 @subkernel
@@ -126,29 +134,31 @@ def square_under(words, a, x, y, cosine, sine, near):
 
 
 @subkernel
-def first_upright(rasters, words, mask_a, mask_b, u, v):
+def first_upright(pair, u, v):
     """Return first_squares for equal angles: a pixel of B covers up to four of A, so up to four ANDs. O(words)."""
-    slack = slack_of(rasters[mask_a], rasters[mask_b])
+    slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     column = math.floor(u + slack)
     row = math.floor(v + slack)
     for down in range(2 if v - row > slack else 1):
         for across in range(2 if u - column > slack else 1):
-            found, x, y = first_pixel(rasters, words, mask_a, mask_b, column + across, row + down)
+            found, x, y = first_pixel(pair.rasters, pair.words, pair.frame, pair.other, column + across, row + down)
             if found:
                 return True, x, y, x - column - across, y - row - down
     return False, 0, 0, 0, 0
 
 
 @subkernel
-def first_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
-    """Return the first overlapping squares found: (found, column and row in A, column and row in B).
+def first_squares(pair, u, v):
+    """Return the first overlapping squares of a SquaresPair with B's corner at u, v [px].
 
-    O(pixels of B within A's bounds) at worst; the first hit ends the search.
+    (found, column and row in A, column and row in B). O(pixels of B within A's bounds) at worst; the first hit ends the
+    search.
     """
+    cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
-        return first_upright(rasters, words, mask_a, mask_b, u, v)
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+        return first_upright(pair, u, v)
+    a = pair.rasters[pair.frame]
+    b = pair.rasters[pair.other]
     reach = reach_of(cosine, sine)
     near = reach - slack_of(a, b)
     left, top, right, bottom = box_in_raster(a, b, u, v, cosine, sine)
@@ -172,19 +182,20 @@ def first_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
 
 
 @subkernel
-def squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, nx, ny, most):
+def squares_way_out(pair, nx, ny, most):
     """Return the least move [px] of B along a unit direction of A's raster that ends the overlap; > most for none.
 
     Two squares overlap on one interval of the move. Each pair found advances the move to the end of its interval, and
     no pair is found twice. O(first_squares · pairs found).
     """
+    cosine, sine = pair.cosine, pair.sine
     reach = reach_of(cosine, sine)
-    slack = slack_of(rasters[mask_a], rasters[mask_b])
+    slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     depth = 0.0
     while depth <= most:
-        x = u + depth * nx
-        y = v + depth * ny
-        found, i, j, column, row = first_squares(rasters, words, mask_a, mask_b, x, y, cosine, sine)
+        x = pair.u + depth * nx
+        y = pair.v + depth * ny
+        found, i, j, column, row = first_squares(pair, x, y)
         if not found:
             return depth
         dx = x + cosine * (column + 0.5) - sine * (row + 0.5) - (i + 0.5)
@@ -203,12 +214,6 @@ def squares_way_out(rasters, words, mask_a, mask_b, u, v, cosine, sine, nx, ny, 
 
 
 @subkernel
-def between(value, low, high):
-    """Return the value clamped to low..high."""
-    return max(low, min(high, value))
-
-
-@subkernel
 def line_share(px, py, qx, qy, width, height):
     """Return the share of the line from p to q [px] in (area, moment of x, moment of y) in 0..width x 0..height.
 
@@ -217,8 +222,8 @@ def line_share(px, py, qx, qy, width, height):
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
-    start = between(py, 0.0, height)
-    end = between(qy, 0.0, height)
+    start = clamp(py, 0.0, height)
+    end = clamp(qy, 0.0, height)
     if start == end:
         return area, moment_x, moment_y
     slope = (qx - px) / (qy - py) if qy != py else 0.0
@@ -227,8 +232,8 @@ def line_share(px, py, qx, qy, width, height):
     first = 0.0
     second = 1.0
     if x0 != x1:
-        at_left = between(-x0 / (x1 - x0), 0.0, 1.0)
-        at_right = between((width - x0) / (x1 - x0), 0.0, 1.0)
+        at_left = clamp(-x0 / (x1 - x0), 0.0, 1.0)
+        at_right = clamp((width - x0) / (x1 - x0), 0.0, 1.0)
         first = min(at_left, at_right)
         second = max(at_left, at_right)
     for piece in range(3):
@@ -236,8 +241,8 @@ def line_share(px, py, qx, qy, width, height):
         high = first if piece == 0 else (second if piece == 1 else 1.0)
         if high <= low:
             continue
-        xa = between(x0 + low * (x1 - x0), 0.0, width)
-        xb = between(x0 + high * (x1 - x0), 0.0, width)
+        xa = clamp(x0 + low * (x1 - x0), 0.0, width)
+        xb = clamp(x0 + high * (x1 - x0), 0.0, width)
         ya = start + low * (end - start)
         yb = start + high * (end - start)
         dy = yb - ya
@@ -265,9 +270,7 @@ def arc_primitives(x, y, radius, angle):
 
 @subkernel
 def next_cut(x, y, radius, width, height, after, until):
-    """Return the first angle after `after`, at most `until`, at which a circle around (x, y) crosses a line of
-    the box.
-    """
+    """Return the first angle in after..until at which a circle around (x, y) crosses a line of the box."""
     best = until
     for side in range(4):
         away = (0.0 - x if side == 0 else width - x) if side < 2 else (0.0 - y if side == 2 else height - y)
@@ -286,9 +289,7 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return the share, as line_share, of the arc around (x, y) [px] from an angle `start` to a larger one
-    `end` [rad].
-    """
+    """Return the share, as line_share, of the arc around (x, y) [px] from `start` to a larger `end` [rad]."""
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
@@ -325,9 +326,7 @@ def arc_share(x, y, radius, start, end, width, height):
 
 @subkernel
 def square_share(x, y, cosine, sine, width, height):
-    """Return (area, moment of x, moment of y) of a rotated unit square around (x, y) in the box 0..width x
-    0..height.
-    """
+    """Return (area, moment of x, moment of y) of a rotated unit square around (x, y) in 0..width x 0..height."""
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0
@@ -353,7 +352,7 @@ def share_under(words, a, x, y, cosine, sine):
     moment_y = 0.0
     solid = 0
     for j in range(max(0, row), min(a.height, row + 3)):
-        solid += count_bits(both(bits_from(words, a.offset + j * a.stride, a.stride, column), columns_up_to(3)))
+        solid += popcount(both(bits_from(words, a.offset + j * a.stride, a.stride, column), columns_up_to(3)))
     if solid == 9:
         return 1.0, x, y
     for j in range(max(0, row), min(a.height, row + 3)):
@@ -372,10 +371,14 @@ def share_under(words, a, x, y, cosine, sine):
 
 
 @subkernel
-def shared_squares(rasters, words, mask_a, mask_b, u, v, cosine, sine):
-    """Return (area [px2], moment of x, moment of y) that two masks share; moments over area are the centroid."""
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+def shared_squares(pair, u, v):
+    """Return (area [px2], moment of x, moment of y) that a SquaresPair shares with B's corner at u, v [px].
+
+    The moments over the area are the centroid.
+    """
+    cosine, sine, words = pair.cosine, pair.sine, pair.words
+    a = pair.rasters[pair.frame]
+    b = pair.rasters[pair.other]
     area = 0.0
     moment_x = 0.0
     moment_y = 0.0

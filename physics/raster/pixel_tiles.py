@@ -76,17 +76,7 @@ def trace_runs(words, runs_out, parents_out):
 
 
 @kernel
-def find_nodes(
-    # read
-    words,
-    tile,
-    left,
-    top,
-    # write
-    runs_out,
-    parents_out,
-    nodes_out,
-):
+def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
     """Write the nodes of a tile in the order of their first pixels. Returns their number.
 
     words (64,) uint64; left, top [px] of the tile in its raster; runs_out (2048, 3), parents_out (2048,) int64: scratch
@@ -135,15 +125,7 @@ def find_nodes(
 
 
 @kernel
-def pick_node(
-    # read
-    words,
-    first,
-    # write
-    runs_out,
-    parents_out,
-    picked_out,
-):
+def pick_node(words, first, runs_out, parents_out, picked_out):
     """Write the pixels of a tile that are connected with its pixel `first` (row * 64 + column).
 
     words, picked_out (64,) uint64; runs_out, parents_out as find_nodes. O(runs).
@@ -181,14 +163,7 @@ def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
 
 
 @kernel
-def label_pieces(
-    # read
-    nodes,
-    starts,
-    columns,
-    # write
-    labels_out,
-):
+def label_pieces(nodes, starts, columns, labels_out):
     """Write the number of the piece of each node, from 0 in the order of their first nodes. Returns their number.
 
     nodes NODE in the order of tiles, starts (tiles + 1,): first node of each tile; columns: tiles per row. O(nodes).
@@ -222,15 +197,7 @@ def label_pieces(
 
 
 @kernel
-def measure_pieces(
-    # read
-    nodes,
-    labels,
-    width,
-    # write
-    counts_inout,
-    firsts_inout,
-):
+def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
     """Add up the pixels of pieces (pieces,), and lower their first pixels (row * width + column) to their nodes'.
 
     nodes NODE, labels (nodes,) the piece of each; width [px] of the raster. O(nodes).
@@ -440,9 +407,7 @@ class PixelTiles:
 
     @property
     def bounds(self) -> tuple[int, int, int, int] | None:
-        """Box (left, top, right, bottom) of the solid pixels in the raster, the last two exclusive; None
-        without any.
-        """
+        """Box (left, top, right, bottom) of the solid pixels, the last two exclusive; None without any."""
         if not len(self.nodes):
             return None
         left, top, right, bottom = self._totals[4:]
@@ -573,16 +538,7 @@ def is_in_hull(corners, radius, x, y):
 
 
 @kernel
-def find_in_hull(
-    # read
-    words,
-    left,
-    top,
-    corners,
-    radius,
-    # write
-    found_out,
-):
+def find_in_hull(words, left, top, corners, radius, found_out):
     """Write the pixels of a tile whose centres are in a convex hull rounded by a radius. Returns their number.
 
     words, found_out (64,) uint64; left, top [px] of the tile in the hull's coordinates; corners (n, 2) [px], n >= 1,
@@ -625,17 +581,7 @@ def is_in_pixels(solid, x, y):
 
 
 @kernel
-def find_in_pixels(
-    # read
-    words,
-    solid,
-    x,
-    y,
-    cosine,
-    sine,
-    # write
-    found_out,
-):
+def find_in_pixels(words, solid, x, y, cosine, sine, found_out):
     """Write the pixels of a tile whose centres are in the squares of another mask. Returns their number.
 
     words, found_out (64,) uint64; solid[row, column] bool of the other; x, y [px]: the tile's corner in its raster;

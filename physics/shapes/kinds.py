@@ -53,9 +53,7 @@ class Bounds(EqualByValue):
         return self.shape.mass_of(density)
 
     def reach(self, x: float, y: float) -> float:
-        """Return the reach [px] of the AABB at any angle: its corners are at most sqrt 2 times the shape's reach from
-        the origin.
-        """
+        """Return the reach [px] of the AABB at any angle: at most sqrt 2 times that of the shape."""
         return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:

@@ -104,9 +104,7 @@ class Library:
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
     def without_unused(self, shapes: np.ndarray) -> "Library":
-        """Return a library of the geometry that these SHAPE rows use; write its rows to the columns `geometry` and
-        `raster`.
-        """
+        """Return a library of the geometry that these SHAPE rows use, and write its rows to them."""
         fresh = Library()
         kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
         rasters = np.zeros(self.rasters.count + 1, np.int64)
@@ -135,18 +133,7 @@ class Library:
         return fresh
 
     def _tables(self):
-        return Geometry(
-            self.polygons.data,
-            self.corners.data,
-            self.chains.data,
-            self.links.data,
-            self.link_blocks.data,
-            self.grids.data,
-            self.cells.data,
-            self.rasters.data,
-            self.words.data,
-            self.raster_of,
-        )
+        return Geometry._make((*(table.data for table in self.grown), self.raster_of))
 
     def add(self, shape: Shape) -> tuple[int, int, int]:
         """Return (kind, geometry row, kind inside a Bounds) of a shape, and add its geometry where it is new."""
@@ -245,9 +232,7 @@ class Library:
         return row
 
     def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
-        """Return (n, 3), the result of `add` for each shape. Convex shapes are added without a search for equal
-        ones.
-        """
+        """Return (n, 3), the result of `add` for each shape, without a search for equal convex shapes."""
         kinds = [shape._kind for shape in shapes]
         if CHAIN in kinds:
             return np.array([self.add(shape) for shape in shapes], np.int64)
@@ -445,18 +430,14 @@ def _draw(library, rows, bodies, shapes):
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
-    """Return (radius, centre of a circle in body space) [px] of a shape, or of the shape inside a Bounds, for
-    its row.
-    """
+    """Return (radius, centre of a circle in body space) [px] of a shape, or of that inside a Bounds."""
     inner = shape._inner
     x, y = inner.points[0] if inner._kind == CIRCLE else (0.0, 0.0)
     return inner.radius if inner._is_convex else 0.0, x, y
 
 
 def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
-    """Return the mass of a body's shapes, including sensors. mass: replaces the mass from the densities; 0:
-    does not.
-    """
+    """Return the mass of a body's shapes, including sensors. mass: replaces that of the densities unless 0."""
     found = mass_of(tuple(shapes), density)
     if mass == 0.0:
         return found

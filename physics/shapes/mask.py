@@ -267,9 +267,7 @@ class PixelMask(Shape):
 
     @cached_property
     def solid_box(self) -> tuple[int, int, int, int] | None:
-        """Box (left, top, right, bottom) of the solid pixels in the raster, the last two exclusive; None
-        without any.
-        """
+        """Box (left, top, right, bottom) of the solid pixels, the last two exclusive; None without any."""
         if "tiles" in vars(self):
             return self.tiles.bounds
         columns, rows = (np.flatnonzero(self.solid.any(axis=axis)).tolist() for axis in (0, 1))

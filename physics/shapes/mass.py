@@ -60,9 +60,7 @@ def together(parts: Iterable[Mass]) -> Mass:
 
 
 def polygon_mass(points: Points, density: float) -> Mass:
-    """Return the mass of a polygon, points (n, 2) clockwise on the screen: shoelace integrals about the first
-    corner.
-    """
+    """Return the mass of a polygon, points (n, 2) clockwise on the screen, by shoelace integrals."""
     base = np.array(points[0])
     a = np.array(points) - base
     b = np.roll(a, -1, axis=0)
@@ -76,9 +74,7 @@ def polygon_mass(points: Points, density: float) -> Mass:
 
 
 def rounded_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of a rounded polygon: the polygon, a rectangle along every edge, a disc sector at every
-    corner.
-    """
+    """Return the mass of a rounded polygon: the polygon, a rectangle along each edge, a sector at each corner."""
     parts = [polygon_mass(points, density)]
     count = len(points)
     edges = [
@@ -296,9 +292,7 @@ def _union_mass(group: tuple[Hull, ...]) -> Mass:
 
 
 def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
-    """Return the mass of overlapping masks and hulls, by inclusion-exclusion: masks plus hulls minus the shared
-    area.
-    """
+    """Return the mass of overlapping masks and hulls: masks plus hulls minus the shared area."""
     base = _box_of(masks[0])[:2]
 
     def union(dense):

@@ -55,9 +55,7 @@ def out_of_raster(raster, body, cosine, sine, x, y):
 
 @subkernel
 def raster_of_shape(geometry, shape):
-    """Return the raster row by which a MASK is tested: the one as drawn, or that of the angle 0 if it is not
-    snapped.
-    """
+    """Return the raster row by which a MASK is tested: as drawn, or that of the angle 0 if not snapped."""
     return shape.raster if shape.snap else geometry.raster_of[shape.geometry, 0]
 
 
@@ -103,6 +101,8 @@ def turn_of_mask(angle):
 # ---- placement -------------------------------------------------------------------------------------------------------
 # Placement of shapes at a pose: corners, raster on the pixel grid, AABB.
 
+# The fields that a stage writes with refresh_boxes.
+PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 TAU = math.tau
 WHOLE = 2.0**62  # floats below convert to int64; larger ones are undefined if compiled, an error if not
 NOWHERE = -(1 << 62)  # [px] pixel column or row of a non-finite or too large coordinate
@@ -143,17 +143,13 @@ def is_drawn_when_asked(shape):
 
 @subkernel
 def drawn_beyond(body, shape):
-    """Return how far [px] the pixels of a SHAPE row may be drawn beyond its AABB; 0 if the AABB is that of the
-    drawing.
-    """
+    """Return how far [px] the pixels of a SHAPE row may be drawn beyond its AABB; 0 if it is the drawing's."""
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel
 def raster_aabb(geometry, raster, x, y):
-    """Return the AABB [px] of the solid pixels of a raster with its body at (x, y); for an empty one the point
-    itself.
-    """
+    """Return the AABB [px] of a raster's solid pixels with its body at (x, y), which an empty one gets."""
     r = geometry.rasters[raster]
     if r.area == 0:
         return x, y, x, y
@@ -170,6 +166,20 @@ def upright_aabb(raster, x, y):
     left = x - raster.origin_x
     top = y - raster.origin_y
     return left + raster.set_left, top + raster.set_top, left + raster.set_right, top + raster.set_bottom
+
+
+@subkernel
+def box_corners(min_x, min_y, max_x, max_y, corners_out):
+    """Write the corners [px] of a box, clockwise on the screen from the top left. Return their number."""
+    corners_out[0, 0] = min_x
+    corners_out[0, 1] = min_y
+    corners_out[1, 0] = max_x
+    corners_out[1, 1] = min_y
+    corners_out[2, 0] = max_x
+    corners_out[2, 1] = max_y
+    corners_out[3, 0] = min_x
+    corners_out[3, 1] = max_y
+    return 4
 
 
 @subkernel
@@ -302,37 +312,17 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
         cosine, sine = rotation_of(angle)
         return polygon_at(geometry.polygons, geometry.corners, shapes[row].geometry, x, y, cosine, sine, corners_out)
     min_x, min_y, max_x, max_y = aabb_at(geometry, shapes, row, x, y, angle)
-    corners_out[0, 0] = min_x
-    corners_out[0, 1] = min_y
-    corners_out[1, 0] = max_x
-    corners_out[1, 1] = min_y
-    corners_out[2, 0] = max_x
-    corners_out[2, 1] = max_y
-    corners_out[3, 0] = min_x
-    corners_out[3, 1] = max_y
-    return 4
+    return box_corners(min_x, min_y, max_x, max_y, corners_out)
 
 
 @kernel
 def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull at a pose to corners_out (16, 2). Returns their number and the rounding
-    [px].
-    """
+    """Write the world corners [px] of a hull to corners_out (16, 2). Return their number and the rounding [px]."""
     return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
 @kernel
-def missing_rasters(
-    # read
-    rows,
-    bodies,
-    shapes,
-    rasters,
-    raster_of,
-    dt,
-    # write
-    missing_out,
-):
+def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
     """List (mask, bucket) of the masks at an angle not drawn yet, now or at the end of the step.
 
     rows: of shapes; bodies: BODY rows, shapes: SHAPE rows; dt [s]; missing_out (capacity, 2) int64. Returns the number;
@@ -382,14 +372,7 @@ def place_mask(rasters, raster_of, body, shape_inout):
 
 
 @kernel
-def place_masks(
-    # read
-    rows,
-    geometry,
-    bodies,
-    # write
-    shapes_inout,
-):
+def place_masks(rows, geometry, bodies, shapes_inout):
     """Write the raster of the masks in these rows at their bodies' poses, and its pixel column and row. O(rows)."""
     for k in range(len(rows)):
         s = shapes_inout[rows[k]]
@@ -401,17 +384,8 @@ def place_masks(
 
 
 @subkernel
-def refresh_boxes(
-    # read
-    rows,
-    geometry,
-    bodies,
-    # write
-    shapes_inout,
-):
-    """Write the tight AABB of the shapes in these rows at their bodies' poses, and the raster of a snapped mask.
-    O(rows).
-    """
+def refresh_boxes(rows, geometry, bodies, shapes_inout):
+    """Write the tight AABBs of the shapes in these rows, and the raster of a snapped mask. O(rows)."""
     polygons = geometry.polygons
     table = geometry.corners
     rasters = geometry.rasters
@@ -447,13 +421,6 @@ def refresh_boxes(
 
 
 @kernel
-def refresh_aabbs(
-    # read
-    rows,
-    geometry,
-    bodies,
-    # write
-    shapes_inout,
-):
+def refresh_aabbs(rows, geometry, bodies, shapes_inout):
     """Write the tight AABBs of the shapes in these rows, see refresh_boxes. O(rows)."""
     refresh_boxes(rows, geometry, bodies, shapes_inout)

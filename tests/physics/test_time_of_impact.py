@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from physics import JIT, Bounds, Capsule, Chain, Circle, PixelMask, Polygon, Segment, TileGrid, distance, time_of_impact
-from physics.ccd.rotational import new_rotational_workspace, sweep_rotational
+from physics.ccd.rotational import Sweep, new_rotational_workspace, sweep_rotational
 from physics.ccd.time_of_impact import advance, new_advance_workspace, separate_at
 from physics.jit import kernel
 from physics.shapes.library import Library, rounding_of
@@ -209,9 +209,9 @@ def test_bounds_that_grow_as_they_turn():
 
 
 @kernel
-def sweep(geometry, bodies, shapes, motions, slack, one_way, room, work_inout):
+def sweep(sweep_inout):
     """Row 0 against row 1."""
-    return sweep_rotational(geometry, bodies, shapes, motions, 0, 1, slack, one_way, -1, room, work_inout)
+    return sweep_rotational(0, 1, sweep_inout.slack, -1, sweep_inout)
 
 
 def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
@@ -223,8 +223,13 @@ def swept(mover, motion, other, slack=0.16, motion_b=(0.0,) * 6):
         s["radius"], s["local_x"], s["local_y"] = rounding_of(shape)
         s["body_row"] = row
     bodies["min_half_extent"] = mover.min_half_extent
-    motions = np.array([motion, motion_b], np.float64)
-    found = sweep(library.tables, bodies, shapes, motions, slack, True, new_rotational_workspace(), work)
+    motions, pairs, room = (
+        np.array([motion, motion_b], np.float64),
+        np.zeros((1, 2), np.int64),
+        new_rotational_workspace(),
+    )
+    fast, tables = np.zeros(2, bool), library.tables
+    found = sweep(Sweep(tables, bodies, shapes, pairs, False, True, slack, motions, fast, motions, room, work))
     assert work[CAP_HITS] == 0 and work[GJK_ITERATIONS] >= 0
     return found
 

@@ -5,7 +5,7 @@ another workspace, and must continue to the same bit.
 import numpy as np
 import pytest
 
-from physics.ccd.rotational import new_rotational_workspace, sweep_hull
+from physics.ccd.rotational import Mover, new_rotational_workspace, sweep_hull
 from physics.jit import JIT, kernel
 
 SLACK = 0.16  # [px]
@@ -14,7 +14,7 @@ SLACK = 0.16  # [px]
 @kernel
 def sweep(count, other_count, half, slack, workspace):
     """The sweep of sharp hulls that stand in the workspace."""
-    return sweep_hull(count, 0.0, half, 0.0, other_count, 0.0, slack, workspace)
+    return sweep_hull(Mover(count, 0.0, half, slack), 0.0, other_count, 0.0, workspace)
 
 
 def hull(rng, count):
