@@ -122,6 +122,9 @@ ABOVE_ZERO = {
     "PART",
     "path.count",  # an outline's path has runs and cracks
     "path.cracks",
+    "steps + 1.0",
+    "U_2",
+    "SPREAD",
     "effective",
     "length",
     "largest",

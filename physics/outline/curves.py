@@ -48,7 +48,8 @@ ANGLE_PRICE = 4.5  # [corners / (rad2 px)]: a turn of about 8 degrees at a radiu
 CURVE_PRICES = Prices(0.0, ANGLE_PRICE)
 JOINING = 0.25  # [px] from this smoothing on a line can pass a pinch, so that pieces are 8-connected; below no curves
 INSIDE = 0.96  # largest distance of a place from its crack as a share of `reach`
-GRAINS = 1024.0  # [1/px] grid of places: sums and products with whole pixels are exact
+GRAINS = 1024.0  # [1/px]
+GRAIN = 1.0 / GRAINS  # [px] grid of places: sums and products with whole pixels are exact
 LEVEL = 0.3  # least share of a curve's direction along a run with which places ahead on it are corrected
 APART = 0.75  # [cracks] least distance of a place from the ends of a curve
 
@@ -323,8 +324,8 @@ def put_on_curve(n, k, along, curve, path, workspace):
         off = min(max(off, -most), most)
         off_x = -off * down
         off_y = off * right
-    x = min(max(math.floor((x + off_x) * GRAINS + 0.5) / GRAINS, path.low), path.high)
-    y = min(max(math.floor((y + off_y) * GRAINS + 0.5) / GRAINS, path.low), path.high)
+    x = min(max(math.floor((x + off_x) * GRAINS + 0.5) * GRAIN, path.low), path.high)
+    y = min(max(math.floor((y + off_y) * GRAINS + 0.5) * GRAIN, path.low), path.high)
     put_place(n, x, y, at, run, False, True, workspace.places)
     workspace.places[n].along_x = along_x
     workspace.places[n].along_y = along_y
@@ -382,7 +383,7 @@ def widest_fit(first, length, count, path, vertices):
 
     Within so many the directions of the lines differ by at most twice FIT_TURN.
     """
-    widest = 2.0 * FIT_TURN
+    widest = 0.0
     for k in range(first, first + length):
         turned = least = most = 0.0
         start = vertices[k % count].at + k // count * path.cracks
@@ -393,7 +394,7 @@ def widest_fit(first, length, count, path, vertices):
             least = min(least, turned)
             most = max(most, turned)
         widest = max(widest, most - least)
-    return int(FIT * 2.0 * FIT_TURN / widest)
+    return int(FIT * 2.0 * FIT_TURN / widest) if widest > 2.0 * FIT_TURN else FIT
 
 
 @subkernel

@@ -8,7 +8,7 @@ import numpy as np
 
 from physics.jit import kernel, subkernel
 from physics.outline.contour import LARGEST_REACH
-from physics.outline.curves import GRAINS, JOINING, POINT, Lines, Path, lay_lines, room_for_lines
+from physics.outline.curves import GRAIN, GRAINS, JOINING, POINT, Lines, Path, lay_lines, room_for_lines
 from physics.outline.kept import Parts, fitted
 from physics.outline.paths import (
     LINE_PRICES,
@@ -42,9 +42,11 @@ from physics.settings import MAX_CORNERS
 
 SEEN = 12  # [px] of the path on either side. More: a wider halo; less: gentle slopes are less straight at borders
 STRAIGHT = 0.6  # [px] largest distance of a straight path's crack middles from its line: 0.5 for slight slopes
+U_2 = SEEN * (4.0 * SEEN * SEEN - 1.0) / 6.0  # sums of the squares and …
+U_4 = U_2 * (12.0 * SEEN * SEEN - 7.0) / 20.0  # … fourth powers of 0.5 - SEEN to SEEN - 0.5
+SPREAD = 2.0 * SEEN * U_4 - U_2 * U_2
 KNOWN = SEEN - SHARP - 1  # [px] longest run that is fully within SEEN, with its neighbours
 BESIDE = 0.25  # [px] least distance of a crossing from a run's ends
-GRAIN = 1.0 / GRAINS  # [px] grid of crossings: sums with whole pixels are exact in every tile
 
 
 @subkernel
@@ -156,15 +158,12 @@ def bend(runs, count, at, x, y):
 
     at: cracks of the path before the corner. Returns the line along it there, as stretch.
     """
-    n = 2.0 * SEEN
-    u_u = n * (n * n - 1.0) / 12.0  # sums of squares and fourth powers of -SEEN + 0.5 to SEEN - 0.5
-    u_4 = u_u * (3.0 * n * n - 7.0) / 20.0
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
     for part in range(2):
-        base_x = (u_4 * sum_x - u_u * uu_x) / (n * u_4 - u_u * u_u)
-        base_y = (u_4 * sum_y - u_u * uu_y) / (n * u_4 - u_u * u_u)
-        bend_x = (n * uu_x - u_u * sum_x) / (n * u_4 - u_u * u_u)
-        bend_y = (n * uu_y - u_u * sum_y) / (n * u_4 - u_u * u_u)
+        base_x = (U_4 * sum_x - U_2 * uu_x) / SPREAD
+        base_y = (U_4 * sum_y - U_2 * uu_y) / SPREAD
+        bend_x = (2.0 * SEEN * uu_x - U_2 * sum_x) / SPREAD
+        bend_y = (2.0 * SEEN * uu_y - U_2 * sum_y) / SPREAD
         for k in range(count):
             run = runs[k]
             for step in range(max(run.at, at - SEEN) - run.at, min(run.at + run.length, at + SEEN) - run.at):
@@ -179,10 +178,10 @@ def bend(runs, count, at, x, y):
                     uu_x += u * u * off_x
                     uu_y += u * u * off_y
                     continue
-                along_x = u_x / u_u + 2.0 * u * bend_x
-                along_y = u_y / u_u + 2.0 * u * bend_y
-                off_x -= base_x + u * (u_x / u_u + u * bend_x)
-                off_y -= base_y + u * (u_y / u_u + u * bend_y)
+                along_x = u_x / U_2 + 2.0 * u * bend_x
+                along_y = u_y / U_2 + 2.0 * u * bend_y
+                off_x -= base_x + u * (u_x / U_2 + u * bend_x)
+                off_y -= base_y + u * (u_y / U_2 + u * bend_y)
                 off = along_x * off_y - along_y * off_x
                 if off * off > STRAIGHT * STRAIGHT * (along_x * along_x + along_y * along_y):
                     return 0.0, 0.0, 0.0, False, False
