@@ -120,6 +120,11 @@ ABOVE_ZERO = {
     "1.0 + drag_rate * h",
     "1.0 + stiffness * spring.grip",
     "PART",
+    "path.count",  # an outline's path has runs and cracks
+    "path.cracks",
+    "steps + 1.0",
+    "U_2",
+    "SPREAD",
     "effective",
     "length",
     "largest",
@@ -150,6 +155,7 @@ def test_arguments_without_defaults_and_outputs_last():
         written = [name.endswith(("_out", "_inout")) for name in arguments]
         mixed = {
             "found",
+            "n",
             "scratch",
             "workspace",
             "rows",

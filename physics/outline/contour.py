@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.jit import kernel, subkernel
+from physics.outline.curves import JOINING, POINT, Path, lines_of_loop, room_for_lines
+from physics.outline.paths import SHARP
 
 # ---- contour ---------------------------------------------------------------------------------------------------------
 # Crack contours: the closed loops between solid and clear pixels of a raster (crack following).
@@ -174,288 +175,6 @@ def _runs_of(cracks):
     return line, start, end, after[line, start].astype(np.int64)
 
 
-# ---- cracks ----------------------------------------------------------------------------------------------------------
-# Crack following from any place, forwards and backwards.
-#
-# A corner (x, y) of the pixel grid has four pixels around it, its quadrants, numbered clockwise on the screen from the
-# lower right one. A crack leaves it to the right, down, left or up, in the same order. Paths have the solid on their
-# right: for a crack that leaves in direction d, quadrant d is solid and quadrant d - 1 is clear.
-#
-#         2 | 3        3
-#        ---+---     2 + 0
-#         1 | 0        1
-#      quadrants   directions
-#
-# Source: Rosenfeld and Kak 1982, section 11.1.
-
-SHARP = 3  # [px] a corner between two runs of at least this length is fixed
-
-RUN = np.dtype(
-    [  # a straight row of cracks
-        ("x", np.int64),  # its start
-        ("y", np.int64),
-        ("direction", np.int64),
-        ("length", np.int64),  # [cracks]
-        ("at", np.int64),  # number of cracks of the path before it
-        ("joined", np.bool_),  # starts at a joined pinch, which the path passes twice
-    ],
-    align=True,
-)
-
-
-class Window(NamedTuple):
-    """The pixels of a tile and of its surroundings."""
-
-    pixels: np.ndarray  # [row, col] uint8, not 0: solid
-    low: int  # first row and column of the tile, and …
-    high: int  # … the end of them, exclusive
-    reach: float  # [px] largest distance of lines from cracks
-    joins: bool  # whether a path may pass between diagonal pixels
-
-
-@subkernel
-def right_of(direction):
-    """Return the x component of a direction: -1, 0 or 1."""
-    return (1 if direction == 0 else 0) - (1 if direction == 2 else 0)
-
-
-@subkernel
-def down_of(direction):
-    """Return the y component of a direction: -1, 0 or 1."""
-    return (1 if direction == 1 else 0) - (1 if direction == 3 else 0)
-
-
-@subkernel
-def is_solid(pixels, x, y, quadrant):
-    """Return whether the pixel in a quadrant of a corner is solid."""
-    q = quadrant & 3
-    return pixels[y - (1 if q >= 2 else 0), x - (1 if q == 1 or q == 2 else 0)] != 0
-
-
-@subkernel
-def is_own(window, x, y, quadrant):
-    """Return whether the pixel in a quadrant of a corner belongs to the tile."""
-    q = quadrant & 3
-    column = x - (1 if q == 1 or q == 2 else 0)
-    row = y - (1 if q >= 2 else 0)
-    return window.low <= column < window.high and window.low <= row < window.high
-
-
-@subkernel
-def length_from(pixels, x, y, direction):
-    """Return the number of cracks in a straight row from a corner, up to SHARP; the first one must exist."""
-    right = is_solid(pixels, x, y, direction)
-    count = 1
-    while count < SHARP:
-        x += right_of(direction)
-        y += down_of(direction)
-        if is_solid(pixels, x, y, direction) != right or is_solid(pixels, x, y, direction + 3) == right:
-            break
-        count += 1
-    return count
-
-
-@subkernel
-def is_joined(window, x, y):
-    """Return whether paths pass between the two solid pixels of a pinch.
-
-    They do not where a corner between long runs is fixed. They do not on a border of tiles either, where the two tiles
-    would see different paths.
-    """
-    if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
-        return False
-    level = max(length_from(window.pixels, x, y, 0), length_from(window.pixels, x, y, 2))
-    upright = max(length_from(window.pixels, x, y, 1), length_from(window.pixels, x, y, 3))
-    return min(level, upright) < SHARP
-
-
-@subkernel
-def onward(window, x, y, direction):
-    """Return the direction in which a path leaves a corner at which it arrives in a direction."""
-    if not is_solid(window.pixels, x, y, direction):
-        if is_solid(window.pixels, x, y, direction + 3) and is_joined(window, x, y):
-            return (direction + 3) & 3
-        return (direction + 1) & 3
-    return (direction + 3) & 3 if is_solid(window.pixels, x, y, direction + 3) else direction
-
-
-@subkernel
-def backward(window, x, y, direction):
-    """Return the direction in which a path arrives at a corner that it leaves in a direction."""
-    if not is_solid(window.pixels, x, y, direction + 1):
-        if is_solid(window.pixels, x, y, direction + 2) and is_joined(window, x, y):
-            return (direction + 1) & 3
-        return (direction + 3) & 3
-    return (direction + 1) & 3 if is_solid(window.pixels, x, y, direction + 2) else direction
-
-
-@subkernel
-def walked_back(window, x, y, direction, cracks):
-    """Return (x, y, direction) of the path `cracks` cracks before the one that leaves a corner in a direction."""
-    for _ in range(cracks):
-        direction = backward(window, x, y, direction)
-        x -= right_of(direction)
-        y -= down_of(direction)
-    return x, y, direction
-
-
-@subkernel
-def follow(window, x, y, direction, marks_inout):
-    """Return the number of cracks of the path within the tile, from one on; of a loop the number of all.
-
-    marks_inout: [row, col] uint8, set for each crack whose solid pixel lies below it.
-    """
-    first_x = x
-    first_y = y
-    first = direction
-    count = 0
-    while is_own(window, x, y, direction):
-        if direction == 0:
-            marks_inout[y, x] = 1
-        count += 1
-        x += right_of(direction)
-        y += down_of(direction)
-        direction = onward(window, x, y, direction)
-        if x == first_x and y == first_y and direction == first:
-            break
-    return count
-
-
-@subkernel
-def record(window, x, y, direction, cracks, runs_out):
-    """Write the runs (RUN) of the next `cracks` cracks of a path. Returns the number of runs."""
-    count = -1
-    turned = True
-    joined = False
-    for k in range(cracks):
-        if turned:
-            count += 1
-            run = runs_out[count]
-            run.x = x
-            run.y = y
-            run.direction = direction
-            run.length = 0
-            run.at = k
-            run.joined = joined
-        runs_out[count].length += 1
-        x += right_of(direction)
-        y += down_of(direction)
-        after = onward(window, x, y, direction)
-        turned = after != direction
-        joined = not is_solid(window.pixels, x, y, direction) and after == (direction + 3) & 3
-        direction = after
-    return count + 1
-
-
-# ---- straight lines --------------------------------------------------------------------------------------------------
-# Least-cost straight lines along a path of cracks: the kernels of `outline`.
-
-AREA_PRICE = 0.25  # [corners / px2] weight of the area that a line adds or removes, relative to a corner
-
-PLACE = np.dtype(
-    [  # a candidate for a corner of the outline along a path
-        ("x", np.float64),
-        ("y", np.float64),
-        ("right", np.int64),  # direction of the path from it
-        ("down", np.int64),
-        ("corner", np.bool_),  # the path turns here
-        ("allowed", np.bool_),  # a line may end here
-        ("anchor", np.bool_),  # no line may pass it
-        ("swept", np.float64),  # [px2] twice the area between the path so far and the origin
-        ("cost", np.float64),
-        ("previous", np.int64),
-    ],
-    align=True,
-)
-
-
-@subkernel
-def try_lines(start, last, reach, places_inout):
-    """Lower the costs of the places up to `last` that a line from `start` can reach (O'Rourke 1981)."""
-    begin = places_inout[start]
-    x = begin.x
-    y = begin.y
-    along_x = begin.right
-    along_y = begin.down
-    least = 0.0  # bounds of dy / (dx + dy), both along the path
-    most = 1.0
-    bent = False
-    for at in range(start, last):
-        place = places_inout[at]
-        if at > start and place.corner:
-            if place.anchor or place.right * along_x < 0 or place.down * along_y < 0:
-                return
-            along_x = place.right if along_x == 0 else along_x
-            along_y = place.down if along_y == 0 else along_y
-            rise = along_y * (place.y - y)
-            size = along_x * (place.x - x) + rise
-            if size > 0.0:
-                least = max(least, (rise - reach) / size)
-                most = min(most, (rise + reach) / size)
-            if least > most:
-                return
-            bent = True
-        to = places_inout[at + 1]
-        if not to.allowed:
-            continue
-        rise = along_y * (to.y - y)
-        size = along_x * (to.x - x) + rise
-        if not bent or (size > 0.0 and least <= rise / size <= most):
-            area = to.swept - begin.swept - (x * to.y - y * to.x)
-            cost = begin.cost + 1.0 + AREA_PRICE * 0.5 * abs(area)
-            if cost < to.cost:
-                to.cost = cost
-                to.previous = start
-
-
-@subkernel
-def cheapest(first, last, reach, places_inout, chain_out):
-    """Write the places (rows of PLACE, last to first) where the least-cost lines from first to last end.
-
-    reach [px]: as in outline. Returns their number; 0: no lines reach the last place. O(places * places of a line).
-    """
-    for k in range(first, last + 1):
-        places_inout[k].cost = math.inf
-    places_inout[first].cost = 0.0
-    for start in range(first, last):
-        if places_inout[start].cost < math.inf:
-            try_lines(start, last, reach, places_inout)
-    if places_inout[last].cost == math.inf:
-        return 0
-    count = 1
-    chain_out[0] = last
-    while chain_out[count - 1] != first:
-        chain_out[count] = places_inout[chain_out[count - 1]].previous
-        count += 1
-    return count
-
-
-@subkernel
-def cheapest_loop(around, anchor, reach, places_inout, chain_out):
-    """Write the same for a loop, whose places are listed twice, followed by the first one again.
-
-    around: number of places of the loop; anchor: the first that no line may pass, -1: none. Returns (number, start of
-    the loop).
-    """
-    begin = anchor
-    if anchor < 0:
-        # The best polygon may not pass through the first start, but then the result has at most one corner more. The
-        # next start is a corner far from it.
-        begin = 1
-        for _ in range(2):
-            found = cheapest(begin, begin + around, reach, places_inout, chain_out)
-            begin = chain_out[found - 1 - (found - 1) // 2]
-            begin -= around if begin >= around else 0
-    return cheapest(begin, begin + around, reach, places_inout, chain_out), begin
-
-
-@kernel
-def lines_of_loop(around, anchor, reach, places_inout, chain_out):
-    """Write cheapest_loop for places (PLACE) made outside a kernel. Returns the number of places."""
-    count, _ = cheapest_loop(around, anchor, reach, places_inout, chain_out)
-    return count
-
-
 # ---- outline ---------------------------------------------------------------------------------------------------------
 # Smooth outline of pixels: staircases become straight lines, all else is unchanged.
 #
@@ -474,7 +193,6 @@ def lines_of_loop(around, anchor, reach, places_inout, chain_out):
 # programming.
 
 LARGEST_REACH = 0.5 - 2.0**-20  # [px] less than the distance from a crack to a pixel's centre
-JOINING = 0.25  # [px] from this smoothing on a line can pass a pinch, so that pieces are 8-connected
 
 
 class Outline(NamedTuple):
@@ -507,15 +225,27 @@ def smoothed_piece(piece: Contour, smooth: float) -> Outline:
     return Outline(smoothed(piece.outer, reach), [smoothed(hole, reach) for hole in piece.holes])
 
 
-def smoothed(loop: Loop, reach: float) -> np.ndarray:
-    """Return the corners (n, 2) float64 of a crack loop in straight lines; reach [px] as above."""
+def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
+    """Return the corners (n, 2) float64 of a crack loop in straight lines; reach [px] as above.
+
+    curves: whether lines follow the curves of a drawing; else they are the fewest.
+    """
     if reach <= 0.0:
         return loop.corners.astype(float)
-    places, anchor = _places(loop)
-    chain = np.empty(len(places), np.int64)
-    count = lines_of_loop(len(places) // 2, anchor, reach, places, chain)
-    around = np.sort(chain[1:count] % (len(places) // 2))  # the first and the last are the same place
-    points = np.stack([places["x"][around], places["y"][around]], axis=1)
+    runs = np.roll(loop.corners, -1, axis=0) - loop.corners
+    lengths = np.abs(runs).sum(axis=1)
+    cracks = int(lengths.sum())
+    lines = room_for_lines(cracks)
+    of_loop = lines.runs[: len(runs)]
+    of_loop["x"], of_loop["y"] = loop.corners.T
+    of_loop["direction"] = np.where(runs[:, 1] == 0, np.where(runs[:, 0] > 0, 0, 2), np.where(runs[:, 1] > 0, 1, 3))
+    of_loop["length"], of_loop["at"], of_loop["joined"] = lengths, np.cumsum(lengths) - lengths, loop.joined
+    found = np.zeros(2 * cracks, POINT)
+    far = math.inf
+    path = Path(len(runs), cracks, True, reach, -far, far, -far, far, curves and reach >= JOINING)
+    count = lines_of_loop(path, lines, found)
+    found = np.roll(found[:count], -int(np.argmin(found["at"][:count] % cracks)))
+    points = np.stack([found["x"], found["y"]], axis=1)
     before, after = points - np.roll(points, 1, axis=0), np.roll(points, -1, axis=0) - points
     return points[before[:, 0] * after[:, 1] != before[:, 1] * after[:, 0]]
 
@@ -528,32 +258,3 @@ def sharp(loop: Loop) -> np.ndarray:
     turns = before[:, 0] * signs[:, 1] - before[:, 1] * signs[:, 0]
     cap = turns == np.roll(turns, -1)  # a run whose ends turn to the same side does not belong to a staircase
     return ((np.minimum(lengths, np.roll(lengths, 1)) >= SHARP) | (cap & np.roll(cap, 1))) & ~loop.joined
-
-
-def _places(loop):
-    """Return the candidate corners (PLACE) of an outline along a crack loop, and the index of the first fixed one or
-    -1.
-
-    Candidates are the loop's corners other than joined pinches, the middle of each run, and half a pixel from its ends.
-    They are listed twice, followed by the first one again.
-    """
-    corners = loop.corners
-    runs = np.roll(corners, -1, axis=0) - corners
-    lengths = np.abs(runs).sum(axis=1)
-    signs = np.sign(runs)
-    steps = np.stack([0.0 * lengths, 0.0 * lengths + 0.5, lengths / 2.0, lengths - 0.5], axis=1)
-    several = np.stack([lengths > 0, lengths > 1, lengths > 0, lengths > 1], axis=1)
-    run = np.nonzero(several)[0]
-    first = np.cumsum(several.sum(axis=1)) - several.sum(axis=1)
-    places = np.zeros(len(run), PLACE)
-    places["x"], places["y"] = (corners[run] + steps[several][:, None] * signs[run]).T
-    places["right"], places["down"] = signs[run].T
-    places["corner"][first] = True
-    places["allowed"] = True
-    places["allowed"][first[loop.joined]] = False
-    stay = first[sharp(loop)]
-    places["anchor"][stay] = True
-    places = np.concatenate([places, places, places[:1]])
-    x, y = places["x"], places["y"]
-    places["swept"][1:] = np.cumsum(x[:-1] * y[1:] - y[:-1] * x[1:])
-    return places, int(stay[0]) if len(stay) else -1

@@ -128,7 +128,7 @@ def _fit(solid, smooth):
     found = []
     for piece in pieces_of(solid, smooth):
         outer, holes = smoothed_piece(piece, smooth)
-        round_one = None if holes else rounded_core(outer, piece.outer, smooth)
+        round_one = None if holes else rounded_core(piece.outer, smooth)
         if round_one is not None:
             core, radius = round_one
             found.append(Part(core, np.zeros(len(core), bool), radius))

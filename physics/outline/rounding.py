@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from physics.outline.contour import LARGEST_REACH, Loop, doubled_area, sharp
+from physics.outline.contour import LARGEST_REACH, Loop, doubled_area, sharp, smoothed
 from physics.outline.simple_shapes import convex_hull, fewer_sides
 from physics.settings import MAX_CORNERS
 
@@ -31,18 +31,19 @@ STEPS = (0.5, 0.25, 0.12, 0.06, 0.03)  # [px] by which the corners of a core are
 Core = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen [px], radius [px]
 
 
-def rounded_core(outer: np.ndarray, cracks: Loop, smooth: float) -> Core | None:
+def rounded_core(cracks: Loop, smooth: float) -> Core | None:
     """Return a convex core of 1 to 16 corners and its radius for one piece without holes; or None.
 
-    outer (n, 2): its outline; cracks: the crack loop of the outline; smooth [px], all as in contour.outline. One corner
-    is a disc, two are a capsule. The boundary meets the same contract: within smooth of the cracks, these within smooth
-    + 0.21 of it, pixels' centres on their sides. For a disc a clear centre may be 0.2 px inside, and both distances
-    0.13 px larger. None for a piece with a fixed corner, and where rounding does not save corners. Fewest corners
-    first; of several results those that keep the outline's sides.
+    cracks: the crack loop of its outline; smooth [px] as in contour.outline. One corner is a disc, two are a capsule.
+    The boundary meets the same contract: within smooth of the cracks, these within smooth + 0.21 of it, pixels' centres
+    on their sides. For a disc a clear centre may be 0.2 px inside, and both distances 0.13 px larger. None for a piece
+    with a fixed corner, and where rounding does not save corners against the fewest lines. Fewest corners first; of
+    several results those that keep the outline's sides.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None
     judge = _Judge(cracks.corners, min(smooth, LARGEST_REACH))
+    outer = smoothed(cracks, min(smooth, LARGEST_REACH), curves=False)
     hull = convex_hull(judge.inside)
     if len(hull) > 2 and _beyond(hull, judge.outside).min() <= 0.0:
         return None  # no convex figure separates the centres

@@ -7,11 +7,11 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.jit import kernel, subkernel
-from physics.outline.contour import (
-    JOINING,
-    LARGEST_REACH,
-    PLACE,
-    RUN,
+from physics.outline.contour import LARGEST_REACH
+from physics.outline.curves import GRAIN, GRAINS, JOINING, POINT, Lines, Path, lay_lines, room_for_lines
+from physics.outline.kept import Parts, fitted
+from physics.outline.paths import (
+    LINE_PRICES,
     SHARP,
     Window,
     backward,
@@ -21,11 +21,14 @@ from physics.outline.contour import (
     follow,
     is_own,
     is_solid,
+    put_loop,
+    put_place,
+    put_run,
     record,
     right_of,
+    stays,
     walked_back,
 )
-from physics.outline.kept import Parts, fitted
 from physics.outline.rings import SIDE, close_ring, put_side, write_parts
 from physics.settings import MAX_CORNERS
 
@@ -39,10 +42,11 @@ from physics.settings import MAX_CORNERS
 
 SEEN = 12  # [px] of the path on either side. More: a wider halo; less: gentle slopes are less straight at borders
 STRAIGHT = 0.6  # [px] largest distance of a straight path's crack middles from its line: 0.5 for slight slopes
+U_2 = SEEN * (4.0 * SEEN * SEEN - 1.0) / 6.0  # sums of the squares and …
+U_4 = U_2 * (12.0 * SEEN * SEEN - 7.0) / 20.0  # … fourth powers of 0.5 - SEEN to SEEN - 0.5
+SPREAD = 2.0 * SEEN * U_4 - U_2 * U_2
 KNOWN = SEEN - SHARP - 1  # [px] longest run that is fully within SEEN, with its neighbours
 BESIDE = 0.25  # [px] least distance of a crossing from a run's ends
-GRAINS = 1024.0  # [1/px]
-GRAIN = 1.0 / GRAINS  # [px] grid of crossings: sums with whole pixels are exact in every tile
 
 
 @subkernel
@@ -110,10 +114,93 @@ def stretch(runs, count, at, seen, x, y):
 
 
 @subkernel
+def is_straight(runs, count, at):
+    """Return whether a line separates the pixels' centres beside all cracks within SEEN of a place of a path.
+
+    It does if the directions from solid centres to clear ones span less than half a turn; the ends of runs suffice.
+    """
+    first_x = first_y = last_x = last_y = 0.0
+    for k in range(count):
+        run = runs[k]
+        right, down = right_of(run.direction), down_of(run.direction)
+        begin, end = max(run.at, at - SEEN) - run.at, min(run.at + run.length, at + SEEN) - run.at
+        for step in range(begin, end, max(end - begin - 1, 1)):
+            solid_x = run.x + (step + 0.5) * right - 0.5 * down
+            solid_y = run.y + (step + 0.5) * down + 0.5 * right
+            for m in range(count):
+                other = runs[m]
+                over, under = right_of(other.direction), down_of(other.direction)
+                begin, end = max(other.at, at - SEEN) - other.at, min(other.at + other.length, at + SEEN) - other.at
+                for there in range(begin, end, max(end - begin - 1, 1)):
+                    x = other.x + (there + 0.5) * over + 0.5 * under - solid_x
+                    y = other.y + (there + 0.5) * under - 0.5 * over - solid_y
+                    if first_x == 0.0 and first_y == 0.0:
+                        first_x = last_x = x
+                        first_y = last_y = y
+                    before = first_x * y - first_y * x < 0.0
+                    after = last_x * y - last_y * x > 0.0
+                    if before and after:
+                        return False
+                    if before:
+                        first_x = x
+                        first_y = y
+                    elif after:
+                        last_x = x
+                        last_y = y
+                    if first_x * last_y - first_y * last_x < 0.0:
+                        return False
+    return True
+
+
+@subkernel
+def bend(runs, count, at, x, y):
+    """Fit a parabola (least squares) to the crack middles of a path within SEEN cracks of its corner (x, y).
+
+    at: cracks of the path before the corner. Returns the line along it there, as stretch.
+    """
+    sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
+    for part in range(2):
+        base_x = (U_4 * sum_x - U_2 * uu_x) / SPREAD
+        base_y = (U_4 * sum_y - U_2 * uu_y) / SPREAD
+        bend_x = (2.0 * SEEN * uu_x - U_2 * sum_x) / SPREAD
+        bend_y = (2.0 * SEEN * uu_y - U_2 * sum_y) / SPREAD
+        for k in range(count):
+            run = runs[k]
+            for step in range(max(run.at, at - SEEN) - run.at, min(run.at + run.length, at + SEEN) - run.at):
+                u = run.at + step + 0.5 - at
+                off_x = run.x - x + (step + 0.5) * right_of(run.direction)
+                off_y = run.y - y + (step + 0.5) * down_of(run.direction)
+                if part == 0:
+                    sum_x += off_x
+                    sum_y += off_y
+                    u_x += u * off_x
+                    u_y += u * off_y
+                    uu_x += u * u * off_x
+                    uu_y += u * u * off_y
+                    continue
+                along_x = u_x / U_2 + 2.0 * u * bend_x
+                along_y = u_y / U_2 + 2.0 * u * bend_y
+                off_x -= base_x + u * (u_x / U_2 + u * bend_x)
+                off_y -= base_y + u * (u_y / U_2 + u * bend_y)
+                off = along_x * off_y - along_y * off_x
+                if off * off > STRAIGHT * STRAIGHT * (along_x * along_x + along_y * along_y):
+                    return 0.0, 0.0, 0.0, False, False
+    steep = abs(u_y) > abs(u_x)
+    most = u_y if steep else u_x
+    if most == 0.0:
+        return 0.0, 0.0, 0.0, False, False
+    return base_x, base_y, (u_x if steep else u_y) / most, steep, True
+
+
+@subkernel
 def line_at(runs, count, at, x, y):
-    """Return the line along the longest straight stretch of a path about a corner; as stretch."""
+    """Return the line along a path about a corner, as stretch: along the longest straight stretch, or a curve."""
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
+        if seen == SEEN and not (straight and is_straight(runs, count, at)):
+            bent_x, bent_y, bent_slope, bent_steep, curved = bend(runs, count, at, x, y)
+            if curved:
+                return bent_x, bent_y, bent_slope, bent_steep
         if straight:
             return line_x, line_y, slope, steep
     line_x, line_y, slope, steep, _ = stretch(runs, count, at, 1, x, y)
@@ -222,7 +309,6 @@ def crossing(window, runs, count, at, after):
 
 NEAREST = 0.24  # [px] places nearer to a crossing are dropped, because they would make slivers
 
-POINT = np.dtype([("x", np.float64), ("y", np.float64)], align=True)
 PIECE = np.dtype(
     [  # a piece of the outline: lines from point to point
         ("first", np.int64),
@@ -240,9 +326,7 @@ class Paths(NamedTuple):
     """Scratch arrays for the largest possible tile, and the result of find_paths."""
 
     marks: np.ndarray  # [row, col] uint8 of the window
-    runs: np.ndarray  # RUN
-    places: np.ndarray  # PLACE
-    chain: np.ndarray  # int64
+    lines: Lines
     pieces: np.ndarray  # PIECE
     points: np.ndarray  # POINT
     counts: np.ndarray  # int64: pieces, points
@@ -254,9 +338,7 @@ def room_for_paths(size: int, halo: int) -> Paths:
     wide = size + 2 * halo
     return Paths(
         np.zeros((wide, wide), np.uint8),
-        np.zeros(cracks, RUN),
-        np.zeros(4 * cracks + 8, PLACE),
-        np.zeros(4 * cracks + 8, np.int64),
+        room_for_lines(cracks),
         np.zeros(cracks, PIECE),
         np.zeros(2 * cracks, POINT),
         np.zeros(2, np.int64),
@@ -277,57 +359,6 @@ def along_border(window, x, y):
 
 
 @subkernel
-def stays(runs, count, k, closed):
-    """Return whether the corner at the start of run k is fixed: between long runs, and of rectangles."""
-    if not closed and k == 0:
-        return False
-    run = runs[k]
-    before = runs[k - 1 if k > 0 else count - 1]
-    if run.joined:
-        return False
-    if min(before.length, run.length) >= SHARP:
-        return True
-    if not closed and (k < 2 or k > count - 2):
-        return False
-    turn = (run.direction - before.direction) & 3
-    earlier = runs[(k - 2 + count) % count]
-    later = runs[(k + 1) % count]
-    return (before.direction - earlier.direction) & 3 == turn and (later.direction - run.direction) & 3 == turn
-
-
-@subkernel
-def put_place(n, x, y, run, corner, allowed, places_inout):
-    """Append a place on a run to places (PLACE)."""
-    place = places_inout[n]
-    place.x = x
-    place.y = y
-    place.right = right_of(run.direction)
-    place.down = down_of(run.direction)
-    place.corner = corner
-    place.allowed = allowed
-    place.anchor = False
-    place.swept = 0.0
-    if n > 0:
-        last = places_inout[n - 1]
-        place.swept = last.swept + last.x * y - last.y * x
-
-
-@subkernel
-def put_run(n, run, start, end, places_inout):
-    """Append the places within a run, between two lengths of the path. Returns the number of places."""
-    for step in range(3):
-        if step != 1 and run.length == 1:
-            continue
-        along = 0.5 if step == 0 else (run.length / 2.0 if step == 1 else run.length - 0.5)
-        if start < run.at + along < end:
-            x = run.x + along * right_of(run.direction)
-            y = run.y + along * down_of(run.direction)
-            put_place(n, x, y, run, False, True, places_inout)
-            n += 1
-    return n
-
-
-@subkernel
 def put_end(n, runs, count, at, off_x, off_y, places_inout):
     """Append a crossing, offset from a place of the path."""
     k = 0
@@ -336,27 +367,20 @@ def put_end(n, runs, count, at, off_x, off_y, places_inout):
     run = runs[k]
     x = run.x + (at - run.at) * right_of(run.direction) + off_x
     y = run.y + (at - run.at) * down_of(run.direction) + off_y
-    put_place(n, x, y, run, False, True, places_inout)
+    put_place(n, x, y, at, run, False, True, places_inout)
 
 
 @subkernel
-def put_points(window, found, closed, workspace):
-    """Append a piece (PIECE) and its points (POINT) from the chain of `found` places, reversed. Returns False if found
-    is 0.
-    """
+def put_points(window, found, path, workspace):
+    """Append a piece (PIECE) and its points (POINT) from the chain of `found` places. Returns False if found is 0."""
     if found == 0:
         return False
     counts = workspace.counts
     piece = workspace.pieces[counts[0]]
     piece.first = counts[1]
-    piece.count = found - 1 if closed else found
-    piece.closed = closed
+    piece.count = lay_lines(found, path, workspace.lines, counts[1], workspace.points) - counts[1]
+    piece.closed = path.closed
     piece.used = False
-    for k in range(piece.count):
-        place = workspace.places[workspace.chain[found - 1 - k]]
-        point = workspace.points[counts[1] + k]
-        point.x = place.x
-        point.y = place.y
     a = workspace.points[piece.first]
     b = workspace.points[piece.first + piece.count - 1]
     piece.start = along_border(window, a.x, a.y)
@@ -367,12 +391,19 @@ def put_points(window, found, closed, workspace):
 
 
 @subkernel
+def path_within(window, count, cracks, begin, end):
+    """Return the Path of some runs in a tile; begin, end [cracks] of the part in it, infinite for a loop."""
+    low, high = float(window.low), float(window.high)
+    return Path(count, cracks, math.isinf(end), window.reach, low, high, begin, end, window.joins)
+
+
+@subkernel
 def add_open(window, x, y, direction, cracks, workspace):
     """Append the piece of a path between two borders, `cracks` cracks from a corner on. Returns whether it succeeded.
 
     cracks 0: the path only passes the corner of the tile from one border to another.
     """
-    runs, places = workspace.runs, workspace.places
+    runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
     count = record(window, x, y, direction, cracks + 2 * SEEN, runs)
     start, start_x, start_y = crossing(window, runs, count, SEEN, cracks > 0)
@@ -384,34 +415,25 @@ def add_open(window, x, y, direction, cracks, workspace):
         if start < run.at < end:
             # After a crossing on another tile's pixels the line leaves the border at once.
             barred = (run.at == SEEN and start < run.at) or (run.at == SEEN + cracks and end > run.at)
-            put_place(n, float(run.x), float(run.y), run, True, not (run.joined or barred), places)
+            put_place(n, float(run.x), float(run.y), float(run.at), run, True, not (run.joined or barred), places)
             places[n].anchor = not barred and stays(runs, count, k, False)
             n += 1
-        n = put_run(n, run, max(start + NEAREST, float(SEEN)), min(end - NEAREST, float(SEEN + cracks)), places)
+        n = put_run(n, run, max(start + NEAREST, float(SEEN)), min(end - NEAREST, float(SEEN + cracks)), 0.0, places)
     put_end(n, runs, count, end, end_x, end_y, places)
-    return put_points(window, cheapest(0, n, window.reach, places, workspace.chain), False, workspace)
+    path = path_within(window, count, cracks + 2 * SEEN, float(SEEN), float(SEEN + cracks))
+    found = cheapest(0, n, window.reach, LINE_PRICES, places, workspace.lines.chain)
+    return put_points(window, found, path, workspace)
 
 
 @subkernel
 def add_closed(window, x, y, direction, cracks, workspace):
     """Append the piece of a loop of `cracks` cracks, from a corner where it turns. Returns whether it succeeded."""
-    runs, places = workspace.runs, workspace.places
-    count = record(window, x, y, direction, cracks, runs)
-    n = 0
-    around = 0
-    anchor = -1
-    for turn in range(2):
-        for k in range(count):
-            run = runs[k]
-            put_place(n, float(run.x), float(run.y), run, True, not run.joined, places)
-            places[n].anchor = stays(runs, count, k, True)
-            if anchor < 0 and places[n].anchor:
-                anchor = n
-            n = put_run(n + 1, run, -1.0, cracks + 1.0, places)
-        if turn == 0:
-            around = n
-    found, _ = cheapest_loop(around, anchor, window.reach, places, workspace.chain)
-    return put_points(window, found, True, workspace)
+    lines = workspace.lines
+    count = record(window, x, y, direction, cracks, lines.runs)
+    around, anchor = put_loop(lines.runs, count, cracks, lines.places)
+    found = cheapest_loop(around, anchor, window.reach, lines.places, lines.chain)
+    path = path_within(window, count, cracks, -math.inf, math.inf)
+    return put_points(window, found, path, workspace)
 
 
 @subkernel

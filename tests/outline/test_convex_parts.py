@@ -156,7 +156,7 @@ def test_a_tolerance_leaves_out_corners_but_no_more_than_that(tolerance):
             assert shapely.hausdorff_distance(union.boundary, whole.boundary, densify=0.05) <= tolerance + 1e-9
             exact, loose = exact + len(convex_parts(outer, holes)), loose + len(parts)
     assert loose < exact
-    ((corners, _),) = convex_parts(outline(disc(20))[0].outer, (), 0.5)
+    ((corners, _),) = convex_parts(outline(disc(12))[0].outer, (), 0.5)
     assert len(corners) <= 16
 
 

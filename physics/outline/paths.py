@@ -1,0 +1,399 @@
+"""Paths of cracks, and the straight lines along them."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.jit import subkernel
+
+# ---- cracks ----------------------------------------------------------------------------------------------------------
+# Crack following from any place, forwards and backwards.
+#
+# A corner (x, y) of the pixel grid has four pixels around it, its quadrants, numbered clockwise on the screen from the
+# lower right one. A crack leaves it to the right, down, left or up, in the same order. Paths have the solid on their
+# right: for a crack that leaves in direction d, quadrant d is solid and quadrant d - 1 is clear.
+#
+#         2 | 3        3
+#        ---+---     2 + 0
+#         1 | 0        1
+#      quadrants   directions
+#
+# Source: Rosenfeld and Kak 1982, section 11.1.
+
+SHARP = 3  # [px] a corner between two runs of at least this length is fixed
+
+RUN = np.dtype(
+    [  # a straight row of cracks
+        ("x", np.int64),  # its start
+        ("y", np.int64),
+        ("direction", np.int64),
+        ("length", np.int64),  # [cracks]
+        ("at", np.int64),  # number of cracks of the path before it
+        ("joined", np.bool_),  # starts at a joined pinch, which the path passes twice
+    ],
+    align=True,
+)
+
+
+class Window(NamedTuple):
+    """The pixels of a tile and of its surroundings."""
+
+    pixels: np.ndarray  # [row, col] uint8, not 0: solid
+    low: int  # first row and column of the tile, and …
+    high: int  # … the end of them, exclusive
+    reach: float  # [px] largest distance of lines from cracks
+    joins: bool  # whether a path may pass between diagonal pixels
+
+
+@subkernel
+def right_of(direction):
+    """Return the x component of a direction: -1, 0 or 1."""
+    return (1 if direction == 0 else 0) - (1 if direction == 2 else 0)
+
+
+@subkernel
+def down_of(direction):
+    """Return the y component of a direction: -1, 0 or 1."""
+    return (1 if direction == 1 else 0) - (1 if direction == 3 else 0)
+
+
+@subkernel
+def is_solid(pixels, x, y, quadrant):
+    """Return whether the pixel in a quadrant of a corner is solid."""
+    q = quadrant & 3
+    return pixels[y - (1 if q >= 2 else 0), x - (1 if q == 1 or q == 2 else 0)] != 0
+
+
+@subkernel
+def is_own(window, x, y, quadrant):
+    """Return whether the pixel in a quadrant of a corner belongs to the tile."""
+    q = quadrant & 3
+    column = x - (1 if q == 1 or q == 2 else 0)
+    row = y - (1 if q >= 2 else 0)
+    return window.low <= column < window.high and window.low <= row < window.high
+
+
+@subkernel
+def length_from(pixels, x, y, direction):
+    """Return the number of cracks in a straight row from a corner, up to SHARP; the first one must exist."""
+    right = is_solid(pixels, x, y, direction)
+    count = 1
+    while count < SHARP:
+        x += right_of(direction)
+        y += down_of(direction)
+        if is_solid(pixels, x, y, direction) != right or is_solid(pixels, x, y, direction + 3) == right:
+            break
+        count += 1
+    return count
+
+
+@subkernel
+def is_joined(window, x, y):
+    """Return whether paths pass between the two solid pixels of a pinch.
+
+    They do not where a corner between long runs is fixed. They do not on a border of tiles either, where the two tiles
+    would see different paths.
+    """
+    if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
+        return False
+    level = max(length_from(window.pixels, x, y, 0), length_from(window.pixels, x, y, 2))
+    upright = max(length_from(window.pixels, x, y, 1), length_from(window.pixels, x, y, 3))
+    return min(level, upright) < SHARP
+
+
+@subkernel
+def onward(window, x, y, direction):
+    """Return the direction in which a path leaves a corner at which it arrives in a direction."""
+    if not is_solid(window.pixels, x, y, direction):
+        if is_solid(window.pixels, x, y, direction + 3) and is_joined(window, x, y):
+            return (direction + 3) & 3
+        return (direction + 1) & 3
+    return (direction + 3) & 3 if is_solid(window.pixels, x, y, direction + 3) else direction
+
+
+@subkernel
+def backward(window, x, y, direction):
+    """Return the direction in which a path arrives at a corner that it leaves in a direction."""
+    if not is_solid(window.pixels, x, y, direction + 1):
+        if is_solid(window.pixels, x, y, direction + 2) and is_joined(window, x, y):
+            return (direction + 1) & 3
+        return (direction + 3) & 3
+    return (direction + 1) & 3 if is_solid(window.pixels, x, y, direction + 2) else direction
+
+
+@subkernel
+def walked_back(window, x, y, direction, cracks):
+    """Return (x, y, direction) of the path `cracks` cracks before the one that leaves a corner in a direction."""
+    for _ in range(cracks):
+        direction = backward(window, x, y, direction)
+        x -= right_of(direction)
+        y -= down_of(direction)
+    return x, y, direction
+
+
+@subkernel
+def follow(window, x, y, direction, marks_inout):
+    """Return the number of cracks of the path within the tile, from one on; of a loop the number of all.
+
+    marks_inout: [row, col] uint8, set for each crack whose solid pixel lies below it.
+    """
+    first_x = x
+    first_y = y
+    first = direction
+    count = 0
+    while is_own(window, x, y, direction):
+        if direction == 0:
+            marks_inout[y, x] = 1
+        count += 1
+        x += right_of(direction)
+        y += down_of(direction)
+        direction = onward(window, x, y, direction)
+        if x == first_x and y == first_y and direction == first:
+            break
+    return count
+
+
+@subkernel
+def record(window, x, y, direction, cracks, runs_out):
+    """Write the runs (RUN) of the next `cracks` cracks of a path. Returns the number of runs."""
+    count = -1
+    turned = True
+    joined = False
+    for k in range(cracks):
+        if turned:
+            count += 1
+            run = runs_out[count]
+            run.x = x
+            run.y = y
+            run.direction = direction
+            run.length = 0
+            run.at = k
+            run.joined = joined
+        runs_out[count].length += 1
+        x += right_of(direction)
+        y += down_of(direction)
+        after = onward(window, x, y, direction)
+        turned = after != direction
+        joined = not is_solid(window.pixels, x, y, direction) and after == (direction + 3) & 3
+        direction = after
+    return count + 1
+
+
+# ---- straight lines --------------------------------------------------------------------------------------------------
+# Least-cost straight lines along a path of cracks: the kernels of `outline`.
+
+AREA_PRICE = 0.25  # [corners / px2] weight of the area that a line adds or removes, relative to a corner
+
+PLACE = np.dtype(
+    [  # a candidate for a corner of the outline along a path
+        ("x", np.float64),
+        ("y", np.float64),
+        ("at", np.float64),  # [cracks] along the path
+        ("right", np.int64),  # direction of the path from it
+        ("down", np.int64),
+        ("corner", np.bool_),  # the path turns here
+        ("allowed", np.bool_),  # a line may end here
+        ("anchor", np.bool_),  # no line may pass it
+        ("swept", np.float64),  # [px2] twice the area between the path so far and the origin
+        ("along_x", np.float64),  # direction of the curve here, a unit vector; 0, 0 outside of curves
+        ("along_y", np.float64),
+        ("cost", np.float64),
+        ("previous", np.int64),
+    ],
+    align=True,
+)
+
+
+class Prices(NamedTuple):
+    """Weights of the faults of a line, relative to a corner."""
+
+    area: float  # [1/px2] of the area that it adds or removes
+    angle: float  # [1/(rad2 px)] of its squared angles with the curve at both ends, times its length
+
+
+LINE_PRICES = Prices(AREA_PRICE, 0.0)
+
+
+@subkernel
+def stays(runs, count, k, closed):
+    """Return whether the corner at the start of run k is fixed: between long runs, and of rectangles."""
+    if not closed and k == 0:
+        return False
+    run = runs[k]
+    before = runs[k - 1 if k > 0 else count - 1]
+    if run.joined:
+        return False
+    if min(before.length, run.length) >= SHARP:
+        return True
+    if not closed and (k < 2 or k > count - 2):
+        return False
+    turn = (run.direction - before.direction) & 3
+    earlier = runs[(k - 2 + count) % count]
+    later = runs[(k + 1) % count]
+    return (before.direction - earlier.direction) & 3 == turn and (later.direction - run.direction) & 3 == turn
+
+
+@subkernel
+def put_place(n, x, y, at, run, corner, allowed, places_inout):
+    """Append a place on a run, `at` cracks along the path, to places (PLACE)."""
+    place = places_inout[n]
+    place.x = x
+    place.y = y
+    place.at = at
+    place.right = right_of(run.direction)
+    place.down = down_of(run.direction)
+    place.corner = corner
+    place.allowed = allowed
+    place.anchor = False
+    place.along_x = 0.0
+    place.along_y = 0.0
+    place.swept = 0.0
+    if n > 0:
+        last = places_inout[n - 1]
+        place.swept = last.swept + last.x * y - last.y * x
+
+
+@subkernel
+def put_run(n, run, start, end, offset, places_inout):
+    """Append the places within a run, between two lengths of the path. Returns the number of places.
+
+    offset [cracks]: added to their places along the path.
+    """
+    for step in range(3):
+        if step != 1 and run.length == 1:
+            continue
+        along = 0.5 if step == 0 else (run.length / 2.0 if step == 1 else run.length - 0.5)
+        if start < run.at + along < end:
+            x = run.x + along * right_of(run.direction)
+            y = run.y + along * down_of(run.direction)
+            put_place(n, x, y, run.at + along + offset, run, False, True, places_inout)
+            n += 1
+    return n
+
+
+@subkernel
+def put_loop(runs, count, cracks, places_out):
+    """Write the places of a loop of runs twice, followed by the first one again.
+
+    Returns (number of places of the loop, the first that no line may pass or -1).
+    """
+    n = 0
+    around = 0
+    anchor = -1
+    for turn in range(2):
+        for k in range(count):
+            run = runs[k]
+            put_place(
+                n, float(run.x), float(run.y), float(run.at + turn * cracks), run, True, not run.joined, places_out
+            )
+            places_out[n].anchor = stays(runs, count, k, True)
+            if anchor < 0 and places_out[n].anchor:
+                anchor = n
+            n = put_run(n + 1, run, -1.0, cracks + 1.0, float(turn * cracks), places_out)
+        if turn == 0:
+            around = n
+    run = runs[0]
+    put_place(n, float(run.x), float(run.y), float(2 * cracks), run, True, not run.joined, places_out)
+    places_out[n].anchor = stays(runs, count, 0, True)
+    return around, anchor
+
+
+@subkernel
+def faults_of_angles(begin, to):
+    """Return the sum of the squared sines of a line's angles with the curve at its ends, times its length [px]; 1 for
+    each end that leads backwards.
+    """
+    x = to.x - begin.x
+    y = to.y - begin.y
+    squared = x * x + y * y
+    if squared == 0.0:
+        return 0.0
+    first = x * begin.along_y - y * begin.along_x
+    last = x * to.along_y - y * to.along_x
+    found = first * first / squared if x * begin.along_x + y * begin.along_y > 0.0 else 1.0
+    found += last * last / squared if x * to.along_x + y * to.along_y > 0.0 else 1.0
+    return found * math.sqrt(squared)
+
+
+@subkernel
+def try_lines(start, last, reach, prices, places_inout):
+    """Lower the costs of the places up to `last` that a line from `start` can reach (O'Rourke 1981)."""
+    begin = places_inout[start]
+    x = begin.x
+    y = begin.y
+    along_x = begin.right
+    along_y = begin.down
+    least = 0.0  # bounds of dy / (dx + dy), both along the path
+    most = 1.0
+    bent = False
+    for at in range(start, last):
+        place = places_inout[at]
+        if at > start and place.corner:
+            if place.anchor or place.right * along_x < 0 or place.down * along_y < 0:
+                return
+            along_x = place.right if along_x == 0 else along_x
+            along_y = place.down if along_y == 0 else along_y
+            rise = along_y * (place.y - y)
+            size = along_x * (place.x - x) + rise
+            if size > 0.0:
+                least = max(least, (rise - reach) / size)
+                most = min(most, (rise + reach) / size)
+            if least > most:
+                return
+            bent = True
+        to = places_inout[at + 1]
+        if not to.allowed or begin.cost + 1.0 >= to.cost:
+            continue
+        rise = along_y * (to.y - y)
+        size = along_x * (to.x - x) + rise
+        if not bent or (size > 0.0 and least <= rise / size <= most):
+            cost = begin.cost + 1.0
+            if prices.area > 0.0:
+                cost += prices.area * 0.5 * abs(to.swept - begin.swept - (x * to.y - y * to.x))
+            if prices.angle > 0.0:
+                cost += prices.angle * faults_of_angles(begin, to)
+            if cost < to.cost:
+                to.cost = cost
+                to.previous = start
+
+
+@subkernel
+def cheapest(first, last, reach, prices, places_inout, chain_out):
+    """Write the places (rows of PLACE, last to first) where the least-cost lines from first to last end.
+
+    reach [px]: as in outline; prices: Prices. Returns their number; 0: no lines reach the last place. O(places * places
+    of a line).
+    """
+    for k in range(first, last + 1):
+        places_inout[k].cost = math.inf
+    places_inout[first].cost = 0.0
+    for start in range(first, last):
+        if places_inout[start].cost < math.inf:
+            try_lines(start, last, reach, prices, places_inout)
+    if places_inout[last].cost == math.inf:
+        return 0
+    count = 1
+    chain_out[0] = last
+    while chain_out[count - 1] != first:
+        chain_out[count] = places_inout[chain_out[count - 1]].previous
+        count += 1
+    return count
+
+
+@subkernel
+def cheapest_loop(around, anchor, reach, places_inout, chain_out):
+    """Write the same for a loop, whose places are listed twice, followed by the first one again.
+
+    around: number of places of the loop; anchor: the first that no line may pass, -1: none. Returns the number.
+    """
+    begin = anchor
+    if anchor < 0:
+        # The best polygon may not pass through the first start, but then the result has at most one corner more. The
+        # next start is a corner far from it.
+        begin = 1
+        for _ in range(2):
+            found = cheapest(begin, begin + around, reach, LINE_PRICES, places_inout, chain_out)
+            begin = chain_out[found - 1 - (found - 1) // 2]
+            begin -= around if begin >= around else 0
+    return cheapest(begin, begin + around, reach, LINE_PRICES, places_inout, chain_out)
