@@ -49,15 +49,12 @@ def apex_after(ground, shapes, half, height, restitution, apart=False, x=0.0, **
 @pytest.mark.parametrize("settings", [{}, {"substeps": 4}, {"solver": "sequential_impulse"}], ids=["auto", "4", "seq"])
 @pytest.mark.parametrize("name", GROUNDS)
 def test_a_flat_drop_bounces_on_every_ground_as_on_one_box(name, settings):
-    for k, (shapes, half) in enumerate(BODIES.values()):
-        for phase in range(10):
-            height = 100.0 + 13.7 * phase + k
-            for restitution in (0.5, 0.9) if phase % 3 == 0 else (0.5,):
-                one, _ = apex_after(GROUNDS["one box"], shapes, half, height, restitution, **settings)
-                found, spin = apex_after(
-                    GROUNDS[name], shapes, half, height, restitution, apart=phase % 2 == 1, x=3.1 * phase, **settings
-                )
-                assert math.sqrt(found / one) == pytest.approx(1.0, abs=0.01) and spin <= 0.05
+    for phase in range(16):
+        shapes, half = list(BODIES.values())[phase % 4]
+        height, restitution, apart = 100.0 + 13.7 * phase, (0.5, 0.9, 0.3)[phase % 3], phase // 4 % 2 == 1
+        one, _ = apex_after(GROUNDS["one box"], shapes, half, height, restitution, **settings)
+        found, spin = apex_after(GROUNDS[name], shapes, half, height, restitution, apart, 3.1 * phase, **settings)
+        assert math.sqrt(found / one) == pytest.approx(1.0, abs=0.01) and spin <= 0.05
 
 
 @needs_speed
@@ -66,13 +63,13 @@ def test_a_flat_drop_bounces_on_every_ground_as_on_one_box(name, settings):
 def test_a_body_lands_without_an_overlap_at_every_phase(name, settings):
     """Pieces of ground are met within the step, like other shapes: a fall of 350 px/s is 6 px a step."""
     bodies = {**BODIES, "disc": (Circle(10), 10.0), "capsule": (Capsule((-6, 0), (6, 0), 10), 10.0)}
-    for shapes, half in bodies.values():
-        for phase in range(10):
+    for k, (shapes, half) in enumerate(bodies.values()):
+        for phase in range(k % 2, 10, 2):
             world = World(**settings)
             at = (-640, 0) if isinstance(GROUNDS[name][0], TileGrid) else (0, 0)
             world.add_body(*GROUNDS[name], position=at, kind="static")
-            shapes_ = shapes if isinstance(shapes, list) else [shapes]
-            body = world.add_body(*shapes_, position=(0.3, -half - 180.0 - 0.55 * phase))
+            pieces = shapes if isinstance(shapes, list) else [shapes]
+            body = world.add_body(*pieces, position=(0.3, -half - 180.0 - 0.55 * phase))
             deepest = -math.inf
             for _ in range(80):
                 world.step()
