@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 from tests.stability.rows import ROWS
+from tests.stability.settings import DEFAULTS, FOUR, SETTINGS, SWEEP, sweeps, using, variants
 
 KEPT = "stability"
 
@@ -17,16 +18,56 @@ def pytest_addoption(parser):
     parser.addoption("--stability-json", metavar="FILE", help="write what the rows of the stability suite measure")
 
 
+def pytest_generate_tests(metafunc):
+    """Run each test of a row under 4 substeps and under the default settings, where its worlds follow them, and over
+    its phases or seeds.
+    """
+    if "measured" not in metafunc.fixturenames:
+        return
+    both = variants(metafunc.function, metafunc.module, set(metafunc.fixturenames))
+    swept = sweeps(metafunc.function, metafunc.module)
+    cases = [(each, number) for each in (SETTINGS if both else (FOUR,)) for number in range(SWEEP if swept else 1)]
+    metafunc.fixturenames.append("world_settings")
+    metafunc.parametrize(
+        "world_settings",
+        [pytest.param(each, id=_name(both, *each), marks=_marks(metafunc.function.__name__, *each)) for each in cases],
+        indirect=True,
+    )
+
+
+def _marks(test, settings, number):
+    marks = [pytest.mark.nightly] if number else []
+    if settings == DEFAULTS:
+        row = ROWS[test.split("_")[1].upper()]
+        marks += [
+            pytest.mark.xfail(reason=why, strict=False) for name, why in row.default_faults.items() if name == test
+        ]
+    return marks
+
+
+def _name(both, settings, number):
+    names = [settings.replace(" ", "_")] if both else []
+    names += [f"phase_{number}"] if number else []
+    return "-".join(names) or pytest.HIDDEN_PARAM
+
+
 @pytest.fixture
-def measured(request):
+def world_settings(request):
+    """Make the worlds of a test with some settings, and the phases of one number of a sweep."""
+    with using(*request.param):
+        yield request.param[0]
+
+
+@pytest.fixture
+def measured(request, world_settings):
     """measured(row, figure, value): record the value, assert that it is within the row's limit, and return it."""
 
     def hold(row, figure, value):
         assert request.node.originalname.startswith(f"test_{row.lower()}_"), f"{row} is measured by the test of another"
-        limit, value = ROWS[row].limit(figure), float(value)
-        request.node.user_properties.append((KEPT, (row, figure, value)))
+        limit, value = ROWS[row].limit(figure, world_settings == DEFAULTS), float(value)
+        request.node.user_properties.append((KEPT, (row, figure, value, world_settings)))
         assert limit.met(value), (
-            f"{row}, {figure}: {value:.6g} is not {limit.sense} {limit.value:g} {limit.unit}".rstrip()
+            f"{row}, {figure}, {world_settings}: {value:.6g} is not {limit.sense} {limit.value:g} {limit.unit}".rstrip()
         )
         return value
 
@@ -56,18 +97,22 @@ class Keeper:
             return
         for name, found in report.user_properties:
             if name == KEPT:
-                row, figure, value = found
-                figures = self.worst.setdefault(row, {})
+                row, figure, value, settings = found
+                figures = self.worst.setdefault((settings, row), {})
                 figures[figure] = ROWS[row].limit(figure).worse(value, figures.get(figure, value))
 
     def pytest_sessionfinish(self):
         """Write them, rows in the order of the table, four digits each."""
         kept = json.loads(self.path.read_text()) if self.path.exists() else {}
-        for row, figures in self.worst.items():
-            kept[row] = kept.get(row, {}) | {name: float(f"{value:.4g}") for name, value in figures.items()}
+        for (settings, row), figures in self.worst.items():
+            of = kept.setdefault(settings, {})
+            of[row] = of.get(row, {}) | {name: float(f"{value:.4g}") for name, value in figures.items()}
         rows = {
-            row.id: {each.figure: kept[row.id][each.figure] for each in row.limits if each.figure in kept[row.id]}
-            for row in ROWS.values()
-            if row.id in kept
+            settings: {
+                row.id: {each.figure: of[row.id][each.figure] for each in row.limits if each.figure in of[row.id]}
+                for row in ROWS.values()
+                if row.id in of
+            }
+            for settings, of in ((each, kept.get(each, {})) for each in SETTINGS)
         }
         self.path.write_text(json.dumps(rows, indent=1) + "\n")

@@ -3,9 +3,10 @@
 import json
 from pathlib import Path
 
-from tests.stability import found
+from tests.stability import found, peers
 from tests.stability.faults import table as faults
 from tests.stability.rows import SECTIONS
+from tests.stability.settings import DEFAULTS, FOUR
 
 DOCS = Path(__file__).resolve().parents[2] / "docs"
 PAGE, KEPT = DOCS / "stability.md", DOCS / "stability.json"
@@ -14,7 +15,8 @@ TITLE = """# Stability
 The hard cases of this engine's tests: cases that broke the best engines, from their test suites, samples, issues and
 papers. Limits are theirs if they name one. The tests are in [tests/stability](../tests/stability), a file per section,
 with the row's id in the name of the test; the measured value is the worst over all its variants. Margin: the factor by
-which it could grow before the limit; *exact*: one value is right, and it was measured.
+which it could grow before the limit; *exact*: one value is right, and it was measured. Rows of worlds that stack run
+with 4 substeps, the first value, and under the settings of `World()`, the second; a limit beside that is its own.
 
 Lengths are in the scene's own unit, m unless it says px. This page is generated:
 
@@ -23,11 +25,14 @@ python -m pytest tests/stability -m "not nightly" --stability-json docs/stabilit
 python -m tests.stability                                                               # writes this page
 ```
 """
-HEADER = "| row | case | limit | measured | margin | best peer | source |\n|---|---|---|---|---|---|---|"
+HEADER = (
+    "| row | case | limit | measured | margin | by default | margin | best peer | source |\n"
+    "|---|---|---|---|---|---|---|---|---|"
+)
 
 
 def kept_figures():
-    """{row: {figure: value}} as the last measured run left them."""
+    """{settings: {row: {figure: value}}} as the last measured run left them."""
     return json.loads(KEPT.read_text())
 
 
@@ -41,24 +46,36 @@ def cell(text):
     return text.replace("|", "\\|")
 
 
-def lines_of(row, figures):
-    """A line per figure of a row; the case stands on the first."""
+def measured_cells(limit, value, usual):
+    """A value and its margin; usual: the limit that the line tells already."""
+    if value is None:
+        return "–", "–"
+    told = f"{number(value)} {limit.unit}".rstrip()
+    return told if limit == usual else f"{told}, limit {number(limit.value)}", limit.margin(value)
+
+
+def lines_of(row, figures, defaults):
+    """A line per figure of a row; the case stands on the first.
+
+    figures, defaults: {figure: value} with 4 substeps and under the default settings.
+    """
     if row.absent:
-        return [
-            f"| {row.id} | {cell(row.case)} | – | does not apply: {cell(row.absent)} | – | {row.peer} | {row.source} |"
-        ]
+        told = f"does not apply: {cell(row.absent)}"
+        return [f"| {row.id} | {cell(row.case)} | – | {told} | – | – | – | {row.peer} | {row.source} |"]
     lines = []
     for limit in row.limits:
-        value, first = figures.get(limit.figure), not lines
-        told = "–" if value is None else f"{number(value)} {limit.unit}".rstrip()
-        margin = "–" if value is None else limit.margin(value)
+        first = not lines
+        told, margin = measured_cells(limit, figures.get(limit.figure), limit)
+        also, its = measured_cells(row.limit(limit.figure, True), defaults.get(limit.figure), limit)
         lines.append(
             f"| {row.id if first else ''} | {cell(row.case) if first else ''} | {cell(limit.figure)} {limit.sense} "
             f"{number(limit.value)} {limit.unit}".rstrip()
-            + f" | {told} | {margin} | {row.peer if first else ''} | {row.source if first else ''} |"
+            + f" | {told} | {margin} | {also} | {its} | {row.peer if first else ''} | {row.source if first else ''} |"
         )
+    for test, why in row.default_faults.items():
+        lines.append(f"| | **open by default:** {cell(why)} ({test}) | | | | | | | |")
     if row.fault:
-        lines.append(f"| | **open:** {cell(row.fault)} | | | | | |")
+        lines.append(f"| | **open:** {cell(row.fault)} | | | | | | | |")
     return lines
 
 
@@ -67,8 +84,13 @@ def page(sections=SECTIONS, kept=None):
     kept = kept_figures() if kept is None else kept
     parts = [TITLE]
     for section in sections:
-        lines = [line for row in section.rows for line in lines_of(row, kept.get(row.id, {}))]
+        lines = [
+            line
+            for row in section.rows
+            for line in lines_of(row, kept[FOUR].get(row.id, {}), kept[DEFAULTS].get(row.id, {}))
+        ]
         parts.append("\n".join([f"## {section.letter}. {section.title}\n", HEADER, *lines]) + "\n")
+    parts.append(peers.section())
     parts.append(faults.section())
     parts.append(f"## What the suite found\n\n{found.section()}\n")
     return "\n".join(parts)

@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from physics import JIT, Effects, Material, Polygon, World
+from physics import JIT, Effects, Material, Polygon
+from tests.stability.settings import make
 
 needs_speed = pytest.mark.skipif(
     not JIT, reason="too long without a compiler; compiled and plain runs give the same bits"
@@ -21,16 +22,15 @@ def pile_effects(**changes):
     )
 
 
-def metres(solver="soft_step", gravity=(0, 10), substeps=4, pixels_per_meter=1.0, effects=None, **options):
-    """A world whose pixels are metres."""
-    return World(
-        pile_effects() if effects is None else effects,
-        solver=solver,
-        gravity=gravity,
-        substeps=substeps,
-        pixels_per_meter=pixels_per_meter,
-        **options,
-    )
+def metres(solver="soft_step", gravity=(0, 10), pixels_per_meter=1.0, effects=None, **options):
+    """A world whose pixels are metres, with the present settings (settings.py) where none are given."""
+    options = {"solver": solver, "gravity": gravity, "pixels_per_meter": pixels_per_meter, **options}
+    return make(effects, pile_effects(), options)
+
+
+def pixels(effects=None, **options):
+    """A world with the present settings (settings.py) where none are given."""
+    return make(effects, pile_effects(), options)
 
 
 def floor(world, friction=0.6, restitution=0.0, width=200.0, y=0.0, x=0.0, angle=0.0):

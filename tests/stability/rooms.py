@@ -1,6 +1,6 @@
 """Random passive scenes: rooms full of bodies that come to rest, and bodies that move for ever without friction.
 
-What is measured of a room is a `Found`; `python -m tests.stability.rooms FIRST LAST` prints those of some seeds.
+The figures of a room are a `Found`; `python -m tests.stability.rooms FIRST LAST` prints those of some seeds.
 """
 
 import math
@@ -21,7 +21,7 @@ WALL = 64.0  # [px] thickness of walls
 
 
 class Found(NamedTuple):
-    """What a room did."""
+    """The figures of a room."""
 
     bodies: int
     masks: bool

@@ -8,6 +8,7 @@ import pytest
 from physics import JIT, Capsule, Chain, Circle, Material, Polygon
 from tests.stability.invariants import Watch, kinetic, movers, rms_speed
 from tests.stability.piles import SOLVERS, floor, metres, needs_speed, on_slope, pile_effects
+from tests.stability.settings import generator
 
 G = 10.0
 
@@ -294,7 +295,7 @@ def test_f24_ball_bounces_above_the_threshold_of_normal_speed_alone(measured, so
 def test_f26_discs_drawn_to_the_middle_by_forces_settle(measured):
     world = metres(gravity=(0, 0), drag=0.5, effects=pile_effects(gravity=False, drag=True))
     world.add_body(Circle(0.5), kind="static", material=Material(friction=1.0))
-    rng = np.random.default_rng(4)
+    rng = generator(4)
     angles, radii = rng.uniform(0, math.tau, 60), 2.0 + np.arange(60) * 0.25
     world.add_bodies(
         Circle(0.5), np.column_stack([radii * np.cos(angles), radii * np.sin(angles)]), material=Material(friction=1.0)

@@ -8,6 +8,7 @@ import pytest
 from physics import JIT, Capsule, Chain, Circle, Effects, Material, Polygon, Segment, TileGrid, World, time_of_impact
 from tests.stability.invariants import Watch, movers
 from tests.stability.piles import column, floor, metres, needs_speed, pile_effects
+from tests.stability.settings import generator
 
 FAST = pile_effects(continuous=True)
 STILL = pile_effects(continuous=True, gravity=False)
@@ -312,7 +313,7 @@ def test_g18_ball_in_a_corner_does_not_freeze_the_step(measured):
 
 def shoot_rods(mode, count, solver="soft_step"):
     """Return how many of so many rotating thin rods end behind walls of 1 to 4 px."""
-    rng = np.random.default_rng(21)
+    rng = generator(21)
     world = World(STILL, solver=solver, gravity=(0, 0))
     rods = []
     for k in range(count):
@@ -352,7 +353,7 @@ def test_g13_thin_rods_pass_thin_walls_when_off_and_never_when_on(measured, mode
 def test_g13_a_disc_misses_a_thin_wall_at_the_known_rate_and_never_when_swept(measured, speed, swept):
     """Of random phases 1 - (w + 2 r) / (v dt) pass unseen (0.91 for 3.33 m a step, w 0.1, r 0.1)."""
     count, width, radius = (10_000 if JIT else 300), 0.1, 0.1
-    rng = np.random.default_rng(13)
+    rng = generator(13)
     world = flying() if swept else World(Effects(rotation=True), pixels_per_meter=1.0)
     world.add_body(Polygon.box(width, 2.0 * count), kind="static")
     places = np.column_stack([-radius - width - rng.uniform(0.0, speed, count), np.arange(count) - count / 2.0])
@@ -376,7 +377,7 @@ def test_g12_500_bullets_against_500(measured, bullet):
     """Lane by lane, of all shapes, sizes and speeds: none is behind the other before they met;
     not swept, most never meet."""
     count = 500 if JIT else 20
-    rng = np.random.default_rng(5)
+    rng = generator(5)
     world = World(STILL, solver="soft_step", gravity=(0, 0))
     sides = [[], []]
     for k in range(count):
@@ -473,7 +474,7 @@ def test_g20_times_of_impact_in_closed_form(measured):
     corner = (1.5 * math.sqrt(2.0) - 1.0) / (1.5 * math.sqrt(2.0))
     measured("G20", "error of the fraction", abs(diagonal - corner))
     # Nearing in general: the root of a square.
-    rng = np.random.default_rng(20)
+    rng = generator(20)
     for _ in range(300 if JIT else 30):
         r, at, way = rng.uniform(0.1, 0.8, 2), rng.uniform(-9.0, 9.0, 2), rng.uniform(-30.0, 30.0, 2)
         reach, b = float(r.sum()), float(at @ way)

@@ -29,6 +29,7 @@ from physics import (
 )
 from tests.stability.invariants import Watch, deepest, kinetic, movers, rms_speed
 from tests.stability.piles import SOLVERS, column, floor, metres, needs_speed, pile_effects
+from tests.stability.settings import alone, generator
 from tests.stability.test_compiled_and_plain import run
 from tests.stability.worlds import heap
 
@@ -125,6 +126,7 @@ def test_l1_every_broad_phase_gives_the_same_digests(measured, broadphase):
 SCRIPT = """
 import sys
 from tests.stability.test_l_time import zoo, record, cairn
+from tests.stability.settings import alone, generator
 print(record(zoo(sys.argv[1]), 60)[-1][0])
 print(cairn(sys.argv[1], 200))
 """
@@ -146,6 +148,7 @@ def cairn(solver, steps):
     return world.digest(), asleep
 
 
+@alone
 @needs_speed
 @pytest.mark.parametrize("solver", SOLVERS)
 def test_l1_fresh_processes_with_other_hash_seeds_agree(measured, solver):
@@ -200,7 +203,7 @@ def test_l5_stack_stands_while_the_step_changes(measured, solver, change):
     floor(world)
     boxes = column(world, 10)
     watch = Watch(world).step(120)
-    rng = np.random.default_rng(2)
+    rng = generator(2)
     for _ in range(240):
         dt = {
             "a little every frame": (1 + 0.01 * rng.uniform(-1, 1)) / 60,

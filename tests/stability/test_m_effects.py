@@ -8,6 +8,7 @@ import pytest
 from game.measure.timing import clock
 from physics import JIT, Character, Circle, Effects, Material, PixelMask, Polygon, TileGrid, World, collide
 from tests.stability.piles import column, floor, metres, needs_speed, pile_effects
+from tests.stability.settings import generator
 
 BASES = {"detection": Effects(), "response": Effects(response=True), "piles": Effects(response=True, stacking=True)}
 UNUSED = (
@@ -27,7 +28,7 @@ UNUSED = (
 def crowd(effects, steps):
     """Digests of bodies in which nothing rubs, bounces, turns, flies fast or falls: most effects are unused."""
     world = World(effects, gravity=(0, 0))
-    rng, smooth = np.random.default_rng(3), Material(friction=0.0, restitution=0.0)
+    rng, smooth = generator(3), Material(friction=0.0, restitution=0.0)
     for shape, count in ((Circle(6.0), 25), (PixelMask(np.ones((6, 5), bool)), 8), (Polygon.box(7, 9), 8)):
         places, speeds = rng.uniform(0, 90, (count, 2)), rng.uniform(-40, 40, (count, 2))
         world.add_bodies(shape, places, speeds, material=smooth, fixed_rotation=True)
@@ -82,7 +83,7 @@ def test_m2_no_work_without_a_cause(measured, solver):
 def shooter(effects, gravity=(0, 0)):
     """Bullets and enemies that fly through one another: pairs, not pushes."""
     world = World(effects, gravity=gravity)
-    rng = np.random.default_rng(3)
+    rng = generator(3)
     count = 120 if JIT else 30
     world.add_bodies(
         PixelMask(np.ones((9, 12), bool)), rng.uniform(0, 400, (count, 2)), rng.uniform(-60, 60, (count, 2))

@@ -9,6 +9,7 @@ import pytest
 from tests.stability.page import PAGE, kept_figures, page
 from tests.stability.rows import ROWS, SECTIONS
 from tests.stability.rows.row import SENSES, Row, Section, at_least, at_most, exactly
+from tests.stability.settings import DEFAULTS, FOUR
 
 HERE = Path(__file__).parent
 
@@ -37,9 +38,22 @@ def test_rows_say_what_they_are(row):
 
 @pytest.mark.parametrize("row", [row for row in ROWS.values() if not row.absent], ids=lambda row: row.id)
 def test_kept_values_are_within_their_limits_unless_a_fault_is_told(row):
-    kept = kept_figures()[row.id]
+    kept = kept_figures()[FOUR][row.id]
     assert set(kept) == {each.figure for each in row.limits}
     assert all(each.met(kept[each.figure]) for each in row.limits) != bool(row.fault)
+
+
+@pytest.mark.parametrize("row", kept_figures()[DEFAULTS])
+def test_kept_values_by_default_are_within_their_limits(row):
+    for figure, value in kept_figures()[DEFAULTS][row].items():
+        assert ROWS[row].limit(figure, True).met(value), figure
+
+
+@pytest.mark.parametrize("row", [row for row in ROWS.values() if row.defaults], ids=lambda row: row.id)
+def test_limits_by_default_lie_within_twice_the_measured_value(row):
+    kept = kept_figures()[DEFAULTS][row.id]
+    for limit in row.defaults:
+        assert limit.sense != "<=" or limit.value <= 2.0 * kept[limit.figure], limit.figure
 
 
 def test_the_catalogue_is_whole():
@@ -48,7 +62,8 @@ def test_the_catalogue_is_whole():
 
 
 def test_nothing_is_kept_of_rows_that_there_are_not():
-    assert set(kept_figures()) == {row.id for row in ROWS.values() if not row.absent}
+    assert set(kept_figures()[FOUR]) == {row.id for row in ROWS.values() if not row.absent}
+    assert set(kept_figures()[DEFAULTS]) <= set(kept_figures()[FOUR])
 
 
 def test_page_is_what_the_generator_makes():
@@ -70,14 +85,17 @@ def test_page_has_a_line_for_every_figure_and_says_why_there_is_none():
         Row("Z2", "rope", (), "nobody", absent="there are none"),
         Row("Z3", "sag", (at_most("sag", 1.0),), "nobody", fault="too soft"),
     )
-    found = page([Section("Z", "Odd", (1, 2, 3), rows)], {"Z1": {"depth": 0.5, "hits": 1}, "Z3": {"sag": 2}})
+    found = page(
+        [Section("Z", "Odd", (1, 2, 3), rows)],
+        {FOUR: {"Z1": {"depth": 0.5, "hits": 1}, "Z3": {"sag": 2}}, DEFAULTS: {"Z1": {"depth": 1.0}}},
+    )
     for line in (
         "## Z. Odd",
         "## Faults",
         "## What the suite found",
-        "| Z1 | a \\| b | depth <= 2 m | 0.5 m | 4× | 9 m | nobody |",
-        "|  |  | hits == 1 | 1 | exact |  |  |",
-        "| Z2 | rope | – | does not apply: there are none | – |  | nobody |",
-        "| Z3 | sag | sag <= 1 | 2 | outside |  | nobody |\n| | **open:** too soft | | | | | |",
+        "| Z1 | a \\| b | depth <= 2 m | 0.5 m | 4× | 1 m | 2× | 9 m | nobody |",
+        "|  |  | hits == 1 | 1 | exact | – | – |  |  |",
+        "| Z2 | rope | – | does not apply: there are none | – | – | – |  | nobody |",
+        "| Z3 | sag | sag <= 1 | 2 | outside | – | – |  | nobody |\n| | **open:** too soft | | | | | | | |",
     ):
         assert line in found

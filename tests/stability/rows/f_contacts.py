@@ -82,6 +82,7 @@ CONTACTS = Section(
                 at_least("spread along and across", 5.0, "m"),
             ),
             "Rapier debug_total_overlap2",
+            defaults=(at_most("overlap at the end", 0.8, "m"),),
         ),
         Row(
             "F11",
@@ -115,6 +116,7 @@ CONTACTS = Section(
             ),
             "Jolt TestFriction",
             "1e-2 m, 2e-2 m/s",
+            defaults=(at_most("error of the place", 1.5e-2, "m"),),
         ),
         Row(
             "F15",
@@ -209,6 +211,10 @@ CONTACTS = Section(
             ),
             "Jolt PenetrationSlop",
             "1e-5 m",
+            default_faults={
+                "test_f27_overlap_at_the_start_goes_without_a_pop": "the energy of a box 4 and 20 slops inside the "
+                "floor rises by 0.17 and 0.23 J, where 0.08 and 0.11 J are allowed"
+            },
         ),
         Row(
             "F28",

@@ -52,6 +52,7 @@ CONTINUOUS = Section(
             "a rod 8 m from its body's origin, at 100 m/s over a bevelled ledge, flat ground, segments",
             (at_most("below ground", 0.05, "m"),),
             "Box2D SpeculativeFallback",
+            defaults=(at_most("below ground", 0.8, "m"),),
         ),
         Row(
             "G8",

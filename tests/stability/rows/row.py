@@ -1,7 +1,8 @@
 """One row of the stability suite: a hard case, what is measured of it, and how far that may go."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 SENSES = ("<=", ">=", "==")
 
@@ -60,9 +61,10 @@ def exactly(figure, value, unit=""):
 class Row:
     """A hard case.
 
-    limits: what is measured of it; none where `absent` tells why the case cannot be put to this engine. fault: what is
-    known to be outside its limit, and why; its test is expected to fail. peer: the best figure of another engine that a
-    source quotes.
+    limits: what is measured of it; none where `absent` tells why the case cannot be put to this engine. defaults: other
+    limits of figures under the default settings; default_faults: {test: why it fails there}. fault: what is known to be
+    outside its limit, and why; its test is expected to fail, as those are. peer: the best figure of another engine that
+    a source quotes.
     """
 
     id: str
@@ -72,10 +74,12 @@ class Row:
     peer: str = ""
     absent: str = ""
     fault: str = ""
+    defaults: tuple[Limit, ...] = ()
+    default_faults: Mapping[str, str] = field(default_factory=dict)
 
-    def limit(self, figure):
-        """The limit of a figure by its name."""
-        for each in self.limits:
+    def limit(self, figure, by_default=False):
+        """The limit of a figure by its name, with 4 substeps or under the default settings."""
+        for each in (*(self.defaults if by_default else ()), *self.limits):
             if each.figure == figure:
                 return each
         raise KeyError(f"{self.id} has no figure {figure!r}, but {[each.figure for each in self.limits]}")
