@@ -4,8 +4,8 @@ Contacts that separate overlaps, springs that ring, normals that are a step old 
 are fixed for a substep may add energy. After a step, the kinetic energy of bodies that exchanged impulses is compared
 with that before, plus the work of gravity, forces and surfaces along the motion of the step. What they gained beyond
 it they may take from a reserve, the energy that they have lost before; the rest is removed by scaling their velocities.
-Of bodies in flight that hit only each other, the velocities relative to their common centre are scaled, so that their
-momentum stays.
+Of bodies in flight that hit only each other, the velocities relative to their common motion are scaled, that of one
+rigid body, so that their momentum and angular momentum stay.
 """
 
 import math
@@ -19,7 +19,7 @@ from physics.tables.table import join_trees, root_of
 
 PARALLEL = 1e-9  # sine between normals that count as one direction
 FACES = 0.05  # sine between normals of faces that count as parallel
-RESERVE_TIME = 10.0  # [s] in which an island forgets the energy that it has lost
+FORGETTING = 0.1  # [1/s] rate at which an island forgets the energy that it has lost
 SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 
 # ---- work ------------------------------------------------------------------------------------------------------------
@@ -60,8 +60,6 @@ def work_of_lift(blocks, block, lane, context, motions):
     it back.
     """
     c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-    if c[at.LOADED + lane] == 0.0 or c[at.BOUNCING + lane] > 0.0:
-        return 0.0
     a = motions[blocks.motion_a[block, lane]]
     b = motions[blocks.motion_b[block, lane]]
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
@@ -110,11 +108,12 @@ def scale_motion(root, balance, motion_inout):
     """Scale the velocities of a body, those along the only direction of its contacts first. root: its BALANCE."""
     m = motion_inout
     if not root.anchored:
-        vx = root.momentum_x / root.mass
-        vy = root.momentum_y / root.mass
+        vx = root.vx - root.spin * (balance.y + m.dy - root.middle_y)
+        vy = root.vy + root.spin * (balance.x + m.dx - root.middle_x)
         m.vx = vx + root.scale * (m.vx - vx)
         m.vy = vy + root.scale * (m.vy - vy)
-        m.angular_velocity *= root.scale
+        if m.inverse_inertia > 0.0:
+            m.angular_velocity = root.spin + root.scale * (m.angular_velocity - root.spin)
         return
     if not balance.in_all:
         change = (root.along_scale - 1.0) * (m.vx * balance.normal_x + m.vy * balance.normal_y)
@@ -212,8 +211,12 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
         e.pushed = False
         e.mass = 0.0
         e.load = 0.0
-        e.momentum_x = 0.0
-        e.momentum_y = 0.0
+        e.vx = 0.0
+        e.vy = 0.0
+        e.middle_x = 0.0
+        e.middle_y = 0.0
+        e.spin = 0.0
+        e.inertia = 0.0
         e.normal_x = 0.0
         e.normal_y = 0.0
         e.in_all = False
@@ -232,6 +235,44 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
                 join_trees(row_a, row_b, parents_out)
     for k in range(len(group.members)):
         parents_out[group.members[k]] = root_of(group.members[k], parents_out)
+
+
+@subkernel
+def add_momentum(motion, balance, root_inout):
+    """Add mass, momentum and angular momentum of a body to the sums of its root, whose own place is the origin."""
+    m = motion
+    e = root_inout
+    mass = 1.0 / m.inverse_mass if m.inverse_mass > 0.0 else 0.0
+    x = balance.x + m.dx - e.x
+    y = balance.y + m.dy - e.y
+    e.mass += mass
+    e.vx += mass * m.vx
+    e.vy += mass * m.vy
+    e.middle_x += mass * x
+    e.middle_y += mass * y
+    e.spin += mass * (x * m.vy - y * m.vx)
+    e.inertia += mass * (x * x + y * y)
+    if m.inverse_inertia > 0.0:
+        e.spin += m.angular_velocity / m.inverse_inertia
+        e.inertia += 1.0 / m.inverse_inertia
+
+
+@subkernel
+def energy_in_common(balance_inout):
+    """Convert the sums of add_momentum to the common motion, that of one rigid body. Return its kinetic energy."""
+    e = balance_inout
+    if e.mass == 0.0:
+        return 0.0
+    e.vx *= 1.0 / e.mass
+    e.vy *= 1.0 / e.mass
+    e.middle_x *= 1.0 / e.mass
+    e.middle_y *= 1.0 / e.mass
+    e.spin -= e.mass * (e.middle_x * e.vy - e.middle_y * e.vx)
+    e.inertia -= e.mass * (e.middle_x * e.middle_x + e.middle_y * e.middle_y)
+    e.spin = e.spin / e.inertia if e.inertia > 0.0 else 0.0
+    e.middle_x += e.x
+    e.middle_y += e.y
+    return 0.5 * (e.mass * (e.vx * e.vx + e.vy * e.vy) + e.inertia * e.spin * e.spin)
 
 
 @subkernel
@@ -255,10 +296,8 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
         e = balance_inout[i]
         root = balance_inout[parents[i]]
         e.along = energy_along(motions[i], e)
-        root.mass += 1.0 / motions[i].inverse_mass
         root.load += norm(motions[i].acceleration_x, motions[i].acceleration_y) / motions[i].inverse_mass
-        root.momentum_x += motions[i].vx / motions[i].inverse_mass
-        root.momentum_y += motions[i].vy / motions[i].inverse_mass
+        add_momentum(motions[i], e, root)
         root.fastest = max(root.fastest, math.sqrt(2.0 * e.before * motions[i].inverse_mass))
         if parents[i] != i:
             root.before += e.before
@@ -283,17 +322,29 @@ def draw_on_reserve(slop, balance_inout):
     if e.anchored:
         e.along_scale = scale_without(beyond, e.along)
         e.scale = scale_without(beyond - e.along, e.now - e.along)
-    elif e.mass > 0.0:
-        common = 0.5 * (e.momentum_x * e.momentum_x + e.momentum_y * e.momentum_y) / e.mass
-        e.scale = scale_without(beyond, e.now - common)
     else:
-        e.scale = 1.0
+        e.scale = scale_without(beyond, e.now - energy_in_common(e))
     e.reserve += max(-max(e.excess, gained), 0.0) - min(max(gained, 0.0), allowed)
     return int(beyond > 0.0)
 
 
 @subkernel
-def remove_gains(blocks, count, group, links_islands, context, parents_out, balance_inout, motions_inout):
+def limit_squeezed(most, before, motion_inout):
+    """Scale the velocities of a body without room: no faster than `most` [px/s], 0 for no bound, or than before."""
+    m = motion_inout
+    if most == 0.0 or m.inverse_mass == 0.0:
+        return
+    allowed = max(0.5 * most * most / m.inverse_mass, before)
+    energy = kinetic_energy(m)
+    if energy > allowed:
+        scale = math.sqrt(allowed / energy)
+        m.vx *= scale
+        m.vy *= scale
+        m.angular_velocity *= scale
+
+
+@subkernel
+def remove_gains(blocks, count, group, links_islands, context, plan, parents_out, balance_inout, motions_inout):
     """Remove the energy that contacts have added. Return the number of sets of touching bodies that had any."""
     motions = motions_inout
     join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout)
@@ -310,6 +361,8 @@ def remove_gains(blocks, count, group, links_islands, context, parents_out, bala
         if motions[i].inverse_mass > 0.0:
             scale_motion(root, e, motions[i])
             limit_speed(root, context.push_speed, motions[i])
+            if plan.squeezed[0] and root.anchored:
+                limit_squeezed(plan.squeeze[i].most, e.before, motions[i])
             if parents_out[i] != i:
                 e.reserve = root.reserve / (motions[i].inverse_mass * root.mass)
     for k in range(len(group.members)):
@@ -340,26 +393,14 @@ def limit_energy(
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
-    keep = 1.0 / (1.0 + context.dt / RESERVE_TIME)
+    keep = math.exp(-FORGETTING * context.dt)
     found = 0
     if balance_bodies(group, plan.degrees, floor, keep, motions_inout, balance_inout):
-        found = remove_gains(blocks, count, group, links_islands, context, plan.touching, balance_inout, motions_inout)
+        found = remove_gains(
+            blocks, count, group, links_islands, context, plan, plan.touching, balance_inout, motions_inout
+        )
     else:
         for k in range(len(group.members)):
             e = balance_inout[group.members[k]]
             e.reserve = max(e.reserve - e.excess, 0.0)
-    if plan.squeezed[0]:
-        for k in range(len(group.members)):
-            i = group.members[k]
-            m = motions_inout[i]
-            speed = plan.squeeze[i].most
-            if speed == 0.0 or m.inverse_mass == 0.0:
-                continue
-            most = max(0.5 * speed * speed / m.inverse_mass, balance_inout[i].before)
-            energy = kinetic_energy(m)
-            if energy > most:
-                scale = math.sqrt(most / energy)
-                m.vx *= scale
-                m.vy *= scale
-                m.angular_velocity *= scale
     return found

@@ -139,6 +139,8 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             e = lists_out.balance[k + 1]
             e.reserve = b.reserve if 0.0 <= b.reserve < math.inf else 0.0
             e.before = 0.0
+            e.x = b.center_x
+            e.y = b.center_y
             lists_out.links_islands[k + 1] = m.is_dynamic
             lists_out.rank[k + 1] = STATIC_RANK if not m.moves else (KINEMATIC_RANK if b.kind == KINEMATIC else 0)
             lists_out.has_finite_mass[k + 1] = m.is_dynamic and b.inverse_mass > 0.0

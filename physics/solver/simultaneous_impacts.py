@@ -432,7 +432,7 @@ def solve_alone(blocks, last, motions, impacts_inout):
 
 @subkernel
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
-    """Simulate the impacts of a body, linked from `last`, over dt [s]. Their impulses go to the rows, its way to the last.
+    """Simulate the impacts of a body, linked from `last`, over dt [s]: their impulses, and in the last row its way.
 
     Return the time [s] that is left after the last one, and whether MOST_IMPACTS and MOST_ROUNDS were enough.
     """

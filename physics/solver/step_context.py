@@ -20,7 +20,7 @@ from physics.settings import (
     Tolerances,
 )
 
-DRIFT_SHARE = 0.1  # share of the drift of a sticking contact that friction takes back in a step
+DRIFT_SHARE = 0.02  # share of the drift of a sticking contact that friction takes back in a step
 
 # ---- context ---------------------------------------------------------------------------------------------------------
 # Constants of the substeps of a group of islands: their length, the softness of contacts, the push-out. Source of the

@@ -199,8 +199,14 @@ BALANCE = in_lines(
         ("lift", np.float64),  # … in this step, because contacts that sagged rise again
         ("mass", np.float64),
         ("load", np.float64),  # mass times acceleration
-        ("momentum_x", np.float64),
-        ("momentum_y", np.float64),
+        ("x", np.float64),  # [px] centre of mass before the step
+        ("y", np.float64),
+        ("vx", np.float64),  # of the common motion: velocity, centre, spin
+        ("vy", np.float64),
+        ("middle_x", np.float64),
+        ("middle_y", np.float64),
+        ("spin", np.float64),
+        ("inertia", np.float64),
         ("along", np.float64),  # kinetic energy along the only direction in which contacts act, …
         ("normal_x", np.float64),  # … which it is, …
         ("normal_y", np.float64),
