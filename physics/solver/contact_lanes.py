@@ -66,6 +66,7 @@ def sticks(a, b, contact, distance):
 NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
 
 
+DRIFT_SLOPS = 0.1  # greatest drift that is taken back, in slops
 GRIPPING = 0.99  # share of the limit of friction up to which a contact does not slip
 
 
@@ -90,16 +91,16 @@ def slips(contact):
 
 
 @inlined
-def speed_of_drift(a, b, rate, contact_inout):
+def speed_of_drift(a, b, rate, slop, contact_inout):
     """Return the surface speed [px/s] that takes back the drift of a sticking contact since it slipped last.
 
-    Without it a light plank under a heavy load wanders, because the passes leave some speed. a, b: BODY rows; rate:
-    [1/s].
+    Without it a light plank under a heavy load wanders, because the passes leave some speed. A push that moves it
+    further than a part of the slop [px] has moved it. a, b: BODY rows; rate: [1/s].
     """
     c = contact_inout
     drift = tangential_drift(a, b, c)
     # It may have slid in the step in which it came to rest.
-    slipped = slips(c)
+    slipped = slips(c) or abs(drift - c.slipped) > DRIFT_SLOPS * slop
     if slipped or c.slips:
         c.slipped = drift
     c.slips = slipped
@@ -297,7 +298,7 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c[at.ROLLING + lane] = context.h * m.rolling_force
             c[at.SURFACE + lane] = m.surface_speed if conveyor else 0.0
             if sticking and friction and m.surface_speed == 0.0:
-                c[at.SURFACE + lane] = speed_of_drift(p, q, context.drift_rate, m)
+                c[at.SURFACE + lane] = speed_of_drift(p, q, context.drift_rate, context.slop, m)
             c[at.FRICTION + lane] = m.friction if friction else 0.0
             c[at.RESTITUTION + lane] = m.restitution
             c[at.THRESHOLD + lane] = restitution_threshold(m, a, b, plan.degrees[row_a], plan.degrees[row_b], context)

@@ -341,13 +341,13 @@ class Motions:
 
     def _grow(self, count, motion_of):
         self.rows = zeros_in_lines(count, MOTION)
-        flags = (np.zeros(count, np.bool_) for _ in range(2))
+        finite, links = np.zeros(count, np.bool_), np.zeros(count, np.bool_)
         rank, balance, by_kind = (
             np.zeros(count, np.int8),
             zeros_in_lines(count, BALANCE),
             np.zeros((2, count), np.int32),
         )
-        self.lists = MotionLists(motion_of, *flags, rank, balance, by_kind)
+        self.lists = MotionLists(motion_of, finite, links, rank, balance, by_kind)
         self.used, self.island_bodies, self.kinematic = self.rows[:0], *self.lists.by_kind[:, :0]
 
     def gather(self, state: StepState) -> None:

@@ -360,6 +360,8 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
     arm_2 = arm_of(blocks, o, second_point, other)
     k_11 = mover.inverse_mass + mover.inverse_inertia * arm_1 * arm_1
     missing_1 = wanted_1 + speed_now(blocks, r, first_point, sign, change)
+    if k_11 <= 0.0:
+        return 0.0
     if i == j and first_point == second_point:
         x_1 = max(old_1 + missing_1 / k_11, 0.0)
         strike(blocks, r, first_point, sign, x_1 - old_1, mover, change)
@@ -369,6 +371,8 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
     along = line_of(blocks, r, at.NX) * line_of(blocks, o, at.NX) + line_of(blocks, r, at.NY) * line_of(
         blocks, o, at.NY
     )
+    if k_22 <= 0.0:
+        return 0.0
     k_12 = sign * other * (mover.inverse_mass * along + mover.inverse_inertia * arm_1 * arm_2)
     missing_2 = wanted_2 + speed_now(blocks, o, second_point, other, change)
     off_1 = k_12 / k_11
