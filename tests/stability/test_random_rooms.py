@@ -22,8 +22,8 @@ KNOWN |= {
     122: "energy rises by 0.19 % in a step",
     188: OVERLAPPED,
 }
-# Passive scenes that gain energy in two minutes: up to 1.27, 1.85, 1.02, 1.07 and 3.02 times that at the start.
-GAINING = "energy rises: contacts keep their arms and normals for a step; bounces give more than e"
+# Passive scenes that gain energy in ten seconds: boxes and masks with restitution, up to 1.01 and 1.03 times the start.
+GAINING = "bounces of bodies in a crowd give more than e"
 
 
 def known(why):
@@ -39,7 +39,9 @@ def check(seed, **settings):
 
 
 @needs_speed
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(
+    "seed", [pytest.param(0, marks=known("a round body rocks on another for more than 20 s")), 1, 2, 3, 4]
+)
 def test_small_rooms_come_to_rest(seed):
     check(seed, most=80)
 
@@ -53,14 +55,14 @@ def test_rooms_of_up_to_three_hundred_bodies_come_to_rest(seed):
     check(seed)
 
 
-# kind: greatest energy, rise in a step of the first ten seconds. Measured: 1.0000, 1.072, 1.0003, 1.023, 1.247; 3e-4,
-# 4.5e-4, 0.0015, 0.005, 0.089. Only the bowl and the balls are within GAIN.
+# kind: greatest energy, rise in a step of the first ten seconds. Measured: 1.0000, 1.0000, 1.0000, 1.0062, 1.0213; 2.8e-4,
+# 9e-5, 5e-4, 0.0020, 0.0026.
 TEN_SECONDS = {
     "bowl": (GAIN, 5e-4),
-    "eccentric disc": (1.14, 8e-4),
-    "balls": (GAIN, 0.003),
-    "boxes": (1.045, 0.01),
-    "masks": (1.49, 0.17),
+    "eccentric disc": (GAIN, 1.8e-4),
+    "balls": (GAIN, 0.001),
+    "boxes": (1.012, 0.004),
+    "masks": (1.04, 0.005),
 }
 
 
