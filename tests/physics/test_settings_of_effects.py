@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from physics import Circle, Effects, Material, PixelMask, Polygon, Snapshot, TileGrid, World
+from physics import JIT, Circle, Effects, Material, PixelMask, Polygon, Snapshot, TileGrid, World
 
 RESPONSE = Effects(response=True)
 OPEN = np.ones((2, 2), bool)
@@ -174,7 +174,7 @@ def test_a_new_contact_bounces_at_any_speed_where_no_acceleration_presses_it(sol
         return math.cos(angle) * x - math.sin(angle) * y, math.sin(angle) * x + math.cos(angle) * y
 
     effects = Effects(response=True, restitution=True, gravity=True, wind=True, stacking=solver != "projection")
-    for speed in (0.5, 4.0, 20.0, 31.0):
+    for speed in (0.5, 4.0, 20.0, 31.0) if JIT else (20.0,):
         world = World(effects, solver=solver, gravity=turned(*gravity), wind=turned(*wind), drag=1.0)
         elastic = Material(restitution=1.0)
         wall = Polygon.box(20, 400).points
