@@ -116,6 +116,7 @@ ABOVE_ZERO = {
     "TAU",
     "base * (1 << level)",
     "area",
+    "1.0 + c[at.RESTITUTION + lane]",
     "1.0 + drag_rate * dt",
     "1.0 + drag_rate * h",
     "1.0 + stiffness * spring.grip",
