@@ -70,8 +70,8 @@ def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out
             if is_caught:
                 root.speed = root.most
                 root.static_speed = root.most if root.face_speed > 0.0 else 0.0
-                if motions[i].inverse_mass > 0.0:
-                    m = motions[i]
+                m = motions[i]
+                if m.inverse_mass > 0.0:
                     root.force += norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
     for i in range(len(motions)):
         if found and lists.links_islands[i]:
