@@ -10,7 +10,7 @@ rigid body, so that their momentum and angular momentum stay.
 
 import math
 
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm
 from physics.solver import lanes as at
 from physics.solver.lanes import SIZE, lanes_of
@@ -20,12 +20,13 @@ from physics.tables.table import join_trees, root_of
 PARALLEL = 1e-9  # sine between normals that count as one direction
 FACES = 0.05  # sine between normals of faces that count as parallel
 FORGETTING = 0.1  # [1/s] rate at which an island forgets the energy that it has lost
+QUICK_LIFT = 0.02  # lift in slops that needs no proof
 SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 
 # ---- work ------------------------------------------------------------------------------------------------------------
 
 
-@subkernel
+@inlined
 def work_of_surfaces(blocks, block, lane, motions):
     """Return the work of the impulses of a lane by surfaces that move: kinematic bodies and conveyors."""
     c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -54,7 +55,7 @@ def work_of_surfaces(blocks, block, lane, motions):
     return work
 
 
-@subkernel
+@inlined
 def work_of_lift(blocks, block, lane, context, motions):
     """Return the work of the impulses of a lane along a gap that opens by up to a slop: springs that sagged give
     it back.
@@ -74,7 +75,7 @@ def work_of_lift(blocks, block, lane, context, motions):
 # Contacts without friction leave the motion along them alone: it is scaled only if nothing else is left.
 
 
-@subkernel
+@inlined
 def note_direction(nx, ny, rubs, motion, balance_inout):
     """Note along which direction a contact with this normal acts on a body: one, or with friction or others all."""
     e = balance_inout
@@ -86,7 +87,7 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
     e.in_all = e.in_all or rubs or abs(nx * e.normal_y - ny * e.normal_x) > PARALLEL
 
 
-@subkernel
+@inlined
 def energy_along(motion, balance):
     """Return the kinetic energy of a body along the only direction in which contacts act on it; 0 if they do in all."""
     if balance.in_all or motion.inverse_mass == 0.0:
@@ -103,7 +104,7 @@ def scale_without(energy, whole):
     return math.sqrt(1.0 - energy / whole) if energy < whole else 0.0
 
 
-@subkernel
+@inlined
 def scale_motion(root, balance, motion_inout):
     """Scale the velocities of a body, those along the only direction of its contacts first. root: its BALANCE."""
     m = motion_inout
@@ -129,7 +130,7 @@ def scale_motion(root, balance, motion_inout):
 # impacts that are carried on from substep to substep may overshoot. Where normals differ, levers and wedges may.
 
 
-@subkernel
+@inlined
 def note_face(blocks, block, lane, motions, root_inout):
     """Note whether a lane is parallel or perpendicular to the others of its root, and the speed of a kinematic side."""
     e = root_inout
@@ -149,7 +150,7 @@ def note_face(blocks, block, lane, motions, root_inout):
             e.fastest = max(e.fastest, norm(o.vx, o.vy))
 
 
-@subkernel
+@inlined
 def limit_speed(root, push_speed, motion_inout):
     """Scale the velocity of a body between parallel faces, one of which moves, if it is faster than allowed.
 
@@ -167,10 +168,11 @@ def limit_speed(root, push_speed, motion_inout):
 
 
 @subkernel
-def balance_bodies(group, degrees, floor, keep, motions, balance_inout):
-    """Write the energy that each body of a group gained. Return whether one in contact gained more than `floor`.
+def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
+    """Write the energy that each body of a group gained. Return whether one in contact gained more than it may.
 
-    floor [px2/s2]: energy per mass; keep: share of the reserve that is not forgotten.
+    That is an energy per mass `floor` [px2/s2], and what it may take back: a share of its energy, or as much as its own
+    load takes for a `lift` [px]. keep: share of the reserve that is not forgotten.
     """
     suspect = False
     for k in range(len(group.members)):
@@ -188,7 +190,9 @@ def balance_bodies(group, degrees, floor, keep, motions, balance_inout):
         e.excess = e.now - e.before - work
         e.before += abs(work)
         e.reserve *= keep
-        suspect = suspect or (degrees[i] > 0 and e.excess * m.inverse_mass > floor)
+        load = lift * norm(m.acceleration_x, m.acceleration_y)
+        allowed = min(e.reserve * m.inverse_mass, max(SHARE_BACK * e.before * m.inverse_mass, load))
+        suspect = suspect or (degrees[i] > 0 and e.excess * m.inverse_mass > max(floor, allowed))
     return suspect
 
 
@@ -237,7 +241,7 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
         parents_out[group.members[k]] = root_of(group.members[k], parents_out)
 
 
-@subkernel
+@inlined
 def add_momentum(motion, balance, root_inout):
     """Add mass, momentum and angular momentum of a body to the sums of its root, whose own place is the origin."""
     m = motion
@@ -395,7 +399,7 @@ def limit_energy(
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
     keep = math.exp(-FORGETTING * context.dt)
     found = 0
-    if balance_bodies(group, plan.degrees, floor, keep, motions_inout, balance_inout):
+    if balance_bodies(group, plan.degrees, floor, QUICK_LIFT * context.slop, keep, motions_inout, balance_inout):
         found = remove_gains(
             blocks, count, group, links_islands, context, plan, plan.touching, balance_inout, motions_inout
         )
