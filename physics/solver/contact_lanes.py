@@ -108,6 +108,13 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
 
 
 @inlined
+def arms_turn(contact, a, b, dt):
+    """Return whether the moment arms of a contact follow its bodies, MOTION rows: it is round, and they turn."""
+    is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
+    return is_round and dt * max(abs(a.angular_velocity), abs(b.angular_velocity)) > TURNING
+
+
+@inlined
 def restitution_threshold(contact, a, b, degree_a, degree_b, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
 
@@ -286,9 +293,9 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c[at.MASS_2 + lane] = 1.0 if m.count == 2 else 0.0
             write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
             write_masses(lane, c)
-            if m.radius_a > 0.0 or m.radius_b > 0.0:
-                turn = context.dt * max(abs(a.angular_velocity), abs(b.angular_velocity))
-                blocks_out.turns[block] = blocks_out.turns[block] or turn > TURNING
+            turns = arms_turn(m, a, b, context.dt)
+            c[at.TURNS + lane] = 1.0 if turns else 0.0
+            blocks_out.turns[block] = blocks_out.turns[block] or turns
             turning = a.inverse_inertia + b.inverse_inertia
             c[at.MOST + lane] = math.inf
             if plan.squeezed[0]:

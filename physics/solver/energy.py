@@ -397,7 +397,7 @@ def limit_energy(
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
-    keep = math.exp(-FORGETTING * context.dt)
+    keep = max(1.0 - FORGETTING * context.dt, 0.0)
     found = 0
     if balance_bodies(group, plan.degrees, floor, QUICK_LIFT * context.slop, keep, motions_inout, balance_inout):
         found = remove_gains(

@@ -84,9 +84,10 @@ LANES = 8 if JIT else 1
     BOUNCING,  # 1: the sides approached fast enough to bounce; 0: not
     PUSH_1,  # impulses of the pseudo-velocities, of sequential impulses
     PUSH_2,
+    TURNS,  # 1: its moment arms turn with the bodies in this step; 0: not
     MOST,  # greatest normal impulse of a substep at one point
     SIZE,
-) = (line * LANES for line in range(63))
+) = (line * LANES for line in range(64))
 # Offsets of the values that a pass gathers from the motions of each block. They have an array of their own: among the
 # others they were a quarter of the memory traffic of a pass.
 (VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (

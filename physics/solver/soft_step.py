@@ -362,7 +362,7 @@ def turn_arms(count, motions_inout, blocks_inout):
             # An elastic impact is undone by restitution, at the arms of the start of the step.
             bounces = c[at.LOADED + lane] == 0.0 or c[at.BOUNCING + lane] > 0.0
             elastic = c[at.RESTITUTION + lane] > 0.0 and bounces
-            is_round = not elastic and c[at.RADIUS_A + lane] + c[at.RADIUS_B + lane] > 0.0
+            is_round = not elastic and c[at.TURNS + lane] > 0.0
             s[at.COS_A + lane] = a.cosine if is_round else 1.0
             s[at.SIN_A + lane] = a.sine if is_round else 0.0
             s[at.COS_B + lane] = b.cosine if is_round else 1.0
