@@ -63,7 +63,7 @@ def test_in_the_middle_of_solid_tiles_it_stays_or_leaves_and_is_finite(solver):
     world, body = scene(solver, "a mask into tiles")
     box = world.add_body(BOX, position=(500, -16))
     box.move_to((0, -48))
-    watch = Watch(world)
+    watch = Watch(world, without=("U6",))  # without room it stays overlapped
     watch.step(600)
     assert watch.fastest <= PUSH and abs(box.position.x) < 64.0 and -96.0 < box.position.y < 0.0
 
