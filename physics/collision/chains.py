@@ -4,12 +4,10 @@ import math
 
 from physics.collision.hull_pairs import (
     NEVER,
+    add_circle_on_piece,
+    add_points_on_piece,
     advance_to_piece,
-    move_piece_manifold_back,
-    path_offsets,
-    piece_misses_circle,
-    set_tangential_offset,
-    toi_hull_circle,
+    time_to_piece,
     travel_of,
 )
 from physics.collision.hulls import (
@@ -31,16 +29,7 @@ from physics.collision.hulls import (
     segment_distance,
     support_manifold,
 )
-from physics.collision.manifold import (
-    CHAIN_ANY,
-    NOTHING,
-    SURFACE_ANY,
-    add_point,
-    add_points,
-    hull_of,
-    make_pass,
-    sides_by_kind,
-)
+from physics.collision.manifold import CHAIN_ANY, NOTHING, SURFACE_ANY, add_point, hull_of, make_pass, sides_by_kind
 from physics.collision.masks import offset_line
 from physics.collision.masks_exact import collide_mask_part, tested_aabb
 from physics.jit import inlined, kernel, subkernel
@@ -439,29 +428,17 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
                         found = add_point(shapes, candidates, pair, point, manifolds_out, found)
                 elif hull.count == 1:
                     piece = Hull(points, 2, 0.0, ALL_EDGES)
-                    cx = hull.corners[0, 0]
-                    cy = hull.corners[0, 1]
-                    time = 0.0
-                    if travel.time > 0.0:
-                        time = toi_hull_circle(piece, cx, cy, hull.radius, travel.vx, travel.vy, margin, travel.time)
+                    radius = hull.radius
+                    time = time_to_piece(travel, margin, piece, hull.corners[0, 0], hull.corners[0, 1], radius)
                     if time == NEVER:
                         continue
-                    cx += time * travel.vx
-                    cy += time * travel.vy
-                    hit, nx, ny, x, y, separation, feature = collide_link_circle(link, points, cx, cy, hull.radius)
-                    if not hit or separation > travel.reach:
-                        continue
-                    if piece_misses_circle(
-                        travel, batch.graze, piece, cx, cy, hull.radius, separation, feature, workspace.c
-                    ):
-                        continue
-                    closed, tangential = path_offsets(time, travel.vx, travel.vy, nx, ny)
-                    x += 0.5 * closed * nx + (tangential * ny if sign < 0.0 else 0.0)
-                    y += 0.5 * closed * ny - (tangential * nx if sign < 0.0 else 0.0)
-                    point = (sign * nx, sign * ny, x, y, separation + closed, 0.0, part_feature(k, feature))
-                    before = found
-                    found = add_point(shapes, candidates, pair, point, manifolds_out, found)
-                    set_tangential_offset(before, found, tangential, manifolds_out)
+                    cx = hull.corners[0, 0] + time * travel.vx
+                    cy = hull.corners[0, 1] + time * travel.vy
+                    contact = collide_link_circle(link, points, cx, cy, radius)
+                    disc, part = (cx, cy, radius), part_feature(k, 0)
+                    found = add_circle_on_piece(
+                        batch, pair, sign, travel, time, piece, disc, contact, part, workspace, manifolds_out, found
+                    )
                 else:
                     near += 1
                     time = 0.0
@@ -472,14 +449,9 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
                     if time == NEVER:
                         continue
                     collide_link_hull(link, points, met, reach, batch.bias, attempt == 1, workspace.points)
-                    tangential = 0.0
-                    if time > 0.0:
-                        tangential = move_piece_manifold_back(time, travel, sign, workspace.points)
-                    before = found
-                    found = add_points(
-                        shapes, candidates, pair, sign, workspace.points, part_feature(k, 0), manifolds_out, found
+                    found = add_points_on_piece(
+                        batch, pair, sign, travel, time, part_feature(k, 0), workspace, manifolds_out, found
                     )
-                    set_tangential_offset(before, found, tangential, manifolds_out)
     return found
 
 

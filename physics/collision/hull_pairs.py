@@ -25,6 +25,7 @@ from physics.collision.manifold import (
     POLYGON_CIRCLE,
     POLYGONS,
     add_manifold,
+    add_point,
     add_points,
     circle_at,
     hull_of,
@@ -351,6 +352,49 @@ def set_tangential_offset(before, found, offset, manifolds_out):
     """Write the tangential offset [px] to the manifold added since there were `before`, if one was added."""
     if before < found <= len(manifolds_out):
         manifolds_out[before].tangential_offset = offset
+
+
+@inlined
+def time_to_piece(travel, margin, piece, x, y, radius):
+    """Return the time [s] at which a disc meets a piece of ground, or NEVER; 0 without a Travel."""
+    if travel.time == 0.0:
+        return 0.0
+    return toi_hull_circle(piece, x, y, radius, travel.vx, travel.vy, margin, travel.time)
+
+
+@inlined
+def add_circle_on_piece(batch, pair, sign, travel, time, piece, disc, contact, part, workspace, manifolds_out, found):
+    """Append the contact of a piece of ground with a disc that moved for a time [s]. Return the new count.
+
+    disc: its (x, y, radius) there; contact: the result of a collider at that place; part: feature of the piece.
+    """
+    hit, nx, ny, x, y, separation, feature = contact
+    if not hit or separation > travel.reach:
+        return found
+    if piece_misses_circle(travel, batch.graze, piece, disc[0], disc[1], disc[2], separation, feature, workspace.c):
+        return found
+    closed, tangential = path_offsets(time, travel.vx, travel.vy, nx, ny)
+    x += 0.5 * closed * nx + (tangential * ny if sign < 0.0 else 0.0)
+    y += 0.5 * closed * ny - (tangential * nx if sign < 0.0 else 0.0)
+    point = (sign * nx, sign * ny, x, y, separation + closed, 0.0, part + feature)
+    before = found
+    found = add_point(batch.shapes, batch.candidates, pair, point, manifolds_out, found)
+    set_tangential_offset(before, found, tangential, manifolds_out)
+    return found
+
+
+@inlined
+def add_points_on_piece(batch, pair, sign, travel, time, part, workspace, manifolds_out, found):
+    """Append the manifold in workspace.points of a piece of ground with a hull that moved for a time [s]. Return the
+    new count. part: feature of the piece.
+    """
+    tangential = 0.0
+    if time > 0.0:
+        tangential = move_piece_manifold_back(time, travel, sign, workspace.points)
+    before = found
+    found = add_points(batch.shapes, batch.candidates, pair, sign, workspace.points, part, manifolds_out, found)
+    set_tangential_offset(before, found, tangential, manifolds_out)
+    return found
 
 
 @inlined

@@ -334,6 +334,18 @@ def copy_manifold(contacts, source, target, contacts_out):
 
 
 @subkernel
+def drop_empty(count, manifolds_inout):
+    """Move the manifolds with points to the front, in order. Return how many they are. O(count)."""
+    kept = 0
+    for i in range(count):
+        if manifolds_inout[i].count > 0:
+            if kept < i:
+                copy_manifold(manifolds_inout, i, kept, manifolds_inout)
+            kept += 1
+    return kept
+
+
+@subkernel
 def is_before(contact, shape_a, shape_b):
     """Return whether a contact comes before those of a pair, in the order of shape ids."""
     return contact.shape_a < shape_a or (contact.shape_a == shape_a and contact.shape_b < shape_b)

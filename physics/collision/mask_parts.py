@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from physics.collision.hulls import clip_edges, edge_normal, least_separation, support_manifold
-from physics.collision.manifold import Batch, Workspace, add_points, copy_manifold, hull_of
+from physics.collision.manifold import Batch, Workspace, add_points, drop_empty, hull_of
 from physics.jit import kernel, subkernel
 from physics.tables.body import DYNAMIC
 from physics.tables.contact import CONTACT
@@ -196,13 +196,7 @@ def drop_opposed_rows(order, deep, manifolds_inout):
                     m.count = 0
                     break
         first = end
-    kept = 0
-    for i in range(count):
-        if manifolds_inout[i].count > 0:
-            if kept < i:
-                copy_manifold(manifolds_inout, i, kept, manifolds_inout)
-            kept += 1
-    return kept
+    return drop_empty(count, manifolds_inout)
 
 
 def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:

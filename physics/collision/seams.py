@@ -14,7 +14,7 @@ from physics.collision.hulls import (
     part_feature,
     part_of,
 )
-from physics.collision.manifold import NOTHING, copy_manifold, hull_of
+from physics.collision.manifold import NOTHING, drop_empty, hull_of
 from physics.collision.tiles import run_at, tile_at
 from physics.jit import kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of
@@ -354,7 +354,6 @@ def drop_seams(
     for i in range(len(previous)):
         if is_recycled(batch, previous[i]):
             link_contact(batch, previous[i], count + i, heads_out, links_out)
-    kept = 0
     listed = False
     for i in range(count):
         m = manifolds_inout[i]
@@ -376,9 +375,4 @@ def drop_seams(
                 listed = True
             if behind and (ahead or is_covered(batch, m, ground_heads_out[body], ground_links_out, workspace)):
                 m.count = 0
-    for i in range(count):
-        if manifolds_inout[i].count > 0:
-            if kept < i:
-                copy_manifold(manifolds_inout, i, kept, manifolds_inout)
-            kept += 1
-    return kept
+    return drop_empty(count, manifolds_inout)

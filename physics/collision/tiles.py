@@ -5,13 +5,11 @@ from typing import Any
 
 from physics.collision.hull_pairs import (
     NEVER,
+    add_circle_on_piece,
+    add_points_on_piece,
     advance_to_piece,
     is_grazing,
-    move_piece_manifold_back,
-    path_offsets,
-    piece_misses_circle,
-    set_tangential_offset,
-    toi_hull_circle,
+    time_to_piece,
     travel_of,
 )
 from physics.collision.hulls import (
@@ -23,7 +21,7 @@ from physics.collision.hulls import (
     part_feature,
     part_of,
 )
-from physics.collision.manifold import GRID_ANY, add_point, add_points, hull_of, make_pass, sides_by_kind
+from physics.collision.manifold import GRID_ANY, add_point, hull_of, make_pass, sides_by_kind
 from physics.collision.masks_exact import collide_mask_part, tested_aabb
 from physics.jit import inlined, subkernel
 from physics.shapes.placement import box_corners
@@ -302,31 +300,27 @@ def make_grid_pass(one_way: bool) -> Any:
                             point = (-sign * nx, -sign * ny, x, y, separation, area, feature)
                             found = add_point(shapes, candidates, pair, point, manifolds_out, found)
                     elif hull.count == 1:
-                        cx = hull.corners[0, 0]
-                        cy = hull.corners[0, 1]
-                        time = 0.0
-                        if travel.time > 0.0:
-                            time = toi_hull_circle(
-                                piece, cx, cy, hull.radius, travel.vx, travel.vy, margin, travel.time
-                            )
+                        radius = hull.radius
+                        time = time_to_piece(travel, margin, piece, hull.corners[0, 0], hull.corners[0, 1], radius)
                         if time == NEVER:
                             continue
-                        cx += time * travel.vx
-                        cy += time * travel.vy
-                        hit, nx, ny, x, y, separation, which = collide_hull_circle(piece, cx, cy, hull.radius)
-                        if not hit or separation > travel.reach:
-                            continue
-                        if piece_misses_circle(
-                            travel, batch.graze, piece, cx, cy, hull.radius, separation, which, workspace.c
-                        ):
-                            continue
-                        closed, tangential = path_offsets(time, travel.vx, travel.vy, nx, ny)
-                        x += 0.5 * closed * nx + (tangential * ny if sign < 0.0 else 0.0)
-                        y += 0.5 * closed * ny - (tangential * nx if sign < 0.0 else 0.0)
-                        point = (sign * nx, sign * ny, x, y, separation + closed, 0.0, feature + which)
-                        before = found
-                        found = add_point(shapes, candidates, pair, point, manifolds_out, found)
-                        set_tangential_offset(before, found, tangential, manifolds_out)
+                        cx = hull.corners[0, 0] + time * travel.vx
+                        cy = hull.corners[0, 1] + time * travel.vy
+                        contact, disc = collide_hull_circle(piece, cx, cy, radius), (cx, cy, radius)
+                        found = add_circle_on_piece(
+                            batch,
+                            pair,
+                            sign,
+                            travel,
+                            time,
+                            piece,
+                            disc,
+                            contact,
+                            feature,
+                            workspace,
+                            manifolds_out,
+                            found,
+                        )
                     else:
                         time = 0.0
                         met = hull
@@ -354,14 +348,9 @@ def make_grid_pass(one_way: bool) -> Any:
                             and is_grazing(piece, met, batch, p, q, workspace.points)
                         ):
                             continue
-                        tangential = 0.0
-                        if time > 0.0:
-                            tangential = move_piece_manifold_back(time, travel, sign, workspace.points)
-                        before = found
-                        found = add_points(
-                            shapes, candidates, pair, sign, workspace.points, feature, manifolds_out, found
+                        found = add_points_on_piece(
+                            batch, pair, sign, travel, time, feature, workspace, manifolds_out, found
                         )
-                        set_tangential_offset(before, found, tangential, manifolds_out)
         return found
 
     return make_pass(GRID_ANY, collide_grid_pair)

@@ -27,11 +27,8 @@ SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 
 
 @inlined
-def work_of_surfaces(blocks, block, lane, motions):
+def work_of_surfaces(c, lane, a, b):
     """Return the work of the impulses of a lane by surfaces that move: kinematic bodies and conveyors."""
-    c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-    a = motions[blocks.motion_a[block, lane]]
-    b = motions[blocks.motion_b[block, lane]]
     nx = c[at.NX + lane]
     ny = c[at.NY + lane]
     work = abs(c[at.SURFACE + lane] * (c[at.TANGENT_TOTAL_1 + lane] + c[at.TANGENT_TOTAL_2 + lane]))
@@ -56,13 +53,10 @@ def work_of_surfaces(blocks, block, lane, motions):
 
 
 @inlined
-def work_of_lift(blocks, block, lane, context, motions):
+def work_of_lift(c, lane, a, b, context):
     """Return the work of the impulses of a lane along a gap that opens by up to a slop: springs that sagged give
     it back.
     """
-    c = blocks.lines[block * SIZE : (block + 1) * SIZE]
-    a = motions[blocks.motion_a[block, lane]]
-    b = motions[blocks.motion_b[block, lane]]
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
     first = along + b.turn * c[at.B_1 + lane] - a.turn * c[at.A_1 + lane]
     second = along + b.turn * c[at.B_2 + lane] - a.turn * c[at.A_2 + lane]
@@ -131,10 +125,9 @@ def scale_motion(root, balance, motion_inout):
 
 
 @inlined
-def note_face(blocks, block, lane, motions, root_inout):
+def note_face(c, lane, a, b, root_inout):
     """Note whether a lane is parallel or perpendicular to the others of its root, and the speed of a kinematic side."""
     e = root_inout
-    c = blocks.lines[block * SIZE : (block + 1) * SIZE]
     nx = c[at.NX + lane]
     ny = c[at.NY + lane]
     if e.face_x == 0.0 and e.face_y == 0.0:
@@ -143,7 +136,7 @@ def note_face(blocks, block, lane, motions, root_inout):
     least = min(abs(nx * e.face_x + ny * e.face_y), abs(nx * e.face_y - ny * e.face_x))
     e.oblique = e.oblique or least > FACES or c[at.RESTITUTION + lane] > 0.0
     for side in range(2):
-        o = motions[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]
+        o = a if side == 0 else b
         if o.inverse_mass == 0.0 and o.moves:
             e.pushed = True
             e.oblique = e.oblique or o.angular_velocity != 0.0
@@ -196,6 +189,31 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
     return suspect
 
 
+@inlined
+def reset_balance(balance_out):
+    """Write 0 to the fields that are summed or noted at a root."""
+    e = balance_out
+    e.lift = 0.0
+    e.surfaces = 0.0
+    e.face_x = 0.0
+    e.face_y = 0.0
+    e.fastest = 0.0
+    e.oblique = False
+    e.pushed = False
+    e.mass = 0.0
+    e.load = 0.0
+    e.vx = 0.0
+    e.vy = 0.0
+    e.middle_x = 0.0
+    e.middle_y = 0.0
+    e.spin = 0.0
+    e.inertia = 0.0
+    e.normal_x = 0.0
+    e.normal_y = 0.0
+    e.in_all = False
+    e.anchored = False
+
+
 @subkernel
 def join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout):
     """Join the bodies of a group that exchanged impulses in this step, in so many blocks: no others exchanged energy.
@@ -204,31 +222,12 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
     """
     for k in range(len(group.members)):
         i = group.members[k]
-        e = balance_inout[i]
         parents_out[i] = i
-        e.lift = 0.0
-        e.surfaces = 0.0
-        e.face_x = 0.0
-        e.face_y = 0.0
-        e.fastest = 0.0
-        e.oblique = False
-        e.pushed = False
-        e.mass = 0.0
-        e.load = 0.0
-        e.vx = 0.0
-        e.vy = 0.0
-        e.middle_x = 0.0
-        e.middle_y = 0.0
-        e.spin = 0.0
-        e.inertia = 0.0
-        e.normal_x = 0.0
-        e.normal_y = 0.0
-        e.in_all = False
-        e.anchored = False
+        reset_balance(balance_inout[i])
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks.contact, block)):
-            if blocks.contact[block, lane] < 0 or c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
+            if c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
                 continue
             row_a = blocks.motion_a[block, lane]
             row_b = blocks.motion_b[block, lane]
@@ -285,13 +284,16 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks.contact, block)):
-            if blocks.contact[block, lane] < 0 or c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
+            if c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] <= 0.0:
                 continue
             row_a = blocks.motion_a[block, lane]
-            root = balance_inout[parents[row_a if links_islands[row_a] else blocks.motion_b[block, lane]]]
-            root.surfaces += work_of_surfaces(blocks, block, lane, motions)
-            root.lift += work_of_lift(blocks, block, lane, context, motions)
-            note_face(blocks, block, lane, motions, root)
+            row_b = blocks.motion_b[block, lane]
+            a = motions[row_a]
+            b = motions[row_b]
+            root = balance_inout[parents[row_a if links_islands[row_a] else row_b]]
+            root.surfaces += work_of_surfaces(c, lane, a, b)
+            root.lift += work_of_lift(c, lane, a, b, context)
+            note_face(c, lane, a, b, root)
             root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
     for k in range(len(group.members)):
         i = group.members[k]

@@ -299,6 +299,19 @@ def measure_gaps(lane, s, c_inout):
 
 
 @inlined
+def arms_of(x, y, radius, cosine, sine, nx, ny):
+    """Return the moment arms [px] of impulses along the normal and along the tangent at a point of a turned body.
+
+    x, y: the point before the turn, on a surface at a radius from the core in the direction of the normal.
+    """
+    x -= radius * nx
+    y -= radius * ny
+    u = cosine * x - sine * y
+    v = sine * x + cosine * y
+    return u * ny - v * nx, u * nx + v * ny + radius
+
+
+@inlined
 def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
     """Write the moment arms of both points, for bodies turned by these angles since the start of the step.
 
@@ -308,31 +321,11 @@ def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
     nx = c[NX + lane]
     ny = c[NY + lane]
     ra = c[RADIUS_A + lane]
-    rb = c[RADIUS_B + lane]
-    x = c[AX_1 + lane] - ra * nx
-    y = c[AY_1 + lane] - ra * ny
-    u = cos_a * x - sin_a * y
-    v = sin_a * x + cos_a * y
-    c[A_1 + lane] = u * ny - v * nx
-    c[TANGENT_A_1 + lane] = u * nx + v * ny + ra
-    x = c[BX_1 + lane] + rb * nx
-    y = c[BY_1 + lane] + rb * ny
-    u = cos_b * x - sin_b * y
-    v = sin_b * x + cos_b * y
-    c[B_1 + lane] = u * ny - v * nx
-    c[TANGENT_B_1 + lane] = u * nx + v * ny - rb
-    x = c[AX_2 + lane] - ra * nx
-    y = c[AY_2 + lane] - ra * ny
-    u = cos_a * x - sin_a * y
-    v = sin_a * x + cos_a * y
-    c[A_2 + lane] = u * ny - v * nx
-    c[TANGENT_A_2 + lane] = u * nx + v * ny + ra
-    x = c[BX_2 + lane] + rb * nx
-    y = c[BY_2 + lane] + rb * ny
-    u = cos_b * x - sin_b * y
-    v = sin_b * x + cos_b * y
-    c[B_2 + lane] = u * ny - v * nx
-    c[TANGENT_B_2 + lane] = u * nx + v * ny - rb
+    rb = -c[RADIUS_B + lane]
+    c[A_1 + lane], c[TANGENT_A_1 + lane] = arms_of(c[AX_1 + lane], c[AY_1 + lane], ra, cos_a, sin_a, nx, ny)
+    c[B_1 + lane], c[TANGENT_B_1 + lane] = arms_of(c[BX_1 + lane], c[BY_1 + lane], rb, cos_b, sin_b, nx, ny)
+    c[A_2 + lane], c[TANGENT_A_2 + lane] = arms_of(c[AX_2 + lane], c[AY_2 + lane], ra, cos_a, sin_a, nx, ny)
+    c[B_2 + lane], c[TANGENT_B_2 + lane] = arms_of(c[BX_2 + lane], c[BY_2 + lane], rb, cos_b, sin_b, nx, ny)
 
 
 @inlined

@@ -204,6 +204,21 @@ def are_unloaded(blocks, impacts, count, contacts, speed, dt):
 
 
 @subkernel
+def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blocks_inout):
+    """Solve so many IMPACT rows that depend on each other, until none changes a speed by more than `least` [px/s].
+
+    hits_alone: leave out those that hand on.
+    """
+    for _ in range(ROUNDS):
+        changed = 0.0
+        for i in range(count):
+            if not hits_alone or impacts_inout[i].bounces_1 or impacts_inout[i].bounces_2:
+                changed = max(changed, bounce_row(impacts_inout[i], motions_inout, blocks_inout))
+        if changed <= least:
+            return
+
+
+@subkernel
 def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
     """Replace the impulses of so many IMPACT rows of bodies without loads by a sequence of impacts.
 
@@ -240,25 +255,8 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
             found = found or r.bounces_1 or r.bounces_2
         if not found:
             return True
-        for _ in range(ROUNDS):
-            changed = 0.0
-            for i in range(count):
-                if impacts_inout[i].bounces_1 or impacts_inout[i].bounces_2:
-                    changed = max(changed, bounce_row(impacts_inout[i], motions_inout, blocks_inout))
-            if changed <= least:
-                break
+        bounce_in_rounds(count, True, least, impacts_inout, motions_inout, blocks_inout)
     return False
-
-
-@subkernel
-def bounce_coupled(count, fastest, impacts_inout, motions_inout, blocks_inout):
-    """Solve so many IMPACT rows that depend on each other in rounds. fastest [px/s]: greatest separation speed."""
-    for _ in range(ROUNDS):
-        changed = 0.0
-        for i in range(count):
-            changed = max(changed, bounce_row(impacts_inout[i], motions_inout, blocks_inout))
-        if changed <= SETTLED * fastest:
-            return
 
 
 @subkernel
@@ -293,5 +291,5 @@ def restore_bounces(
         ended = hand_on(rows, fastest, impacts_inout, motions_inout, blocks_inout)
         work_inout[CAP_HITS] += int(not ended)
     else:
-        bounce_coupled(rows, fastest, impacts_inout, motions_inout, blocks_inout)
+        bounce_in_rounds(rows, False, SETTLED * fastest, impacts_inout, motions_inout, blocks_inout)
     unlink_impacts(blocks_inout, impacts_inout, rows, motions_inout)
