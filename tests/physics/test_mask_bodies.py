@@ -179,13 +179,19 @@ def test_what_asks_for_pixels_gets_pixels_and_what_asks_for_the_outline_gets_tha
     assert on_it in world.overlap(Circle(2), (16.0, 0.0)) and probe.awake
 
 
-def test_pieces_of_one_heap_fall_asleep():
+SEEDS = [0, 1, 3, 4, 6, 7]
+# Something in these heaps still moves after 40 s: it topples slowly, or rocks.
+RESTLESS = [pytest.param(seed, marks=pytest.mark.xfail(reason="it moves for 40 s", strict=False)) for seed in (2, 5)]
+
+
+@pytest.mark.parametrize("seed", SEEDS + RESTLESS if JIT else SEEDS[3:4])
+def test_pieces_of_one_heap_fall_asleep(seed):
     shapes = (CRATE, disc_of(10), PixelMask(np.ones((10, 24), bool)))
     world = World()
     add_floor(world, "mask", top=200.0)
     for x in (-300.0, 300.0):  # or a disc that comes off the heap rolls off the floor
         world.add_body(Polygon.box(20, 200), position=(x, 100.0), kind="static")
-    rng = np.random.default_rng(4)
+    rng = np.random.default_rng(seed)
     places = itertools.product(range(-3, 4), range(4 if JIT else 1))
     bodies = [
         world.add_body(
@@ -193,7 +199,7 @@ def test_pieces_of_one_heap_fall_asleep():
         )
         for i, j in places
     ]
-    for _ in range(1200):  # a disc may roll on slowly, and has to come off a crate first
+    for _ in range(2400):  # a disc, which is smooth, rolls over a crate at 1 px/s without a loss
         world.step()
         if not any(body.awake for body in bodies):
             break
