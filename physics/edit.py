@@ -20,7 +20,7 @@ from physics.shapes.mask import PixelMask
 from physics.shapes.outline import is_tiled, keep_tiles, polygons, tiled_parts
 from physics.shapes.shape import Filter, Material, Shape
 from physics.shapes.values import TileGrid
-from physics.solver.substeps import forget_loads
+from physics.solver.contact_lanes import forget_loads
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
 from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
 from physics.tables.table import rows_of

@@ -6,8 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.broadphase.proxies import cover_final_poses
-from physics.collision.hull_pairs import measure_approach
-from physics.collision.manifold import by_parent, is_before, is_of
+from physics.collision.manifold import by_parent, is_before, is_of, measure_approach
 from physics.collision.narrow_phase import SENSORS
 from physics.islands.sleep import in_order
 from physics.jit import copy_row, kernel, subkernel

@@ -7,8 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from physics import checks, events
-from physics.broadphase.pair_list import broad_phase
-from physics.broadphase.proxies import motion_rectangles
+from physics.broadphase.proxies import broad_phase, motion_rectangles
 from physics.ccd.sweep import NO_IMPACTS, Sweeper, detect_moved, foresee_impacts, sweep_piles
 from physics.character.carry import apply_character_weight, carry_characters
 from physics.character.solids import new_scratch
@@ -16,8 +15,13 @@ from physics.checks import Pair
 from physics.collision.narrow_phase import NarrowPhase, detect_ended
 from physics.contacts.cache import update_contacts, update_contacts_at_final_poses
 from physics.contacts.matching import ContactCache, find_contacts
-from physics.dynamics.integrate import integrate_positions, integrate_velocities, refresh_centers
-from physics.dynamics.non_finite import quarantine, quarantine_solved
+from physics.dynamics.integrate import (
+    integrate_positions,
+    integrate_velocities,
+    quarantine,
+    quarantine_solved,
+    refresh_centers,
+)
 from physics.edit import check_grid_stands
 from physics.effects import Effects
 from physics.islands import sleep

@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike
 
 from physics import checks, edit, snapshot
 from physics.body import Body
-from physics.broadphase.pair_list import PairList
-from physics.broadphase.proxies import Strategy
+from physics.broadphase.proxies import PairList, Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.checks import Pair, Pose
 from physics.edit import rebuild_masks

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 
 from physics import checks
-from physics.broadphase.pair_list import PairList
-from physics.broadphase.proxies import Strategy, write_rectangles
+from physics.broadphase.proxies import PairList, Strategy, write_rectangles
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
 from physics.effects import Effects
@@ -21,7 +20,7 @@ from physics.queries.index import QueryIndex
 from physics.settings import Tolerances
 from physics.shapes.library import Library
 from physics.shapes.shape import Shape
-from physics.solver.substeps import forget_loads
+from physics.solver.contact_lanes import forget_loads
 from physics.tables.body import STATIC
 from physics.tables.step_state import COUNTERS
 from physics.tables.table import Table, rows_of

@@ -28,7 +28,6 @@ EXPLAINED = (
     ("physics/jit/", "", "with numba, or with numba switched off"),
     ("physics/solver/lanes.py", "", BLOCKS),
     ("physics/solver/contact_lanes.py", "^continue$", BLOCKS),
-    ("physics/solver/substeps.py", "^continue$", BLOCKS),
     ("physics/", r"^\.\.\.$", "the body of a Protocol's method, which is never called"),
     ("physics/", "CAP_HITS|CAPPED", "a bound on iterations that no case reaches: it would be counted"),
     ("physics/", "raise RuntimeError", "an internal error"),

@@ -6,33 +6,132 @@ import numpy as np
 
 from physics.ccd.impacts import (
     cut_path,
-    find_fast,
     find_impacts,
-    find_outgrown,
     find_rotational_impacts,
-    foresee_paths,
-    list_paths,
     move_back,
     stop_at_impacts,
     write_impacts,
 )
 from physics.ccd.mask_sweep import NO_SQUARES, find_shared_areas, squares_of
 from physics.ccd.rotational import BEFORE, Sweep, new_rotational_workspace, sweep_rotational
-from physics.collision.hull_pairs import measure_approach
-from physics.collision.manifold import new_workspace
+from physics.collision.manifold import measure_approach, new_workspace
 from physics.collision.narrow_phase import detect, place_swept_contacts
 from physics.contacts.cache import write_caches
 from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.islands.sleep import in_order, order_of
-from physics.jit import kernel
-from physics.math2d import rotate
+from physics.jit import kernel, subkernel
+from physics.math2d import norm, rotate
 from physics.settings import IMPACT_ROUNDS, PUSH_ROUNDS
 from physics.shapes.placement import PLACED
-from physics.tables.body import DYNAMIC, KINEMATIC
+from physics.tables.body import AUTO, DYNAMIC, KINEMATIC, OFF, RAY, STATIC, SWEPT
 from physics.tables.contact import CONTACT
 from physics.tables.shape import CHAIN, MASK, TILES
 from physics.tables.step_state import CAP_HITS, StepState, stage
 from physics.tables.table import joined
+
+# ---- paths -----------------------------------------------------------------------------------------------------------
+# Paths of the bodies through a step, and the bodies that are fast enough to pass through others.
+#
+# Source: Catto, Box2D v3, solver.c (half the smallest extent).
+
+
+@kernel
+def list_paths(rows, bodies, paths_out):
+    """Write centre of mass and angle before and after the step: x0 y0 angle0 x1 y1 angle1 [px, rad]. O(rows).
+
+    A body with a sweep without rotation keeps its angle before the step.
+    """
+    for k in range(len(rows)):
+        i = rows[k]
+        b = bodies[i]
+        u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.previous_angle), math.sin(b.previous_angle))
+        paths_out[i, 0] = b.previous_x + u
+        paths_out[i, 1] = b.previous_y + v
+        paths_out[i, 2] = b.previous_angle
+        u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
+        paths_out[i, 3] = b.x + u
+        paths_out[i, 4] = b.y + v
+        paths_out[i, 5] = b.previous_angle if b.continuous == RAY or b.continuous == SWEPT else b.angle
+
+
+@subkernel
+def asks_straight(body):
+    """Return whether the continuous mode of a body is a sweep without rotation, moving or not."""
+    return body.kind == DYNAMIC and (body.continuous == RAY or body.continuous == SWEPT)
+
+
+@subkernel
+def way_of(bodies, paths, row):
+    """Return the greatest distance [px] that any point of a body moves."""
+    moved = norm(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
+    return moved + bodies[row].extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
+
+
+@kernel
+def find_fast(rows, bodies, paths, fast_out):
+    """Flag the bodies to sweep. Return (the number of bodies to look at, the number swept without rotation). O(rows).
+
+    Modes "toi", "ray" and "swept" are always swept while they move; "auto" if a point may move by more than half the
+    body's size. Bodies that a kinematic body may pass through count as bodies to look at, without a flag: see outruns.
+    fast_out (bodies) bool.
+    """
+    found = 0
+    straight = 0
+    carried = 0.0
+    for k in range(len(rows)):
+        if bodies[rows[k]].kind == KINEMATIC:
+            carried = max(carried, way_of(bodies, paths, rows[k]))
+    for k in range(len(rows)):
+        i = rows[k]
+        b = bodies[i]
+        fast_out[i] = False
+        if asks_straight(b):
+            straight += 1
+        if b.kind == STATIC or b.quarantined or not b.awake or b.continuous == OFF:
+            continue
+        moved = way_of(bodies, paths, i)
+        if moved > 0.0 and (b.continuous != AUTO or moved > b.inradius):
+            fast_out[i] = True
+            found += 1
+        elif b.kind == DYNAMIC and carried > 0.0 and moved + carried > b.inradius:
+            found += 1
+    return found, straight
+
+
+@kernel
+def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
+    """List the shape rows of swept bodies that left their swept AABB. Return their number. O(rows)."""
+    found = 0
+    for k in range(len(rows)):
+        row = rows[k]
+        s = shapes[row]
+        if s.proxy < 0:
+            continue
+        b = bodies[s.body_row]
+        if not (fast[s.body_row] or asks_straight(b)):
+            continue
+        p = proxies[s.proxy]
+        if s.min_x < p.lower_x or s.max_x > p.upper_x or s.min_y < p.lower_y or s.max_y > p.upper_y:
+            rows_out[found] = row
+            found += 1
+    return found
+
+
+@kernel
+def foresee_paths(rows, bodies, dt, paths_out):
+    """Write the paths (see list_paths) of the bodies in dt [s] without obstacles. O(rows)."""
+    for k in range(len(rows)):
+        i = rows[k]
+        b = bodies[i]
+        moves = 0.0 if b.kind == STATIC or b.quarantined else dt
+        paths_out[i, 0] = b.center_x
+        paths_out[i, 1] = b.center_y
+        paths_out[i, 2] = b.angle
+        paths_out[i, 3] = b.center_x + moves * b.vx
+        paths_out[i, 4] = b.center_y + moves * b.vy
+        turns = 0.0 if b.continuous == RAY or b.continuous == SWEPT else moves * b.angular_velocity
+        paths_out[i, 5] = b.angle + turns
+
 
 # ---- push ahead ------------------------------------------------------------------------------------------------------
 # Kinematic bodies push the bodies that stopped in their way, for the rest of the step.

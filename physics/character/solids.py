@@ -25,7 +25,7 @@ from physics.collision.hulls import (
 )
 from physics.collision.manifold import POINTS
 from physics.collision.tiles import pushing_edges_on_tile, run_at, tile_at
-from physics.dynamics.non_finite import is_finite_character
+from physics.dynamics.integrate import is_finite_character
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate
 from physics.shapes.placement import aabb_at, box_corners, corners_at, hull_at, rounding

@@ -20,7 +20,7 @@ from physics.character.solids import (
     place_outline,
     settle,
 )
-from physics.dynamics.non_finite import LARGEST
+from physics.dynamics.integrate import LARGEST
 from physics.jit import kernel, subkernel
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.geometry import SLOPE

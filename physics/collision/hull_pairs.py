@@ -27,86 +27,18 @@ from physics.collision.manifold import (
     add_manifold,
     add_point,
     add_points,
+    center_velocity,
     circle_at,
     hull_of,
     make_pass,
     queue_fallback,
+    relative_velocity,
     sides_by_kind,
 )
-from physics.jit import inlined, kernel, subkernel
+from physics.jit import inlined, subkernel
 from physics.math2d import norm, unit
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import BOUNDS, CIRCLE
-
-# ---- approach --------------------------------------------------------------------------------------------------------
-# Closing speed of two bodies at a contact: reported with hits and used by restitution.
-
-
-@subkernel
-def velocity_at(body, x, y):
-    """Return the velocity [px/s] of a world point of a BODY row."""
-    return (
-        body.vx - body.angular_velocity * (y - body.center_y),
-        body.vy + body.angular_velocity * (x - body.center_x),
-    )
-
-
-@subkernel
-def relative_velocity(a, b, ax, ay, bx, by):
-    """Return the velocity [px/s] of point (bx, by) of body B relative to point (ax, ay) of body A, BODY rows."""
-    px, py = velocity_at(a, ax, ay)
-    qx, qy = velocity_at(b, bx, by)
-    return qx - px, qy - py
-
-
-@subkernel
-def center_velocity(a, b):
-    """Return the velocity [px/s] of B relative to A, BODY rows, at the centre of the smaller one, and its norm."""
-    x = a.center_x if a.extent < b.extent else b.center_x
-    y = a.center_y if a.extent < b.extent else b.center_y
-    vx, vy = relative_velocity(a, b, x, y, x, y)
-    return vx, vy, norm(vx, vy)
-
-
-@subkernel
-def closing_speed_bound(a, b):
-    """Return an upper bound [px/s] of both bodies' speeds and of their relative speed, BODY rows: center_velocity."""
-    distance = abs(b.center_x - a.center_x) + abs(b.center_y - a.center_y)
-    turning = abs(a.angular_velocity) + abs(b.angular_velocity)
-    return abs(a.vx) + abs(a.vy) + abs(b.vx) + abs(b.vy) + turning * distance
-
-
-@inlined
-def closing_speed(a, b, x, y, nx, ny, tangential):
-    """Return the closing speed [px/s] of B and A at a point [px] along the normal; negative when they separate.
-
-    a, b: BODY rows; tangential [px]: the offset of B until the contact, see CONTACT.
-    """
-    ax = x - a.center_x
-    ay = y - a.center_y
-    bx = x - b.center_x + tangential * ny
-    by = y - b.center_y - tangential * nx
-    vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
-    vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
-    return -(nx * vx + ny * vy)
-
-
-@inlined
-def approach(a, b, manifold_inout):
-    """Write the closing speed of both points of a CONTACT row of two bodies, BODY rows, before any response."""
-    m = manifold_inout
-    m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.tangential_offset)
-    if m.count == 2:
-        m.speed_2 = closing_speed(a, b, m.x_2, m.y_2, m.normal_x, m.normal_y, m.tangential_offset)
-
-
-@kernel
-def measure_approach(bodies, manifolds_inout):
-    """Write the closing speed of every point before any response. manifolds_inout CONTACT rows. O(manifolds)."""
-    for i in range(len(manifolds_inout)):
-        m = manifolds_inout[i]
-        approach(bodies[m.body_row_a], bodies[m.body_row_b], m)
-
 
 # ---- speculative contacts --------------------------------------------------------------------------------------------
 # Pairs that meet within the step are evaluated at the predicted contact and not at the start pose.

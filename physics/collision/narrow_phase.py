@@ -4,12 +4,9 @@ import numpy as np
 
 from physics.collision.chains import admit_to_surfaces, collide_chain_pairs
 from physics.collision.hull_pairs import (
-    center_velocity,
-    closing_speed_bound,
     collide_circle_pairs,
     collide_polygon_circle_pairs,
     collide_polygon_pairs,
-    measure_approach,
     speculative_distance,
 )
 from physics.collision.manifold import (
@@ -25,8 +22,11 @@ from physics.collision.manifold import (
     SURFACE_ANY,
     Batch,
     add_manifold,
+    center_velocity,
+    closing_speed_bound,
     is_before,
     is_of,
+    measure_approach,
     new_workspace,
     place_in_order,
 )

@@ -8,8 +8,7 @@ from physics.collision.hulls import CIRCLE_CORNER, CORNERS, PART
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of, unit
 from physics.settings import RECYCLE_MOVE, RECYCLE_SHARE, RECYCLE_WANDER
-from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import PLACED, is_hull, refresh_boxes
+from physics.shapes.placement import PLACED, add_missing_rasters, is_hull, refresh_boxes
 from physics.tables.contact import CORES, UPRIGHT, WITH_A, WITH_B
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 from physics.tables.step_state import StepState, stage

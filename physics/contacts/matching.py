@@ -5,8 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.collision.hull_pairs import approach
-from physics.collision.manifold import NOTHING, Batch, is_before, is_of, mixed
+from physics.collision.manifold import NOTHING, Batch, approach, is_before, is_of, mixed
 from physics.collision.narrow_phase import (
     BIAS,
     GRAZE,

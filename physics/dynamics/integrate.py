@@ -1,21 +1,28 @@
-"""Semi-implicit Euler integration: velocities from forces, then poses from velocities.
-
-Implicit drag v / (1 + c h) is stable for any c. Source of both: Catto, Numerical Methods, GDC 2015.
-"""
+"""Integration: velocities from forces, then poses from velocities; and the quarantine of bodies that are not finite."""
 
 import math
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
+from physics.islands.sleep import disturb
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate, rotation_of
-from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import PLACED, refresh_aabbs
+from physics.settings import POSITION_LIMIT
+from physics.shapes.placement import PLACED, add_missing_rasters, refresh_aabbs
 from physics.tables.body import DYNAMIC, STATIC
+from physics.tables.contact import QUARANTINE
+from physics.tables.shape import TILES
 from physics.tables.step_state import BODIES_INTEGRATED, StepState, stage
 
 BOTH = (False, True)
+
+
+# ---- integration -----------------------------------------------------------------------------------------------------
+# Semi-implicit Euler integration.
+#
+# Implicit drag v / (1 + c h) is stable for any c. Source of both: Catto, Numerical Methods, GDC 2015.
 
 
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
@@ -174,3 +181,216 @@ def shift_bodies(bodies: np.ndarray, rows: np.ndarray, moves: np.ndarray) -> Non
     for column, axis in enumerate("xy"):
         bodies[axis][rows] += moves[:, column]
         bodies[f"center_{axis}"][rows] += moves[:, column]
+
+
+# ---- quarantine ------------------------------------------------------------------------------------------------------
+# The quarantine stage: bodies that a step cannot use are disabled before they affect others, and reported by id.
+#
+# A number that is not finite spreads through a contact to a neighbour, and from there to a whole heap. So every number
+# that a step reads of a body, a shape or a character is checked before the first stage that reads it.
+
+NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK = range(4)
+REASONS = (
+    "a number of the body is not finite, beyond what a double resolves, or below 0 where it may not be",
+    "a number of one of its shapes is not finite, too large, or below 0 where it may not be",
+    "a TileGrid cannot turn: its angle and angular velocity must be 0",
+    "a number of its character is not finite",
+)
+NO_ROWS = np.zeros(0, np.int64)
+LARGEST = 1e100  # of inverse masses and of surface values: products of two larger ones overflow a double
+REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
+READS = (
+    "bodies", "shapes", "awake", "sleeping_set", "pairs", "contact_rows", "touching", "sensing", "tolerances",
+    "library", "effects", "gravity", "characters", "dt",
+)  # fmt: skip
+WRITES = (
+    "events", "pairs", "awake", "sleeping_set", "contact_rows", "touching", "sensing", "shapes.proxy",
+    "bodies.sleep_time", "bodies.island",
+    *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "awake", "active", "quarantined")),
+    *(f"bodies.settled_{name}" for name in ("x", "y", "angle")), "bodies.has_current_contacts",
+    *(f"bodies.{name}" for name in REST),
+)  # fmt: skip
+
+
+@subkernel
+def disable_body(body_inout):
+    """Quarantine a body at its present pose: at rest and without forces."""
+    b = body_inout
+    b.previous_x = b.x
+    b.previous_y = b.y
+    b.previous_angle = b.angle
+    b.vx = 0.0
+    b.vy = 0.0
+    b.angular_velocity = 0.0
+    b.force_x = 0.0
+    b.force_y = 0.0
+    b.torque = 0.0
+    b.awake = False
+    b.quarantined = True
+
+
+@subkernel
+def is_within_limits(body):
+    """Return whether the pose of a body is one that a double resolves."""
+    return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
+
+
+@subkernel
+def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
+    """Return whether a step of dt [s] can use a body.
+
+    All numbers read must be finite, and a double must resolve the pose at the end of its motion; otherwise the fault
+    would spread to neighbours. gravity [px/s2], speed_limit [px/s].
+    """
+    b = body
+    vx = b.vx + dt * (b.inverse_mass * b.force_x + b.gravity_scale * gravity_x)
+    vy = b.vy + dt * (b.inverse_mass * b.force_y + b.gravity_scale * gravity_y)
+    spin = b.angular_velocity + dt * b.inverse_inertia * b.torque
+    # x - x == 0 only for finite x.
+    sizes = b.mass + b.inertia + b.min_half_extent + b.inradius + b.fraction
+    return (
+        abs(b.vx) < speed_limit
+        and abs(b.vy) < speed_limit
+        and abs(vx) < speed_limit
+        and abs(vy) < speed_limit
+        and abs(spin) * b.extent < speed_limit
+        and abs(b.x + dt * vx) < POSITION_LIMIT
+        and abs(b.y + dt * vy) < POSITION_LIMIT
+        and abs(b.angle + dt * spin) < POSITION_LIMIT
+        and abs(b.local_center_x) < POSITION_LIMIT
+        and abs(b.local_center_y) < POSITION_LIMIT
+        and abs(b.center_x) < 2.0 * POSITION_LIMIT
+        and abs(b.center_y) < 2.0 * POSITION_LIMIT
+        and 0.0 <= b.inverse_mass < LARGEST
+        and 0.0 <= b.inverse_inertia < LARGEST
+        and 0.0 <= b.extent < POSITION_LIMIT
+        and sizes - sizes == 0.0
+    )
+
+
+@subkernel
+def is_finite_character(character):
+    """Return whether all numbers of a character are finite (x - x == 0) and within the position limit."""
+    c = character
+    total = c.offset_x + c.offset_y + c.climb + c.remainder_x + c.remainder_y + c.slope + c.mass + c.push
+    total += c.foot_x + c.foot_y + c.carry_x + c.carry_y + c.belt + c.belt_x + c.push_vx + c.push_vy + c.deep
+    return total - total == 0.0 and abs(total) < POSITION_LIMIT
+
+
+class Course(NamedTuple):
+    """The parameters of the free motion of a body in a step."""
+
+    gravity_x: float  # [px/s2]
+    gravity_y: float
+    speed_limit: float  # [px/s]
+    dt: float  # [s]
+
+
+@subkernel
+def take_body(row, reason, found, bodies_inout, broken_out):
+    """Quarantine a body, and list its row and the reason. Return the new count."""
+    disable_body(bodies_inout[row])
+    broken_out[found, 0] = row
+    broken_out[found, 1] = reason
+    return found + 1
+
+
+@subkernel
+def take_broken_bodies(rows, course, bodies_inout, broken_out):
+    """List the bodies that a step cannot use, and quarantine them at their last finite pose. Return their number."""
+    found = 0
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
+        if b.quarantined:
+            continue
+        there = is_within_limits(b)
+        if not there or not is_finite_in_step(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
+            if not there:
+                b.x = b.settled_x
+                b.y = b.settled_y
+                b.angle = b.settled_angle
+            found = take_body(rows[k], NOT_FINITE, found, bodies_inout, broken_out)
+    return found
+
+
+@subkernel
+def is_finite_shape(shape):
+    """Return whether a step can use the numbers of a shape."""
+    s = shape
+    place = abs(s.local_x) + abs(s.local_y) + s.radius
+    surface = s.friction + abs(s.restitution) + abs(s.rolling_resistance) + abs(s.surface_speed)
+    return place < POSITION_LIMIT and surface < LARGEST and s.radius >= 0.0 and s.friction >= 0.0
+
+
+@kernel
+def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_inout, broken_out):
+    """List the bodies that a step cannot use, and quarantine them. Return their number. O(rows + shape_rows).
+
+    grid_rows: shape rows that may be grids, which only a direct write to the table can rotate; broken_out (bodies, 2):
+    row and reason, each body once.
+    """
+    found = take_broken_bodies(rows, course, bodies_inout, broken_out)
+    for k in range(len(shape_rows)):
+        s = shapes[shape_rows[k]]
+        if not (is_finite_shape(s) or bodies_inout[s.body_row].quarantined):
+            found = take_body(s.body_row, BAD_SHAPE, found, bodies_inout, broken_out)
+    for k in range(len(grid_rows)):
+        s = shapes[grid_rows[k]]
+        b = bodies_inout[s.body_row]
+        if s.kind == TILES and not (b.quarantined or (b.angle == 0.0 and b.angular_velocity == 0.0)):
+            b.angle = 0.0
+            found = take_body(s.body_row, TURNED, found, bodies_inout, broken_out)
+    for k in range(len(characters)):
+        row = characters[k].body_row
+        if not (bodies_inout[row].quarantined or is_finite_character(characters[k])):
+            found = take_body(row, BAD_WALK, found, bodies_inout, broken_out)
+    return found
+
+
+@kernel
+def take_broken_by_solver(rows, course, bodies_inout, broken_out):
+    """List and quarantine bodies as take_broken does, by their body rows alone: used after a solver."""
+    return take_broken_bodies(rows, course, bodies_inout, broken_out)
+
+
+@stage("quarantine", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
+def quarantine(state: StepState) -> None:
+    """Disable the bodies that a step cannot use, and report them; their neighbours go on as after a removal."""
+    awake, bodies, workspace = state.awake, state.bodies, state.workspace
+    gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
+    course = Course(*gravity, state.tolerances.speed_limit, state.dt)
+    if len(workspace.broken) < len(bodies):
+        workspace.broken = np.zeros((2 * len(bodies), 2), np.int64)
+    grids = awake.shapes if state.library.grids.count else NO_ROWS
+    found = take_broken(
+        awake.bodies, awake.shapes, grids, state.shapes, state.characters, course, bodies, workspace.broken
+    )
+    if found:
+        _take_out(state, workspace.broken[:found])
+
+
+@stage("quarantine_solved", reads=(*READS, "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
+def quarantine_solved(state: StepState) -> None:
+    """Disable the bodies that a solver did not keep finite, with their contacts, before sweeps and reports."""
+    if not state.non_finite_count:
+        return
+    broken, course = np.zeros((len(state.bodies), 2), np.int64), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
+    ids = _take_out(state, broken[: take_broken_by_solver(state.awake.bodies, course, state.bodies, broken)])
+    kept = ~(np.isin(state.contact_rows["body_a"], ids) | np.isin(state.contact_rows["body_b"], ids))
+    state.contact_rows = state.contact_rows[kept]
+
+
+def _take_out(state, broken):
+    """Remove bodies from the broad phase and from the awake rows; broken (n, 2): row and reason. Return their ids."""
+    bodies, shapes = state.bodies, state.shapes
+    rows, reasons = broken[np.argsort(broken[:, 0])].T
+    ids = bodies["id"][rows]
+    reported = np.array([(ids[k], REASONS[reason]) for k, reason in enumerate(reasons)], QUARANTINE)
+    state.events.quarantined = np.sort(np.concatenate([state.events.quarantined, reported]))
+    own = np.isin(shapes["body"], ids)
+    state.pairs.free_proxies(shapes["proxy"][own])
+    shapes["proxy"][own] = -1
+    refresh_centers(np.ascontiguousarray(rows), bodies)
+    disturb(state, ids)
+    state.awake.start_over()
+    return ids

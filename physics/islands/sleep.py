@@ -6,8 +6,15 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.islands.awake import is_active, list_active, wakes
-from physics.islands.free_motion import free_fall, is_free, keep_awake_what_moves_freely, new_groups
+from physics.islands.awake import (
+    free_fall,
+    is_active,
+    is_free,
+    keep_awake_what_moves_freely,
+    list_active,
+    new_groups,
+    wakes,
+)
 from physics.islands.graph import MOST_NODES, NO_NODE, join, new_edges, write_pair
 from physics.jit import inlined, kernel
 from physics.math2d import norm
@@ -380,7 +387,7 @@ def wake_disturbed(state: StepState) -> None:
 # The criterion is the distance a body has moved, not its speed: in a heap some bodies tremble without moving away.
 # Source: Jolt Physics, Body::UpdateSleepStateInternal, tests whether three points of a body stay within spheres. Here
 # the displacement of the furthest point since the start of the clock is bounded. Speed and time: Box2D v3.2, solver.c.
-# A body that no friction holds must stay in place for a minute more: see free_motion.py.
+# A body that no friction holds must stay in place for a minute more: see awake.py.
 
 COUNTED = 2.0**62  # more sleep periods than this are not an exact integer in a kernel
 

@@ -11,10 +11,9 @@ from physics.broadphase.spatial_hash import CELL_RANGE, LEVELS, SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.broadphase.tree_nodes import ROOT_MOVING
 from physics.checks import Pair
-from physics.dynamics.non_finite import is_within_limits
+from physics.dynamics.integrate import is_within_limits
 from physics.jit import kernel, subkernel
-from physics.shapes.library import add_missing_rasters
-from physics.shapes.placement import refresh_aabbs
+from physics.shapes.placement import add_missing_rasters, refresh_aabbs
 from physics.tables.step_state import COUNTERS, PAIRS_TESTED, WorldTables
 
 # ---- index -----------------------------------------------------------------------------------------------------------

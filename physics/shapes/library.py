@@ -18,7 +18,7 @@ from physics.shapes.kinds import Bounds, mass_of
 from physics.shapes.mask import PixelMask
 from physics.shapes.mass import Mass
 from physics.shapes.outline import is_tiled
-from physics.shapes.placement import missing_rasters, place_masks
+from physics.shapes.placement import place_masks
 from physics.shapes.shape import Shape
 from physics.shapes.values import Circle
 from physics.tables.body import DYNAMIC, STATIC
@@ -382,17 +382,6 @@ def _hull_of(shape):
 # The columns raster, left and top of a SHAPE row with the role PIXELS are valid for one test. Every reader, such as the
 # narrow phase, first writes them with `draw_masks`. A mask that is not snapped is tested by its unrotated pixels,
 # transformed with its body; its rasters at other angles are for pictures only.
-
-
-def add_missing_rasters(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
-    """Draw the snapped masks of these shape rows at their present angles and those after dt [s], where missing."""
-    if not library.masks:
-        return
-    missing = np.zeros((2 * len(rows), 2), np.int64)
-    found = missing_rasters(rows, bodies, shapes, library.tables.rasters, library.raster_of, dt, missing)
-    if found:
-        for mask, bucket in np.unique(missing[:found], axis=0).tolist():
-            library.add_raster(mask, bucket)
 
 
 def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:

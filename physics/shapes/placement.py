@@ -1,6 +1,9 @@
 """Shapes at a pose: corners, raster, AABB, and the pose of a mask that is not snapped."""
 
 import math
+from typing import Any
+
+import numpy as np
 
 from physics.jit import kernel, subkernel
 from physics.math2d import cosine_and_sine, rotate, rotation_of
@@ -424,3 +427,14 @@ def refresh_boxes(rows, geometry, bodies, shapes_inout):
 def refresh_aabbs(rows, geometry, bodies, shapes_inout):
     """Write the tight AABBs of the shapes in these rows, see refresh_boxes. O(rows)."""
     refresh_boxes(rows, geometry, bodies, shapes_inout)
+
+
+def add_missing_rasters(library: Any, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
+    """Draw the snapped masks of these shape rows at their present angles and those after dt [s], where missing."""
+    if not library.masks:
+        return
+    missing = np.zeros((2 * len(rows), 2), np.int64)
+    found = missing_rasters(rows, bodies, shapes, library.tables.rasters, library.raster_of, dt, missing)
+    if found:
+        for mask, bucket in np.unique(missing[:found], axis=0).tolist():
+            library.add_raster(mask, bucket)

@@ -9,9 +9,8 @@ import math
 
 import numpy as np
 
-from physics.ccd.impacts import list_paths
-from physics.ccd.sweep import push_stopped
-from physics.collision.hull_pairs import closing_speed
+from physics.ccd.sweep import list_paths, push_stopped
+from physics.collision.manifold import closing_speed
 from physics.collision.narrow_phase import detect
 from physics.contacts.cache import update_contacts, write_caches
 from physics.dynamics.integrate import place_shapes

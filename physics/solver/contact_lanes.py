@@ -1,321 +1,635 @@
-"""Contacts as constraints in lanes: blocks are filled from CONTACT rows, and their impulses stored there.
+"""The contacts of a step as constraints: their edges, substeps, order and groups, and the way from lanes to their rows.
 
-Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c. A lane holds arms from the centres of mass
-at the start of the step, and a separation that follows from the motion of both sides since. Where two faces stick, the
-arms stay as they were at detection: arms that rotate with a leaning column give its load a torque, and the column
-buckles (Catto, Box2D v3: contact recycling).
+Islands with the same number of substeps form a group, which advances by the whole step before the next group begins.
+Islands do not affect each other: the motion of kinematic bodies between them is a function of time.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
-from physics.jit import inlined, kernel, subkernel
-from physics.settings import CROWD, STICKING_TURN
+import numpy as np
+
+from physics.islands.graph import (
+    MOST_NODES,
+    Edges,
+    color_edges,
+    find_roots,
+    new_edges,
+    order_edges,
+    order_nodes,
+    share_classes,
+    write_pair,
+)
+from physics.jit import kernel, subkernel
+from physics.math2d import norm
+from physics.settings import AUTO_SUBSTEPS, BLOW, COLORS, EASE_TIME, HERTZ_SHARE, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
+from physics.solver.energy import find_squeezed
 from physics.solver.lanes import (
     LANES,
+    PREPARE,
     SIZE,
     Blocks,
     blocks_needed,
     clamp,
     lanes_of,
-    lay_out,
     make_blocks,
-    next_lane,
+    push_along,
+    touches_slowly,
     write_arms,
     write_masses,
 )
 from physics.solver.motions import Motions
-from physics.solver.restitution import restore_bounces
-from physics.solver.selection import Group, Selection, touches_slowly
-from physics.solver.simultaneous_impacts import make_impacts, push_along
-from physics.solver.squeeze import limit_impulses
+from physics.solver.restitution import make_impacts, restore_bounces
 from physics.solver.step_context import StepContext
-from physics.tables.step_state import SOLVER_ROWS, TANGENT_ROWS, StepState
+from physics.tables.contact import SQUEEZE
+from physics.tables.step_state import CAP_HITS, StepState, WorldTables
+from physics.tables.table import rows_of
 
 BOTH = (False, True)
-TURNING = 1e-3  # [rad] turn in a step from which the moment arms of a round contact follow it
-
-# ---- prepare ---------------------------------------------------------------------------------------------------------
-# From contacts to lanes.
+CHOICES = np.array(AUTO_SUBSTEPS, np.int64)
+BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # index of the greatest that a load alone may take
 
 
-@inlined
-def sticks(a, b, contact, distance):
-    """Return whether two faces stick: normal and moment arms may stay as they were when the contact was found.
+class Plan(NamedTuple):
+    """The constraints to solve and their order; each array has room for all of them."""
 
-    They stick if they carry a load, neither shape is round, neither body (BODY rows) rotated by more than
-    STICKING_TURN, and their centres moved relative to each other by no more than distance [px]. An unloaded contact
-    never sticks, because it has to leave its overlap.
-    """
-    c = contact
-    x = b.center_x - a.center_x - c.apart_x
-    y = b.center_y - a.center_y - c.apart_y
-    return (
-        c.count == 2
-        and c.tangential_offset == 0.0
-        and (c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0)
-        and c.radius_a == 0.0
-        and c.radius_b == 0.0
-        and abs(a.angle - c.angle_a) <= STICKING_TURN
-        and abs(b.angle - c.angle_b) <= STICKING_TURN
-        and x * x + y * y <= distance * distance
+    edges: Edges  # their nodes are rows of MOTION
+    colors: np.ndarray  # (edges) int32 of each edge
+    places: np.ndarray  # (edges) int32 place of each among the constraints, by group and colour
+    taken: np.ndarray  # (motions) int64 bits of the colours that each has
+    degrees: np.ndarray  # (motions) int64 edges of each
+    classes: np.ndarray  # (motions) int32 index of the substeps of each among the choices
+    parents: np.ndarray  # (motions) int32 root of the island of each, if …
+    joined: np.ndarray  # (1) bool … it was computed
+    touching: np.ndarray  # (motions) int32 root of the bodies with which each exchanged impulses, see energy.py
+    squeezed: np.ndarray  # (1) bool an island has no room, …
+    squeeze: np.ndarray  # SQUEEZE (motions) … and impulses in it are bounded
+    members: np.ndarray  # (motions) int32 island bodies, by group
+    starts: np.ndarray  # int64 first constraint of each colour of each group, those without a colour first
+    firsts: np.ndarray  # int64 first body of each group
+    cursors: np.ndarray  # scratch, as long as starts
+
+
+def new_plan(edges: int, motions: int) -> Plan:
+    """Return room for so many edges between so many motions."""
+    slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
+    return Plan(
+        edges=new_edges(edges),
+        colors=np.zeros(edges, np.int32),
+        places=np.zeros(edges, np.int32),
+        taken=np.zeros(motions, np.int64),
+        degrees=np.zeros(motions, np.int64),
+        classes=np.zeros(motions, np.int32),
+        parents=np.zeros(motions, np.int32),
+        joined=np.zeros(1, np.bool_),
+        touching=np.zeros(motions, np.int32),
+        squeezed=np.zeros(1, np.bool_),
+        squeeze=np.zeros(motions, SQUEEZE),
+        members=np.zeros(motions, np.int32),
+        starts=np.zeros(slots, np.int64),
+        firsts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),
+        cursors=np.zeros(slots, np.int64),
     )
 
 
-NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
+class Group(NamedTuple):
+    """The islands that take the same number of substeps."""
+
+    substeps: int
+    edges: int  # number of edges of all groups
+    count: int  # number of constraints of the group …
+    uncolored: int  # … and of those without a colour
+    members: np.ndarray  # int32 rows of MOTION
+    starts: np.ndarray  # int64 first constraint of each colour, those without a colour first, and the end of the last
 
 
-DRIFT_SLOPS = 0.1  # greatest drift that is taken back, in slops
-GRIPPING = 0.99  # share of the limit of friction up to which a contact does not slip
+# ---- edges of contacts -----------------------------------------------------------------------------------------------
 
 
-@inlined
-def tangential_drift(a, b, contact):
-    """Return how far [px] B's side has moved along a sticking contact since it was found. a, b: BODY rows."""
-    c = contact
-    x = b.center_x - a.center_x - c.apart_x
-    y = b.center_y - a.center_y - c.apart_y
-    on_a = c.held_ax_1 * c.held_nx + c.held_ay_1 * c.held_ny
-    on_b = on_a - (c.apart_x * c.held_nx + c.apart_y * c.held_ny)
-    turned = (b.angle - c.angle_b) * on_b - (a.angle - c.angle_a) * on_a
-    return y * c.held_nx - x * c.held_ny + turned
+@subkernel
+def credit_overlap(overlap, motion, balance_inout):
+    """Add the energy that lifts a body by an overlap [px] to what it may take."""
+    m = motion
+    if m.inverse_mass > 0.0:
+        balance_inout.reserve += overlap * norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
 
 
-@inlined
-def slips(contact):
-    """Return whether friction was at its limit in the last step, up to a hundredth."""
-    c = contact
-    tangent = abs(c.tangent_force_1) + abs(c.tangent_force_2)
-    return tangent >= GRIPPING * c.friction * (c.normal_force_1 + c.normal_force_2)
+@subkernel
+def list_contact_edges(
+    # read
+    contacts,
+    bodies,
+    motions,
+    dt,
+    limits,
+    # write
+    lists_inout,
+    edges_out,
+):
+    """List the contacts to solve as edges between rows of MOTION. Return their number, that of overlaps with bodies of
+    infinite mass, and the greatest overlap [px] of all. O(contacts).
 
-
-@inlined
-def speed_of_drift(a, b, rate, slop, contact_inout):
-    """Return the surface speed [px/s] that takes back the drift of a sticking contact since it slipped last.
-
-    Without it a light plank under a heavy load wanders, because the passes leave some speed. A push that moves it
-    further than a part of the slop [px] has moved it. a, b: BODY rows; rate: [1/s].
+    Sensors, pairs without a dynamic body, and contacts under a character's feet are left out.
     """
-    c = contact_inout
-    drift = tangential_drift(a, b, c)
-    # It may have slid in the step in which it came to rest.
-    slipped = slips(c) or abs(drift - c.slipped) > DRIFT_SLOPS * slop
-    if slipped or c.slips:
-        c.slipped = drift
-    c.slips = slipped
-    return -rate * (drift - c.slipped)
+    motion_of = lists_inout.motion_of
+    found = 0
+    faces = 0
+    deepest = 0.0
+    for i in range(len(contacts)):
+        c = contacts[i]
+        row_a = motion_of[c.body_row_a]
+        row_b = motion_of[c.body_row_b]
+        a = motions[row_a]
+        b = motions[row_b]
+        if (
+            c.sensor
+            or a.inverse_mass + b.inverse_mass == 0.0
+            or (a.is_character and c.normal_y > abs(c.normal_x))
+            or (b.is_character and -c.normal_y > abs(c.normal_x))
+        ):
+            continue
+        write_pair(found, i, row_a, row_b, edges_out)
+        speed = c.speed_1 if c.speed_1 * dt > c.separation_1 else 0.0
+        if c.count == 2 and c.speed_2 * dt > c.separation_2:
+            speed = max(speed, c.speed_2)
+        edges_out.impact_speeds[found] = speed
+        edges_out.resting[found] = touches_slowly(c.separation_1, c.speed_1, limits)
+        overlap = -(min(c.separation_1, c.separation_2) if c.count == 2 else c.separation_1)
+        edges_out.overlaps[found] = overlap
+        deepest = max(deepest, overlap)
+        edges_out.faces[found, 0] = 0.0
+        edges_out.faces[found, 1] = 0.0
+        for side in range(2):
+            o = a if side == 0 else b
+            # A character that is pushed gives way, unless it is wedged.
+            if overlap > 0.0 and o.inverse_mass == 0.0 and not o.is_character:
+                sign = 1.0 if side == 0 else -1.0
+                edges_out.faces[found, 0] = sign * c.normal_x
+                edges_out.faces[found, 1] = sign * c.normal_y
+                body = bodies[c.body_row_a if side == 0 else c.body_row_b]
+                x, y = c.x_1 - body.center_x, c.y_1 - body.center_y
+                speed = norm(o.vx - o.angular_velocity * y, o.vy + o.angular_velocity * x)
+                edges_out.face_speeds[found] = speed if o.moves else 0.0
+                faces += 1
+        if overlap > 0.0 and c.of_new_pair:
+            # What is made inside another may be lifted out of it.
+            credit_overlap(overlap, a, lists_inout.balance[row_a])
+            credit_overlap(overlap, b, lists_inout.balance[row_b])
+        found += 1
+    return found, faces, deepest
 
 
-@inlined
-def arms_turn(contact, a, b, dt):
-    """Return whether the moment arms of a contact follow its bodies, MOTION rows: it is round, and they turn."""
-    is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
-    return is_round and dt * max(abs(a.angular_velocity), abs(b.angular_velocity)) > TURNING
+# ---- substep classes -------------------------------------------------------------------------------------------------
+# The number of substeps of each island, as an index of the choices.
 
 
-@inlined
-def restitution_threshold(contact, a, b, degree_a, degree_b, context):
-    """Return the approach speed [px/s] up to which a contact does not bounce.
+def estimate_rate(state: StepState) -> float:
+    """Return the square of the substeps that keep the sag of a contact within the accuracy, per speed [s/px].
 
-    A new contact bounces at any speed if no acceleration presses its sides together: otherwise a slow ball would stick
-    to a wall in space. One that touched in the step before bounces only beyond what acceleration adds in two steps.
-    a, b: MOTION rows of its sides, with their numbers of constraints. Two bodies with other constraints do not fall
-    together.
+    The speed is that which the impulses of a step give the effective mass. A contact sags by F / (m ω²), with ω by
+    HERTZ_SHARE.
     """
-    m = contact
-    on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
-    on_b = -(b.acceleration_x * m.normal_x + b.acceleration_y * m.normal_y)
-    least = NO_PRESS * (abs(a.acceleration_x) + abs(a.acceleration_y) + abs(b.acceleration_x) + abs(b.acceleration_y))
-    together = degree_a <= 1 and degree_b <= 1 and a.inverse_mass > 0.0 and b.inverse_mass > 0.0
-    press = on_a + on_b if together else max(on_a, 0.0) + max(on_b, 0.0)
-    if m.touched:
-        return max(context.restitution_speed, 2.0 * context.dt * press)
-    return context.restitution_speed if press > least else 0.0
+    return state.dt / ((math.tau * HERTZ_SHARE) ** 2 * state.accuracy)
 
 
-@inlined
-def write_softness(contact, sticking, a, b, degree_a, degree_b, context, lane, c_out):
-    """Write how a lane separates: its push-out share, spring and stiffness, and whether it rests, is loaded or bounces.
-
-    a, b: MOTION rows of its sides, with their numbers of constraints.
+@subkernel
+def class_for(choices, square, least):
+    """Return the index of the first choice, from `least` on, whose square is at least that; the last one if there is
+    none.
     """
-    m = contact
-    limits = context.limits
-    against_static = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
-    # One contact below and one above.
-    sole_support = sticking and (a.inverse_mass == 0.0 or degree_a <= 2) and (b.inverse_mass == 0.0 or degree_b <= 2)
-    crowd = max(degree_a if a.inverse_mass > 0.0 else 0, degree_b if b.inverse_mass > 0.0 else 0)
-    share = CROWD / crowd if crowd > CROWD else 1.0
-    two = m.count == 2
-    approaching = m.speed_1 > limits.calm_speed or (two and m.speed_2 > limits.calm_speed)
-    loaded = m.normal_force_1 > 0.0 or (two and m.normal_force_2 > 0.0)
-    bouncing = m.speed_1 > limits.impact_speed or (two and m.speed_2 > limits.impact_speed)
-    resting = touches_slowly(m.separation_1, m.speed_1, limits) or (
-        two and touches_slowly(m.separation_2, m.speed_2, limits)
-    )
-    # A loaded contact oscillates as slowly as its load is heavy, so its spring may be stiffer with the same damping. A
-    # new contact may not.
-    stiffness = 1.0
-    if loaded and not bouncing:
-        stiffness = context.sole_support_stiffness if sole_support else context.loaded_stiffness
-    spring = context.static_spring if against_static else context.spring
-    impulses = context.h * m.normal_force_1 + (context.h * m.normal_force_2 if two else 0.0)
-    c = c_out
-    c[at.PUSH_OUT_SHARE + lane] = share if approaching else -share
-    c[at.RESTING + lane] = 1.0 if resting else 0.0
-    c[at.BIAS_RATE + lane] = spring.bias_rate
-    c[at.IMPULSE_SCALE + lane] = 1.0 / (1.0 + stiffness * spring.grip)
-    c[at.STRIKE_LIMIT + lane] = context.strike_factor * impulses if loaded and not against_static else math.inf
-    c[at.STIFFNESS + lane] = -stiffness if sole_support else stiffness
-    c[at.LOADED + lane] = 1.0 if loaded else 0.0
-    c[at.BOUNCING + lane] = 1.0 if bouncing else 0.0
+    place = least
+    while place < len(choices) - 1 and choices[place] * choices[place] < square:
+        place += 1
+    return place
 
 
-def make_write_point(second: bool) -> Callable:
-    """Return the function that writes the first or second point of a contact into a lane."""
-    arm_lines = (at.AX_2, at.AY_2, at.BX_2, at.BY_2) if second else (at.AX_1, at.AY_1, at.BX_1, at.BY_1)
-    ax_line, ay_line, bx_line, by_line = arm_lines
-    base_line, gap_line = (at.BASE_2, at.GAP_2) if second else (at.BASE_1, at.GAP_1)
-    normal_line, tangent_line = (at.NORMAL_2, at.TANGENT_2) if second else (at.NORMAL_1, at.TANGENT_1)
-    total_line, tangent_total_line = (at.TOTAL_2, at.TANGENT_TOTAL_2) if second else (at.TOTAL_1, at.TANGENT_TOTAL_1)
+@subkernel
+def class_motions(motions, degrees, choices, by_load, classes_out):
+    """Write the index of each motion's number of substeps among the choices. Return whether there are new bodies.
 
-    @inlined
-    def write_point(contact, p, q, sticking, h, lane, c_out):
-        """Write point, separation and the cached impulses for a substep of h [s]. p, q: BODY rows of the sides."""
-        m = contact
-        c = c_out
-        nx = c[at.NX + lane]
-        ny = c[at.NY + lane]
-        x = m.x_2 if second else m.x_1
-        y = m.y_2 if second else m.y_1
-        ax = x - p.center_x
-        ay = y - p.center_y
-        bx = x - q.center_x + m.tangential_offset * ny  # the present position of B's point
-        by = y - q.center_y - m.tangential_offset * nx
-        if sticking:
-            ax = m.held_ax_2 if second else m.held_ax_1
-            ay = m.held_ay_2 if second else m.held_ay_1
-            bx = ax - m.apart_x
-            by = ay - m.apart_y
-        separation = m.separation_2 if second else m.separation_1
-        base = separation - ((bx - ax) * nx + (by - ay) * ny) - (m.radius_a + m.radius_b)
-        c[ax_line + lane] = ax
-        c[ay_line + lane] = ay
-        c[bx_line + lane] = bx
-        c[by_line + lane] = by
-        c[base_line + lane] = base
-        # At the start of the substeps nothing has moved; afterwards the relaxing pass measures.
-        c[gap_line + lane] = m.radius_a + m.radius_b + base + ((bx - ax) * nx + (by - ay) * ny)
-        c[normal_line + lane] = h * (m.normal_force_2 if second else m.normal_force_1)
-        c[tangent_line + lane] = h * (m.tangent_force_2 if second else m.tangent_force_1)
-        c[total_line + lane] = 0.0
-        c[tangent_total_line + lane] = 0.0
-
-    return write_point
-
-
-write_first, write_second = make_write_point(False), make_write_point(True)
-
-
-@inlined
-def copy_first(lane, c_inout):
-    """Write the second point of a contact with one: a copy of the first without effective mass."""
-    c = c_inout
-    c[at.AX_2 + lane] = c[at.AX_1 + lane]
-    c[at.AY_2 + lane] = c[at.AY_1 + lane]
-    c[at.BX_2 + lane] = c[at.BX_1 + lane]
-    c[at.BY_2 + lane] = c[at.BY_1 + lane]
-    c[at.BASE_2 + lane] = c[at.BASE_1 + lane]
-    c[at.GAP_2 + lane] = c[at.GAP_1 + lane]
-    c[at.NORMAL_2 + lane] = 0.0
-    c[at.TANGENT_2 + lane] = 0.0
-    c[at.TOTAL_2 + lane] = 0.0
-    c[at.TANGENT_TOTAL_2 + lane] = 0.0
-
-
-def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
-    """Return the pass from contacts to lanes for a world with these effects."""
-
-    @kernel
-    def prepare_lanes(
-        # read
-        bodies,
-        motions,
-        plan,
-        group,
-        context,
-        # write
-        contacts_inout,
-        blocks_out,
-        work_inout,
-    ):
-        """Write the contacts of a group into blocks of one colour each. Return the number of blocks. O(edges).
-
-        Contacts are read in memory order, for the prefetcher of the processor; the open blocks of all colours fit into
-        its cache.
-        """
-        starts = group.starts
-        count = lay_out(starts, blocks_out)
-        for edge in range(group.edges):
-            place = plan.places[edge]
-            if place < starts[0] or place >= starts[len(starts) - 1]:
-                continue  # of another group
-            row = plan.edges.rows[edge]
-            row_a = plan.edges.nodes[edge, 0]
-            row_b = plan.edges.nodes[edge, 1]
-            block, lane = next_lane(plan.colors[edge] + 1, blocks_out)
-            blocks_out.contact[block, lane] = row
-            blocks_out.motion_a[block, lane] = row_a
-            blocks_out.motion_b[block, lane] = row_b
-            c = blocks_out.lines[block * SIZE : (block + 1) * SIZE]
-            m = contacts_inout[row]
-            m.color = plan.colors[edge]
-            a = motions[row_a]
-            b = motions[row_b]
-            p = bodies[m.body_row_a]
-            q = bodies[m.body_row_b]
-            sticking = sticks(p, q, m, context.limits.sticking)
-            c[at.NX + lane] = m.held_nx if sticking else m.normal_x
-            c[at.NY + lane] = m.held_ny if sticking else m.normal_y
-            c[at.IM_A + lane] = a.inverse_mass
-            c[at.II_A + lane] = a.inverse_inertia
-            c[at.IM_B + lane] = b.inverse_mass
-            c[at.II_B + lane] = b.inverse_inertia
-            c[at.RADIUS_A + lane] = m.radius_a
-            c[at.RADIUS_B + lane] = m.radius_b
-            write_softness(m, sticking, a, b, plan.degrees[row_a], plan.degrees[row_b], context, lane, c)
-            write_first(m, p, q, sticking, context.h, lane, c)
-            if m.count == 2:
-                write_second(m, p, q, sticking, context.h, lane, c)
+    A body without constraints takes the fewest, a new one as many as a load may need. O(motions).
+    """
+    unknown = False
+    for i in range(len(classes_out)):
+        classes_out[i] = 0
+        m = motions[i]
+        if degrees[i] > 0 and m.is_dynamic:
+            if m.substeps == 0:
+                unknown = True
+                classes_out[i] = by_load
             else:
-                copy_first(lane, c)
-            c[at.MASS_2 + lane] = 1.0 if m.count == 2 else 0.0
-            write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
-            write_masses(lane, c)
-            turns = arms_turn(m, a, b, context.dt)
-            c[at.TURNS + lane] = 1.0 if turns else 0.0
-            blocks_out.turns[block] = blocks_out.turns[block] or turns
-            turning = a.inverse_inertia + b.inverse_inertia
-            c[at.MOST + lane] = math.inf
-            if plan.squeezed[0]:
-                limit_impulses(a, b, plan.squeeze[row_a], plan.squeeze[row_b], context.h, lane, c)
-            c[at.ROLLING_LIMIT + lane] = m.rolling_resistance if friction else 0.0
-            c[at.ROLLING_MASS + lane] = 1.0 / turning if turning > 0.0 else 0.0
-            c[at.ROLLING + lane] = context.h * m.rolling_force
-            c[at.SURFACE + lane] = m.surface_speed if conveyor else 0.0
-            if sticking and friction and m.surface_speed == 0.0:
-                c[at.SURFACE + lane] = speed_of_drift(p, q, context.drift_rate, context.slop, m)
-            c[at.FRICTION + lane] = m.friction if friction else 0.0
-            c[at.RESTITUTION + lane] = m.restitution
-            c[at.THRESHOLD + lane] = restitution_threshold(m, a, b, plan.degrees[row_a], plan.degrees[row_b], context)
-            c[at.LISTED + lane] = 0.0
-            work_inout[SOLVER_ROWS] += m.count
-            if friction and m.friction > 0.0:
-                work_inout[TANGENT_ROWS] += m.count
-        return count
+                classes_out[i] = class_for(choices, float(m.substeps * m.substeps), 0)
+    return unknown
 
-    return prepare_lanes
+
+@subkernel
+def expect_impacts(edges, count, motions, rate, choices, classes_inout):
+    """Raise the class of bodies that meet in this step to the substeps that the impact will need. O(count).
+
+    A light body carries the momentum of a heavy one. rate: see estimate_rate.
+    """
+    for i in range(count):
+        speed = edges.impact_speeds[i]
+        if speed <= 0.0:
+            continue
+        square = speed * rate
+        least = math.inf
+        most = 0.0
+        for k in range(MOST_NODES):
+            if edges.nodes[i, k] < 0:
+                break
+            inverse_mass = motions[edges.nodes[i, k]].inverse_mass
+            least = min(least, inverse_mass)
+            most = max(most, inverse_mass)
+        if least > 0.0:
+            square *= most / least
+        for k in range(MOST_NODES):
+            node = edges.nodes[i, k]
+            if node < 0:
+                break
+            if motions[node].is_dynamic:
+                classes_inout[node] = class_for(choices, square, int(classes_inout[node]))
+
+
+@subkernel
+def expect_columns(edges, count, motions, degrees, most, classes_inout):
+    """Give new two-contact stacks the most substeps: the class `most`. O(count).
+
+    How a column leans is unknown until the load has reached its foot, and a lean does not stop by itself.
+    """
+    for i in range(count):
+        if not edges.resting[i]:
+            continue
+        is_new = False
+        column = True
+        for k in range(MOST_NODES):
+            node = edges.nodes[i, k]
+            if node < 0:
+                break
+            is_new = is_new or motions[node].substeps == 0
+            column = column and motions[node].is_dynamic and degrees[node] <= 2
+        if is_new and column:
+            classes_inout[edges.nodes[i, 0]] = most
+
+
+@subkernel
+def are_mixed(links_islands, degrees, classes):
+    """Return whether the bodies with constraints are of more than one class. O(motions)."""
+    first = -1
+    for i in range(len(classes)):
+        if links_islands[i] and degrees[i] > 0:
+            if first < 0:
+                first = classes[i]
+            elif classes[i] != first:
+                return True
+    return False
+
+
+# ---- order -----------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def list_and_color(
+    # read
+    contacts,
+    bodies,
+    motions,
+    dt,
+    limits,
+    # write
+    lists_inout,
+    plan_out,
+):
+    """List the constraints to solve as edges, and colour these. Return their number. O(contacts + motions).
+
+    lists_inout: see MotionLists. See list_contact_edges, color_edges.
+    """
+    nodes = len(motions)
+    count, faces, deepest = list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_out.edges)
+    taken = plan_out.taken[:nodes]
+    degrees = plan_out.degrees[:nodes]
+    color_edges(plan_out.edges, count, lists_inout.has_finite_mass, lists_inout.rank, taken, degrees, plan_out.colors)
+    plan_out.squeezed[0] = False
+    if faces > 1 and deepest > limits.deep:
+        parents, squeeze = plan_out.parents[:nodes], plan_out.squeeze
+        plan_out.squeezed[0] = find_squeezed(plan_out.edges, count, lists_inout, motions, limits, parents, squeeze)
+    return count
+
+
+@kernel
+def order_in_one_group(
+    # read
+    contacts,
+    bodies,
+    motions,
+    dt,
+    limits,
+    # write
+    lists_inout,
+    plan_out,
+):
+    """List the constraints to solve in one group, by colour. Return their number, and the number without a colour.
+    O(contacts + motions).
+    """
+    count = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out)
+    starts = plan_out.starts[: COLORS + 2]
+    order_edges(plan_out.edges, count, plan_out.colors, plan_out.classes[:0], starts, plan_out.cursors, plan_out.places)
+    return count, starts[1] - starts[0]
+
+
+@kernel
+def order_by_load(
+    # read
+    contacts,
+    bodies,
+    motions,
+    members,
+    dt,
+    limits,
+    rate,
+    choices,
+    by_load,
+    # write
+    lists_inout,
+    plan_out,
+):
+    """List the constraints to solve by the number of substeps of their islands, and by colour. Return their number.
+
+    dt [s]; limits: see settings.Limits; rate: see estimate_rate; by_load: index of the greatest choice that a load
+    alone may need; members: rows of MOTION. O(contacts + motions).
+    """
+    plan = plan_out
+    nodes = len(motions)
+    classes = plan.classes[:nodes]
+    count = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan)
+    unknown = class_motions(motions, plan.degrees, choices, by_load, classes)
+    expect_impacts(plan.edges, count, motions, rate, choices[: by_load + 1], classes)
+    if unknown:
+        expect_columns(plan.edges, count, motions, plan.degrees, len(choices) - 1, classes)
+    plan.joined[0] = are_mixed(lists_inout.links_islands, plan.degrees, classes)
+    if plan.joined[0]:
+        parents = plan.parents[:nodes]
+        find_roots(plan.edges, count, lists_inout.links_islands, parents)
+        share_classes(parents, classes)
+    order_edges(plan.edges, count, plan.colors, classes, plan.starts, plan.cursors, plan.places)
+    order_nodes(members, classes, plan.firsts, plan.cursors, plan.members)
+    return count
+
+
+class Selection:
+    """The order of the constraints of one world; its arrays grow and are reused."""
+
+    def __init__(self) -> None:
+        self.plan = new_plan(16, 16)
+
+    def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
+        """Select, colour and order the constraints. substeps: their number, 0 for as many as each island needs."""
+        rows, contacts, limits = motions.used, state.contact_rows, state.tolerances.limits
+        if len(self.plan.colors) < len(contacts) or len(self.plan.taken) < len(rows):
+            self.plan = new_plan(2 * len(contacts), 2 * len(rows))
+        plan = self.plan
+        if substeps:
+            count, uncolored = order_in_one_group(contacts, state.bodies, rows, state.dt, limits, motions.lists, plan)
+            return [Group(substeps, count, count, uncolored, motions.island_bodies, plan.starts[: COLORS + 2])]
+        rate = estimate_rate(state)
+        edges = order_by_load(
+            contacts,
+            state.bodies,
+            rows,
+            motions.island_bodies,
+            state.dt,
+            limits,
+            rate,
+            CHOICES,
+            BY_LOAD,
+            motions.lists,
+            plan,
+        )
+        colors, firsts, starts = COLORS + 1, plan.firsts.tolist(), plan.starts
+        groups = [
+            Group(
+                substeps=number,
+                edges=edges,
+                count=starts.item((k + 1) * colors) - starts.item(k * colors),
+                uncolored=starts.item(k * colors + 1) - starts.item(k * colors),
+                members=plan.members[firsts[k] : firsts[k + 1]],
+                starts=starts[k * colors : (k + 1) * colors + 1],
+            )
+            for k, number in enumerate(AUTO_SUBSTEPS)
+            if firsts[k] < firsts[k + 1]
+        ]
+        # Kinematic bodies move even if no dynamic body does.
+        return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, 0, motions.island_bodies, plan.starts[: colors + 1])]
+
+
+# ---- unloading -------------------------------------------------------------------------------------------------------
+# Release of cached forces under a heavy load that is removed; otherwise those forces would throw the bodies below.
+#
+# A contact starts from the force at the end of the step before. After a body of a thousand times its mass is removed,
+# that is a thousand times the force that is needed. A pass removes as much of it as the order of the contacts allows;
+# the rest becomes velocity.
+
+FORCES = ("normal_force_1", "tangent_force_1", "normal_force_2", "tangent_force_2", "rolling_force")
+
+
+def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
+    """Clear the cached forces under a load that is removed or moved.
+
+    Where a removed body lay on a body of a small fraction of its weight, all contacts of the stack below, through
+    dynamic bodies, lose their cached forces. O(contacts · depth of the stack), in worlds that stack.
+    """
+    contacts, bodies = tables.contact_rows, tables.bodies
+    if not len(contacts) or not tables.stacks:
+        return  # contacts are not cached
+    ids_a, ids_b = contacts["body_a"], contacts["body_b"]
+    going_a, going_b = np.isin(ids_a, ids), np.isin(ids_b, ids)
+    lost = going_a != going_b
+    if not lost.any():
+        return
+    left = rows_of(bodies, np.where(going_a, ids_b, ids_a)[lost])
+    force = (contacts["normal_force_1"] + np.where(contacts["count"] == 2, contacts["normal_force_2"], 0.0))[lost]
+    reached = np.zeros(len(bodies), bool)
+    weight = math.hypot(*tables.gravity) if tables.effects.gravity else 0.0
+    reached[left[(force > 0.0) & (force * bodies["inverse_mass"][left] > BLOW * weight)]] = True
+    if not reached.any():
+        return
+    row_a, row_b, loose = rows_of(bodies, ids_a), rows_of(bodies, ids_b), bodies["inverse_mass"] > 0.0
+    inner = loose[row_a] & loose[row_b] & ~(going_a | going_b)
+    a, b = row_a[inner], row_b[inner]
+    while (reached[a] != reached[b]).any():
+        reached[a[reached[b]]] = True
+        reached[b[reached[a]]] = True
+    borne = reached[row_a] | reached[row_b]
+    for name in FORCES:
+        contacts[name][borne] = 0.0
+
+
+# ---- estimate --------------------------------------------------------------------------------------------------------
+# Substep estimate of an island: as many as keep the sag of its contacts within the accuracy.
+#
+# A contact is a spring whose frequency is a share of the substeps per second: under a force F it sags by F / (m ω²), a
+# quarter of that with twice the substeps. The loads of the last step give the number for the next one. It rises at
+# once; it falls by half after half has been enough for a whole island for a while: the sag then stays within half of
+# the accuracy, so that islands do not alternate. A load alone takes no more than LOAD_SUBSTEPS, and so does a heap. A
+# leaning column takes more: its load shifts further out, and it does not recover. Source of the spring: Catto, Soft
+# Constraints, GDC 2011.
+
+
+class LoadRules(NamedTuple):
+    """How the substeps of an island follow from its loads."""
+
+    rate: float  # square of the substeps per speed that the impulses of the step give [s/px], between bodies …
+    rate_static: float  # … and against static ones, without the factor on the stiffness (see StepContext)
+    least: int  # fewest substeps
+    most_by_load: int  # most substeps of a load …
+    most: int  # … and of a leaning stack
+    dt: float  # [s]
+    patience: float  # [s] for which fewer must have been enough
+
+
+@subkernel
+def add_estimates(blocks, count, substeps, rules, motions_inout):
+    """Write to both motions of each constraint the square of the substeps that it needs, if it is greater.
+
+    Also write whether its load would need more than these `substeps` and than a load may take. blocks: so many blocks
+    of lanes, see lanes.py. O(constraints).
+    """
+    reach = max(substeps, rules.most_by_load)
+    reach_squared = float(reach * reach)
+    # Half of the square keeps the present number, and lets a lean that took twice as many come down to it.
+    by_load = 0.5 * float(rules.most_by_load * rules.most_by_load)
+    for block in range(count):
+        c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
+        for lane in range(at.LANES):
+            if blocks.contact[block, lane] < 0 or c[at.MOST + lane] < math.inf:
+                continue
+            static = c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
+            per_speed = (rules.rate_static if static else rules.rate) / abs(c[at.STIFFNESS + lane])
+            lean = 1.0
+            estimate = per_speed * c[at.TOTAL_1 + lane] / c[at.MASS_1 + lane]
+            if c[at.MASS_2 + lane] > 0.0:
+                other = per_speed * c[at.TOTAL_2 + lane] / c[at.MASS_2 + lane]
+                least = min(estimate, other)
+                estimate = max(estimate, other)
+                if c[at.STIFFNESS + lane] < 0.0 and least > 0.0:
+                    # A body on one sole support leans by the difference of its points, and the rest of the face is its
+                    # margin.
+                    lean = min(estimate / least, LEAN)
+            capped = estimate > reach_squared
+            estimate = min(lean * min(estimate, by_load), float(rules.most * rules.most))
+            a = motions_inout[blocks.motion_a[block, lane]]
+            b = motions_inout[blocks.motion_b[block, lane]]
+            a.capped = a.capped or capped
+            b.capped = b.capped or capped
+            a.estimate = max(a.estimate, estimate)
+            b.estimate = max(b.estimate, estimate)
+
+
+@subkernel
+def choose_substeps(members, degrees, substeps, rules, motions_inout):
+    """Write the substeps that each island body needs after a step of so many. Return whether all need the present
+    number. O(members).
+    """
+    content = True
+    for k in range(len(members)):
+        i = members[k]
+        m = motions_inout[i]
+        m.branching = degrees[i] > 2
+        estimate = m.estimate
+        wanted = substeps
+        cooldown = 0.0
+        if m.capped and substeps >= rules.most_by_load:
+            cooldown = min(m.cooldown, 0.0) - rules.dt
+            if cooldown <= -rules.patience:
+                m.estimate = math.inf
+                content = False
+        if estimate > substeps * substeps:
+            while wanted < rules.most and wanted * wanted < estimate:
+                wanted *= 2
+        elif substeps > rules.least and 8.0 * estimate <= substeps * substeps:
+            if not m.capped:
+                cooldown = min(m.cooldown + rules.dt, rules.patience)
+            if abs(cooldown) >= rules.patience:
+                wanted = substeps // 2
+        m.cooldown = cooldown
+        m.substeps = wanted
+        content = content and wanted == substeps and not (m.branching and substeps > rules.most_by_load)
+    return content
+
+
+@subkernel
+def share_substeps(
+    # read
+    members,
+    parents,
+    substeps,
+    most_by_load,
+    # write
+    motions_inout,
+):
+    """Give each body the most substeps that a body of its island needs, after a step of so many.
+
+    In a heap it is no more than a load may take, since some body leans there all the time. Return the number of islands
+    that are reported as capped. parents (motions) int32: the root of each island, its lowest row. O(members).
+    """
+    for k in range(len(members)):
+        m = motions_inout[members[k]]
+        root = motions_inout[parents[members[k]]]
+        root.substeps = max(root.substeps, m.substeps)
+        root.estimate = max(root.estimate, m.estimate)
+        root.branching = root.branching or m.branching
+    capped = 0
+    for k in range(len(members)):
+        i = members[k]
+        m = motions_inout[i]
+        root = motions_inout[parents[i]]
+        m.substeps = min(root.substeps, most_by_load) if root.branching else root.substeps
+        if m.substeps != substeps:
+            m.cooldown = 0.0
+        capped += int(parents[i] == i and root.estimate == math.inf)
+    return capped
+
+
+@kernel
+def choose_by_load(
+    # read
+    blocks,
+    count,
+    group,
+    links_islands,
+    rules,
+    # write
+    plan_inout,
+    motions_inout,
+):
+    """Write the substeps of the islands after a step of so many.
+
+    Return the number of islands that needed more than they may take for `patience` [s], which leaves out impacts.
+    blocks: so many blocks of lanes; group, plan_inout: see Group, Plan; links_islands: see find_roots. Islands are
+    found only if the bodies differ. O(members + constraints).
+    """
+    plan = plan_inout
+    substeps = group.substeps
+    add_estimates(blocks, count, substeps, rules, motions_inout)
+    if choose_substeps(group.members, plan.degrees, substeps, rules, motions_inout):
+        return 0
+    parents = plan.parents[: len(motions_inout)]
+    if not plan.joined[0]:
+        find_roots(plan.edges, group.edges, links_islands, parents)
+        plan.joined[0] = True
+    return share_substeps(group.members, parents, substeps, rules.most_by_load, motions_inout)
+
+
+def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
+    """Estimate the substeps of the next step from the contacts of a group, so many blocks."""
+    rate = estimate_rate(state)
+    rules = LoadRules(
+        rate, rate / STILL_STIFFNESS**2, AUTO_SUBSTEPS[0], LOAD_SUBSTEPS, AUTO_SUBSTEPS[-1], state.dt, EASE_TIME
+    )
+    links = motions.lists.links_islands
+    state.work[CAP_HITS] += choose_by_load(blocks, count, group, links, rules, plan, motions.used)
 
 
 # ---- store -----------------------------------------------------------------------------------------------------------
@@ -411,8 +725,11 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
     return finish_lanes
 
 
-PREPARE = {(f, c): make_prepare_lanes(friction=f, conveyor=c) for f in BOTH for c in BOTH}
 FINISH = {(e, f): make_finish_lanes(restitution=e, friction=f) for e in BOTH for f in BOTH}
+
+
+# ---- constraint set --------------------------------------------------------------------------------------------------
+# The contacts of a world as the stacking solvers see them.
 
 
 class ContactLanes:

@@ -10,12 +10,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.dynamics.integrate import put_center, refresh_center
-from physics.dynamics.non_finite import is_finite_in_step, is_within_limits
+from physics.dynamics.integrate import is_finite_in_step, is_within_limits, put_center, refresh_center
 from physics.islands.graph import KINEMATIC_RANK, STATIC_RANK
 from physics.jit import kernel, subkernel
 from physics.math2d import norm, rotate, rotation_of
-from physics.shapes.library import add_missing_rasters
+from physics.shapes.placement import add_missing_rasters
 from physics.tables.body import DYNAMIC, KINEMATIC, STATIC
 from physics.tables.contact import BALANCE, MOTION
 from physics.tables.step_state import BODIES_INTEGRATED, StepState

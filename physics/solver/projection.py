@@ -8,8 +8,7 @@ import numpy as np
 
 from physics.ccd.rotational import CORE
 from physics.ccd.sweep import shift_freely
-from physics.collision.hull_pairs import closing_speed
-from physics.collision.manifold import mixed
+from physics.collision.manifold import closing_speed, mixed
 from physics.contacts.cache import update_contacts, write_caches
 from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.jit import kernel, subkernel
@@ -52,7 +51,7 @@ def press_of(press, body, nx, ny):
 def restitution_threshold(press, a, b, nx, ny):
     """Return the approach speed [px/s] up to which two BODY rows do not bounce along a normal.
 
-    Where no acceleration presses them together they bounce at any speed; see contact_lanes.restitution_threshold.
+    Where no acceleration presses them together they bounce at any speed; see lanes.restitution_threshold.
     """
     into = max(press_of(press, a, nx, ny), 0.0) + max(press_of(press, b, -nx, -ny), 0.0)
     if into == 0.0:

@@ -1,23 +1,524 @@
-"""Restitution after the last substep, for every stacking solver."""
+"""Restitution after the last substep, for every stacking solver, and several impacts of one body within a step."""
 
-from physics.jit import subkernel
+import math
+
+import numpy as np
+
+from physics.jit import inlined, subkernel
 from physics.solver import lanes as at
-from physics.solver.lanes import SIZE, lanes_of, solve_two
-from physics.solver.simultaneous_impacts import (
-    LEFT_OUT,
-    NO_IMPACT,
-    ROUNDS,
-    SETTLED,
-    line_of,
-    list_impacts,
-    points_of,
-    predict_impact,
+from physics.solver.lanes import (
+    SIZE,
+    block_factor,
+    clamp,
+    lanes_of,
+    push_along,
     push_pair,
     relative_speed,
-    solve_simultaneous,
-    unlink_impacts,
+    solve_two,
+    speed_of_impact,
+    tangential_speed,
 )
 from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
+
+# ---- impacts ---------------------------------------------------------------------------------------------------------
+# A lane with an impulse that may bounce, or that hands a blow on.
+
+NO_IMPACT, LEFT_OUT = 0, -1  # values of MOTION.last_impact: none yet; not to be simulated
+
+IMPACT = np.dtype(
+    [
+        ("block", np.int32),
+        ("lane", np.int32),
+        ("before", np.int32),  # another impact of the same body, plus one; NO_IMPACT: none
+        ("simulated", np.bool_),
+        ("bounces_1", np.bool_),  # each point bounces; …
+        ("bounces_2", np.bool_),
+        ("speed_1", np.float64),  # [px/s] predicted impact speed of each point
+        ("speed_2", np.float64),
+        ("gap_1", np.float64),  # [px] gap before that impact
+        ("gap_2", np.float64),
+        ("wanted_1", np.float64),  # [px/s] … separation speed after it
+        ("wanted_2", np.float64),
+        ("impulse_1", np.float64),
+        ("impulse_2", np.float64),
+        ("blow_1", np.float64),  # of these, those of the present moment
+        ("blow_2", np.float64),
+        ("vx", np.float64),  # [px/s] in the last impact of a body: change of its velocity by all of them
+        ("vy", np.float64),
+        ("angular_velocity", np.float64),
+        ("x", np.float64),  # [px] and its way up to the last one
+        ("y", np.float64),
+        ("turn", np.float64),
+    ],
+    align=True,
+)
+
+
+def make_impacts(room: int) -> np.ndarray:
+    """Return room for that many IMPACT rows."""
+    return np.zeros(room, IMPACT)
+
+
+@inlined
+def line_of(blocks, impact, line):
+    """Return the value of a line, such as lanes.NX, of the lane of an impact."""
+    return blocks.lines[impact.block * SIZE + line + impact.lane]
+
+
+@inlined
+def points_of(blocks, impact):
+    """Return the number of points of an impact."""
+    return 2 if line_of(blocks, impact, at.MASS_2) > 0.0 else 1
+
+
+@subkernel
+def list_impacts(blocks, count, impacts_out):
+    """List the lanes, of so many blocks, that may bounce and had an impulse in this step. Return their number."""
+    found = 0
+    for block in range(count):
+        c = blocks.lines[block * SIZE : (block + 1) * SIZE]
+        for lane in range(lanes_of(blocks.contact, block)):
+            if c[at.RESTITUTION + lane] > 0.0 and c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane] > 0.0:
+                r = impacts_out[found]
+                r.block = block
+                r.lane = lane
+                r.simulated = False
+                found += 1
+    return found
+
+
+@subkernel
+def predict_impact(blocks, contacts, motions, impact_inout):
+    """Write the predicted impact speeds and gaps of an impact, from the state before the step."""
+    r = impact_inout
+    c = contacts[blocks.contact[r.block, r.lane]]
+    a = motions[blocks.motion_a[r.block, r.lane]]
+    b = motions[blocks.motion_b[r.block, r.lane]]
+    two = points_of(blocks, r) == 2
+    acceleration = (a.acceleration_x - b.acceleration_x) * line_of(blocks, r, at.NX)
+    acceleration += (a.acceleration_y - b.acceleration_y) * line_of(blocks, r, at.NY)
+    r.impulse_1, r.impulse_2 = 0.0, 0.0
+    r.speed_1 = speed_of_impact(c.speed_1, c.separation_1, acceleration)
+    r.speed_2 = speed_of_impact(c.speed_2, c.separation_2, acceleration) if two else 0.0
+    r.gap_1 = max(c.separation_1, 0.0)
+    r.gap_2 = max(c.separation_2, 0.0) if two else 0.0
+
+
+# ---- simultaneous impacts on static bodies ---------------------------------------------------------------------------
+# Several impacts of a flying body on static bodies within a step, simulated in the order of their times.
+#
+# A flying body may hit a wall with one end, rotate, and hit it with the other end within the step, or hit the wall and
+# the floor of a corner. The velocity before the step says nothing about the second impact, and the velocity that the
+# substeps removed is not that of a bounce. So the impacts of such a body on static bodies are simulated from one to the
+# next, along straight lines. Each keeps the energy that Newton's law of restitution gives at the time of the impact.
+# Points that hit at the same time, of one manifold or of several, are solved together: a box that lands flat on ground
+# made of pieces would start to rotate otherwise.
+
+MOST_IMPACTS = 16  # moments with impacts of one body within a step; later ones wait for the next step: cap_hits
+TOGETHER = 1.0 / 64.0  # share of a step within which points hit at once
+LATE = 1.0 / 16.0  # share of a step by which an impact may be late: substeps reach further than a parabola
+MOST_ROUNDS = 256  # over the points that hit at once
+ROUNDS = 32  # over bounces that depend on each other; the rest is left to the next step, as contacts are
+SETTLED = 1e-6  # change of speed in a round, relative to the impact, from which the rounds end
+
+
+@subkernel
+def is_against_static(blocks, impact):
+    """Return whether one side of an impact has infinite mass."""
+    return line_of(blocks, impact, at.IM_A) == 0.0 or line_of(blocks, impact, at.IM_B) == 0.0
+
+
+@subkernel
+def mover_of(blocks, impact, motions):
+    """Return the dynamic side of an impact against a static body: its MOTION row, and 1.0 for B, -1.0 for A."""
+    row = blocks.motion_b[impact.block, impact.lane]
+    if motions[row].inverse_mass > 0.0:
+        return row, 1.0
+    return blocks.motion_a[impact.block, impact.lane], -1.0
+
+
+@subkernel
+def link_impacts(blocks, count, impacts_inout, motions_inout):
+    """Link the impacts of each body that may bounce: MOTION.last_impact is its last one plus one, IMPACT.before the one
+    before.
+
+    A body that also has a resting contact, or hits a dynamic body, is left out. O(count).
+    """
+    for i in range(count):
+        r = impacts_inout[i]
+        if is_against_static(blocks, r) and line_of(blocks, r, at.RESTING) == 0.0:
+            row, _ = mover_of(blocks, r, motions_inout)
+            m = motions_inout[row]
+            r.before = m.last_impact
+            if m.last_impact != LEFT_OUT:
+                m.last_impact = i + 1
+        else:
+            for side in range(2):
+                rows = blocks.motion_a if side == 0 else blocks.motion_b
+                m = motions_inout[rows[r.block, r.lane]]
+                if m.inverse_mass > 0.0:
+                    m.last_impact = LEFT_OUT
+
+
+@subkernel
+def unlink_impacts(blocks, impacts, count, motions_inout):
+    """Reset the links in the motions."""
+    for i in range(count):
+        r = impacts[i]
+        motions_inout[blocks.motion_a[r.block, r.lane]].last_impact = NO_IMPACT
+        motions_inout[blocks.motion_b[r.block, r.lane]].last_impact = NO_IMPACT
+
+
+@subkernel
+def arm_of(blocks, impact, second, sign):
+    """Return the moment arm [px] of an impulse along the normal at a point of the mover."""
+    if sign > 0.0:
+        return line_of(blocks, impact, at.B_2 if second else at.B_1)
+    return line_of(blocks, impact, at.A_2 if second else at.A_1)
+
+
+@subkernel
+def is_simulated(blocks, impacts, last, contacts):
+    """Return whether the impacts of a body, linked from `last`, are to be simulated in sequence.
+
+    That is so if it has impacts at two points, other than the two of one manifold that both approached before.
+    """
+    points = 0
+    rows = 0
+    fast = 0
+    k = last
+    while k != NO_IMPACT:
+        r = impacts[k - 1]
+        c = contacts[blocks.contact[r.block, r.lane]]
+        rows += 1
+        for point in range(points_of(blocks, r)):
+            total = line_of(blocks, r, at.TOTAL_1 if point == 0 else at.TOTAL_2)
+            speed = c.speed_1 if point == 0 else c.speed_2
+            points += int(total > 0.0)
+            fast += int(total > 0.0 and speed > line_of(blocks, r, at.THRESHOLD))
+        k = r.before
+    return fast > 0 and points > 1 and (rows > 1 or fast < points)
+
+
+@inlined
+def speed_now(blocks, impact, second, sign, change):
+    """Return the approach speed [px/s] of a point after the impulses that its body, at the side `sign`, got so far.
+
+    change: the last IMPACT row of the body, with their effect on its velocity.
+    """
+    r = impact
+    along = change.vx * line_of(blocks, r, at.NX) + change.vy * line_of(blocks, r, at.NY)
+    along += change.angular_velocity * arm_of(blocks, r, second, sign)
+    return (r.speed_2 if second else r.speed_1) - sign * along
+
+
+@inlined
+def strike(blocks, impact, second, sign, impulse, mover, change_inout):
+    """Add the effect of an impulse at a point to the velocity of its body, a MOTION row. See speed_now."""
+    r = impact
+    change_inout.vx += mover.inverse_mass * sign * impulse * line_of(blocks, r, at.NX)
+    change_inout.vy += mover.inverse_mass * sign * impulse * line_of(blocks, r, at.NY)
+    change_inout.angular_velocity += mover.inverse_inertia * sign * impulse * arm_of(blocks, r, second, sign)
+
+
+@subkernel
+def soonest_impact(blocks, impacts, last, motions):
+    """Return the next impact of a body: its time [s], and its approach speed [px/s]; 0: there is none."""
+    soonest = math.inf
+    hit_speed = 0.0
+    k = last
+    while k != NO_IMPACT:
+        r = impacts[k - 1]
+        _, sign = mover_of(blocks, r, motions)
+        for point in range(points_of(blocks, r)):
+            speed = speed_now(blocks, r, point == 1, sign, impacts[last - 1])
+            gap = r.gap_1 if point == 0 else r.gap_2
+            if speed > line_of(blocks, r, at.THRESHOLD) and gap < soonest * speed:
+                soonest = gap / speed
+                hit_speed = speed
+        k = r.before
+    return soonest, hit_speed
+
+
+@subkernel
+def close_gaps(blocks, last, time, motions, impacts_inout):
+    """Advance the gaps of the points of a body, linked from `last`, by a time [s]."""
+    k = last
+    while k != NO_IMPACT:
+        r = impacts_inout[k - 1]
+        _, sign = mover_of(blocks, r, motions)
+        r.gap_1 = max(r.gap_1 - time * speed_now(blocks, r, False, sign, impacts_inout[last - 1]), 0.0)
+        if points_of(blocks, r) == 2:
+            r.gap_2 = max(r.gap_2 - time * speed_now(blocks, r, True, sign, impacts_inout[last - 1]), 0.0)
+        k = r.before
+
+
+@subkernel
+def list_hits(blocks, last, span, motions, impacts_inout):
+    """Write which points of a body, linked from `last`, hit within a span [s], and the speeds that they want."""
+    k = last
+    while k != NO_IMPACT:
+        r = impacts_inout[k - 1]
+        _, sign = mover_of(blocks, r, motions)
+        back = line_of(blocks, r, at.RESTITUTION)
+        threshold = line_of(blocks, r, at.THRESHOLD)
+        r.blow_1, r.blow_2 = 0.0, 0.0
+        speed = speed_now(blocks, r, False, sign, impacts_inout[last - 1])
+        r.bounces_1 = speed > threshold and r.gap_1 <= span * speed
+        r.wanted_1 = back * speed
+        speed = speed_now(blocks, r, True, sign, impacts_inout[last - 1])
+        r.bounces_2 = points_of(blocks, r) == 2 and speed > threshold and r.gap_2 <= span * speed
+        r.wanted_2 = back * speed
+        k = r.before
+
+
+@inlined
+def hits_at(impact, second):
+    """Return whether a point of an impact hits, the impulse of this moment, and the separation speed that it wants."""
+    r = impact
+    if second:
+        return r.bounces_2, r.blow_2, r.wanted_2
+    return r.bounces_1, r.blow_1, r.wanted_1
+
+
+@inlined
+def add_blow(second, change, impact_inout):
+    """Add an impulse at a point of an impact."""
+    if second:
+        impact_inout.blow_2 += change
+        impact_inout.impulse_2 += change
+    else:
+        impact_inout.blow_1 += change
+        impact_inout.impulse_1 += change
+
+
+@subkernel
+def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_inout):
+    """Solve two points of a body that hit, IMPACT rows i and j. Return the greater change of speed [px/s].
+
+    The two points may be one, i = j: then it is solved alone.
+    """
+    r = impacts_inout[i]
+    o = impacts_inout[j]
+    row, sign = mover_of(blocks, r, motions)
+    _, other = mover_of(blocks, o, motions)
+    mover = motions[row]
+    change = impacts_inout[last - 1]
+    _, old_1, wanted_1 = hits_at(r, first_point)
+    _, old_2, wanted_2 = hits_at(o, second_point)
+    arm_1 = arm_of(blocks, r, first_point, sign)
+    arm_2 = arm_of(blocks, o, second_point, other)
+    k_11 = mover.inverse_mass + mover.inverse_inertia * arm_1 * arm_1
+    missing_1 = wanted_1 + speed_now(blocks, r, first_point, sign, change)
+    if k_11 <= 0.0:
+        return 0.0
+    if i == j and first_point == second_point:
+        x_1 = max(old_1 + missing_1 / k_11, 0.0)
+        strike(blocks, r, first_point, sign, x_1 - old_1, mover, change)
+        add_blow(first_point, x_1 - old_1, r)
+        return abs(x_1 - old_1) * k_11
+    k_22 = mover.inverse_mass + mover.inverse_inertia * arm_2 * arm_2
+    along = line_of(blocks, r, at.NX) * line_of(blocks, o, at.NX) + line_of(blocks, r, at.NY) * line_of(
+        blocks, o, at.NY
+    )
+    if k_22 <= 0.0:
+        return 0.0
+    k_12 = sign * other * (mover.inverse_mass * along + mover.inverse_inertia * arm_1 * arm_2)
+    missing_2 = wanted_2 + speed_now(blocks, o, second_point, other, change)
+    off_1 = k_12 / k_11
+    off_2 = k_12 / k_22
+    x_1, x_2 = solve_two(missing_1 / k_11, missing_2 / k_22, off_1, off_2, block_factor(off_1, off_2), old_1, old_2)
+    strike(blocks, r, first_point, sign, x_1 - old_1, mover, change)
+    strike(blocks, o, second_point, other, x_2 - old_2, mover, change)
+    add_blow(first_point, x_1 - old_1, r)
+    add_blow(second_point, x_2 - old_2, o)
+    return max(abs(x_1 - old_1) * k_11, abs(x_2 - old_2) * k_22)
+
+
+@subkernel
+def solve_together(blocks, last, hit_speed, motions, impacts_inout):
+    """Apply the impulses of all points of a body, linked from `last`, that hit now. Return whether they settled.
+
+    They hit at up to about hit_speed [px/s]. Each separates at least by its restitution times its approach speed. Every
+    pair of points is solved as a whole: on level ground the first pair with the centre of mass between them is the
+    solution, and the others agree.
+    """
+    for _ in range(MOST_ROUNDS):
+        changed = 0.0
+        alone = True
+        i = last
+        while i != NO_IMPACT:
+            for first in range(points_of(blocks, impacts_inout[i - 1])):
+                hits, _, _ = hits_at(impacts_inout[i - 1], first == 1)
+                if not hits:
+                    continue
+                j = i
+                while j != NO_IMPACT:
+                    for second in range(first + 1 if i == j else 0, points_of(blocks, impacts_inout[j - 1])):
+                        hits, _, _ = hits_at(impacts_inout[j - 1], second == 1)
+                        if hits:
+                            alone = False
+                            change = solve_pair(
+                                blocks, i - 1, first == 1, j - 1, second == 1, last, motions, impacts_inout
+                            )
+                            changed = max(changed, change)
+                    j = impacts_inout[j - 1].before
+            i = impacts_inout[i - 1].before
+        if alone:
+            solve_alone(blocks, last, motions, impacts_inout)
+            return True
+        if changed <= SETTLED * hit_speed:
+            return True
+    return False
+
+
+@subkernel
+def solve_alone(blocks, last, motions, impacts_inout):
+    """Solve the only point of a body, linked from `last`, that hits."""
+    i = last
+    while i != NO_IMPACT:
+        for point in range(points_of(blocks, impacts_inout[i - 1])):
+            hits, _, _ = hits_at(impacts_inout[i - 1], point == 1)
+            if hits:
+                solve_pair(blocks, i - 1, point == 1, i - 1, point == 1, last, motions, impacts_inout)
+        i = impacts_inout[i - 1].before
+
+
+@subkernel
+def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
+    """Simulate the impacts of a body, linked from `last`, over dt [s]: their impulses, and in the last row its way.
+
+    Return the time [s] that is left after the last one, and whether MOST_IMPACTS and MOST_ROUNDS were enough.
+    """
+    k = last
+    while k != NO_IMPACT:
+        predict_impact(blocks, contacts, motions, impacts_inout[k - 1])
+        k = impacts_inout[k - 1].before
+    change = impacts_inout[last - 1]
+    change.vx, change.vy, change.angular_velocity = 0.0, 0.0, 0.0
+    change.x, change.y, change.turn = 0.0, 0.0, 0.0
+    row, _ = mover_of(blocks, change, motions)
+    m = motions[row]
+    left = dt + LATE * dt
+    settled = True
+    for _ in range(MOST_IMPACTS):
+        soonest, hit_speed = soonest_impact(blocks, impacts_inout, last, motions)
+        if hit_speed == 0.0 or soonest > left:
+            return max(left - LATE * dt, 0.0), settled
+        left -= soonest
+        change.x += soonest * (m.start_vx + change.vx)
+        change.y += soonest * (m.start_vy + change.vy)
+        change.turn += soonest * (m.start_w + change.angular_velocity)
+        close_gaps(blocks, last, soonest, motions, impacts_inout)
+        list_hits(blocks, last, TOGETHER * dt, motions, impacts_inout)
+        settled = solve_together(blocks, last, hit_speed, motions, impacts_inout) and settled
+    return 0.0, False
+
+
+@subkernel
+def rub(impact, second, to_rest, motions_inout, blocks_inout):
+    """Remove the friction of the substeps at a point of an impact, or apply that of its impulse: to_rest.
+
+    Its limit is the share of the impulse that stops the approach, as in the substeps: restitution comes after friction.
+    Return the change of speed [px/s].
+    """
+    r = impact
+    lane = r.lane
+    c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
+    a = motions_inout[blocks_inout.motion_a[r.block, lane]]
+    b = motions_inout[blocks_inout.motion_b[r.block, lane]]
+    line = (at.TANGENT_TOTAL_2 if second else at.TANGENT_TOTAL_1) + lane
+    mass = c[(at.TANGENT_MASS_2 if second else at.TANGENT_MASS_1) + lane]
+    impulse = 0.0
+    if to_rest:
+        most = c[at.FRICTION + lane] * (r.impulse_2 if second else r.impulse_1) / (1.0 + c[at.RESTITUTION + lane])
+        impulse = clamp(c[line] - mass * tangential_speed(c, lane, second, a, b), most)
+    change = impulse - c[line]
+    push_along(c, lane, second, change, a, b)
+    c[line] = impulse
+    return abs(change) / mass if mass > 0.0 else 0.0
+
+
+@subkernel
+def greatest_speed(impacts, last):
+    """Return the greatest predicted impact speed [px/s] of a body, linked from `last`."""
+    fastest = 0.0
+    k = last
+    while k != NO_IMPACT:
+        fastest = max(fastest, impacts[k - 1].speed_1, impacts[k - 1].speed_2)
+        k = impacts[k - 1].before
+    return fastest
+
+
+@subkernel
+def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout):
+    """Replace the impulses of the substeps by those of the simulated impacts, which hit at up to hit_speed [px/s].
+
+    They are no cached forces for the next step.
+    """
+    k = last
+    while k != NO_IMPACT:
+        r = impacts_inout[k - 1]
+        lane = r.lane
+        c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
+        a = motions_inout[blocks_inout.motion_a[r.block, lane]]
+        b = motions_inout[blocks_inout.motion_b[r.block, lane]]
+        push_pair(c, lane, False, r.impulse_1 - c[at.TOTAL_1 + lane], a, b)
+        rub(r, False, False, motions_inout, blocks_inout)
+        c[at.NORMAL_1 + lane] = 0.0
+        c[at.TANGENT_1 + lane] = 0.0
+        c[at.TOTAL_1 + lane] = r.impulse_1
+        if points_of(blocks_inout, r) == 2:
+            push_pair(c, lane, True, r.impulse_2 - c[at.TOTAL_2 + lane], a, b)
+            rub(r, True, False, motions_inout, blocks_inout)
+            c[at.NORMAL_2 + lane] = 0.0
+            c[at.TANGENT_2 + lane] = 0.0
+            c[at.TOTAL_2 + lane] = r.impulse_2
+        r.simulated = True
+        k = r.before
+    for _ in range(ROUNDS):
+        changed = 0.0
+        k = last
+        while k != NO_IMPACT:
+            r = impacts_inout[k - 1]
+            for point in range(points_of(blocks_inout, r)):
+                if (r.impulse_1 if point == 0 else r.impulse_2) > 0.0:
+                    changed = max(changed, rub(r, point == 1, True, motions_inout, blocks_inout))
+            k = r.before
+        if changed <= SETTLED * hit_speed:
+            return
+
+
+@subkernel
+def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks_inout, work_inout):
+    """Apply simultaneous impacts: flying bodies that hit static ones several times within a step of dt [s].
+
+    They are among so many IMPACT rows, which are then `simulated`. O(count + impacts · points² of such a body).
+    """
+    link_impacts(blocks_inout, count, impacts_inout, motions_inout)
+    for i in range(count):
+        r = impacts_inout[i]
+        if not is_against_static(blocks_inout, r) or line_of(blocks_inout, r, at.RESTING) > 0.0:
+            continue
+        row, _ = mover_of(blocks_inout, r, motions_inout)
+        # The last impact represents the body.
+        if motions_inout[row].last_impact != i + 1:
+            continue
+        if is_simulated(blocks_inout, impacts_inout, i + 1, contacts):
+            left, settled = simulate_impacts(blocks_inout, i + 1, dt, contacts, motions_inout, impacts_inout)
+            work_inout[CAP_HITS] += int(not settled)
+            apply_simulated(i + 1, greatest_speed(impacts_inout, i + 1), impacts_inout, motions_inout, blocks_inout)
+            # It stays where it hit last: there, the acceleration of the rest of the step would be a loss.
+            m = motions_inout[row]
+            half = 0.5 * (dt - left) * (dt - left)
+            m.dx = impacts_inout[i].x + half * m.acceleration_x
+            m.dy = impacts_inout[i].y + half * m.acceleration_y
+            m.turn = impacts_inout[i].turn + half * m.angular_acceleration
+            m.vx -= left * m.acceleration_x
+            m.vy -= left * m.acceleration_y
+            m.angular_velocity -= left * m.angular_acceleration
+    unlink_impacts(blocks_inout, impacts_inout, count, motions_inout)
+
 
 # ---- bounce ----------------------------------------------------------------------------------------------------------
 # Restitution, once, after the last substep, for every stacking solver.
@@ -260,17 +761,7 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
 
 
 @subkernel
-def restore_bounces(
-    # read
-    contacts,
-    count,
-    context,
-    # write
-    impacts_inout,
-    motions_inout,
-    blocks_inout,
-    work_inout,
-):
+def restore_bounces(contacts, count, context, impacts_inout, motions_inout, blocks_inout, work_inout):
     """Set the separation speed of points with an impulse to restitution times the approach speed. O(lanes).
 
     count: number of blocks; context: see StepContext; impacts_inout: scratch.

@@ -21,13 +21,13 @@ from physics.solver.lanes import (
     gather_velocities,
     lanes_of,
     make_friction,
+    relative_speed,
     resist_rolling,
     scatter_velocities,
     solve_two,
 )
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_kinematic, run_solver
 from physics.solver.restitution import bounce_once
-from physics.solver.simultaneous_impacts import relative_speed
 from physics.solver.soft_step import WARM_LANES, clear_impulses
 from physics.solver.step_context import context_of, separation_speed
 from physics.tables.step_state import StepState, stage

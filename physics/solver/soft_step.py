@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from physics.jit import inlined, kernel, noalias, subkernel
 from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
-from physics.solver.contact_lanes import ContactLanes
+from physics.solver.contact_lanes import ContactLanes, estimate_substeps
 from physics.solver.energy import limit_energy
 from physics.solver.lanes import (
     IN_CONTACT,
@@ -24,7 +24,6 @@ from physics.solver.lanes import (
 )
 from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_kinematic, run_solver
 from physics.solver.step_context import context_of, separation_speed
-from physics.solver.substeps import estimate_substeps
 from physics.tables.step_state import StepState, stage
 
 # ---- soft pass -------------------------------------------------------------------------------------------------------

@@ -221,7 +221,7 @@ BALANCE = in_lines(
         ("scale", np.float64),
     ]
 )
-# Beside each MOTION row of an island without room: bounds of the impulses in it; see solver/squeeze.py.
+# Beside each MOTION row of an island without room: bounds of the impulses in it; see solver/energy.py.
 SQUEEZE = np.dtype(
     [
         ("depth", np.float64),  # [px] greatest overlap of all, …
