@@ -110,7 +110,7 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
         raise TypeError(f"{name} must be a whole number (got {shown(value)})")
     value = int(value)
     if not low <= value <= high:
-        raise ValueError(f"{name} must be {low}..{high} (got {value})")
+        raise ValueError(f"{name} must be {low if low == high else f'{low}..{high}'} (got {value})")
     return value
 
 

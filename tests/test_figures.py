@@ -59,17 +59,6 @@ def sweeps_lead():
     )
 
 
-def fours():
-    """Trees of four boxes a node beside those of two."""
-    found = [1.0 / each for each in ratios("broadphase", r"(.*), found at once: tree of four / tree").values()]
-    both = ratios("broadphase", r"(.*, (?:all moving|2 % moving.*)): (tree|tree of four) / brute")
-    steps = [both[case, "tree of four"] / both[case, "tree"] for case in {case for case, _ in both}]
-    return (
-        f"pairs are found {min(found):.1f} to {max(found):.1f} times as fast, and moving bodies keep the nodes: "
-        f"a step takes {min(steps):.1f} to {max(steps):.1f} of `DynamicTree()`"
-    )
-
-
 def pyramids():
     """The default beside four substeps and pymunk, awake."""
     default, four = (
@@ -153,7 +142,6 @@ def tasks():
 SENTENCES = {
     "README.md": (
         sweeps_lead,
-        fours,
         pyramids,
         crater,
         sinks,

@@ -11,33 +11,437 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from physics import checks
-from physics.broadphase.proxies import Arena, Box, Query, find_pairs
-from physics.broadphase.tree_nodes import (
-    FREE,
-    NODE,
-    NONE,
-    ROOT_MOVING,
-    SIZE,
-    WIDTH,
-    find_pairs_in_bvh4,
-    find_pairs_in_trees,
-    insert_leaf,
-    query_bvh4,
-    query_trees,
-    rebuild,
-    remove_leaf,
-    take_node,
-    write_bvh4,
-    write_stale,
-)
-from physics.jit import kernel
+from physics.broadphase.proxies import Arena, Box, Query, find_pairs, meets_box, overlaps, write_pair
+from physics.jit import kernel, subkernel
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, PIXELS_PER_METER
-from physics.tables.step_state import REINSERTS
+from physics.tables.step_state import NODES_VISITED, REINSERTS
 
 REBUILD_FROM = 64  # up to this many changed proxies, each leaf is moved by itself
-STACK = 256  # far above any height that fits in memory: BVH4 nodes push three more for every other level
-WIDTHS = (2, WIDTH)
-BEST_WIDTH = 2  # BVH4 search is 1.2 to 1.8 times as fast, but moving leaves must update the BVH4 nodes (README)
+STACK = 256  # far above any height that fits in memory
+WIDTH = 2  # boxes of a node. Four, tested at once, made a step at most 4 % faster (5,300 bodies, most of them static)
+
+
+# ---- tree nodes ------------------------------------------------------------------------------------------------------
+# Nodes of a BVH with AVL balance: insert, remove, rotate, improve.
+#
+# Children have no order, so a single rotation always restores the balance. Source: Catto, Dynamic Bounding Volume
+# Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
+
+NODE = np.dtype(
+    [
+        ("lower_x", np.float64),
+        ("lower_y", np.float64),
+        ("upper_x", np.float64),
+        ("upper_y", np.float64),  # [px]
+        ("parent", np.int64),  # of a free node: the next free one
+        ("child_a", np.int64),
+        ("child_b", np.int64),  # -1 in a leaf
+        ("height", np.int64),  # 0 in a leaf, -1 in a free node
+        ("slot", np.int64),  # of the proxy in a leaf, else -1
+        ("still", np.bool_),
+    ],
+    align=True,
+)
+FREE, USED, ROOT_MOVING, ROOT_STILL = range(4)  # indices into the state array
+
+
+@subkernel
+def joined_outline(nodes, a, b):
+    """Return half the outline [px] of the box around two nodes: the surface area heuristic in two dimensions."""
+    p = nodes[a]
+    q = nodes[b]
+    return (max(p.upper_x, q.upper_x) - min(p.lower_x, q.lower_x)) + (
+        max(p.upper_y, q.upper_y) - min(p.lower_y, q.lower_y)
+    )
+
+
+@subkernel
+def refit(index, nodes_inout):
+    """Write a node's box and height from its children."""
+    n = nodes_inout[index]
+    p = nodes_inout[n.child_a]
+    q = nodes_inout[n.child_b]
+    n.lower_x = min(p.lower_x, q.lower_x)
+    n.lower_y = min(p.lower_y, q.lower_y)
+    n.upper_x = max(p.upper_x, q.upper_x)
+    n.upper_y = max(p.upper_y, q.upper_y)
+    n.height = 1 + max(p.height, q.height)
+
+
+@subkernel
+def replace_child(parent, old, new, root, nodes_inout, state_inout):
+    """Replace a child of a parent, or the root."""
+    nodes_inout[new].parent = parent
+    if parent < 0:
+        state_inout[root] = new
+    elif nodes_inout[parent].child_a == old:
+        nodes_inout[parent].child_a = new
+    else:
+        nodes_inout[parent].child_b = new
+
+
+@subkernel
+def rotate(index, root, nodes_inout, state_inout):
+    """Raise the higher child when it is two levels above the other. Return the node that is now at this place.
+
+         A                  C
+        / \\                / \\
+       B   C      ->      A   F      F the higher of C's children (of equal ones, G joins B if their box is smaller)
+          / \\            / \\
+         F   G          B   G
+    """
+    a = nodes_inout[index]
+    difference = nodes_inout[a.child_b].height - nodes_inout[a.child_a].height
+    if -1 <= difference <= 1:
+        return index
+    up = a.child_b if difference > 1 else a.child_a
+    other = a.child_a if difference > 1 else a.child_b
+    c = nodes_inout[up]
+    stays = c.child_a
+    goes = c.child_b
+    if nodes_inout[stays].height < nodes_inout[goes].height or (
+        nodes_inout[stays].height == nodes_inout[goes].height
+        and joined_outline(nodes_inout, other, stays) < joined_outline(nodes_inout, other, goes)
+    ):
+        stays, goes = goes, stays
+    replace_child(a.parent, index, up, root, nodes_inout, state_inout)
+    a.child_a = other
+    a.child_b = goes
+    nodes_inout[goes].parent = index
+    c.child_a = index
+    c.child_b = stays
+    a.parent = up
+    refit(index, nodes_inout)
+    refit(up, nodes_inout)
+    return up
+
+
+@subkernel
+def swap_pays(upper, lower_parent, lower, nodes):
+    """Return the outline [px] saved by swapping a child with a grandchild on the other side; 0 where it would
+    unbalance.
+
+    upper: child of the node; lower: child of upper's sibling lower_parent.
+    """
+    q = nodes[lower_parent]
+    other = q.child_b if q.child_a == lower else q.child_a
+    height = nodes[upper].height
+    difference = height - nodes[other].height
+    new_height = 1 + max(height, nodes[other].height)
+    outer = nodes[lower].height - new_height
+    if difference < -1 or difference > 1 or outer < -1 or outer > 1:
+        return 0.0
+    return joined_outline(nodes, lower_parent, lower_parent) - joined_outline(nodes, upper, other)
+
+
+@subkernel
+def improve(index, nodes_inout):
+    """Swap a child with a grandchild on the other side if that shrinks the box between and keeps the AVL balance.
+
+    Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
+    """
+    n = nodes_inout[index]
+    best = 0.0
+    best_upper = -1
+    best_parent = -1
+    best_lower = -1
+    for side in range(2):
+        upper = n.child_a if side == 0 else n.child_b
+        parent = n.child_b if side == 0 else n.child_a
+        if nodes_inout[parent].height == 0:
+            continue
+        for k in range(2):
+            lower = nodes_inout[parent].child_a if k == 0 else nodes_inout[parent].child_b
+            saved = swap_pays(upper, parent, lower, nodes_inout)
+            if saved > best:
+                best = saved
+                best_upper = upper
+                best_parent = parent
+                best_lower = lower
+    if best_upper < 0:
+        return
+    q = nodes_inout[best_parent]
+    if q.child_a == best_lower:
+        q.child_a = best_upper
+    else:
+        q.child_b = best_upper
+    if n.child_a == best_upper:
+        n.child_a = best_lower
+    else:
+        n.child_b = best_lower
+    nodes_inout[best_upper].parent = best_parent
+    nodes_inout[best_lower].parent = index
+    refit(best_parent, nodes_inout)
+    refit(index, nodes_inout)
+
+
+@subkernel
+def repair_upward(index, root, nodes_inout, state_inout, work_inout):
+    """Balance and refit from a node up to the root. O(height)."""
+    while index >= 0:
+        work_inout[NODES_VISITED] += 1
+        refit(index, nodes_inout)
+        top = rotate(index, root, nodes_inout, state_inout)
+        improve(top, nodes_inout)
+        index = nodes_inout[top].parent
+
+
+@subkernel
+def take_node(nodes_inout, state_inout):
+    """Return the index of a free node. The caller ensures that there is one."""
+    index = state_inout[FREE]
+    if index >= 0:
+        state_inout[FREE] = nodes_inout[index].parent
+    else:
+        index = state_inout[USED]
+        state_inout[USED] = index + 1
+    return index
+
+
+@subkernel
+def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
+    """Insert a leaf beside the sibling that costs the least outline. O(height)."""
+    root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
+    at = state_inout[root]
+    if at < 0:
+        state_inout[root] = leaf
+        nodes_inout[leaf].parent = -1
+        return
+    while nodes_inout[at].height > 0:
+        work_inout[NODES_VISITED] += 1
+        n = nodes_inout[at]
+        here = joined_outline(nodes_inout, at, leaf)
+        grown = here - joined_outline(nodes_inout, at, at)  # growth of every node above the sibling
+        cost_a = joined_outline(nodes_inout, n.child_a, leaf) + grown
+        if nodes_inout[n.child_a].height > 0:
+            cost_a -= joined_outline(nodes_inout, n.child_a, n.child_a)
+        cost_b = joined_outline(nodes_inout, n.child_b, leaf) + grown
+        if nodes_inout[n.child_b].height > 0:
+            cost_b -= joined_outline(nodes_inout, n.child_b, n.child_b)
+        # A stop above the parent of a leaf could need more than one rotation to balance.
+        if n.height == 1 and here < cost_a and here < cost_b:
+            break
+        at = n.child_a if cost_a <= cost_b else n.child_b
+    parent = take_node(nodes_inout, state_inout)
+    p = nodes_inout[parent]
+    p.slot = -1
+    p.still = nodes_inout[leaf].still
+    replace_child(nodes_inout[at].parent, at, parent, root, nodes_inout, state_inout)
+    p.child_a = at
+    p.child_b = leaf
+    nodes_inout[at].parent = parent
+    nodes_inout[leaf].parent = parent
+    repair_upward(parent, root, nodes_inout, state_inout, work_inout)
+
+
+@subkernel
+def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
+    """Remove a leaf: its sibling takes the parent's place. O(height)."""
+    root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
+    parent = nodes_inout[leaf].parent
+    if parent < 0:
+        state_inout[root] = -1
+        return
+    p = nodes_inout[parent]
+    sibling = p.child_b if p.child_a == leaf else p.child_a
+    above = p.parent
+    replace_child(above, parent, sibling, root, nodes_inout, state_inout)
+    p.height = -1
+    p.parent = state_inout[FREE]
+    state_inout[FREE] = parent
+    repair_upward(above, root, nodes_inout, state_inout, work_inout)
+
+
+# ---- tree rebuild ----------------------------------------------------------------------------------------------------
+# Rebuild of one of the two trees by median splits: least height, and tight boxes.
+
+
+@subkernel
+def select_median(along, first, last, middle, leaves_inout):
+    """Reorder leaves first..last so that none before `middle` lies beyond it in `along` (quickselect, Hoare 1961)."""
+    low = first
+    high = last
+    while low < high:
+        pivot = along[leaves_inout[(low + high) // 2]]
+        i = low
+        j = high
+        while i <= j:
+            while along[leaves_inout[i]] < pivot:
+                i += 1
+            while along[leaves_inout[j]] > pivot:
+                j -= 1
+            if i <= j:
+                leaves_inout[i], leaves_inout[j] = leaves_inout[j], leaves_inout[i]
+                i += 1
+                j -= 1
+        if middle <= j:
+            high = j
+        elif middle >= i:
+            low = i
+        else:
+            return
+
+
+@subkernel
+def spread(along, leaves, first, last):
+    """Return the extent of leaves first..last in `along`."""
+    low = along[leaves[first]]
+    high = low
+    for k in range(first + 1, last + 1):
+        value = along[leaves[k]]
+        if value < low:
+            low = value
+        if value > high:
+            high = value
+    return high - low
+
+
+@kernel
+def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nodes_inout, state_inout):
+    """Rebuild the tree of the static leaves (still 1) or of the moving ones (0) by median splits.
+
+    leaf_of (slots): leaf or -1; scratch: leaves_out (slots), spans_out (slots, 4), twice_x_out, twice_y_out (nodes):
+    twice the middle of each leaf's box [px]. The inner nodes of the old tree are freed first. O(n log n).
+    """
+    root = ROOT_STILL if still == 1 else ROOT_MOVING
+    count = 0
+    for slot in range(len(leaf_of)):
+        if leaf_of[slot] >= 0 and nodes_inout[leaf_of[slot]].still == (still == 1):
+            leaf = leaf_of[slot]
+            leaves_out[count] = leaf
+            count += 1
+            n = nodes_inout[leaf]
+            twice_x_out[leaf] = n.lower_x + n.upper_x
+            twice_y_out[leaf] = n.lower_y + n.upper_y
+    for index in range(state_inout[USED]):
+        n = nodes_inout[index]
+        if n.height > 0 and n.still == (still == 1):
+            n.height = -1
+            n.parent = state_inout[FREE]
+            state_inout[FREE] = index
+    if count < 2:
+        state_inout[root] = leaves_out[0] if count == 1 else -1
+        if count == 1:
+            nodes_inout[leaves_out[0]].parent = -1
+        return
+    # Each span: first leaf, last leaf, its node, the parent. A node precedes its children, so that a backward refit
+    # visits children first.
+    made = 1
+    spans_out[0, 0] = 0
+    spans_out[0, 1] = count - 1
+    spans_out[0, 3] = -1
+    at = 0
+    while at < made:
+        first = spans_out[at, 0]
+        last = spans_out[at, 1]
+        parent = spans_out[at, 3]
+        index = take_node(nodes_inout, state_inout)
+        n = nodes_inout[index]
+        n.slot = -1
+        n.still = still == 1
+        n.parent = parent
+        n.height = 1
+        n.child_a = -1
+        spans_out[at, 2] = index
+        if parent < 0:
+            state_inout[root] = index
+        elif nodes_inout[parent].child_a < 0:
+            nodes_inout[parent].child_a = index
+        else:
+            nodes_inout[parent].child_b = index
+        middle = (first + last + 1) // 2
+        wide = spread(twice_x_out, leaves_out, first, last) >= spread(twice_y_out, leaves_out, first, last)
+        if wide:
+            select_median(twice_x_out, first, last, middle, leaves_out)
+        else:
+            select_median(twice_y_out, first, last, middle, leaves_out)
+        # The larger half first; a half of one leaf is linked directly.
+        for half in range(2):
+            start = middle if half == 0 else first
+            end = last if half == 0 else middle - 1
+            if start == end:
+                leaf = leaves_out[start]
+                nodes_inout[leaf].parent = index
+                n.child_b = leaf
+                if half == 0:
+                    n.child_a = leaf
+            else:
+                spans_out[made, 0] = start
+                spans_out[made, 1] = end
+                spans_out[made, 3] = index
+                made += 1
+        at += 1
+    for k in range(made):
+        refit(spans_out[made - 1 - k, 2], nodes_inout)
+
+
+# ---- tree search -----------------------------------------------------------------------------------------------------
+# Search of the two trees of a DynamicTree.
+
+
+@kernel
+def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, work_inout):
+    """List the pairs with a changed side, by descending both trees with each changed box.
+
+    changed: slots; stack_inout: scratch. Return the number of pairs. O(changed · log n + pairs).
+    """
+    found = 0
+    for i in range(len(changed)):
+        a = changed[i]
+        p = proxies[a]
+        if p.row < 0:
+            continue
+        depth = 0
+        if state[ROOT_MOVING] >= 0:
+            stack_inout[depth] = state[ROOT_MOVING]
+            depth += 1
+        if state[ROOT_STILL] >= 0 and not p.still:
+            stack_inout[depth] = state[ROOT_STILL]
+            depth += 1
+        while depth > 0:
+            depth -= 1
+            n = nodes[stack_inout[depth]]
+            work_inout[NODES_VISITED] += 1
+            if n.lower_x > p.upper_x or p.lower_x > n.upper_x or n.lower_y > p.upper_y or p.lower_y > n.upper_y:
+                continue
+            if n.height > 0:
+                stack_inout[depth] = n.child_a
+                stack_inout[depth + 1] = n.child_b
+                depth += 2
+                continue
+            b = n.slot
+            if b != a and not (proxies[b].changed and b < a) and overlaps(proxies, a, b, work_inout):
+                found = write_pair(a, b, found, pairs_out)
+    return found
+
+
+@kernel
+def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
+    """List the slots whose leaf meets a closed box [px], from the roots down. Return their number. O(log n + found)."""
+    found = 0
+    depth = 0
+    for k in range(len(roots)):
+        if roots[k] >= 0:
+            stack_inout[depth] = roots[k]
+            depth += 1
+    while depth > 0:
+        depth -= 1
+        n = nodes[stack_inout[depth]]
+        work_inout[NODES_VISITED] += 1
+        if not meets_box(n, box):
+            continue
+        if n.height > 0:
+            stack_inout[depth] = n.child_a
+            stack_inout[depth + 1] = n.child_b
+            depth += 2
+        else:
+            slots_out[found] = n.slot
+            found += 1
+    return found
+
+
+# ---- dynamic tree ----------------------------------------------------------------------------------------------------
+# The strategy.
 
 
 @kernel
@@ -52,16 +456,15 @@ def place_changed(
     # write
     leaf_of_inout,
     nodes_inout,
-    stale_inout,
     state_inout,
     work_inout,
 ):
     """Insert, remove, or move the changed proxies; one that is still within its fat box stays. O(moved · log n).
 
     changed: slots; margin [px] and margin_fraction of the box: the smaller is the margin of a leaf; leaf_of_inout
-    (slots): leaf or -1; stale_inout (nodes): nodes whose BVH4 node has to be written, empty without these; state_inout:
-    free list, used nodes, stale ones, two roots. loose, loose_still 1: leaves of the moving or the static tree are
-    neither linked nor unlinked, because that tree is rebuilt next. Return the number of leaves that were moved.
+    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose, loose_still 1: leaves of the moving or
+    the static tree are neither linked nor unlinked, because that tree is rebuilt next. Return the number of leaves
+    that were moved.
     """
     moved = 0
     for i in range(len(changed)):
@@ -87,7 +490,7 @@ def place_changed(
                 continue
             moved += 1
             if (loose_still if n.still else loose) == 0:
-                remove_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout)
+                remove_leaf(leaf, nodes_inout, state_inout, work_inout)
             if p.row < 0:
                 n.height = -1
                 n.parent = state_inout[FREE]
@@ -113,7 +516,7 @@ def place_changed(
         n.slot = slot
         n.still = p.still
         if (loose_still if n.still else loose) == 0:
-            insert_leaf(leaf, nodes_inout, stale_inout, state_inout, work_inout)
+            insert_leaf(leaf, nodes_inout, state_inout, work_inout)
         work_inout[REINSERTS] += 1
     return moved
 
@@ -121,21 +524,19 @@ def place_changed(
 class DynamicTree:
     """Broad phase with two dynamic bounding volume trees.
 
-    width: boxes a node, 2 or 4, with the same result; None takes the faster one. margin [px]: the largest margin of a
-    moving leaf; None takes the setting for 32 px per metre. Raises TypeError, ValueError.
+    width: boxes a node, 2 or None for 2. margin [px]: the largest margin of a moving leaf; None takes the setting for
+    32 px per metre. Raises TypeError, ValueError.
     """
 
     name = "tree"
     incremental = True
 
     def __init__(self, width: int | None = None, margin: float | None = None) -> None:
-        self.width = BEST_WIDTH if width is None else _checked_width(width)
+        self.width = WIDTH if width is None else checks.whole("width", width, WIDTH, WIDTH)
         self.margin = AABB_MARGIN * PIXELS_PER_METER if margin is None else checks.number("margin", margin, low=0.0)
         self.leaf_of = np.zeros(0, np.int64)
         self.nodes = np.zeros(0, NODE)
-        # BVH4 nodes, see tree_nodes.py; empty where nodes have two boxes.
-        self.bvh4, self.kin, self.stale = np.zeros(0), np.zeros(0, np.int64), np.zeros(0, np.int64)
-        self.state = np.array([-1, 0, 0, -1, -1], np.int64)
+        self.state = np.array([-1, 0, -1, -1], np.int64)
         self.stack = np.zeros(STACK, np.int64)
         self.leaves, self.spans, self.twice = np.zeros(0, np.int64), np.zeros((0, 4), np.int64), np.zeros((2, 0))
 
@@ -156,10 +557,6 @@ class DynamicTree:
             nodes = np.zeros(3 * slots + 2, NODE)
             nodes[: len(self.nodes)] = self.nodes
             self.nodes = nodes
-            if self.width == WIDTH:
-                self.bvh4 = np.concatenate([self.bvh4, np.zeros(len(nodes) * SIZE - len(self.bvh4))])
-                self.stale = np.zeros(len(nodes), np.int64)
-                self.kin = np.concatenate([self.kin, np.full(len(nodes) * WIDTH - len(self.kin), NONE)])
         loose, loose_still = self._rebuilds(arena) if len(arena.changed) > REBUILD_FROM else (False, False)
         moved = place_changed(
             arena.proxies,
@@ -170,20 +567,15 @@ class DynamicTree:
             int(loose_still),
             self.leaf_of,
             self.nodes,
-            self.stale,
             self.state,
             arena.work,
         )
-        if self.width == WIDTH:
-            write_stale(self.nodes, self.stale, self.state, self.bvh4, self.kin)
         if len(self.spans) < len(self.leaf_of):
             self.leaves, self.spans = np.zeros(len(self.leaf_of), np.int64), np.zeros((len(self.leaf_of), 4), np.int64)
             self.twice = np.zeros((2, len(self.nodes)))
         for still, wanted in ((0, loose), (1, loose_still)):
             if wanted and moved:
                 rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
-                if self.width == WIDTH:
-                    write_bvh4(self.nodes, still, self.bvh4, self.kin)
 
     def _rebuilds(self, arena):
         """Return for the moving and the static tree whether to rebuild it: most of its proxies have changed.
@@ -198,10 +590,6 @@ class DynamicTree:
     def query(self, arena: Arena) -> Query:
         """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
         proxies, changed = arena.proxies, arena.changed
-        if self.width == WIDTH:
-            return lambda pairs, work: find_pairs_in_bvh4(
-                proxies, changed, self.nodes, self.bvh4, self.kin, self.state, self.stack, pairs, work
-            )
         return lambda pairs, work: find_pairs_in_trees(
             proxies, changed, self.nodes, self.state, self.stack, pairs, work
         )
@@ -209,8 +597,6 @@ class DynamicTree:
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
         """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
         roots = self.state[ROOT_MOVING:]
-        if self.width == WIDTH:
-            return query_bvh4(self.nodes, self.bvh4, self.kin, roots, box, self.stack, slots, work)
         return query_trees(self.nodes, roots, box, self.stack, slots, work)
 
     @property
@@ -234,11 +620,3 @@ class DynamicTree:
         return np.stack([nodes[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1), np.array(
             depths, int
         )
-
-
-def _checked_width(value):
-    """Return the width if it is 2 or 4. Raises TypeError, ValueError."""
-    width = checks.whole("width", value, *WIDTHS)
-    if width not in WIDTHS:
-        raise ValueError(f"width must be 2 or 4 (got {width})")
-    return width

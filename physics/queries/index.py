@@ -5,11 +5,10 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
-from physics.broadphase.dynamic_tree import DynamicTree
+from physics.broadphase.dynamic_tree import ROOT_MOVING, DynamicTree
 from physics.broadphase.proxies import Box, Strategy
 from physics.broadphase.spatial_hash import CELL_RANGE, LEVELS, SpatialHashGrid
 from physics.broadphase.sweep_and_prune import SweepAndPrune
-from physics.broadphase.tree_nodes import ROOT_MOVING
 from physics.checks import Pair
 from physics.dynamics.integrate import is_within_limits
 from physics.jit import kernel, subkernel

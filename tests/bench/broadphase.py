@@ -6,12 +6,11 @@ the design (which strategy suits which layout) stand or fall by the last table.
 
 import math
 from functools import partial
-from time import perf_counter
 
 import numpy as np
 
 from game.report.charts import broadphases as charts
-from physics import BROADPHASES, Bounds, BruteForce, Circle, DynamicTree, Effects, Polygon, SweepAndPrune, World
+from physics import BROADPHASES, Bounds, BruteForce, Circle, Effects, Polygon, SweepAndPrune, World
 from tests.bench.timing import best_in_turns, table
 
 SIZES = (100, 1000, 10_000, 50_000)
@@ -113,7 +112,6 @@ def run(quick=False):
         **BROADPHASES,
         "every pair, every step": lambda: BruteForce(incremental=False),
         "sweep both axes": lambda: SweepAndPrune(axes="both"),
-        "tree of four": lambda: DynamicTree(width=4),
     }
     findings = Findings()
     for label, moving in MOVING.items():
@@ -136,39 +134,4 @@ def run(quick=False):
         for layout in LAYOUTS
     ]
     table("Fastest (and how much slower the next one is)", ("", *map(str, sizes)), rows)
-    return findings.ratios() | measure_found(sizes[1:3])
-
-
-def measure_found(sizes):
-    """All pairs of boxes found at once, by trees of two and of four boxes a node. Prints the table; returns {name: time
-    of fours over that of twos}."""
-    lines, ratios = [], {}
-    for layout in LAYOUTS:
-        for n in sizes:
-            places, giants = LAYOUTS[layout](np.random.default_rng(5), n)
-            sizes_of = [np.max(shape.points, axis=0) for shape, _ in giants]  # boxes about their own places
-            halves = np.concatenate([np.full((len(places), 2), 6.0), np.reshape(sizes_of, (-1, 2))])
-            centers = np.concatenate([places, np.reshape([at for _, at in giants], (-1, 2))])
-            lower, upper = centers - halves, centers + halves
-            trees = {
-                name: partial(found_in, DynamicTree(width=width), lower, upper)
-                for name, width in (("two", 2), ("four", 4))
-            }
-            least = best_in_turns(5, trees)
-            ratios[f"{n} bodies {layout}, found at once: tree of four / tree"] = least["four"] / least["two"]
-            lines.append(
-                [
-                    f"{layout}, {n}",
-                    *(f"{1e6 * least[name]:.0f}" for name in trees),
-                    f"{least['two'] / least['four']:.2f}",
-                ]
-            )
-    table("All pairs at once: µs", ("", "tree", "tree of four", "times as fast"), lines)
-    return ratios
-
-
-def found_in(tree, lower, upper):
-    """[s] that a tree takes to be made of boxes and find their pairs."""
-    start = perf_counter()
-    tree.find_pairs(lower, upper)
-    return perf_counter() - start
+    return findings.ratios()

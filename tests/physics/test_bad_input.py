@@ -154,7 +154,7 @@ CONSTRUCTORS = [
     ("bits", lambda v: Filter.from_packed(v), [-1, 1 << 32, 1.0, "1", None]),
     ("cell", lambda v: SpatialHashGrid(v), [x for x in NUMBER if x is not None] + [0, -1]),
     ("incremental", lambda v: BruteForce(incremental=v), [0, 1, None, "yes", float("nan")]),
-    ("width", lambda v: DynamicTree(width=v), [0, 1, 3, 5, 2.0, "2", True, float("nan")]),
+    ("width", lambda v: DynamicTree(width=v), [0, 1, 3, 4, 5, 2.0, "2", True, float("nan")]),
     ("margin", lambda v: DynamicTree(margin=v), [x for x in NUMBER if x is not None] + [-1]),
     ("axes", lambda v: SweepAndPrune(v), ["x", None, 3, [], NAN]),
     ("density", lambda v: mass_of(BALL, v), NUMBER + [0, -1]),

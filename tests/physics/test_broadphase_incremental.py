@@ -26,7 +26,6 @@ STRATEGIES = {
     "both": lambda: SweepAndPrune(axes="both"),
     "hash": SpatialHashGrid,
     "tree": DynamicTree,
-    "tree of four": lambda: DynamicTree(width=4),
 }
 every_strategy = pytest.mark.parametrize("make", STRATEGIES.values(), ids=STRATEGIES.keys())
 

@@ -16,7 +16,6 @@ STRATEGIES = {
     "hash_coarse": SpatialHashGrid(500.0),
     "tree": DynamicTree(),
     "tree_of_two": DynamicTree(width=2),
-    "tree_of_four": DynamicTree(width=4),
     "tree_tight": DynamicTree(margin=0.0),
 }
 every_strategy = pytest.mark.parametrize("strategy", STRATEGIES.values(), ids=STRATEGIES.keys())

@@ -16,7 +16,7 @@ from game.measure.timing import Cost
 from game.report.chart import Axis, Chart, Panel, panel_is, time, value
 from game.report.claim import Claim, at_least, at_most, ordering, pair, ratio_of
 from game.report.job import Job, ReportScope, Row, spread
-from physics import BROADPHASES, Bounds, BruteForce, Circle, DynamicTree, Effects, SweepAndPrune, World
+from physics import BROADPHASES, Bounds, BruteForce, Circle, Effects, SweepAndPrune, World
 
 SPACING, RADIUS, SPEED = 22.0, 6.0, 60.0  # [px], [px], [px/s]
 STEPS, RUNS = 60, 5  # 300 steps in all
@@ -27,7 +27,6 @@ WAYS: dict[str, Callable[[], Any]] = {
     **BROADPHASES,
     "every pair": lambda: BruteForce(incremental=False),
     "sweep both axes": lambda: SweepAndPrune(axes="both"),
-    "tree of four": lambda: DynamicTree(width=4),
 }
 MOVERS = {"all move": 1.0, "half move": 0.5, "one in twenty moves": 0.05}
 Places = tuple[np.ndarray, np.ndarray]  # centres (n, 2) and radii (n,) [px]
