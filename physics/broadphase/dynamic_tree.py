@@ -446,18 +446,7 @@ def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
 
 @kernel
 def place_changed(
-    # read
-    proxies,
-    changed,
-    margin,
-    margin_fraction,
-    loose,
-    loose_still,
-    # write
-    leaf_of_inout,
-    nodes_inout,
-    state_inout,
-    work_inout,
+    proxies, changed, margin, margin_fraction, loose, loose_still, leaf_of_inout, nodes_inout, state_inout, work_inout
 ):
     """Insert, remove, or move the changed proxies; one that is still within its fat box stays. O(moved · log n).
 

@@ -286,14 +286,7 @@ def list_ground(batch, heads_out, links_out):
 
 
 @kernel
-def has_seams(
-    # read
-    batch,
-    manifolds,
-    count,
-    # write
-    workspace,
-):
+def has_seams(batch, manifolds, count, workspace):
     """Return whether any of the manifolds may be a contact with a seam. O(manifolds)."""
     for i in range(count):
         side = ground_side(batch.bodies, batch.shapes, manifolds[i])
@@ -327,17 +320,7 @@ def link_contact(batch, contact, place, heads_inout, links_inout):
 
 @kernel
 def drop_seams(
-    # read
-    batch,
-    previous,
-    count,
-    # write
-    workspace,
-    heads_out,
-    links_out,
-    ground_heads_out,
-    ground_links_out,
-    manifolds_inout,
+    batch, previous, count, workspace, heads_out, links_out, ground_heads_out, ground_links_out, manifolds_inout
 ):
     """Drop the contacts of dynamic bodies with seams of their ground. Return how many manifolds are left, in order.
 

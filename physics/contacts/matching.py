@@ -97,17 +97,7 @@ def begin_step(geometry, p, q, a, b, contact_inout):
 
 
 @kernel
-def match_contacts(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    previous,
-    stale,
-    found,
-    # write
-    contacts_out,
-):
+def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_out):
     """Write the contacts of a step in the order of the candidates: those recycled from the last step, and the found
     ones with the impulses of equal features. Return how many there are. O(all).
 
@@ -152,13 +142,7 @@ def match_contacts(
 
 
 @kernel
-def copy_recycled(
-    # read
-    previous,
-    stale,
-    # write
-    contacts_out,
-):
+def copy_recycled(previous, stale, contacts_out):
     """Copy the manifolds of the recycled contacts: all but the stale ones (any, int32, ascending). O(previous)."""
     count = 0
     passed = 0
@@ -196,17 +180,7 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
 
 
 @kernel
-def recycle_contacts(
-    # read
-    batch,
-    distance,
-    # write
-    previous_inout,
-    kinds_out,
-    counts_out,
-    stale_out,
-    work_inout,
-):
+def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, stale_out, work_inout):
     """Classify the solid pairs, see classify, and recycle the contacts of the last step; distance [px]: see
     can_recycle.
 

@@ -304,14 +304,7 @@ def is_free(body):
 
 
 @kernel
-def start_groups(
-    # read
-    rows,
-    bodies,
-    fall,
-    # write
-    groups_out,
-):
+def start_groups(rows, bodies, fall, groups_out):
     """Make each body a group of its own, with the acceleration of its free fall times its mass. O(rows).
 
     fall: see FreeFall; groups_out: see Groups.
@@ -333,14 +326,7 @@ def start_groups(
 
 
 @kernel
-def join_groups(
-    # read
-    bodies,
-    contacts,
-    friction,
-    # write
-    groups_inout,
-):
+def join_groups(bodies, contacts, friction, groups_inout):
     """Join the bodies of loaded contacts with friction, and mark the bodies that they hold on what stands still.
 
     friction 1: the effect is declared. O(contacts).
@@ -368,14 +354,7 @@ def join_groups(
 
 
 @kernel
-def sum_groups(
-    # read
-    rows,
-    bodies,
-    fall,
-    # write
-    groups_inout,
-):
+def sum_groups(rows, bodies, fall, groups_inout):
     """Write the mean acceleration of each group, weighted by mass, and whether it is anchored, to its root. O(rows)."""
     g = groups_inout
     for k in range(len(rows)):
@@ -420,15 +399,7 @@ def mark_blocked(root, nx, ny, fall, groups_inout):
 
 
 @kernel
-def find_surfaces(
-    # read
-    rows,
-    bodies,
-    contacts,
-    fall,
-    # write
-    groups_inout,
-):
+def find_surfaces(rows, bodies, contacts, fall, groups_inout):
     """Turn the acceleration of each group along the surface that it presses on most, and find the blocked groups.
 
     O(rows + contacts).
@@ -461,16 +432,7 @@ def find_surfaces(
 
 
 @kernel
-def keep_free_awake(
-    # read
-    rows,
-    bodies,
-    groups,
-    fall,
-    islands,
-    # write
-    least_out,
-):
+def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
     """Write a sleep time of 0 for the islands of bodies whose free motion exceeds the slop. O(rows).
 
     islands (bodies) int32: the root of each body's island; least_out (bodies): its least sleep time [s].

@@ -28,12 +28,7 @@ IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conve
 
 
 @kernel
-def stay_behind(
-    # write
-    bodies_inout,
-    manifolds_inout,
-    work_inout,
-):
+def stay_behind(bodies_inout, manifolds_inout, work_inout):
     """Move the dynamic bodies of every overlap that moved back to their old poses, and return their number.
 
     The manifold that stopped them is marked as hit on the way. Touching (separation 0) stops no body. O(manifolds).

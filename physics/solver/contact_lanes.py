@@ -117,17 +117,7 @@ def credit_overlap(overlap, motion, balance_inout):
 
 
 @subkernel
-def list_contact_edges(
-    # read
-    contacts,
-    bodies,
-    motions,
-    dt,
-    limits,
-    # write
-    lists_inout,
-    edges_out,
-):
+def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges_out):
     """List the contacts to solve as edges between rows of MOTION. Return their number, that of overlaps with bodies of
     infinite mass, and the greatest overlap [px] of all. O(contacts).
 
@@ -291,17 +281,7 @@ def are_mixed(links_islands, degrees, classes):
 
 
 @subkernel
-def list_and_color(
-    # read
-    contacts,
-    bodies,
-    motions,
-    dt,
-    limits,
-    # write
-    lists_inout,
-    plan_out,
-):
+def list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
     """List the constraints to solve as edges, and colour these. Return their number. O(contacts + motions).
 
     lists_inout: see MotionLists. See list_contact_edges, color_edges.
@@ -319,17 +299,7 @@ def list_and_color(
 
 
 @kernel
-def order_in_one_group(
-    # read
-    contacts,
-    bodies,
-    motions,
-    dt,
-    limits,
-    # write
-    lists_inout,
-    plan_out,
-):
+def order_in_one_group(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
     """List the constraints to solve in one group, by colour. Return their number, and the number without a colour.
     O(contacts + motions).
     """
@@ -340,21 +310,7 @@ def order_in_one_group(
 
 
 @kernel
-def order_by_load(
-    # read
-    contacts,
-    bodies,
-    motions,
-    members,
-    dt,
-    limits,
-    rate,
-    choices,
-    by_load,
-    # write
-    lists_inout,
-    plan_out,
-):
+def order_by_load(contacts, bodies, motions, members, dt, limits, rate, choices, by_load, lists_inout, plan_out):
     """List the constraints to solve by the number of substeps of their islands, and by colour. Return their number.
 
     dt [s]; limits: see settings.Limits; rate: see estimate_rate; by_load: index of the greatest choice that a load
@@ -560,15 +516,7 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
 
 
 @subkernel
-def share_substeps(
-    # read
-    members,
-    parents,
-    substeps,
-    most_by_load,
-    # write
-    motions_inout,
-):
+def share_substeps(members, parents, substeps, most_by_load, motions_inout):
     """Give each body the most substeps that a body of its island needs, after a step of so many.
 
     In a heap it is no more than a load may take, since some body leans there all the time. Return the number of islands
@@ -593,17 +541,7 @@ def share_substeps(
 
 
 @kernel
-def choose_by_load(
-    # read
-    blocks,
-    count,
-    group,
-    links_islands,
-    rules,
-    # write
-    plan_inout,
-    motions_inout,
-):
+def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motions_inout):
     """Write the substeps of the islands after a step of so many.
 
     Return the number of islands that needed more than they may take for `patience` [s], which leaves out impacts.
@@ -656,15 +594,7 @@ def limit_friction(count, motions_inout, blocks_inout):
 
 
 @subkernel
-def store_lanes(
-    # read
-    blocks,
-    count,
-    inverse_h,
-    share,
-    # write
-    contacts_inout,
-):
+def store_lanes(blocks, count, inverse_h, share, contacts_inout):
     """Write the impulses of the step, and the cached forces for the next one, back to the contacts. O(lanes).
 
     share: weight of this step in the cached forces. A step of a thousandth of the last one's length says little about
@@ -694,17 +624,7 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
     """Return the pass after the last substep in a world with these effects."""
 
     @kernel
-    def finish_lanes(
-        # read
-        count,
-        context,
-        # write
-        impacts_inout,
-        motions_inout,
-        blocks_inout,
-        contacts_inout,
-        work_inout,
-    ):
+    def finish_lanes(count, context, impacts_inout, motions_inout, blocks_inout, contacts_inout, work_inout):
         """Apply restitution, limit friction, and write the impulses of so many blocks back. O(lanes).
 
         impacts_inout: scratch, as long as the contacts.

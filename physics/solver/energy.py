@@ -381,18 +381,7 @@ def remove_gains(blocks, count, group, links_islands, context, plan, parents_out
 
 
 @kernel
-def limit_energy(
-    # read
-    blocks,
-    count,
-    group,
-    links_islands,
-    context,
-    # write
-    plan_inout,
-    balance_inout,
-    motions_inout,
-):
+def limit_energy(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that the contacts of a group have added. Return the number of sets of touching bodies that had
     any. O(members + lanes).
 

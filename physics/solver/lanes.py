@@ -701,18 +701,7 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
     """Return the pass from contacts to lanes for a world with these effects."""
 
     @kernel
-    def prepare_lanes(
-        # read
-        bodies,
-        motions,
-        plan,
-        group,
-        context,
-        # write
-        contacts_inout,
-        blocks_out,
-        work_inout,
-    ):
+    def prepare_lanes(bodies, motions, plan, group, context, contacts_inout, blocks_out, work_inout):
         """Write the contacts of a group into blocks of one colour each. Return the number of blocks. O(edges).
 
         Contacts are read in memory order, for the prefetcher of the processor; the open blocks of all colours fit into

@@ -103,16 +103,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
     """Return the pass from bodies to motions for a world with these effects."""
 
     @kernel
-    def gather_motions(
-        # read
-        rows,
-        bodies,
-        air,
-        # write
-        motions_out,
-        lists_out,
-        work_inout,
-    ):
+    def gather_motions(rows, bodies, air, motions_out, lists_out, work_inout):
         """Write the motions of the bodies in these rows. Return the numbers of dynamic and of kinematic ones. O(rows).
 
         air: see Air; lists_out: see MotionLists.
@@ -174,14 +165,7 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
     """Return the pass that integrates velocities at the start of each substep."""
 
     @subkernel
-    def integrate_substep_velocities(
-        # read
-        members,
-        h,
-        drag_rate,
-        # write
-        motions_inout,
-    ):
+    def integrate_substep_velocities(members, h, drag_rate, motions_inout):
         """Add the accelerations of a substep of h [s] to island bodies, rows of MOTION. O(members).
 
         drag [1/s] is implicit and stable for any rate. The sum of the contact impulses of the substep before is applied
@@ -217,14 +201,7 @@ def make_substep_positions(rotation: bool) -> Callable:
     """Return the pass that integrates positions at the end of each substep."""
 
     @subkernel
-    def integrate_substep_positions(
-        # read
-        members,
-        h,
-        push_speed,
-        # write
-        motions_inout,
-    ):
+    def integrate_substep_positions(members, h, push_speed, motions_inout):
         """Move island bodies by a substep of h [s] and by their pseudo-velocity. O(members).
 
         The pseudo-velocity is capped at push_speed [px/s], and then reset. A body without contacts flies on its
@@ -276,15 +253,7 @@ def is_usable(body, speed_limit):
 
 
 @kernel
-def scatter_motions(
-    # read
-    rows,
-    motions,
-    speed_limit,
-    # write
-    lists_inout,
-    bodies_inout,
-):
+def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
     """Write velocities, poses and centres of mass back to the bodies; the poses before the step become previous ones.
 
     Return the number of bodies whose state no step can use. speed_limit [px/s]. O(rows).

@@ -60,17 +60,7 @@ def restitution_threshold(press, a, b, nx, ny):
 
 
 @kernel
-def prepare_pushes(
-    # read
-    geometry,
-    bodies,
-    shapes,
-    manifolds,
-    conveyor,
-    press,
-    # write
-    pushes_out,
-):
+def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_out):
     """Write a row for every point of the manifolds that are no sensors. Return their number. O(manifolds).
 
     conveyor: 1 with surface speeds; press: see Press.
@@ -111,15 +101,7 @@ def prepare_pushes(
 
 
 @kernel
-def limit_pushes(
-    # read
-    pushes,
-    bodies,
-    push_speed,
-    dt,
-    # write
-    reach_out,
-):
+def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
     """Write the greatest displacement [px] of each dynamic body in this step. O(pushes).
 
     It is push_speed [px/s] · dt [s], and the approach of both sides within dt, which is no old overlap.

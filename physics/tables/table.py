@@ -96,13 +96,7 @@ def row_of(table, identity):
 
 
 @generic
-def find_rows(
-    # read
-    table,
-    ids,
-    # write
-    rows_out,
-):
+def find_rows(table, ids, rows_out):
     """Write the row of every id in a table sorted by id, -1 for an id that is absent.
 
     ids, rows_out: (n) int64. O(n log rows).
