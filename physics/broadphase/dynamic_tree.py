@@ -445,22 +445,19 @@ def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
 
 
 @kernel
-def place_changed(
-    proxies, changed, margin, margin_fraction, loose, loose_still, leaf_of_inout, nodes_inout, state_inout, work_inout
-):
+def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, state_inout, work_inout):
     """Insert, remove, or move the changed proxies; one that is still within its fat box stays. O(moved · log n).
 
-    changed: slots; margin [px] and margin_fraction of the box: the smaller is the margin of a leaf; leaf_of_inout
-    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose, loose_still 1: leaves of the moving or
-    the static tree are neither linked nor unlinked, because that tree is rebuilt next. Return the number of leaves
-    that were moved.
+    changed: slots; margins: in px and as a share of the box: the smaller is the margin of a leaf; leaf_of_inout
+    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose 1: leaves of the moving or the static tree
+    are neither linked nor unlinked, because that tree is rebuilt next. Return the number of leaves that were moved.
     """
     moved = 0
     for i in range(len(changed)):
         slot = changed[i]
         p = proxies[slot]
         leaf = leaf_of_inout[slot]
-        grow = min(margin, margin_fraction * max(p.upper_x - p.lower_x, p.upper_y - p.lower_y))
+        grow = min(margins[0], margins[1] * max(p.upper_x - p.lower_x, p.upper_y - p.lower_y))
         if leaf >= 0:
             n = nodes_inout[leaf]
             fits = (
@@ -478,7 +475,7 @@ def place_changed(
             ):
                 continue
             moved += 1
-            if (loose_still if n.still else loose) == 0:
+            if (loose[1] if n.still else loose[0]) == 0:
                 remove_leaf(leaf, nodes_inout, state_inout, work_inout)
             if p.row < 0:
                 n.height = -1
@@ -504,7 +501,7 @@ def place_changed(
         n.height = 0
         n.slot = slot
         n.still = p.still
-        if (loose_still if n.still else loose) == 0:
+        if (loose[1] if n.still else loose[0]) == 0:
             insert_leaf(leaf, nodes_inout, state_inout, work_inout)
         work_inout[REINSERTS] += 1
     return moved
@@ -546,14 +543,12 @@ class DynamicTree:
             nodes = np.zeros(3 * slots + 2, NODE)
             nodes[: len(self.nodes)] = self.nodes
             self.nodes = nodes
-        loose, loose_still = self._rebuilds(arena) if len(arena.changed) > REBUILD_FROM else (False, False)
+        loose = self._rebuilds(arena) if len(arena.changed) > REBUILD_FROM else (0, 0)
         moved = place_changed(
             arena.proxies,
             arena.changed,
-            self.margin,
-            AABB_MARGIN_FRACTION,
-            int(loose),
-            int(loose_still),
+            (self.margin, AABB_MARGIN_FRACTION),
+            loose,
             self.leaf_of,
             self.nodes,
             self.state,
@@ -562,8 +557,8 @@ class DynamicTree:
         if len(self.spans) < len(self.leaf_of):
             self.leaves, self.spans = np.zeros(len(self.leaf_of), np.int64), np.zeros((len(self.leaf_of), 4), np.int64)
             self.twice = np.zeros((2, len(self.nodes)))
-        for still, wanted in ((0, loose), (1, loose_still)):
-            if wanted and moved:
+        for still in (0, 1):
+            if loose[still] and moved:
                 rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
 
     def _rebuilds(self, arena):
@@ -574,7 +569,7 @@ class DynamicTree:
         still = arena.proxies["still"]
         total = np.bincount(still[self.leaf_of[: len(still)] >= 0], minlength=2)
         changed = np.bincount(still[arena.changed], minlength=2)
-        return tuple(bool(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
+        return tuple(int(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
 
     def query(self, arena: Arena) -> Query:
         """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""

@@ -248,7 +248,7 @@ def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
     # Reset the state of the last pair, so that it does not affect this one, not even in the last bit.
     i = min(int(workspace.gap.gap[FIRST_A]), a_count - 1) if fraction > 0.0 else 0
     j = min(int(workspace.gap.gap[FIRST_B]), b_count - 1) if fraction > 0.0 else 0
-    separation = shape_separation(workspace.a, a_count, a_radius, workspace.b, b_count, b_radius, i, j, workspace.gap)
+    separation = shape_separation(workspace.a, a_count, a_radius, workspace.b, b_count, b_radius, (i, j), workspace.gap)
     workspace.totals[0] += workspace.gap.state[ROUNDS]
     workspace.totals[1] += workspace.gap.state[CAPPED]
     return separation

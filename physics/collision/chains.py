@@ -4,6 +4,7 @@ import math
 
 from physics.collision.hull_pairs import (
     NEVER,
+    Meeting,
     add_circle_on_piece,
     add_points_on_piece,
     advance_to_piece,
@@ -435,23 +436,21 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
                     cx = hull.corners[0, 0] + time * travel.vx
                     cy = hull.corners[0, 1] + time * travel.vy
                     contact = collide_link_circle(link, points, cx, cy, radius)
-                    disc, part = (cx, cy, radius), part_feature(k, 0)
-                    found = add_circle_on_piece(
-                        batch, pair, sign, travel, time, piece, disc, contact, part, workspace, manifolds_out, found
-                    )
+                    disc, meeting = (cx, cy, radius), Meeting(piece, travel, time, sign, part_feature(k, 0))
+                    found = add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifolds_out, found)
                 else:
                     near += 1
                     time = 0.0
                     met = hull
+                    piece = Hull(points, 2, 0.0, ALL_EDGES)
                     if travel.time > 0.0 and attempt == 0:
-                        time = advance_to_piece(travel, margin, Hull(points, 2, 0.0, ALL_EDGES), hull, workspace.c)
+                        time = advance_to_piece(travel, margin, piece, hull, workspace.c)
                         met = Hull(workspace.c, hull.count, hull.radius, ALL_EDGES)
                     if time == NEVER:
                         continue
                     collide_link_hull(link, points, met, reach, batch.bias, attempt == 1, workspace.points)
-                    found = add_points_on_piece(
-                        batch, pair, sign, travel, time, part_feature(k, 0), workspace, manifolds_out, found
-                    )
+                    meeting = Meeting(piece, travel, time, sign, part_feature(k, 0))
+                    found = add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found)
     return found
 
 

@@ -224,6 +224,16 @@ class Travel(NamedTuple):
     time: float  # [s] within which pieces are met; 0: only those within the margin count
 
 
+class Meeting(NamedTuple):
+    """A piece of ground and a hull that meets it within a step."""
+
+    piece: Hull
+    travel: Travel
+    time: float  # [s] until they meet
+    sign: float  # 1.0 if the ground is A, else -1.0
+    part: int  # feature of the piece
+
+
 @inlined
 def travel_of(batch, ground, body):
     """Return the Travel of a body over ground, BODY rows: no further than the margin if it is left to continuous
@@ -266,13 +276,13 @@ def move_piece_manifold_back(time, travel, sign, points_inout):
 
 
 @subkernel
-def piece_misses_circle(travel, graze, piece, x, y, radius, separation, feature, corners_out):
+def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
     """Return whether a disc only passes the corner of a piece of ground. corners_out (16, 2): scratch."""
+    travel = meeting.travel
     if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
         return False
-    corners_out[0, 0] = x
-    corners_out[0, 1] = y
-    return path_misses(piece, Hull(corners_out, 1, radius, ALL_EDGES), 0.0, travel.vx, travel.vy)
+    corners_out[0, 0], corners_out[0, 1], radius = disc
+    return path_misses(meeting.piece, Hull(corners_out, 1, radius, ALL_EDGES), 0.0, travel.vx, travel.vy)
 
 
 # ---- hull pairs ------------------------------------------------------------------------------------------------------
@@ -295,20 +305,21 @@ def time_to_piece(travel, margin, piece, x, y, radius):
 
 
 @inlined
-def add_circle_on_piece(batch, pair, sign, travel, time, piece, disc, contact, part, workspace, manifolds_out, found):
-    """Append the contact of a piece of ground with a disc that moved for a time [s]. Return the new count.
+def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifolds_out, found):
+    """Append the contact of a piece of ground with a disc, at their Meeting. Return the new count.
 
-    disc: its (x, y, radius) there; contact: the result of a collider at that place; part: feature of the piece.
+    disc: its (x, y, radius) there; contact: the result of a collider at that place.
     """
+    travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact
     if not hit or separation > travel.reach:
         return found
-    if piece_misses_circle(travel, batch.graze, piece, disc[0], disc[1], disc[2], separation, feature, workspace.c):
+    if piece_misses_circle(meeting, batch.graze, disc, separation, feature, workspace.c):
         return found
-    closed, tangential = path_offsets(time, travel.vx, travel.vy, nx, ny)
+    closed, tangential = path_offsets(meeting.time, travel.vx, travel.vy, nx, ny)
     x += 0.5 * closed * nx + (tangential * ny if sign < 0.0 else 0.0)
     y += 0.5 * closed * ny - (tangential * nx if sign < 0.0 else 0.0)
-    point = (sign * nx, sign * ny, x, y, separation + closed, 0.0, part + feature)
+    point = (sign * nx, sign * ny, x, y, separation + closed, 0.0, meeting.part + feature)
     before = found
     found = add_point(batch.shapes, batch.candidates, pair, point, manifolds_out, found)
     set_tangential_offset(before, found, tangential, manifolds_out)
@@ -316,15 +327,16 @@ def add_circle_on_piece(batch, pair, sign, travel, time, piece, disc, contact, p
 
 
 @inlined
-def add_points_on_piece(batch, pair, sign, travel, time, part, workspace, manifolds_out, found):
-    """Append the manifold in workspace.points of a piece of ground with a hull that moved for a time [s]. Return the
-    new count. part: feature of the piece.
+def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
+    """Append the manifold in workspace.points of a piece of ground with a hull, at their Meeting. Return the new
+    count.
     """
+    sign = meeting.sign
     tangential = 0.0
-    if time > 0.0:
-        tangential = move_piece_manifold_back(time, travel, sign, workspace.points)
+    if meeting.time > 0.0:
+        tangential = move_piece_manifold_back(meeting.time, meeting.travel, sign, workspace.points)
     before = found
-    found = add_points(batch.shapes, batch.candidates, pair, sign, workspace.points, part, manifolds_out, found)
+    found = add_points(batch.shapes, batch.candidates, pair, sign, workspace.points, meeting.part, manifolds_out, found)
     set_tangential_offset(before, found, tangential, manifolds_out)
     return found
 

@@ -37,7 +37,7 @@ from physics.collision.masks_exact import (
     collide_exact_mask_pairs_hit,
     collide_mask_hull_pairs,
 )
-from physics.collision.seams import drop_seams, has_seams
+from physics.collision.seams import BodyLists, drop_seams, has_seams
 from physics.collision.tiles import collide_grid_pairs_closed, collide_grid_pairs_one_way
 from physics.islands.awake import is_active, wakes
 from physics.jit import inlined, kernel, subkernel
@@ -278,7 +278,7 @@ class NarrowPhase:
         self.workspace = new_workspace()
         self.kinds = np.zeros(64, np.int64)
         self.counts, self.deep = np.zeros(DRAWN_PAIRS + 1, np.int64), np.zeros(64, bool)
-        self.heads, self.links = np.zeros((2, 64), np.int64), np.zeros((2, 64), np.int64)
+        self.lists = self.ground = BodyLists(np.zeros(0, np.int64), np.zeros(0, np.int64))
         self.raw, self.ordered, self.last_raw, self.last_ordered = (zeros_in_lines(64, CONTACT) for _ in range(4))
 
     def collide(
@@ -413,12 +413,12 @@ class NarrowPhase:
     def _drop_seams(self, batch, previous, found) -> int:
         """Drop the contacts with seams of the ground. Return how many manifolds are left."""
         bodies, rows = len(batch.bodies), found + len(previous)
-        if self.heads.shape[1] < bodies:
-            self.heads = np.zeros((2, 2 * bodies), np.int64)
-        if self.links.shape[1] < max(rows, batch.count):
-            self.links = np.zeros((2, 2 * max(rows, batch.count)), np.int64)
-        heads, links = self.heads, self.links
-        return drop_seams(batch, previous, found, self.workspace, heads[0], links[0], heads[1], links[1], self.raw)
+        rows = max(rows, batch.count)
+        if len(self.lists.heads) < bodies or len(self.lists.links) < rows:
+            self.lists, self.ground = (
+                BodyLists(np.zeros(2 * bodies, np.int64), np.zeros(2 * rows, np.int64)) for _ in range(2)
+            )
+        return drop_seams(batch, previous, found, self.workspace, self.lists, self.ground, self.raw)
 
     def room_for(self, count: int) -> np.ndarray:
         """Return room for so many contacts, which `complete` finds there if it is told their number."""

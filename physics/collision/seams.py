@@ -1,6 +1,9 @@
 """Ground made of pieces: contacts with a seam between two flush pieces are dropped."""
 
 import math
+from typing import NamedTuple
+
+import numpy as np
 
 from physics.collision.chains import link_at, misses_box
 from physics.collision.hulls import (
@@ -42,6 +45,13 @@ PARALLEL = 0.996  # cosine of the normals of two faces that bear a body together
 SAME_NORMAL = 1.0 - 1e-12
 WIDE = 4.0  # tolerances between the two points of a face contact that no seam explains
 NONE = -1
+
+
+class BodyLists(NamedTuple):
+    """A list of numbers for each body."""
+
+    heads: np.ndarray  # (bodies,) int64 first number of each, or NONE
+    links: np.ndarray  # int64 by number: the next one, or NONE
 
 
 @subkernel
@@ -268,21 +278,18 @@ def is_covered(batch, seam, first, others, workspace):
 
 
 @subkernel
-def list_ground(batch, heads_out, links_out):
-    """Write the candidates of every dynamic body with ground as a list: heads_out (bodies,), links_out (candidates,).
-
-    O(candidates).
-    """
+def list_ground(batch, lists_out):
+    """Write the candidates of every dynamic body with ground as a list. O(candidates)."""
     for row in range(len(batch.bodies)):
-        heads_out[row] = NONE
+        lists_out.heads[row] = NONE
     for pair in range(batch.count):
         a = batch.shapes[batch.candidates[pair, 0]].body_row
         b = batch.shapes[batch.candidates[pair, 1]].body_row
         a_moves = batch.bodies[a].kind == DYNAMIC
         if a_moves != (batch.bodies[b].kind == DYNAMIC):
             row = a if a_moves else b
-            links_out[pair] = heads_out[row]
-            heads_out[row] = pair
+            lists_out.links[pair] = lists_out.heads[row]
+            lists_out.heads[row] = pair
 
 
 @kernel
@@ -309,40 +316,37 @@ def is_recycled(batch, contact):
 
 
 @subkernel
-def link_contact(batch, contact, place, heads_inout, links_inout):
+def link_contact(batch, contact, place, lists_inout):
     """Put a place in front of the list of its CONTACT row's dynamic body, if it stands on ground."""
     side = ground_side(batch.bodies, batch.shapes, contact)
     if side != NONE:
         row = contact.body_row_b if side == 0 else contact.body_row_a
-        links_inout[place] = heads_inout[row]
-        heads_inout[row] = place
+        lists_inout.links[place] = lists_inout.heads[row]
+        lists_inout.heads[row] = place
 
 
 @kernel
-def drop_seams(
-    batch, previous, count, workspace, heads_out, links_out, ground_heads_out, ground_links_out, manifolds_inout
-):
+def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, manifolds_inout):
     """Drop the contacts of dynamic bodies with seams of their ground. Return how many manifolds are left, in order.
 
-    previous: CONTACT rows of the last step; those of candidates without a kind are recycled. heads_out (bodies,),
-    links_out (count + previous,): scratch, a list of the contacts of each body;
-    ground_heads_out (bodies,), ground_links_out (candidates,): of its candidates. O(manifolds · those of a body).
+    previous: CONTACT rows of the last step; those of candidates without a kind are recycled. contacts_out,
+    ground_out: scratch, BodyLists of the contacts and of the candidates. O(manifolds · those of a body).
     """
     bodies = batch.bodies
     shapes = batch.shapes
     for row in range(len(bodies)):
-        heads_out[row] = NONE
+        contacts_out.heads[row] = NONE
     for i in range(count):
-        link_contact(batch, manifolds_inout[i], i, heads_out, links_out)
+        link_contact(batch, manifolds_inout[i], i, contacts_out)
     for i in range(len(previous)):
         if is_recycled(batch, previous[i]):
-            link_contact(batch, previous[i], count + i, heads_out, links_out)
+            link_contact(batch, previous[i], count + i, contacts_out)
     listed = False
     for i in range(count):
         m = manifolds_inout[i]
         side = ground_side(bodies, shapes, m)
         if side != NONE and may_be_seam(batch, side, m, workspace.a):
-            head = heads_out[m.body_row_b if side == 0 else m.body_row_a]
+            head = contacts_out.heads[m.body_row_b if side == 0 else m.body_row_a]
             ahead = (min(m.separation_1, m.separation_2) if m.count == 2 else m.separation_1) > batch.graze
             behind = False
             j = head
@@ -351,11 +355,11 @@ def drop_seams(
                     behind = is_behind_plane(batch, m, previous[j - count], workspace)
                 elif j != i and manifolds_inout[j].count > 0:
                     behind = is_behind_plane(batch, m, manifolds_inout[j], workspace)
-                j = links_out[j]
+                j = contacts_out.links[j]
             body = m.body_row_b if side == 0 else m.body_row_a
             if behind and not ahead and not listed:
-                list_ground(batch, ground_heads_out, ground_links_out)
+                list_ground(batch, ground_out)
                 listed = True
-            if behind and (ahead or is_covered(batch, m, ground_heads_out[body], ground_links_out, workspace)):
+            if behind and (ahead or is_covered(batch, m, ground_out.heads[body], ground_out.links, workspace)):
                 m.count = 0
     return drop_empty(count, manifolds_inout)

@@ -5,6 +5,7 @@ from typing import Any
 
 from physics.collision.hull_pairs import (
     NEVER,
+    Meeting,
     add_circle_on_piece,
     add_points_on_piece,
     advance_to_piece,
@@ -307,19 +308,9 @@ def make_grid_pass(one_way: bool) -> Any:
                         cx = hull.corners[0, 0] + time * travel.vx
                         cy = hull.corners[0, 1] + time * travel.vy
                         contact, disc = collide_hull_circle(piece, cx, cy, radius), (cx, cy, radius)
+                        meeting = Meeting(piece, travel, time, sign, feature)
                         found = add_circle_on_piece(
-                            batch,
-                            pair,
-                            sign,
-                            travel,
-                            time,
-                            piece,
-                            disc,
-                            contact,
-                            feature,
-                            workspace,
-                            manifolds_out,
-                            found,
+                            batch, pair, meeting, disc, contact, workspace, manifolds_out, found
                         )
                     else:
                         time = 0.0
@@ -348,9 +339,8 @@ def make_grid_pass(one_way: bool) -> Any:
                             and is_grazing(piece, met, batch, p, q, workspace.points)
                         ):
                             continue
-                        found = add_points_on_piece(
-                            batch, pair, sign, travel, time, feature, workspace, manifolds_out, found
-                        )
+                        meeting = Meeting(piece, travel, time, sign, feature)
+                        found = add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found)
         return found
 
     return make_pass(GRID_ANY, collide_grid_pair)

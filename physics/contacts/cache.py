@@ -75,9 +75,9 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 
 @subkernel
-def core_in_body(body, cosine, sine, x, y, nx, ny, inside, behind):
+def core_in_body(body, turn, x, y, nx, ny, inside, behind):
     """Return a point in body space, moved `inside` [px] along the normal, `behind` against the tangent."""
-    return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, cosine, -sine)
+    return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, turn[0], -turn[1])
 
 
 @subkernel
@@ -134,16 +134,16 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
     c.radius_a = core_radius(s)
     c.radius_b = core_radius(o)
     c.frame = frame_of(s, o, c.feature_1, c.radius_a + c.radius_b)
-    a_cosine, a_sine = rotation_of(a.angle)
-    b_cosine, b_sine = rotation_of(b.angle)
+    turn_a = rotation_of(a.angle)
+    turn_b = rotation_of(b.angle)
     nx = c.normal_x
     ny = c.normal_y
     c.local_nx = nx
     c.local_ny = ny
     if c.frame == WITH_A:
-        c.local_nx, c.local_ny = rotate(nx, ny, a_cosine, -a_sine)
+        c.local_nx, c.local_ny = rotate(nx, ny, turn_a[0], -turn_a[1])
     elif c.frame == WITH_B:
-        c.local_nx, c.local_ny = rotate(nx, ny, b_cosine, -b_sine)
+        c.local_nx, c.local_ny = rotate(nx, ny, turn_b[0], -turn_b[1])
     c.angle_a = a.angle
     c.angle_b = b.angle
     c.held_nx = nx
@@ -157,10 +157,8 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
     c.held_ax_2 = 0.0
     c.held_ay_2 = 0.0
     half = 0.5 * c.separation_1
-    c.local_ax_1, c.local_ay_1 = core_in_body(a, a_cosine, a_sine, c.x_1, c.y_1, nx, ny, -(half + c.radius_a), 0.0)
-    c.local_bx_1, c.local_by_1 = core_in_body(
-        b, b_cosine, b_sine, c.x_1, c.y_1, nx, ny, half + c.radius_b, c.tangential_offset
-    )
+    c.local_ax_1, c.local_ay_1 = core_in_body(a, turn_a, c.x_1, c.y_1, nx, ny, -(half + c.radius_a), 0.0)
+    c.local_bx_1, c.local_by_1 = core_in_body(b, turn_b, c.x_1, c.y_1, nx, ny, half + c.radius_b, c.tangential_offset)
     c.base_1 = c.separation_1
     c.share_1 = share_of(polygons, table, a, b, c, s, o, False)
     c.local_ax_2 = 0.0
@@ -173,9 +171,9 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
         c.held_ax_2 = c.x_2 - a.center_x
         c.held_ay_2 = c.y_2 - a.center_y
         half = 0.5 * c.separation_2
-        c.local_ax_2, c.local_ay_2 = core_in_body(a, a_cosine, a_sine, c.x_2, c.y_2, nx, ny, -(half + c.radius_a), 0.0)
+        c.local_ax_2, c.local_ay_2 = core_in_body(a, turn_a, c.x_2, c.y_2, nx, ny, -(half + c.radius_a), 0.0)
         c.local_bx_2, c.local_by_2 = core_in_body(
-            b, b_cosine, b_sine, c.x_2, c.y_2, nx, ny, half + c.radius_b, c.tangential_offset
+            b, turn_b, c.x_2, c.y_2, nx, ny, half + c.radius_b, c.tangential_offset
         )
         c.base_2 = c.separation_2
         c.share_2 = share_of(polygons, table, a, b, c, s, o, True)
@@ -206,32 +204,33 @@ def write_caches(geometry, bodies, shapes, contacts_inout):
 
 
 @inlined
-def cores_at(a, a_cosine, a_sine, b, b_cosine, b_sine, local_ax, local_ay, local_bx, local_by):
+def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
     """Return the cores of a point at the present poses: A's [px], and B's relative to it.
 
-    a, b: BODY rows, with cosine and sine of their angles; local [px]: the cores in the body spaces.
+    a, b: BODY rows; turn: (cosine, sine) of their angles; local [px]: the cores in the body spaces.
     """
-    ax, ay = rotate(local_ax, local_ay, a_cosine, a_sine)
-    bx, by = rotate(local_bx, local_by, b_cosine, b_sine)
+    ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
+    bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])
     ax += a.x
     ay += a.y
     return ax, ay, (b.x + bx) - ax, (b.y + by) - ay
 
 
 @inlined
-def clipped_gap(gap, dx, dy, other_dx, other_dy, apart_x, apart_y, with_a, nx, ny, wander):
+def clipped_gap(gap, core, other, apart, with_a, normal, wander):
     """Return (gap [px] of the cores at a point clipped by the end of a face, whether it differs from `gap`).
 
     The incident edge runs through the other side's cores of both points. As the sides slide along the face, the clipped
-    point moves on that edge. gap: from core to core at the point; dx, dy: B's core relative to A's; other_dx, other_dy:
-    the same of the other point; apart_x, apart_y: A's core of the other point relative to this one's; with_a: the face
-    is A's; wander [px]: smaller corrections are omitted.
+    point moves on that edge. gap: from core to core at the point; core: B's core relative to A's; other: the same of
+    the other point; apart: A's core of the other point relative to this one's; with_a: the face is A's; wander [px]:
+    smaller corrections are omitted.
     """
-    edge_x = apart_x + (other_dx - dx if with_a else 0.0)
-    edge_y = apart_y + (other_dy - dy if with_a else 0.0)
+    nx, ny = normal
+    edge_x = apart[0] + (other[0] - core[0] if with_a else 0.0)
+    edge_y = apart[1] + (other[1] - core[1] if with_a else 0.0)
     along = edge_y * nx - edge_x * ny
     across = edge_x * nx + edge_y * ny
-    rise = (dy * nx - dx * ny) * across
+    rise = (core[1] * nx - core[0] * ny) * across
     # An edge that is too steep is not the one along the face.
     if abs(across) >= abs(along) or along == 0.0 or abs(rise) <= wander * abs(along):
         return gap, False
@@ -245,11 +244,14 @@ def is_clipped(contact, share):
 
 
 @inlined
-def point_of(ax, ay, dx, dy, nx, ny, gap, share, radius_a, radius_b):
+def point_of(ax, ay, dx, dy, normal, gap, share, radii):
     """Return a point of a manifold [px], x and y, and its separation.
 
-    ax … dy: see cores_at; gap: from core to core along the normal, with the correction of clipped_gap.
+    ax … dy: see cores_at; gap: from core to core along the normal, with the correction of clipped_gap; radii: of both
+    sides.
     """
+    nx, ny = normal
+    radius_a, radius_b = radii
     apart = dx * nx + dy * ny
     middle = 0.5 * (radius_a + (gap - radius_b)) + share * (apart - gap)
     x = ax + share * (dx - apart * nx) + middle * nx
@@ -258,24 +260,20 @@ def point_of(ax, ay, dx, dy, nx, ny, gap, share, radius_a, radius_b):
 
 
 @inlined
-def update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, contact_inout):
+def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
     """Write points, normal and separations [px] at the present poses. Return (relative motion of the points since
     detection, along or across the face [px]; motion of a core around a corner [px]; whether a clipped point moved on).
 
-    a, b: BODY rows of the sides, with cosine and sine of their angles; wander [px]: a clipped point is corrected only
+    a, b: BODY rows of the sides; turn: (cosine, sine) of their angles; wander [px]: a clipped point is corrected only
     where this makes more of a difference, that is after a large motion; infinite: never.
     """
     c = contact_inout
     two = c.count == 2
     c.tangential_offset = 0.0
-    ax_1, ay_1, dx_1, dy_1 = cores_at(
-        a, a_cosine, a_sine, b, b_cosine, b_sine, c.local_ax_1, c.local_ay_1, c.local_bx_1, c.local_by_1
-    )
+    ax_1, ay_1, dx_1, dy_1 = cores_at(a, turn_a, b, turn_b, c.local_ax_1, c.local_ay_1, c.local_bx_1, c.local_by_1)
     ax_2, ay_2, dx_2, dy_2 = ax_1, ay_1, dx_1, dy_1
     if two:
-        ax_2, ay_2, dx_2, dy_2 = cores_at(
-            a, a_cosine, a_sine, b, b_cosine, b_sine, c.local_ax_2, c.local_ay_2, c.local_bx_2, c.local_by_2
-        )
+        ax_2, ay_2, dx_2, dy_2 = cores_at(a, turn_a, b, turn_b, c.local_ax_2, c.local_ay_2, c.local_bx_2, c.local_by_2)
     nx = c.local_nx
     ny = c.local_ny
     moved = 0.0
@@ -286,9 +284,9 @@ def update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, contact_ino
         rolled = norm(nx - c.local_nx, ny - c.local_ny) * max(c.radius_a, c.radius_b)
     else:
         if c.frame == WITH_A:
-            nx, ny = rotate(nx, ny, a_cosine, a_sine)
+            nx, ny = rotate(nx, ny, turn_a[0], turn_a[1])
         elif c.frame == WITH_B:
-            nx, ny = rotate(nx, ny, b_cosine, b_sine)
+            nx, ny = rotate(nx, ny, turn_b[0], turn_b[1])
         moved = max(abs(dy_1 * nx - dx_1 * ny), abs(dy_2 * nx - dx_2 * ny))
     c.normal_x = nx + 0.0
     c.normal_y = ny + 0.0
@@ -300,16 +298,16 @@ def update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, contact_ino
         x = ax_2 - ax_1
         y = ay_2 - ay_1
         with_a = c.frame == WITH_A
+        first, second = (dx_1, dy_1), (dx_2, dy_2)
         if is_clipped(c, c.share_1):
-            gap_1, wandered_1 = clipped_gap(gap_1, dx_1, dy_1, dx_2, dy_2, x, y, with_a, nx, ny, wander)
+            gap_1, wandered_1 = clipped_gap(gap_1, first, second, (x, y), with_a, (nx, ny), wander)
         if is_clipped(c, c.share_2):
-            gap_2, wandered_2 = clipped_gap(gap_2, dx_2, dy_2, dx_1, dy_1, -x, -y, with_a, nx, ny, wander)
-    c.x_1, c.y_1, c.separation_1 = point_of(ax_1, ay_1, dx_1, dy_1, nx, ny, gap_1, c.share_1, c.radius_a, c.radius_b)
+            gap_2, wandered_2 = clipped_gap(gap_2, second, first, (-x, -y), with_a, (nx, ny), wander)
+    radii = (c.radius_a, c.radius_b)
+    c.x_1, c.y_1, c.separation_1 = point_of(ax_1, ay_1, dx_1, dy_1, (nx, ny), gap_1, c.share_1, radii)
     moved = max(moved, abs(c.separation_1 - c.base_1))
     if two:
-        c.x_2, c.y_2, c.separation_2 = point_of(
-            ax_2, ay_2, dx_2, dy_2, nx, ny, gap_2, c.share_2, c.radius_a, c.radius_b
-        )
+        c.x_2, c.y_2, c.separation_2 = point_of(ax_2, ay_2, dx_2, dy_2, (nx, ny), gap_2, c.share_2, radii)
         moved = max(moved, abs(c.separation_2 - c.base_2))
     return moved, rolled, wandered_1 or wandered_2
 
@@ -319,10 +317,8 @@ def update_contacts(bodies, contacts_inout):
     """Update separations, points and normals of all contacts to the present poses. O(contacts)."""
     row_a = -1
     row_b = -1
-    a_cosine = 1.0
-    a_sine = 0.0
-    b_cosine = 1.0
-    b_sine = 0.0
+    turn_a = (1.0, 0.0)
+    turn_b = (1.0, 0.0)
     for i in range(len(contacts_inout)):
         c = contacts_inout[i]
         a = bodies[c.body_row_a]
@@ -330,11 +326,11 @@ def update_contacts(bodies, contacts_inout):
         # The contacts of a pair, and often those of a body, are adjacent.
         if c.body_row_a != row_a:
             row_a = c.body_row_a
-            a_cosine, a_sine = rotation_of(a.angle)
+            turn_a = rotation_of(a.angle)
         if c.body_row_b != row_b:
             row_b = c.body_row_b
-            b_cosine, b_sine = rotation_of(b.angle)
-        update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, 0.0, c)
+            turn_b = rotation_of(b.angle)
+        update_contact(a, turn_a, b, turn_b, 0.0, c)
 
 
 # ---- recycle ---------------------------------------------------------------------------------------------------------
@@ -372,16 +368,16 @@ def recycle_distance(contact, distance):
 
 
 @inlined
-def can_recycle(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, distance, wander, contact_inout):
+def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
     """Update a contact to the present poses, and return whether it can be recycled.
 
     No point may have moved by more than recycle_distance of `distance` [px], and neither side may have rotated relative
     to the other by more than that. Clipped points must be right to within `wander` [px] without correction.
 
-    a, b: BODY rows of the sides, with cosine and sine of their angles.
+    a, b: BODY rows of the sides; turn: (cosine, sine) of their angles.
     """
     c = contact_inout
-    moved, rolled, wandered = update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, wander, c)
+    moved, rolled, wandered = update_contact(a, turn_a, b, turn_b, wander, c)
     # The manifold lies within both sides: a rotation moves its points by at most the extent of the smaller one.
     reach = min(a.extent, b.extent) if min(a.extent, b.extent) > 0.0 else max(a.extent, b.extent)
     turn = abs((b.angle - c.angle_b) - (a.angle - c.angle_a)) * reach
@@ -419,10 +415,8 @@ def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
     in the next step: see can_recycle. O(contacts)."""
     row_a = -1
     row_b = -1
-    a_cosine = 1.0
-    a_sine = 0.0
-    b_cosine = 1.0
-    b_sine = 0.0
+    turn_a = (1.0, 0.0)
+    turn_b = (1.0, 0.0)
     for i in range(len(contacts_inout)):
         c = contacts_inout[i]
         a = bodies_inout[c.body_row_a]
@@ -430,15 +424,15 @@ def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
         # The contacts of a pair, and often those of a body, are adjacent.
         if c.body_row_a != row_a:
             row_a = c.body_row_a
-            a_cosine, a_sine = rotation_of(a.angle)
+            turn_a = rotation_of(a.angle)
             a.has_current_contacts = is_settled(a)
         if c.body_row_b != row_b:
             row_b = c.body_row_b
-            b_cosine, b_sine = rotation_of(b.angle)
+            turn_b = rotation_of(b.angle)
             b.has_current_contacts = is_settled(b)
-        fits = can_recycle(shapes, a, a_cosine, a_sine, b, b_cosine, b_sine, distance, RECYCLE_WANDER * distance, c)
+        fits = can_recycle(shapes, a, turn_a, b, turn_b, distance, RECYCLE_WANDER * distance, c)
         if not fits:
-            update_contact(a, a_cosine, a_sine, b, b_cosine, b_sine, 0.0, c)
+            update_contact(a, turn_a, b, turn_b, 0.0, c)
         c.can_recycle = fits and not c.swept
 
 

@@ -225,11 +225,9 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
             if fits and not (unmoved and c.can_recycle and is_finite(c)):
                 c.row_a = candidates[i, 0]
                 c.row_b = candidates[i, 1]
-                p_cosine, p_sine = rotation_of(p.angle)
-                q_cosine, q_sine = rotation_of(q.angle)
-                fits = not c.swept and can_recycle(
-                    shapes, p, p_cosine, p_sine, q, q_cosine, q_sine, distance, math.inf, c
-                )
+                turn_p = rotation_of(p.angle)
+                turn_q = rotation_of(q.angle)
+                fits = not c.swept and can_recycle(shapes, p, turn_p, q, turn_q, distance, math.inf, c)
             last += 1
         if not fits:
             continue  # the next candidate skips its rows

@@ -396,14 +396,14 @@ def measure_depth(a, a_count, b, b_count, workspace):
 
 
 @subkernel
-def shape_separation(a, a_count, a_radius, b, b_count, b_radius, i, j, workspace):
+def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspace):
     """Write separation, unit normal from A to B and nearest points to workspace.gap. Return the separation [px].
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; i, j: first corners. If the hulls overlap, the
-    separation is minus the move of B along the normal that ends the overlap. workspace.state has the rounds and the
-    caps hit.
+    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; first: corners of both to begin at. If the hulls
+    overlap, the separation is minus the move of B along the normal that ends the overlap. workspace.state has the
+    rounds and the caps hit.
     """
-    if walk_to_nearest(a, a_count, b, b_count, i, j, workspace) == TOUCHING:
+    if walk_to_nearest(a, a_count, b, b_count, first[0], first[1], workspace) == TOUCHING:
         measure_depth(a, a_count, b, b_count, workspace)
     gap = workspace.gap
     gap[AX] += a_radius * gap[NX]
@@ -454,7 +454,7 @@ def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
                 continue
             copy_part(b.corners, j, b.counts[j], corners_b_out)
             separation = shape_separation(
-                corners_a_out, a.counts[i], a.radii[i], corners_b_out, b.counts[j], b.radii[j], 0, 0, workspace
+                corners_a_out, a.counts[i], a.radii[i], corners_b_out, b.counts[j], b.radii[j], (0, 0), workspace
             )
             totals_out[0] += workspace.state[ROUNDS]
             totals_out[1] += workspace.state[CAPPED]
@@ -472,8 +472,7 @@ def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
             corners_b_out,
             b.counts[best_j],
             b.radii[best_j],
-            0,
-            0,
+            (0, 0),
             workspace,
         )
     return best

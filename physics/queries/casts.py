@@ -229,7 +229,7 @@ def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, 
         own[0, 0] = 0.0
         own[0, 1] = 0.0
         n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners)
-        gap = shape_separation(own, 1, 0.0, corners, n, rounding(shapes, rows[k]), 0, 0, workspace.gap)
+        gap = shape_separation(own, 1, 0.0, corners, n, rounding(shapes, rows[k]), (0, 0), workspace.gap)
         distance = max(0.0, gap)
         work_inout[NARROW_TESTS] += 1
         work_inout[GJK_ITERATIONS] += int(workspace.gap.state[ROUNDS])

@@ -94,6 +94,15 @@ def new_plan(edges: int, motions: int) -> Plan:
     )
 
 
+class Islands(NamedTuple):
+    """The bodies of islands, and how many substeps they may take."""
+
+    members: np.ndarray  # int32 rows of MOTION
+    rate: float  # see estimate_rate
+    choices: np.ndarray  # int64 numbers of substeps
+    by_load: int  # index of the greatest choice that a load alone may need
+
+
 class Group(NamedTuple):
     """The islands that take the same number of substeps."""
 
@@ -310,18 +319,18 @@ def order_in_one_group(contacts, bodies, motions, dt, limits, lists_inout, plan_
 
 
 @kernel
-def order_by_load(contacts, bodies, motions, members, dt, limits, rate, choices, by_load, lists_inout, plan_out):
+def order_by_load(contacts, bodies, motions, islands, dt, limits, lists_inout, plan_out):
     """List the constraints to solve by the number of substeps of their islands, and by colour. Return their number.
 
-    dt [s]; limits: see settings.Limits; rate: see estimate_rate; by_load: index of the greatest choice that a load
-    alone may need; members: rows of MOTION. O(contacts + motions).
+    islands: see Islands; dt [s]; limits: see settings.Limits. O(contacts + motions).
     """
     plan = plan_out
     nodes = len(motions)
     classes = plan.classes[:nodes]
     count = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan)
+    choices, by_load = islands.choices, islands.by_load
     unknown = class_motions(motions, plan.degrees, choices, by_load, classes)
-    expect_impacts(plan.edges, count, motions, rate, choices[: by_load + 1], classes)
+    expect_impacts(plan.edges, count, motions, islands.rate, choices[: by_load + 1], classes)
     if unknown:
         expect_columns(plan.edges, count, motions, plan.degrees, len(choices) - 1, classes)
     plan.joined[0] = are_mixed(lists_inout.links_islands, plan.degrees, classes)
@@ -330,7 +339,7 @@ def order_by_load(contacts, bodies, motions, members, dt, limits, rate, choices,
         find_roots(plan.edges, count, lists_inout.links_islands, parents)
         share_classes(parents, classes)
     order_edges(plan.edges, count, plan.colors, classes, plan.starts, plan.cursors, plan.places)
-    order_nodes(members, classes, plan.firsts, plan.cursors, plan.members)
+    order_nodes(islands.members, classes, plan.firsts, plan.cursors, plan.members)
     return count
 
 
@@ -349,20 +358,8 @@ class Selection:
         if substeps:
             count, uncolored = order_in_one_group(contacts, state.bodies, rows, state.dt, limits, motions.lists, plan)
             return [Group(substeps, count, count, uncolored, motions.island_bodies, plan.starts[: COLORS + 2])]
-        rate = estimate_rate(state)
-        edges = order_by_load(
-            contacts,
-            state.bodies,
-            rows,
-            motions.island_bodies,
-            state.dt,
-            limits,
-            rate,
-            CHOICES,
-            BY_LOAD,
-            motions.lists,
-            plan,
-        )
+        islands = Islands(motions.island_bodies, estimate_rate(state), CHOICES, BY_LOAD)
+        edges = order_by_load(contacts, state.bodies, rows, islands, state.dt, limits, motions.lists, plan)
         colors, firsts, starts = COLORS + 1, plan.firsts.tolist(), plan.starts
         groups = [
             Group(

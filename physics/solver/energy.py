@@ -352,9 +352,9 @@ def limit_squeezed(most, before, motion_inout):
 
 
 @subkernel
-def remove_gains(blocks, count, group, links_islands, context, plan, parents_out, balance_inout, motions_inout):
+def remove_gains(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that contacts have added. Return the number of sets of touching bodies that had any."""
-    motions = motions_inout
+    plan, motions, parents_out = plan_inout, motions_inout, plan_inout.touching
     join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout)
     sum_balances(blocks, count, group, links_islands, parents_out, context, motions, balance_inout)
     found = 0
@@ -393,9 +393,7 @@ def limit_energy(blocks, count, group, links_islands, context, plan_inout, balan
     keep = max(1.0 - FORGETTING * context.dt, 0.0)
     found = 0
     if balance_bodies(group, plan.degrees, floor, QUICK_LIFT * context.slop, keep, motions_inout, balance_inout):
-        found = remove_gains(
-            blocks, count, group, links_islands, context, plan, plan.touching, balance_inout, motions_inout
-        )
+        found = remove_gains(blocks, count, group, links_islands, context, plan, balance_inout, motions_inout)
     else:
         for k in range(len(group.members)):
             e = balance_inout[group.members[k]]

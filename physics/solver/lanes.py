@@ -578,7 +578,7 @@ def arms_turn(contact, a, b, dt):
 
 
 @inlined
-def restitution_threshold(contact, a, b, degree_a, degree_b, context):
+def restitution_threshold(contact, a, b, degrees, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
 
     A new contact bounces at any speed if no acceleration presses its sides together: otherwise a slow ball would stick
@@ -590,7 +590,7 @@ def restitution_threshold(contact, a, b, degree_a, degree_b, context):
     on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
     on_b = -(b.acceleration_x * m.normal_x + b.acceleration_y * m.normal_y)
     least = NO_PRESS * (abs(a.acceleration_x) + abs(a.acceleration_y) + abs(b.acceleration_x) + abs(b.acceleration_y))
-    together = degree_a <= 1 and degree_b <= 1 and a.inverse_mass > 0.0 and b.inverse_mass > 0.0
+    together = degrees[0] <= 1 and degrees[1] <= 1 and a.inverse_mass > 0.0 and b.inverse_mass > 0.0
     press = on_a + on_b if together else max(on_a, 0.0) + max(on_b, 0.0)
     if m.touched:
         return max(context.restitution_speed, 2.0 * context.dt * press)
@@ -598,13 +598,14 @@ def restitution_threshold(contact, a, b, degree_a, degree_b, context):
 
 
 @inlined
-def write_softness(contact, sticking, a, b, degree_a, degree_b, context, lane, c_out):
+def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
     """Write how a lane separates: its push-out share, spring and stiffness, and whether it rests, is loaded or bounces.
 
     a, b: MOTION rows of its sides, with their numbers of constraints.
     """
     m = contact
     limits = context.limits
+    degree_a, degree_b = degrees
     against_static = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
     # One contact below and one above.
     sole_support = sticking and (a.inverse_mass == 0.0 or degree_a <= 2) and (b.inverse_mass == 0.0 or degree_b <= 2)
@@ -736,7 +737,8 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c[II_B + lane] = b.inverse_inertia
             c[RADIUS_A + lane] = m.radius_a
             c[RADIUS_B + lane] = m.radius_b
-            write_softness(m, sticking, a, b, plan.degrees[row_a], plan.degrees[row_b], context, lane, c)
+            degrees = (plan.degrees[row_a], plan.degrees[row_b])
+            write_softness(m, sticking, a, b, degrees, context, lane, c)
             write_first(m, p, q, sticking, context.h, lane, c)
             if m.count == 2:
                 write_second(m, p, q, sticking, context.h, lane, c)
@@ -760,7 +762,7 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
                 c[SURFACE + lane] = speed_of_drift(p, q, context.drift_rate, context.slop, m)
             c[FRICTION + lane] = m.friction if friction else 0.0
             c[RESTITUTION + lane] = m.restitution
-            c[THRESHOLD + lane] = restitution_threshold(m, a, b, plan.degrees[row_a], plan.degrees[row_b], context)
+            c[THRESHOLD + lane] = restitution_threshold(m, a, b, degrees, context)
             c[LISTED + lane] = 0.0
             work_inout[SOLVER_ROWS] += m.count
             if friction and m.friction > 0.0:

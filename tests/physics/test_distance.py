@@ -36,7 +36,7 @@ def room_for(points):
 def gap_of(a, b, room=None, start=(0, 0)):
     """(separation, normal, point on A, point on B) of two outlines, by the kernel."""
     room = new_gap_workspace() if room is None else room
-    found = shape_separation(room_for(a), len(a), 0.0, room_for(b), len(b), 0.0, *start, room)
+    found = shape_separation(room_for(a), len(a), 0.0, room_for(b), len(b), 0.0, start, room)
     gap = room.gap
     assert room.state[CAPPED] == 0
     return float(found), gap[NX : NY + 1].copy(), gap[AX : AY + 1].copy(), gap[BX : BY + 1].copy()
