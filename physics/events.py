@@ -23,14 +23,11 @@ UNBROKEN, NO_ROWS = np.zeros(0, QUARANTINE), np.zeros(0, np.int64)
 def write_event(contact, second, at, events_out):
     """Write the event of the first or second point of a contact."""
     e = events_out[at]
-    e.body_a = contact.body_a
-    e.body_b = contact.body_b
-    e.shape_a = contact.shape_a
-    e.shape_b = contact.shape_b
+    e.body_a, e.body_b = contact.body_a, contact.body_b
+    e.shape_a, e.shape_b = contact.shape_a, contact.shape_b
     e.point_x = contact.x_2 if second else contact.x_1
     e.point_y = contact.y_2 if second else contact.y_1
-    e.normal_x = contact.normal_x
-    e.normal_y = contact.normal_y
+    e.normal_x, e.normal_y = contact.normal_x, contact.normal_y
 
 
 class Comparison(NamedTuple):
@@ -108,8 +105,7 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
     hits = comparison_inout.hits
     for k in range(len(counts)):
         counts[k] = 0
-    i = 0
-    j = 0
+    i, j = 0, 0
     asleep = 0
     while i < len(before) or j < len(contacts):
         if j < len(contacts) and contacts[j].sensor != (sensors == 1):

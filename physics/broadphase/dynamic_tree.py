@@ -48,8 +48,7 @@ FREE, USED, ROOT_MOVING, ROOT_STILL = range(4)  # indices into the state array
 @subkernel
 def joined_outline(nodes, a, b):
     """Return half the outline [px] of the box around two nodes: the surface area heuristic in two dimensions."""
-    p = nodes[a]
-    q = nodes[b]
+    p, q = nodes[a], nodes[b]
     return (max(p.upper_x, q.upper_x) - min(p.lower_x, q.lower_x)) + (
         max(p.upper_y, q.upper_y) - min(p.lower_y, q.lower_y)
     )
@@ -59,12 +58,9 @@ def joined_outline(nodes, a, b):
 def refit(index, nodes_inout):
     """Write a node's box and height from its children."""
     n = nodes_inout[index]
-    p = nodes_inout[n.child_a]
-    q = nodes_inout[n.child_b]
-    n.lower_x = min(p.lower_x, q.lower_x)
-    n.lower_y = min(p.lower_y, q.lower_y)
-    n.upper_x = max(p.upper_x, q.upper_x)
-    n.upper_y = max(p.upper_y, q.upper_y)
+    p, q = nodes_inout[n.child_a], nodes_inout[n.child_b]
+    n.lower_x, n.lower_y = min(p.lower_x, q.lower_x), min(p.lower_y, q.lower_y)
+    n.upper_x, n.upper_y = max(p.upper_x, q.upper_x), max(p.upper_y, q.upper_y)
     n.height = 1 + max(p.height, q.height)
 
 
@@ -105,11 +101,9 @@ def rotate(index, root, nodes_inout, state_inout):
     ):
         stays, goes = goes, stays
     replace_child(a.parent, index, up, root, nodes_inout, state_inout)
-    a.child_a = other
-    a.child_b = goes
+    a.child_a, a.child_b = other, goes
     nodes_inout[goes].parent = index
-    c.child_a = index
-    c.child_b = stays
+    c.child_a, c.child_b = index, stays
     a.parent = up
     refit(index, nodes_inout)
     refit(up, nodes_inout)
@@ -227,8 +221,7 @@ def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
     p.slot = -1
     p.still = nodes_inout[leaf].still
     replace_child(nodes_inout[at].parent, at, parent, root, nodes_inout, state_inout)
-    p.child_a = at
-    p.child_b = leaf
+    p.child_a, p.child_b = at, leaf
     nodes_inout[at].parent = parent
     nodes_inout[leaf].parent = parent
     repair_upward(parent, root, nodes_inout, state_inout, work_inout)
@@ -259,12 +252,10 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
 @subkernel
 def select_median(along, first, last, middle, leaves_inout):
     """Reorder leaves first..last so that none before `middle` lies beyond it in `along` (quickselect, Hoare 1961)."""
-    low = first
-    high = last
+    low, high = first, last
     while low < high:
         pivot = along[leaves_inout[(low + high) // 2]]
-        i = low
-        j = high
+        i, j = low, high
         while i <= j:
             while along[leaves_inout[i]] < pivot:
                 i += 1
@@ -492,12 +483,9 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
         n = nodes_inout[leaf]
         if p.still:
             grow = 0.0
-        n.lower_x = p.lower_x - grow
-        n.lower_y = p.lower_y - grow
-        n.upper_x = p.upper_x + grow
-        n.upper_y = p.upper_y + grow
-        n.child_a = -1
-        n.child_b = -1
+        n.lower_x, n.lower_y = p.lower_x - grow, p.lower_y - grow
+        n.upper_x, n.upper_y = p.upper_x + grow, p.upper_y + grow
+        n.child_a, n.child_b = -1, -1
         n.height = 0
         n.slot = slot
         n.still = p.still

@@ -38,8 +38,7 @@ def overlaps(proxies, a, b, work_inout):
 
     proxies PROXY rows, boxes in px; a, b are slots; work_inout: counters. O(1).
     """
-    p = proxies[a]
-    q = proxies[b]
+    p, q = proxies[a], proxies[b]
     work_inout[PAIRS_TESTED] += 1
     if p.lower_x > q.upper_x or q.lower_x > p.upper_x or p.lower_y > q.upper_y or q.lower_y > p.upper_y:
         return False
@@ -53,8 +52,7 @@ def may_meet(proxies, a, b, work_inout):
     Excluded are two static boxes, two sleeping ones, boxes of one body, planes that avoid each other, and filtered
     pairs.
     """
-    p = proxies[a]
-    q = proxies[b]
+    p, q = proxies[a], proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
         return False
     if (p.membership & q.mask) == 0 or (q.membership & p.mask) == 0:
@@ -217,8 +215,7 @@ def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
     for i in range(count):
         a = pairs[i, 0]
         b = pairs[i, 1]
-        row_a = proxies[a].row
-        row_b = proxies[b].row
+        row_a, row_b = proxies[a].row, proxies[b].row
         if row_a > row_b:
             pairs_inout[i, 0] = b
             pairs_inout[i, 1] = a
@@ -244,8 +241,7 @@ def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out,
             i += 1
             at += 1
         if j < new_count:
-            row_a = keys[j] >> 32
-            row_b = keys[j] & 0xFFFFFFFF
+            row_a, row_b = keys[j] >> 32, keys[j] & 0xFFFFFFFF
             pairs_out[at, 0] = shapes[row_a].proxy
             pairs_out[at, 1] = shapes[row_b].proxy
             candidates_out[at, 0] = row_a
@@ -306,13 +302,10 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
         moved = b.x != b.previous_x or b.y != b.previous_y or b.angle != b.previous_angle
         if b.kind == STATIC and not (fresh or p.changed or moved):
             continue
-        lower_x = s.min_x
-        lower_y = s.min_y
-        upper_x = s.max_x
-        upper_y = s.max_y
+        lower_x, lower_y = s.min_x, s.min_y
+        upper_x, upper_y = s.max_x, s.max_y
         fat = 0.0
-        ahead_x = 0.0
-        ahead_y = 0.0
+        ahead_x, ahead_y = 0.0, 0.0
         if is_drawn_when_asked(s):
             beyond = drawn_beyond(b, s)
             lower_x -= beyond
@@ -320,8 +313,7 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
             upper_x += beyond
             upper_y += beyond
         if b.kind != STATIC:
-            dx = dt * b.vx
-            dy = dt * b.vy
+            dx, dy = dt * b.vx, dt * b.vy
             if b.kind == DYNAMIC:
                 dx += dt * dt * (b.gravity_scale * reach.gravity_x + b.inverse_mass * b.force_x)
                 dy += dt * dt * (b.gravity_scale * reach.gravity_y + b.inverse_mass * b.force_y)
@@ -331,8 +323,7 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
             steps = ahead
             if fresh and ahead > 0.0:
                 steps = 1.0 + s.proxy % int(ahead)  # else all shapes added together would be updated in the same step
-            ahead_x = min(max(steps * dx, -most), most)
-            ahead_y = min(max(steps * dy, -most), most)
+            ahead_x, ahead_y = min(max(steps * dx, -most), most), min(max(steps * dy, -most), most)
             # Rotation moves a point by at most its arc, or the diameter of its circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
             if s.snap and s.role != PIXELS:

@@ -84,10 +84,8 @@ def level_of(lower_x, lower_y, upper_x, upper_y, base):
 @subkernel
 def write_box(proxy, entry_out):
     """Copy the box of a PROXY row to an ENTRY row."""
-    entry_out.lower_x = proxy.lower_x
-    entry_out.lower_y = proxy.lower_y
-    entry_out.upper_x = proxy.upper_x
-    entry_out.upper_y = proxy.upper_y
+    entry_out.lower_x, entry_out.lower_y = proxy.lower_x, proxy.lower_y
+    entry_out.upper_x, entry_out.upper_y = proxy.upper_x, proxy.upper_y
 
 
 @subkernel
@@ -146,8 +144,7 @@ def put_in(proxies, slot, level, base, cells_inout, work_inout):
             e = entries[k]
             write_box(p, e)
             e.level = level
-            e.cell_x = cell_x
-            e.cell_y = cell_y
+            e.cell_x, e.cell_y = cell_x, cell_y
             e.bucket = bucket
             e.previous = -1
             e.next = heads[bucket]
@@ -266,10 +263,8 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
             if level_counts[level] == 0:
                 continue
             by_list = level == LEVELS or cells.levels[a] == LEVELS
-            first_x = 0
-            first_y = 0
-            last_x = -1
-            last_y = -1
+            first_x, first_y = 0, 0
+            last_x, last_y = -1, -1
             inverse = 1.0
             if not by_list:
                 inverse = 1.0 / (base * (1 << level))
@@ -280,8 +275,7 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
                     last_x = cell_of(p.upper_x, inverse)
                     first_y = cell_of(p.lower_y, inverse)
                     last_y = cell_of(p.upper_y, inverse)
-                    columns = last_x - first_x + 1
-                    rows = last_y - first_y + 1
+                    columns, rows = last_x - first_x + 1, last_y - first_y + 1
                     by_list = columns * rows > 4 * (columns + rows)
             if by_list:
                 b = cells.level_heads[level]
@@ -290,8 +284,7 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
                         found = write_pair(a, b, found, pairs_out)
                     b = cells.lists[b, 1]
                 continue
-            cell_x = first_x
-            cell_y = first_y
+            cell_x, cell_y = first_x, first_y
             count = 0
             while cell_y <= last_y or count > 0:
                 while cell_y <= last_y and count < CHAINS:

@@ -139,8 +139,7 @@ def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_i
             if not ((p.still and q.still) or p.body == q.body):
                 work_inout[PAIRS_TESTED] += 1
                 if found < len(keys_out):
-                    low = min(a, b)
-                    high = max(a, b)
+                    low, high = min(a, b), max(a, b)
                     keys_out[found] = (low << 32) | high
                 found += 1
             j = j + 1 if p.changed else next_changed[j]
@@ -151,8 +150,7 @@ def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_i
 def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
     """Write the pairs that are in both sorted key lists and may meet. Return their number. O(both lists)."""
     found = 0
-    i = 0
-    j = 0
+    i, j = 0, 0
     low = 0xFFFFFFFF
     while i < count_x and j < count_y:
         if keys_x[i] < keys_y[j]:
@@ -160,8 +158,7 @@ def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
         elif keys_x[i] > keys_y[j]:
             j += 1
         else:
-            a = keys_x[i] >> 32
-            b = keys_x[i] & low
+            a, b = keys_x[i] >> 32, keys_x[i] & low
             if may_meet(proxies, a, b, work_inout):
                 found = write_pair(a, b, found, pairs_out)
             i += 1
@@ -178,8 +175,7 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
     One giant at the start defeats that. O(log n + boxes between).
     """
     count = len(order)
-    lower = box[axis]
-    upper = box[axis + 2]
+    lower, upper = box[axis], box[axis + 2]
     first = 0
     last = count
     while first < last:

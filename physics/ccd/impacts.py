@@ -72,13 +72,10 @@ def sweep_disc(x, y, radius, move, outline, slack):
 def sweep_pair(row, other, dt, sweep, scratch):
     """Return (fraction or MISS, normal to `row`) of shape `row` against shape `other`, both moving for dt [s]."""
     geometry, bodies, shapes, slack = sweep.geometry, sweep.bodies, sweep.shapes, sweep.slack
-    s = shapes[row]
-    o = shapes[other]
-    p = bodies[s.body_row]
-    q = bodies[o.body_row]
+    s, o = shapes[row], shapes[other]
+    p, q = bodies[s.body_row], bodies[o.body_row]
     ray = p.continuous == RAY
-    dx = dt * p.vx
-    dy = dt * p.vy
+    dx, dy = dt * p.vx, dt * p.vy
     if q.kind != STATIC:
         dx -= dt * q.vx
         dy -= dt * q.vy
@@ -87,8 +84,7 @@ def sweep_pair(row, other, dt, sweep, scratch):
     count = 0
     if s.kind == CIRCLE:
         u, v = rotate(s.local_x, s.local_y, math.cos(p.angle), math.sin(p.angle))
-        x = p.x + u
-        y = p.y + v
+        x, y = p.x + u, p.y + v
         if not ray:
             radius = s.radius
     else:
@@ -97,8 +93,7 @@ def sweep_pair(row, other, dt, sweep, scratch):
     if o.kind == CIRCLE:
         u, v = rotate(o.local_x, o.local_y, math.cos(q.angle), math.sin(q.angle))
         if s.kind == CIRCLE or ray:
-            x = x - q.x - u
-            y = y - q.y - v
+            x, y = x - q.x - u, y - q.y - v
             radius += o.radius
             fraction, nx, ny = sweep_circles(x, y, dx, dy, radius)
             is_deep = s.kind == CIRCLE and fraction == 0.0 and norm(x, y) < radius - slack
@@ -159,10 +154,8 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
     for i in range(len(candidates)):
         a = shapes[candidates[i, 0]]
         b = shapes[candidates[i, 1]]
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
-        a_fast = asks_sweep(p, dt, only_straight)
-        b_fast = asks_sweep(q, dt, only_straight)
+        p, q = bodies[a.body_row], bodies[b.body_row]
+        a_fast, b_fast = asks_sweep(p, dt, only_straight), asks_sweep(q, dt, only_straight)
         if not (a_fast or b_fast):
             continue
         from_a = a_fast and a.kind != TILES
@@ -177,8 +170,7 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
         fraction, nx, ny = sweep_pair(mover, other, dt, sweep_inout, scratch)
         if fraction > 1.0:
             continue
-        dx = body.vx
-        dy = body.vy
+        dx, dy = body.vx, body.vy
         rest = q if from_a else p
         if rest.kind != STATIC:
             dx -= rest.vx
@@ -197,8 +189,7 @@ def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
         b = shapes[candidates[pair, 1]]
         if a.sensor or b.sensor or impacts[i, 4] == 0.0:
             continue
-        p = bodies_inout[a.body_row]
-        q = bodies_inout[b.body_row]
+        p, q = bodies_inout[a.body_row], bodies_inout[b.body_row]
         # A kinematic body goes on and pushes the body that it meets.
         if p.kind == DYNAMIC:
             p.fraction = min(p.fraction, impacts[i, 1])
@@ -221,10 +212,8 @@ def first_meeting(mover, other, slack, sweep_inout):
     Each body moves up to its fraction of the step, and then rests.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
-    p = sweep_inout.shapes[mover].body_row
-    q = sweep_inout.shapes[other].body_row
-    far_p = bodies[p].fraction
-    far_q = bodies[q].fraction
+    p, q = sweep_inout.shapes[mover].body_row, sweep_inout.shapes[other].body_row
+    far_p, far_q = bodies[p].fraction, bodies[q].fraction
     both = min(far_p, far_q)
     if both > 0.0:
         cut_path(paths, p, 0.0, both, cuts)
@@ -294,8 +283,7 @@ def is_swept(moving, a, b, sweep_inout):
     still = stands_still(bodies, paths, a.body_row) or stands_still(bodies, paths, b.body_row)
     if still == (moving == 1):
         return False
-    p = bodies[a.body_row]
-    q = bodies[b.body_row]
+    p, q = bodies[a.body_row], bodies[b.body_row]
     return not (sweep_inout.stacking and p.kind == DYNAMIC and q.kind == DYNAMIC and not (p.bullet or q.bullet))
 
 
@@ -374,8 +362,7 @@ def move_back(rows, paths, bodies_inout):
         else:
             b.angle = b.previous_angle + turn
             u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
-            b.x = b.center_x - u
-            b.y = b.center_y - v
+            b.x, b.y = b.center_x - u, b.center_y - v
 
 
 @subkernel
@@ -414,8 +401,7 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
         pair = int(impacts[i, 0])
         a = shapes[candidates[pair, 0]]
         b = shapes[candidates[pair, 1]]
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
+        p, q = bodies[a.body_row], bodies[b.body_row]
         first = min(p.fraction, q.fraction)
         if impacts[i, 1] > first:
             continue
@@ -440,8 +426,7 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
             m = manifolds_out[found]
             open_manifold(shapes, candidates, pair, nx + 0.0, ny + 0.0, m)
             m.count = 1
-            m.x_1 = x
-            m.y_1 = y
+            m.x_1, m.y_1 = x, y
             m.separation_1 = separation
             m.area_1 = 0.0
             m.feature_1 = int(impacts[i, 5])

@@ -117,8 +117,7 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
     n, radius_b, _, _ = hull
     reach = reach_of(workspace.mover, count) + radius
     turns = r.motion_b[TURN] != 0.0
-    cosine = math.cos(r.motion_b[ANGLE])
-    sine = math.sin(r.motion_b[ANGLE])
+    cosine, sine = math.cos(r.motion_b[ANGLE]), math.sin(r.motion_b[ANGLE])
     x, y = rotate(
         r.motion_a[CENTER_X] - r.motion_b[CENTER_X], r.motion_a[CENTER_Y] - r.motion_b[CENTER_Y], cosine, -sine
     )
@@ -191,10 +190,8 @@ def sweep_squares(row, other, squares, sweep_inout, best_out):
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
     r = workspace.advance
-    s = shapes[row]
-    o = shapes[other]
-    p = bodies[s.body_row]
-    q = bodies[o.body_row]
+    s, o = shapes[row], shapes[other]
+    p, q = bodies[s.body_row], bodies[o.body_row]
     sweep_inout.work[TOI_CALLS] += 1
     write_motion(sweep_inout.cuts, s.body_row, r.motion_a)
     write_motion(sweep_inout.cuts, o.body_row, r.motion_b)
@@ -233,8 +230,7 @@ def sweep_squares(row, other, squares, sweep_inout, best_out):
 def first_shared(row, other, squares, sweep_inout, best_out):
     """Write the result of impacts.first_meeting by pixels to best_out (5,)."""
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
-    p = sweep_inout.shapes[row].body_row
-    q = sweep_inout.shapes[other].body_row
+    p, q = sweep_inout.shapes[row].body_row, sweep_inout.shapes[other].body_row
     both = min(bodies[p].fraction, bodies[q].fraction)
     last = max(bodies[p].fraction, bodies[q].fraction)
     start = 0.0

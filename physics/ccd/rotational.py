@@ -158,8 +158,7 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
     """
     count, radius, _, _ = mover
     gap = workspace.advance.gap.gap
-    nx = gap[NX]
-    ny = gap[NY]
+    nx, ny = gap[NX], gap[NY]
     most = fraction
     separation = separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
     for _ in range(BACKWARDS):
@@ -205,10 +204,8 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
 @subkernel
 def swept_box(reach, motion_a, motion_b):
     """Return the box (min_x, min_y, max_x, max_y) [px] of a body on its path, relative to the point of the other."""
-    x = motion_a[CENTER_X] - motion_b[CENTER_X]
-    y = motion_a[CENTER_Y] - motion_b[CENTER_Y]
-    dx = motion_a[MOVE_X] - motion_b[MOVE_X]
-    dy = motion_a[MOVE_Y] - motion_b[MOVE_Y]
+    x, y = motion_a[CENTER_X] - motion_b[CENTER_X], motion_a[CENTER_Y] - motion_b[CENTER_Y]
+    dx, dy = motion_a[MOVE_X] - motion_b[MOVE_X], motion_a[MOVE_Y] - motion_b[MOVE_Y]
     return (x + min(0.0, dx) - reach, y + min(0.0, dy) - reach, x + max(0.0, dx) + reach, y + max(0.0, dy) + reach)
 
 
@@ -220,8 +217,7 @@ def swept_box(reach, motion_a, motion_b):
 def feet_of(mover, local_y, workspace):
     """Return how far down [px] the mover reaches before it moves, seen from the origin of a grid."""
     motion = workspace.advance.motion_a
-    cosine = math.cos(motion[ANGLE])
-    sine = math.sin(motion[ANGLE])
+    cosine, sine = math.cos(motion[ANGLE]), math.sin(motion[ANGLE])
     feet = -math.inf
     for k in range(mover.count):
         u, v = rotate(workspace.mover[k, 0], workspace.mover[k, 1], cosine, sine)
@@ -277,8 +273,7 @@ def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
             if corners > 0:
                 depth = max(depth, depth_at_start(mover, corners, 0.0, workspace))
     best = MISS
-    best_x = 0.0
-    best_y = -1.0
+    best_x, best_y = 0.0, -1.0
     feature = -1
     for line in range(first_row, last_row + 1):
         for column in range(first_column, last_column + 1):
@@ -292,8 +287,7 @@ def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
             fraction, _ = sweep_part(mover, corners, 0.0, depth, workspace)
             if fraction < best:
                 best = fraction
-                best_x = -workspace.advance.gap.gap[NX]
-                best_y = -workspace.advance.gap.gap[NY]
+                best_x, best_y = -workspace.advance.gap.gap[NX], -workspace.advance.gap.gap[NY]
                 feature = part
     return best, best_x, best_y, feature
 
@@ -321,8 +315,7 @@ def is_before(link, local, middle, fraction, core, workspace):
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
-    middle_x = 0.0
-    middle_y = 0.0
+    middle_x, middle_y = 0.0, 0.0
     if not core:
         angle = motion[ANGLE] + fraction * motion[TURN]
         middle_x, middle_y = rotate(middle[0], middle[1], math.cos(angle), math.sin(angle))
@@ -334,8 +327,7 @@ def is_before(link, local, middle, fraction, core, workspace):
     v += local[1]
     if ahead_of(link.ax, link.ay, link.bx, link.by, u, v) < 0.0:
         return False
-    tx = link.bx - link.ax
-    ty = link.by - link.ay
+    tx, ty = link.bx - link.ax, link.by - link.ay
     if link.has_after and tx * (u - link.bx) + ty * (v - link.by) > 0.0:
         if ahead_of(link.ax, link.ay, link.bx, link.by, link.after_x, link.after_y) > 0.0:
             return ahead_of(link.bx, link.by, link.after_x, link.after_y, u, v) >= 0.0
@@ -388,8 +380,7 @@ def starts_across(geometry, chain, local, mover, workspace):
     other = workspace.advance.motion_b
     u, v = rotate(local[0], local[1], math.cos(other[ANGLE]), math.sin(other[ANGLE]))
     place_at(workspace.mover, count, motion, 0.0, motion[CENTER_X], motion[CENTER_Y], workspace.advance.a)
-    x = other[CENTER_X] - motion[CENTER_X] - u
-    y = other[CENTER_Y] - motion[CENTER_Y] - v
+    x, y = other[CENTER_X] - motion[CENTER_X] - u, other[CENTER_Y] - motion[CENTER_Y] - v
     hull = Hull(workspace.advance.a, count, radius, ALL_EDGES)
     return lies_across(geometry, chain, x, y, other[ANGLE], hull, slack, workspace.advance.b)
 
@@ -417,8 +408,7 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
     box = swept_box(reach, workspace.advance.motion_a, other)
     depth = depth_in_chain(geometry, chain, local, middle, mover, workspace)
     best = MISS
-    best_x = 0.0
-    best_y = -1.0
+    best_x, best_y = 0.0, -1.0
     feature = -1
     for block in range(span.blocks):
         if not turns and misses_block(geometry.link_blocks[span.first_block + block], local, box):
@@ -435,8 +425,7 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
             when = 0.0 if mover.count == 1 and mover.radius == 0.0 else fraction
             if fraction < best and is_before(link, local, middle, when, core, workspace):
                 best = fraction
-                best_x = -workspace.advance.gap.gap[NX]
-                best_y = -workspace.advance.gap.gap[NY]
+                best_x, best_y = -workspace.advance.gap.gap[NX], -workspace.advance.gap.gap[NY]
                 feature = part
     return best, best_x, best_y, feature
 
@@ -494,13 +483,11 @@ def sweep_rotational(row, other, slack, but, sweep_inout):
     workspace = sweep_inout.workspace
     r = workspace.advance
     one_way = sweep_inout.one_way
-    s = shapes[row]
-    o = shapes[other]
+    s, o = shapes[row], shapes[other]
     if not is_hull(s.kind) or not (is_hull(o.kind) or o.kind == TILES or o.kind == CHAIN):
         return MISS, 0.0, -1.0, -1
     sweep_inout.work[TOI_CALLS] += 1
-    a = bodies[s.body_row]
-    b = bodies[o.body_row]
+    a, b = bodies[s.body_row], bodies[o.body_row]
     local = (b.local_center_x, b.local_center_y)
     write_motion(sweep_inout.cuts, s.body_row, r.motion_a)
     write_motion(sweep_inout.cuts, o.body_row, r.motion_b)

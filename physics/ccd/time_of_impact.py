@@ -99,8 +99,7 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
     if radius == 0.0:
         return cast_on_polygon(corners, count, edges, x, y, dx, dy)
     best = MISS
-    best_x = 0.0
-    best_y = -1.0
+    best_x, best_y = 0.0, -1.0
     for k in range(count):
         following = k + 1 if k + 1 < count else 0
         nx, ny = edge_normal(corners, count, k)
@@ -109,21 +108,18 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
             gap = nx * (x - corners[k, 0]) + ny * (y - corners[k, 1]) - radius
             fraction = gap / -speed
             if 0.0 <= fraction < best and fraction <= 1.0:
-                at_x = x + fraction * dx
-                at_y = y + fraction * dy
+                at_x, at_y = x + fraction * dx, y + fraction * dy
                 ex = corners[following, 0] - corners[k, 0]
                 ey = corners[following, 1] - corners[k, 1]
                 along = ex * (at_x - corners[k, 0]) + ey * (at_y - corners[k, 1])
                 if 0.0 <= along <= ex * ex + ey * ey:
                     best = fraction
-                    best_x = nx
-                    best_y = ny
+                    best_x, best_y = nx, ny
         if radius > 0.0 and (edges >> (16 + k)) & 1:
             fraction, nx, ny = sweep_circles(x - corners[k, 0], y - corners[k, 1], dx, dy, radius)
             if fraction < best:
                 best = fraction
-                best_x = nx
-                best_y = ny
+                best_x, best_y = nx, ny
     return best, best_x, best_y
 
 
@@ -149,8 +145,7 @@ def half_planes(a, a_count, b, b_count, side, move, slack, clip):
             if fraction > enter:
                 enter = fraction
                 entering = k if side > 0.0 else -1 - k
-                nx = side * mx
-                ny = side * my
+                nx, ny = side * mx, side * my
         elif speed > 0.0:
             leave = min(leave, -(gap + slack) / speed)
     return enter, leave, entering, nx, ny
@@ -225,8 +220,7 @@ def new_advance_workspace() -> AdvanceWorkspace:
 def place_at(local, count, motion, fraction, x, y, corners_out):
     """Write a hull's corners at a fraction of its motion, seen from (x, y)."""
     angle = motion[ANGLE] + fraction * motion[TURN]
-    cosine = math.cos(angle)
-    sine = math.sin(angle)
+    cosine, sine = math.cos(angle), math.sin(angle)
     center_x = (motion[CENTER_X] - x) + fraction * motion[MOVE_X]
     center_y = (motion[CENTER_Y] - y) + fraction * motion[MOVE_Y]
     for k in range(count):
@@ -241,8 +235,7 @@ def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
 
     workspace.gap.gap has the normal, workspace.a and workspace.b the corners.
     """
-    x = workspace.motion_a[CENTER_X]
-    y = workspace.motion_a[CENTER_Y]
+    x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
     place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
     place_at(workspace.local_b, b_count, workspace.motion_b, fraction, x, y, workspace.b)
     # Reset the state of the last pair, so that it does not affect this one, not even in the last bit.
@@ -292,10 +285,8 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 
     separation [px]: closer pairs count as touching at 0. O(corners of A · corners of B).
     """
-    nx = workspace.gap.gap[NX]
-    ny = workspace.gap.gap[NY]
-    x = workspace.motion_a[CENTER_X]
-    y = workspace.motion_a[CENTER_Y]
+    nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
+    x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
     until = math.inf
     for i in range(a_count):
         at_a, speed_a, bend_a = along(workspace.a, workspace.motion_a, fraction, i, x, y, nx, ny)
@@ -338,13 +329,11 @@ def touching_span(corners, count, nx, ny, side, band):
     furthest = -math.inf
     for k in range(count):
         furthest = max(furthest, side * (nx * corners[k, 0] + ny * corners[k, 1]))
-    low = math.inf
-    high = -math.inf
+    low, high = math.inf, -math.inf
     for k in range(count):
         if side * (nx * corners[k, 0] + ny * corners[k, 1]) >= furthest - band:
             along = nx * corners[k, 1] - ny * corners[k, 0]
-            low = min(low, along)
-            high = max(high, along)
+            low, high = min(low, along), max(high, along)
     return low, high
 
 
@@ -355,12 +344,10 @@ def approach_at(a_count, b_count, fraction, band, workspace):
     They touch at a point, or along the common part of two faces within a band [px], where the speed is greatest at an
     end.
     """
-    nx = workspace.gap.gap[NX]
-    ny = workspace.gap.gap[NY]
+    nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)
     b_low, b_high = touching_span(workspace.b, b_count, nx, ny, -1.0, band)
-    low = max(a_low, b_low)
-    high = min(a_high, b_high)
+    low, high = max(a_low, b_low), min(a_high, b_high)
     if low > high:
         low = 0.5 * (low + high)
         high = low
@@ -368,8 +355,7 @@ def approach_at(a_count, b_count, fraction, band, workspace):
     most = -math.inf
     for end in range(2):
         at = low if end == 0 else high
-        x = across * nx - at * ny
-        y = across * ny + at * nx
+        x, y = across * nx - at * ny, across * ny + at * nx
         most = max(
             most,
             speed_of(workspace.motion_a, workspace.motion_a, fraction, x, y, nx, ny)
@@ -386,10 +372,8 @@ def advance(a_count, a_radius, b_count, b_radius, workspace):
     is 0 if they approach; otherwise the search goes on until they approach. workspace.totals counts GJK's rounds and
     caps. If ADVANCE_CAP is hit, the motion ends there, before the impact, and the cap is counted.
     """
-    turn_a = abs(workspace.motion_a[TURN])
-    turn_b = abs(workspace.motion_b[TURN])
-    reach_a = reach_of(workspace.local_a, a_count)
-    reach_b = reach_of(workspace.local_b, b_count)
+    turn_a, turn_b = abs(workspace.motion_a[TURN]), abs(workspace.motion_b[TURN])
+    reach_a, reach_b = reach_of(workspace.local_a, a_count), reach_of(workspace.local_b, b_count)
     path = norm(
         workspace.motion_b[MOVE_X] - workspace.motion_a[MOVE_X], workspace.motion_b[MOVE_Y] - workspace.motion_a[MOVE_Y]
     )

@@ -220,8 +220,7 @@ def take_back(characters_inout, bodies_inout):
         c = characters_inout[me]
         if not bodies_inout[c.body_row].quarantined:
             place_body(c, bodies_inout[c.body_row])
-        c.push_vx = 0.0
-        c.push_vy = 0.0
+        c.push_vx, c.push_vy = 0.0, 0.0
 
 
 @subkernel
@@ -242,8 +241,7 @@ def pixels_carried(me, row, along_x, walk_inout):
     c = walk_inout.characters[me]
     way = 0
     if row < 0:
-        c.carry_x = 0.0
-        c.carry_y = 0.0
+        c.carry_x, c.carry_y = 0.0, 0.0
     else:
         # x is carried first; the motion of the point is the same for both axes.
         x, y = motion_under(c, walk_inout.bodies[walk_inout.shapes[row].body_row])
@@ -389,8 +387,7 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
     """
     c = walk_inout.characters[me]
     left, top, right, bottom, moved = box
-    at_x = c.left + shifted * along_x
-    at_y = c.top + shifted * (1 - along_x)
+    at_x, at_y = c.left + shifted * along_x, c.top + shifted * (1 - along_x)
     if not (at_x < right and left < at_x + c.width and at_y < bottom and top < at_y + c.height):
         return False
     if is_box(walk_inout, row):

@@ -114,8 +114,7 @@ def place_outline(walk, me, left, top):
     c = walk.characters[me]
     if c.is_box:
         return box_corners(left, top, left + c.width, top + c.height, walk.scratch.mine), 0.0
-    x = left + c.offset_x
-    y = top + c.offset_y
+    x, y = left + c.offset_x, top + c.offset_y
     count = hull_at(walk.geometry, walk.shapes, c.shape_row, x, y, 0.0, walk.scratch.mine)
     return count, rounding(walk.shapes, c.shape_row)
 
@@ -126,12 +125,10 @@ def manifold_depth(points, manifold):
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
     depth = -manifold[5]
-    x = manifold[3]
-    y = manifold[4]
+    x, y = manifold[3], manifold[4]
     if points == 2:
         depth = max(depth, -manifold[9])
-        x = 0.5 * (x + manifold[7])
-        y = 0.5 * (y + manifold[8])
+        x, y = 0.5 * (x + manifold[7]), 0.5 * (y + manifold[8])
     return max(depth, 0.0), manifold[1], manifold[2], x, y
 
 
@@ -302,14 +299,12 @@ def deepest_link(walk, me, row, left, top):
         return 0.0, 0.0, 0.0
     count, radius = place_outline(walk, me, left, top)
     deepest = 0.0
-    best_x = 0.0
-    best_y = 0.0
+    best_x, best_y = 0.0, 0.0
     for k in range(span.offset, span.offset + span.count):
         depth, nx, ny = link_depth(walk, row, k, c.drop, count, radius)
         if depth > deepest:
             deepest = depth
-            best_x = nx
-            best_y = ny
+            best_x, best_y = nx, ny
     return deepest, best_x, best_y
 
 
@@ -344,8 +339,7 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     g = walk.geometry.grids[walk.shapes[row].geometry]
-    grid_x = on_pixels(b.kind, b.x)
-    grid_y = on_pixels(b.kind, b.y)
+    grid_x, grid_y = on_pixels(b.kind, b.x), on_pixels(b.kind, b.y)
     size = g.tile_size
     falling = is_falling(c, way_x, way_y)
     first_column = max(0, math.floor((left - grid_x) / size))
@@ -407,8 +401,7 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
     g = walk.geometry.grids[s.geometry]
     cells = walk.geometry.cells
     scratch = walk.scratch
-    grid_x = on_pixels(b.kind, b.x)
-    grid_y = on_pixels(b.kind, b.y)
+    grid_x, grid_y = on_pixels(b.kind, b.x), on_pixels(b.kind, b.y)
     first_column = max(0, math.floor((left - grid_x) / g.tile_size))
     last_column = min(g.columns - 1, math.ceil((left + c.width - grid_x) / g.tile_size) - 1)
     first_row = max(0, math.floor((top - grid_y) / g.tile_size))
@@ -519,8 +512,7 @@ def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, span
 @subkernel
 def character_of(characters, body):
     """Return the row of the character with this body id, or -1. O(log characters)."""
-    low = 0
-    high = len(characters)
+    low, high = 0, len(characters)
     while low < high:
         middle = (low + high) // 2
         if characters[middle].body < body:
@@ -548,8 +540,7 @@ def find_own_rows(bodies, shapes, characters_inout):
 @subkernel
 def place_body(c, body_inout):
     """Move the body of a character (row c) to its box."""
-    body_inout.x = c.left + c.offset_x
-    body_inout.y = c.top + c.offset_y
+    body_inout.x, body_inout.y = c.left + c.offset_x, c.top + c.offset_y
     body_inout.center_x = body_inout.x + body_inout.local_center_x
     body_inout.center_y = body_inout.y + body_inout.local_center_y
 

@@ -185,17 +185,14 @@ def speed_under(walk, row, x, y):
     if s.kind != CHAIN:
         return s.surface_speed
     b = walk.bodies[s.body_row]
-    cosine = math.cos(b.angle)
-    sine = math.sin(b.angle)
+    cosine, sine = math.cos(b.angle), math.sin(b.angle)
     span = walk.geometry.chains[s.geometry]
     nearest = math.inf
     speed = s.surface_speed
     for k in range(span.offset, span.offset + span.count):
         link = walk.geometry.links[k]
-        ax = b.x + cosine * link.ax - sine * link.ay
-        ay = b.y + sine * link.ax + cosine * link.ay
-        bx = b.x + cosine * link.bx - sine * link.by
-        by = b.y + sine * link.bx + cosine * link.by
+        ax, ay = b.x + cosine * link.ax - sine * link.ay, b.y + sine * link.ax + cosine * link.ay
+        bx, by = b.x + cosine * link.bx - sine * link.by, b.y + sine * link.bx + cosine * link.by
         if ax <= x < bx:
             off = abs(ay + (by - ay) * (x - ax) / (bx - ax) - y)
             if off < nearest:
@@ -336,8 +333,7 @@ def lead_out(me, reach, walk_inout, moved_inout):
     c = walk_inout.characters[me]
     rows = walk_inout.found
     gather(walk_inout, me, -1, reach + 1.0, reach + 1.0, reach + 1.0, rows)
-    way_x = 0
-    way_y = 0
+    way_x, way_y = 0, 0
     nearest = 2 * reach * reach + 1
     for turn in range(8):
         # Up, left, right, the diagonals upwards, down, the diagonals downwards.
@@ -350,8 +346,7 @@ def lead_out(me, reach, walk_inout, moved_inout):
             if what == FREE:
                 nearest = far * far * (dx * dx + dy * dy)
                 pixels = min(far, PACE)
-                way_x = pixels * dx
-                way_y = pixels * dy
+                way_x, way_y = pixels * dx, pixels * dy
                 break
     c.left += way_x
     c.top += way_y
@@ -453,21 +448,17 @@ def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
         b = bodies_inout[c.body_row]
         if b.quarantined:
             continue
-        b.vx = c.push_vx
-        b.vy = c.push_vy
+        b.vx, b.vy = c.push_vx, c.push_vy
         row = row_of(shapes, c.riding_shape) if c.riding >= 0 else -1
         if row < 0:
             continue
         s = shapes[row]
         r = bodies_inout[s.body_row]
         c.foot_x, c.foot_y = foot_of(c, s)
-        arm_x = c.foot_x - r.center_x
-        arm_y = c.foot_y - r.center_y
-        vx = r.vx - r.angular_velocity * arm_y
-        vy = r.vy + r.angular_velocity * arm_x
+        arm_x, arm_y = c.foot_x - r.center_x, c.foot_y - r.center_y
+        vx, vy = r.vx - r.angular_velocity * arm_y, r.vy + r.angular_velocity * arm_x
         if r.kind != STATIC and abs(vx) + abs(vy) > slow:
-            b.vx = vx
-            b.vy = vy
+            b.vx, b.vy = vx, vy
         if r.kind == DYNAMIC and r.awake:
             r.force_x += c.mass * gravity_x
             r.force_y += c.mass * gravity_y
@@ -646,8 +637,7 @@ def walk(me, dx, dy, walk_inout, moved_out):
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
     gather(walk_inout, me, -1, reach, reach + c.climb * abs(dx), reach + c.climb * abs(dx), walk_inout.found)
-    start_left = c.left
-    start_top = c.top
+    start_left, start_top = c.left, c.top
     moved_out[2] = 0
     moved_out[3] = 0
     follow = 1 if c.grounded and dy >= 0.0 and not c.drop else 0

@@ -62,8 +62,7 @@ def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
         m = manifolds_inout[i]
         if m.area_1 == 0.0:
             continue
-        a = shapes[m.row_a]
-        b = shapes[m.row_b]
+        a, b = shapes[m.row_a], shapes[m.row_b]
         if a.kind == MASK and b.kind == MASK and not (a.snap and b.snap):
             m.area_1 = exact_mask_area(geometry, bodies, a, b)
             continue

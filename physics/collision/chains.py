@@ -262,8 +262,7 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 @subkernel
 def keep_owned(link, points, x, y, count, manifold_out):
     """Drop the points at a corner that the previous link reports. Return how many are left."""
-    nx = manifold_out[1]
-    ny = manifold_out[2]
+    nx, ny = manifold_out[1], manifold_out[2]
     if is_towards_end(points, nx, ny) or owns_start(link, points, x, y):
         return count
     length = norm(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1])
@@ -354,8 +353,7 @@ BACKING = 2.0  # [px] thickness of a link for masks, behind its front: a line ha
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
     """Return the AABB [px], in the space of a body at (x, y), of a box in the world."""
     middle_x, middle_y = rotate(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
-    half_x = 0.5 * (max_x - min_x)
-    half_y = 0.5 * (max_y - min_y)
+    half_x, half_y = 0.5 * (max_x - min_x), 0.5 * (max_y - min_y)
     reach_x = abs(cosine) * half_x + abs(sine) * half_y
     reach_y = abs(sine) * half_x + abs(cosine) * half_y
     return middle_x - reach_x, middle_y - reach_y, middle_x + reach_x, middle_y + reach_y
@@ -379,18 +377,14 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
     points = workspace.a
     sign, row, other = sides_by_kind(batch, pair, CHAIN)
     o = shapes[other]
-    p = bodies[shapes[row].body_row]
-    q = bodies[o.body_row]
+    p, q = bodies[shapes[row].body_row], bodies[o.body_row]
     span = geometry.chains[shapes[row].geometry]
-    cosine = math.cos(p.angle)
-    sine = math.sin(p.angle)
+    cosine, sine = math.cos(p.angle), math.sin(p.angle)
     min_x, min_y, max_x, max_y = tested_aabb(geometry, o)
-    middle_x = 0.5 * (min_x + max_x)
-    middle_y = 0.5 * (min_y + max_y)
+    middle_x, middle_y = 0.5 * (min_x + max_x), 0.5 * (min_y + max_y)
     travel = travel_of(batch, p, q)
     if o.kind != MASK:
-        dx = travel.time * travel.vx
-        dy = travel.time * travel.vy
+        dx, dy = travel.time * travel.vx, travel.time * travel.vy
         min_x, max_x = min_x + min(dx, 0.0), max_x + max(dx, 0.0)
         min_y, max_y = min_y + min(dy, 0.0), max_y + max(dy, 0.0)
     # Slightly more than the margin: rounding of the rotated box must not lose a contact.
@@ -495,18 +489,13 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
     chain: its row; x, y, angle: pose of its body; line_out (16, 2): scratch for a link. O(links near).
     """
     span = geometry.chains[chain]
-    cosine = math.cos(angle)
-    sine = math.sin(angle)
-    min_x = math.inf
-    min_y = math.inf
-    max_x = -math.inf
-    max_y = -math.inf
+    cosine, sine = math.cos(angle), math.sin(angle)
+    min_x, min_y = math.inf, math.inf
+    max_x, max_y = -math.inf, -math.inf
     for k in range(hull.count):
         u, v = rotate(hull.corners[k, 0] - x, hull.corners[k, 1] - y, cosine, -sine)
-        min_x = min(min_x, u - hull.radius)
-        min_y = min(min_y, v - hull.radius)
-        max_x = max(max_x, u + hull.radius)
-        max_y = max(max_y, v + hull.radius)
+        min_x, min_y = min(min_x, u - hull.radius), min(min_y, v - hull.radius)
+        max_x, max_y = max(max_x, u + hull.radius), max(max_y, v + hull.radius)
     for block in range(span.blocks):
         box = geometry.link_blocks[span.first_block + block]
         if misses_box(box.min_x, box.min_y, box.max_x, box.max_y, min_x, min_y, max_x, max_y):
@@ -536,10 +525,8 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
 @subkernel
 def was_across(batch, surface, other, most, workspace):
     """Return whether a shape lay across a surface before the last motion of both; surface, other: rows of SHAPE."""
-    s = batch.shapes[surface]
-    o = batch.shapes[other]
-    p = batch.bodies[s.body_row]
-    q = batch.bodies[o.body_row]
+    s, o = batch.shapes[surface], batch.shapes[other]
+    p, q = batch.bodies[s.body_row], batch.bodies[o.body_row]
     corners = workspace.b
     radius = 0.0
     if o.kind == BOUNDS:

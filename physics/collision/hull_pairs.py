@@ -87,8 +87,7 @@ def speculative_rotation(a, b, speed, margin, lookahead):
 @subkernel
 def collide_circles(ax, ay, a_radius, bx, by, b_radius):
     """Return (normal from A to B, point midway, separation) of two discs [px]. Equal centres push along +x. O(1)."""
-    dx = bx - ax
-    dy = by - ay
+    dx, dy = bx - ax, by - ay
     nx, ny = unit(dx, dy, 1.0, 0.0)
     distance = norm(dx, dy)
     separation = distance - (a_radius + b_radius)
@@ -138,8 +137,7 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
             nx, ny = edge_normal(a.corners, a.count, a_edge)
         else:
             nx, ny = edge_normal(corners, b_inout.count, b_edge)
-            nx = -nx
-            ny = -ny
+            nx, ny = -nx, -ny
         speed = -(vx * nx + vy * ny)
         if speed <= 0.0:
             return time  # least distance: a deflection must not drive the bodies into each other
@@ -203,8 +201,7 @@ def move_manifold_back(time, vx, vy, points_inout):
 
     Return the tangential offset [px] of B until the contact.
     """
-    nx = points_inout[1]
-    ny = points_inout[2]
+    nx, ny = points_inout[1], points_inout[2]
     closed, tangential = path_offsets(time, vx, vy, nx, ny)
     for k in range(int(points_inout[0])):
         at = 3 + 4 * k
@@ -352,8 +349,7 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
     nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx, by, b_radius)
     tangential = 0.0
     if separation > 0.0:
-        p = bodies[shapes[row_a].body_row]
-        q = bodies[shapes[row_b].body_row]
+        p, q = bodies[shapes[row_a].body_row], bodies[shapes[row_b].body_row]
         if separation > batch.margin:
             _, _, speed = center_velocity(p, q)
             if separation > speculative_distance(p, q, speed, batch.margin, batch.lookahead):
@@ -382,13 +378,11 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
     """Append the contact of a hull of two or more corners and a circle. Return the new count."""
     bodies, shapes, margin = batch.bodies, batch.shapes, batch.margin
     side, circle, polygon = sides_by_kind(batch, pair, CIRCLE)
-    p = bodies[shapes[polygon].body_row]
-    q = bodies[shapes[circle].body_row]
+    p, q = bodies[shapes[polygon].body_row], bodies[shapes[circle].body_row]
     hull = hull_of(batch.geometry, bodies, shapes, polygon, workspace.a)
     x, y, radius = circle_at(bodies, shapes, circle)
     time = 0.0
-    vx = 0.0
-    vy = 0.0
+    vx, vy = 0.0, 0.0
     reach = margin
     if batch.lookahead > 0.0:
         _, _, speed = center_velocity(p, q)
@@ -468,10 +462,8 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
     manifold = workspace.points
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]
-    s = shapes[row_a]
-    o = shapes[row_b]
-    p = bodies[s.body_row]
-    q = bodies[o.body_row]
+    s, o = shapes[row_a], shapes[row_b]
+    p, q = bodies[s.body_row], bodies[o.body_row]
     if s.kind == BOUNDS and o.kind == BOUNDS:
         points = collide_aabbs(s, o, margin, manifold)
         if points == 1 and manifold[5] > 0.0:
@@ -485,8 +477,7 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
     b = hull_of(geometry, bodies, shapes, row_b, workspace.b)
     deepest = math.inf
     if s.inner != 0 or o.inner != 0:
-        a_edges = a.edges & pushing_edges(a, b)
-        b_edges = b.edges & pushing_edges(b, a)
+        a_edges, b_edges = a.edges & pushing_edges(a, b), b.edges & pushing_edges(b, a)
         a = Hull(a.corners, a.count, a.radius, a_edges)
         b = Hull(b.corners, b.count, b.radius, b_edges)
         # Without a dynamic body there is no response: the contact of any part will do.

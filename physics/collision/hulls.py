@@ -111,8 +111,7 @@ def edge_normal(corners, count, k):
 @subkernel
 def middle_of(corners, count):
     """Return the mean of so many corners [px]."""
-    x = 0.0
-    y = 0.0
+    x, y = 0.0, 0.0
     for k in range(count):
         x += corners[k, 0] / count
         y += corners[k, 1] / count
@@ -182,8 +181,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
             most = mx * nx + my * ny
             facing = k
     far = facing + 1 if facing + 1 < other_count else 0
-    tx = -ny
-    ty = nx
+    tx, ty = -ny, nx
     start = tx * corners[edge, 0] + ty * corners[edge, 1]
     end = tx * corners[following, 0] + ty * corners[following, 1]
     # The incident edge has the opposite direction of the reference edge.
@@ -191,8 +189,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     py = others[far, 1]
     qx = others[facing, 0]
     qy = others[facing, 1]
-    p_along = tx * px + ty * py
-    q_along = tx * qx + ty * qy
+    p_along, q_along = tx * px + ty * py, tx * qx + ty * qy
     span = q_along - p_along
     found = 0
     sign = -1.0 if flipped else 1.0
@@ -206,8 +203,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
         if clipped and span > 0.0:
             bound = start if along < start else end
             t = (bound - p_along) / span
-            x = px + t * (qx - px)
-            y = py + t * (qy - py)
+            x, y = px + t * (qx - px), py + t * (qy - py)
         height = nx * (x - corners[edge, 0]) + ny * (y - corners[edge, 1])
         separation = height - radius - other_radius
         if separation <= limit:
@@ -427,8 +423,7 @@ def collide_aabbs(a, b, margin, manifold_out):
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
     """Return the point of the edge from a to b that is nearest to (x, y), as a fraction 0..1 of the edge."""
-    ex = bx - ax
-    ey = by - ay
+    ex, ey = bx - ax, by - ay
     along = ex * (x - ax) + ey * (y - ay)
     square = ex * ex + ey * ey
     if along <= 0.0 or square == 0.0:
@@ -480,15 +475,13 @@ def segment_distance(a, b):
 def nearest_corners(a, a_count, b, b_count):
     """Return (corner of A, corner of B, distance [px]) of the two nearest corners. O(a_count · b_count)."""
     best = math.inf
-    best_i = 0
-    best_j = 0
+    best_i, best_j = 0, 0
     for i in range(a_count):
         for j in range(b_count):
             distance = norm(b[j, 0] - a[i, 0], b[j, 1] - a[i, 1])
             if distance < best:
                 best = distance
-                best_i = i
-                best_j = j
+                best_i, best_j = i, j
     return best_i, best_j, best
 
 
@@ -541,12 +534,10 @@ def overlaps_edge(hull, edge, other):
     y = corners[edge, 1]
     dx = corners[following, 0] - x
     dy = corners[following, 1] - y
-    low = math.inf
-    high = -math.inf
+    low, high = math.inf, -math.inf
     for k in range(other.count):
         along = dx * (others[k, 0] - x) + dy * (others[k, 1] - y)
-        low = min(low, along)
-        high = max(high, along)
+        low, high = min(low, along), max(high, along)
     return high > 0.0 and low < dx * dx + dy * dy
 
 
@@ -569,8 +560,7 @@ def least_separation(count, manifold):
 @subkernel
 def extent_along(corners, count, nx, ny):
     """Return the least and greatest projection [px] of the corners on a direction."""
-    low = math.inf
-    high = -math.inf
+    low, high = math.inf, -math.inf
     for k in range(count):
         low = min(low, nx * corners[k, 0] + ny * corners[k, 1])
         high = max(high, nx * corners[k, 0] + ny * corners[k, 1])
@@ -672,11 +662,9 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
     Feature: 0 or 1, the side; 32 or 33, the end. A centre on the line takes the normal of its first side.
     """
     t = nearest_on_edge(ax, ay, bx, by, x, y)
-    px = ax + t * (bx - ax)
-    py = ay + t * (by - ay)
+    px, py = ax + t * (bx - ax), ay + t * (by - ay)
     if t == 1.0:
-        px = bx
-        py = by
+        px, py = bx, by
     side_x, side_y = unit(by - ay, ax - bx, 0.0, -1.0)
     height = side_x * (x - ax) + side_y * (y - ay)
     if 0.0 < t < 1.0:

@@ -159,36 +159,24 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
     """Write a manifold of a candidate pair, without points."""
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]
-    a = shapes[row_a]
-    b = shapes[row_b]
+    a, b = shapes[row_a], shapes[row_b]
     m = manifold_out
-    m.body_a = a.body
-    m.body_b = b.body
-    m.shape_a = a.id
-    m.shape_b = b.id
-    m.parent_a = a.parent
-    m.parent_b = b.parent
+    m.body_a, m.body_b = a.body, b.body
+    m.shape_a, m.shape_b = a.id, b.id
+    m.parent_a, m.parent_b = a.parent, b.parent
     m.of_child = a.parent != a.id or b.parent != b.id
-    m.body_row_a = a.body_row
-    m.body_row_b = b.body_row
-    m.row_a = row_a
-    m.row_b = row_b
+    m.body_row_a, m.body_row_b = a.body_row, b.body_row
+    m.row_a, m.row_b = row_a, row_b
     m.candidate = pair
     m.previous = -1
     m.count = 0
-    m.normal_x = nx
-    m.normal_y = ny
+    m.normal_x, m.normal_y = nx, ny
     m.tangential_offset = 0.0
     m.sensor = a.sensor or b.sensor
-    m.swept = False
-    m.persisted_1 = False
-    m.persisted_2 = False
-    m.can_recycle = False
-    m.of_new_pair = False
-    m.normal_impulse_1 = 0.0
-    m.tangent_impulse_1 = 0.0
-    m.normal_impulse_2 = 0.0
-    m.tangent_impulse_2 = 0.0
+    m.swept, m.persisted_1, m.persisted_2 = False, False, False
+    m.can_recycle, m.of_new_pair = False, False
+    m.normal_impulse_1, m.tangent_impulse_1 = 0.0, 0.0
+    m.normal_impulse_2, m.tangent_impulse_2 = 0.0, 0.0
 
 
 @subkernel
@@ -204,8 +192,7 @@ def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
         # Plus 0.0 turns -0.0 into 0.0, for printing and comparison.
         open_manifold(shapes, candidates, pair, nx + 0.0, ny + 0.0, m)
         m.count = 1
-        m.x_1 = x
-        m.y_1 = y
+        m.x_1, m.y_1 = x, y
         m.separation_1 = separation
         m.area_1 = area
         m.feature_1 = feature
@@ -224,8 +211,7 @@ def add_point(shapes, candidates, pair, point, manifolds_out, found):
         m = manifolds_out[found - 1]
         if m.candidate == pair and m.count == 1 and m.normal_x == nx and m.normal_y == ny:
             m.count = 2
-            m.x_2 = x
-            m.y_2 = y
+            m.x_2, m.y_2 = x, y
             m.separation_2 = separation
             m.area_2 = area
             m.feature_2 = feature
@@ -241,8 +227,7 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
     """
     for k in range(int(points[0])):
         at = 3 + 4 * k
-        nx = sign * points[1]
-        ny = sign * points[2]
+        nx, ny = sign * points[1], sign * points[2]
         point = (nx, ny, points[at], points[at + 1], points[at + 2], 0.0, part + int(points[at + 3]))
         found = add_point(shapes, candidates, pair, point, manifolds_out, found)
     return found
@@ -384,12 +369,9 @@ def write_contacts(manifolds, contacts_out):
         m = manifolds[i]
         for k in range(m.count):
             c = contacts_out[found]
-            c.body_a = m.body_a
-            c.body_b = m.body_b
-            c.shape_a = m.parent_a
-            c.shape_b = m.parent_b
-            c.normal_x = m.normal_x
-            c.normal_y = m.normal_y
+            c.body_a, c.body_b = m.body_a, m.body_b
+            c.shape_a, c.shape_b = m.parent_a, m.parent_b
+            c.normal_x, c.normal_y = m.normal_x, m.normal_y
             c.point_x = m.x_1 if k == 0 else m.x_2
             c.point_y = m.y_1 if k == 0 else m.y_2
             c.separation = m.separation_1 if k == 0 else m.separation_2
@@ -453,10 +435,8 @@ def closing_speed(a, b, x, y, nx, ny, tangential):
 
     a, b: BODY rows; tangential [px]: the offset of B until the contact, see CONTACT.
     """
-    ax = x - a.center_x
-    ay = y - a.center_y
-    bx = x - b.center_x + tangential * ny
-    by = y - b.center_y - tangential * nx
+    ax, ay = x - a.center_x, y - a.center_y
+    bx, by = x - b.center_x + tangential * ny, y - b.center_y - tangential * nx
     vx = (b.vx - b.angular_velocity * by) - (a.vx - a.angular_velocity * ay)
     vy = (b.vy + b.angular_velocity * bx) - (a.vy + a.angular_velocity * ax)
     return -(nx * vx + ny * vy)

@@ -86,13 +86,11 @@ def separation_along(pair, remainders, nx, ny, most):
     """Return the least whole number of pixels along the normal that ends the overlap; > most for none up to it."""
     rasters = pair.rasters
     words = pair.words
-    a = rasters[pair.a]
-    b = rasters[pair.b]
+    a, b = rasters[pair.a], rasters[pair.b]
     lines = a.stride == 1 and b.stride == 1
     box_a = (a.set_left, a.set_top, a.set_right, a.set_bottom)
     box_b = (b.set_left, b.set_top, b.set_right, b.set_bottom)
-    row_a = a.offset
-    row_b = b.offset
+    row_a, row_b = a.offset, b.offset
     depth = 0.0
     found = True
     row = 0  # row of the last shared pixel: a pixel further there usually is one too
@@ -126,10 +124,8 @@ def mask_contact(pair, remainders):
     """
     rasters = pair.rasters
     words = pair.words
-    dx = pair.dx
-    dy = pair.dy
-    a = rasters[pair.a]
-    b = rasters[pair.b]
+    dx, dy = pair.dx, pair.dy
+    a, b = rasters[pair.a], rasters[pair.b]
     if a.stride == 1 and b.stride == 1:
         box_a = (a.set_left, a.set_top, a.set_right, a.set_bottom)
         box_b = (b.set_left, b.set_top, b.set_right, b.set_bottom)
@@ -140,8 +136,7 @@ def mask_contact(pair, remainders):
         more_x -= shared_area(rasters, words, pair.a, pair.b, dx + 1, dy)
     more_y = shared_area(rasters, words, pair.a, pair.b, dx, dy - 1)
     more_y -= shared_area(rasters, words, pair.a, pair.b, dx, dy + 1)
-    slope_x = float(more_x)
-    slope_y = float(more_y)
+    slope_x, slope_y = float(more_x), float(more_y)
     axis_x, axis_y, least = least_overlap(
         float(a.set_right - (b.set_left + dx)),
         float(b.set_right + dx - a.set_left),
@@ -154,13 +149,11 @@ def mask_contact(pair, remainders):
         if b.set_left + b.set_right + 2 * dx == a.set_left + a.set_right and (
             b.set_top + b.set_bottom + 2 * dy == a.set_top + a.set_bottom
         ):
-            nx = axis_x
-            ny = axis_y
+            nx, ny = axis_x, axis_y
     depth = separation_along(pair, remainders, nx, ny, least)
     if depth > least:
         depth = least
-        nx = axis_x
-        ny = axis_y
+        nx, ny = axis_x, axis_y
     return area, sum_x / area + 0.5, sum_y / area + 0.5, nx, ny, -depth
 
 
@@ -196,10 +189,8 @@ class PlacedRaster(NamedTuple):
 @subkernel
 def hull_bounds(hull):
     """Return the AABB (min_x, min_y, max_x, max_y) [px] of a Hull."""
-    min_x = math.inf
-    max_x = -math.inf
-    min_y = math.inf
-    max_y = -math.inf
+    min_x, max_x = math.inf, -math.inf
+    min_y, max_y = math.inf, -math.inf
     for k in range(hull.count):
         min_x = min(min_x, hull.corners[k, 0] - hull.radius)
         max_x = max(max_x, hull.corners[k, 0] + hull.radius)
@@ -227,8 +218,7 @@ def make_pixel_sum(touches: Callable) -> Any:
         r = raster.rasters[raster.row]
         first_x, last_x, first_y, last_y = pixels_under(raster, hull)
         area = 0
-        sum_x = 0.0
-        sum_y = 0.0
+        sum_x, sum_y = 0.0, 0.0
         first = 0
         for j in range(first_y, last_y):
             y = float(raster.top + j)
@@ -263,8 +253,7 @@ def square_exit_distance(x, y, nx, ny, radius):
     """
     depth = 0.0
     for corner in range(4):
-        px = x + (corner & 1)
-        py = y + (corner >> 1)
+        px, py = x + (corner & 1), y + (corner >> 1)
         across = nx * py - ny * px
         if across * across < radius * radius:
             depth = max(depth, nx * px + ny * py + math.sqrt(radius * radius - across * across))
@@ -322,10 +311,8 @@ def offset_line(points, front, back, corners_out):
 @subkernel
 def square_in_polygon(corners, count, x, y):
     """Return whether the pixel square at x, y and a convex polygon share area (separating axis test)."""
-    min_x = math.inf
-    max_x = -math.inf
-    min_y = math.inf
-    max_y = -math.inf
+    min_x, max_x = math.inf, -math.inf
+    min_y, max_y = math.inf, -math.inf
     for k in range(count):
         min_x = min(min_x, corners[k, 0])
         max_x = max(max_x, corners[k, 0])
@@ -421,8 +408,7 @@ def collide_mask_line(raster, hull, depths_out):
     points to the side further from the middle of the mask. depths_out (16,): scratch.
     """
     points = hull.corners
-    left = raster.left
-    top = raster.top
+    left, top = raster.left, raster.top
     area, nx, ny, x, y, separation, first = collide_mask_polygon(raster, Hull(points, 2, 0.0, 3), depths_out)
     level = points[0, 1] == points[1, 1] and points[0, 1] == math.floor(points[0, 1])
     upright = points[0, 0] == points[1, 0] and points[0, 0] == math.floor(points[0, 0])
@@ -460,8 +446,7 @@ def square_distance(corners, count, x, y):
         ax = corners[k, 0]
         ay = corners[k, 1]
         for corner in range(4):
-            px = x + (corner & 1)
-            py = y + (corner >> 1)
+            px, py = x + (corner & 1), y + (corner >> 1)
             gap = min(gap, distance_to_edge(ax, ay, corners[n, 0], corners[n, 1], px, py))
         beside = max(max(x - ax, ax - x - 1.0), 0.0)
         above = max(max(y - ay, ay - y - 1.0), 0.0)
@@ -479,8 +464,7 @@ def square_in_rounded(hull, x, y, depths_out):
 def direction_to_core(corners, count, x, y):
     """Return the unit direction from (x, y) to the nearest point of a core's outline, (0, -1) on it."""
     best = math.inf
-    dx = 0.0
-    dy = 0.0
+    dx, dy = 0.0, 0.0
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
         t = nearest_on_edge(corners[k, 0], corners[k, 1], corners[n, 0], corners[n, 1], x, y)
@@ -488,8 +472,7 @@ def direction_to_core(corners, count, x, y):
         py = corners[k, 1] + t * (corners[n, 1] - corners[k, 1]) - y
         if norm(px, py) < best:
             best = norm(px, py)
-            dx = px
-            dy = py
+            dx, dy = px, py
     return unit(dx, dy, 0.0, -1.0)
 
 
@@ -502,8 +485,7 @@ def depth_along(raster, hull, nx, ny):
     first_x, last_x, first_y, last_y = pixels_under(raster, hull)
     for j in range(first_y, last_y):
         for i in range(first_x, last_x):
-            x = float(raster.left + i)
-            y = float(raster.top + j)
+            x, y = float(raster.left + i), float(raster.top + j)
             if (
                 is_set(raster.words, r.offset + j * r.stride, i)
                 and square_distance(hull.corners, hull.count, x, y) < hull.radius
@@ -527,21 +509,18 @@ def collide_mask_rounded(raster, hull, depths_out):
     area, point_x, point_y, first = sum_pixels_in_rounded(raster, hull, depths_out)
     if area == 0:
         return 0, 0.0, -1.0, 0.0, 0.0, 0.0, 0
-    best_x = 0.0
-    best_y = -1.0
+    best_x, best_y = 0.0, -1.0
     depth = math.inf
     for k in range(count + 1):
         if k < count:
             mx, my = edge_normal(corners, count, k)
-            nx = -mx
-            ny = -my
+            nx, ny = -mx, -my
         else:
             nx, ny = direction_to_core(corners, count, point_x, point_y)
         out = depth_along(raster, hull, nx, ny)
         if out < depth:
             depth = out
-            best_x = nx
-            best_y = ny
+            best_x, best_y = nx, ny
     return area, best_x, best_y, point_x, point_y, -depth, first
 
 
@@ -584,8 +563,7 @@ def make_mask_pass(full: bool) -> Any:
         candidates, rasters, words = batch.candidates, batch.geometry.rasters, batch.geometry.words
         a = shapes[candidates[pair, 0]]
         b = shapes[candidates[pair, 1]]
-        dx = b.left - a.left
-        dy = b.top - a.top
+        dx, dy = b.left - a.left, b.top - a.top
         r = rasters[a.raster]
         s = rasters[b.raster]
         left, top, right, bottom = shared_rectangle(r, s, dx, dy)
@@ -595,19 +573,16 @@ def make_mask_pass(full: bool) -> Any:
             row, shared = shared_row(words, r.offset + top, left, s.offset + top - dy, left - dx, bottom - top)
             if shared == word(0):
                 return found
-            x = left + lowest_bit(shared)
-            y = top + row
+            x, y = left + lowest_bit(shared), top + row
         else:
             hit, x, y = first_pixel(rasters, words, a.raster, b.raster, dx, dy)
             if not hit:
                 return found
         area = 0.0
-        px = x + 0.5
-        py = y + 0.5
+        px, py = x + 0.5, y + 0.5
         separation = -1.0
         if full:
-            p = batch.bodies[a.body_row]
-            q = batch.bodies[b.body_row]
+            p, q = batch.bodies[a.body_row], batch.bodies[b.body_row]
             remainders = Remainders(
                 p.x - r.origin_x + 0.5 - a.left,
                 p.y - r.origin_y + 0.5 - a.top,

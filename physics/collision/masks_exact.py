@@ -60,8 +60,7 @@ def hull_share(hull, x, y, width, height):
     count = hull.count
     radius = hull.radius
     area = 0.0
-    moment_x = 0.0
-    moment_y = 0.0
+    moment_x, moment_y = 0.0, 0.0
     for k in range(count):
         if count > 1:
             n = k + 1 if k + 1 < count else 0
@@ -97,8 +96,7 @@ def shared_with_hull(rasters, words, mask, hull):
     left = max(r.set_left, math.floor(min_x))
     right = min(r.set_right, math.ceil(max_x))
     area = 0.0
-    moment_x = 0.0
-    moment_y = 0.0
+    moment_x, moment_y = 0.0, 0.0
     for row in range(max(r.set_top, math.floor(min_y)), min(r.set_bottom, math.ceil(max_y))):
         start = -1
         for column in range(left, right + 1):
@@ -145,8 +143,7 @@ def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
 
     The angles are subtracted first, so that two bodies at quarter turns stay exact. corners_out (16, 2): its corners.
     """
-    s = shapes[mask]
-    o = shapes[other]
+    s, o = shapes[mask], shapes[other]
     b = bodies[s.body_row]
     p = bodies[o.body_row]
     r = geometry.rasters[raster_of_shape(geometry, s)]
@@ -181,8 +178,7 @@ def collide_in_raster(rasters, words, mask, hull, depths_out):
     area, moment_x, moment_y = shared_with_hull(rasters, words, mask, hull)
     least = least_area(rasters[mask])
     if area > least:
-        x = moment_x / area
-        y = moment_y / area
+        x, y = moment_x / area, moment_y / area
     return max(area, least), nx, ny, x, y, separation, first
 
 
@@ -256,8 +252,7 @@ NOISE = 1e-9  # of the area: rounding error of area differences
 @subkernel
 def boxes_normal(a, b):
     """Return (unit direction between the centres of the AABBs of two SHAPE rows, whether the centres differ)."""
-    x = (b.min_x - a.min_x) + (b.max_x - a.max_x)
-    y = (b.min_y - a.min_y) + (b.max_y - a.max_y)
+    x, y = (b.min_x - a.min_x) + (b.max_x - a.max_x), (b.min_y - a.min_y) + (b.max_y - a.max_y)
     nx, ny = unit(x, y, 1.0, 0.0)
     return nx, ny, x != 0.0 or y != 0.0
 
@@ -300,8 +295,7 @@ def exact_contact(pair, a, b, turn_cosine, turn_sine):
     if is_sloped:
         depth = depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, least)
     if depth > least:
-        nx = axis_x
-        ny = axis_y
+        nx, ny = axis_x, axis_y
         depth = depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, least)
     return area, x / area, y / area, nx, ny, -depth
 
@@ -384,8 +378,7 @@ def make_exact_mask_pass(full: bool) -> Any:
         else:
             feature = pixel_feature(row, column, rasters[squares.other].width)
         turn_cosine, turn_sine = cosine_and_sine(p.angle, p.angle)
-        px = x + 0.5
-        py = y + 0.5
+        px, py = x + 0.5, y + 0.5
         area = 0.0
         separation = -1.0
         if full:

@@ -98,14 +98,11 @@ def collide_boxes(batch, which, manifolds_out, work_inout):
         least = min(min(right, left), min(down, up))
         if least < 0.0:
             continue
-        nx = 0.0
-        ny = -1.0
+        nx, ny = 0.0, -1.0
         if least == right:
-            nx = 1.0
-            ny = 0.0
+            nx, ny = 1.0, 0.0
         elif least == left:
-            nx = -1.0
-            ny = 0.0
+            nx, ny = -1.0, 0.0
         elif least == down:
             ny = 1.0
         x = 0.5 * (max(a.min_x, b.min_x) + min(a.max_x, b.max_x))
@@ -177,8 +174,7 @@ def kind_asked(bodies, a, b, margin, lookahead, which):
     if boxes_apart(a, b, margin):
         if lookahead <= 0.0 or POLYGONS < kind < GRID_ANY or a.kind == MASK or b.kind == MASK:
             return NOTHING
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
+        p, q = bodies[a.body_row], bodies[b.body_row]
         if lookahead * closing_speed_bound(p, q) <= margin:
             return NOTHING
         _, _, speed = center_velocity(p, q)

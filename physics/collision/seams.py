@@ -183,8 +183,7 @@ def is_behind_plane(batch, seam, support, workspace):
     if is_at_corner(shapes, support) and norm(seam.x_1 - support.x_1, seam.y_1 - support.y_1) <= 2.0 * batch.graze:
         return False
     sign = 1.0 if other_side == 0 else -1.0
-    nx = sign * support.normal_x
-    ny = sign * support.normal_y
+    nx, ny = sign * support.normal_x, sign * support.normal_y
     cosine = (nx * seam.normal_x + ny * seam.normal_y) * (1.0 if side == 0 else -1.0)
     if cosine >= (SAME_NORMAL if is_at_corner(shapes, seam) else PARALLEL):
         return False

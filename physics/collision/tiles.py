@@ -238,10 +238,8 @@ def make_grid_pass(one_way: bool) -> Any:
         shapes, candidates, margin, cells = batch.shapes, batch.candidates, batch.margin, geometry.cells
         tile = workspace.a
         sign, row, other = sides_by_kind(batch, pair, TILES)
-        s = shapes[row]
-        o = shapes[other]
-        p = bodies[s.body_row]
-        q = bodies[o.body_row]
+        s, o = shapes[row], shapes[other]
+        p, q = bodies[s.body_row], bodies[o.body_row]
         g = geometry.grids[s.geometry]
         min_x, min_y, max_x, max_y = tested_aabb(geometry, o)
         travel = travel_of(batch, p, q)

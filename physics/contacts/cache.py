@@ -127,49 +127,35 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
     keeps its core, because a surface point would rotate away with its spin.
     """
     c = contact_inout
-    a = bodies[c.body_row_a]
-    b = bodies[c.body_row_b]
-    s = shapes[c.row_a]
-    o = shapes[c.row_b]
+    a, b = bodies[c.body_row_a], bodies[c.body_row_b]
+    s, o = shapes[c.row_a], shapes[c.row_b]
     c.radius_a = core_radius(s)
     c.radius_b = core_radius(o)
     c.frame = frame_of(s, o, c.feature_1, c.radius_a + c.radius_b)
-    turn_a = rotation_of(a.angle)
-    turn_b = rotation_of(b.angle)
-    nx = c.normal_x
-    ny = c.normal_y
-    c.local_nx = nx
-    c.local_ny = ny
+    turn_a, turn_b = rotation_of(a.angle), rotation_of(b.angle)
+    nx, ny = c.normal_x, c.normal_y
+    c.local_nx, c.local_ny = nx, ny
     if c.frame == WITH_A:
         c.local_nx, c.local_ny = rotate(nx, ny, turn_a[0], -turn_a[1])
     elif c.frame == WITH_B:
         c.local_nx, c.local_ny = rotate(nx, ny, turn_b[0], -turn_b[1])
-    c.angle_a = a.angle
-    c.angle_b = b.angle
-    c.held_nx = nx
-    c.held_ny = ny
-    c.apart_x = b.center_x - a.center_x
-    c.apart_y = b.center_y - a.center_y
+    c.angle_a, c.angle_b = a.angle, b.angle
+    c.held_nx, c.held_ny = nx, ny
+    c.apart_x, c.apart_y = b.center_x - a.center_x, b.center_y - a.center_y
     c.slips = False
     c.slipped = 0.0
-    c.held_ax_1 = c.x_1 - a.center_x
-    c.held_ay_1 = c.y_1 - a.center_y
-    c.held_ax_2 = 0.0
-    c.held_ay_2 = 0.0
+    c.held_ax_1, c.held_ay_1 = c.x_1 - a.center_x, c.y_1 - a.center_y
+    c.held_ax_2, c.held_ay_2 = 0.0, 0.0
     half = 0.5 * c.separation_1
     c.local_ax_1, c.local_ay_1 = core_in_body(a, turn_a, c.x_1, c.y_1, nx, ny, -(half + c.radius_a), 0.0)
     c.local_bx_1, c.local_by_1 = core_in_body(b, turn_b, c.x_1, c.y_1, nx, ny, half + c.radius_b, c.tangential_offset)
     c.base_1 = c.separation_1
     c.share_1 = share_of(polygons, table, a, b, c, s, o, False)
-    c.local_ax_2 = 0.0
-    c.local_ay_2 = 0.0
-    c.local_bx_2 = 0.0
-    c.local_by_2 = 0.0
-    c.base_2 = 0.0
+    c.local_ax_2, c.local_ay_2, c.local_bx_2 = 0.0, 0.0, 0.0
+    c.local_by_2, c.base_2 = 0.0, 0.0
     c.share_2 = 0.5
     if c.count == 2:
-        c.held_ax_2 = c.x_2 - a.center_x
-        c.held_ay_2 = c.y_2 - a.center_y
+        c.held_ax_2, c.held_ay_2 = c.x_2 - a.center_x, c.y_2 - a.center_y
         half = 0.5 * c.separation_2
         c.local_ax_2, c.local_ay_2 = core_in_body(a, turn_a, c.x_2, c.y_2, nx, ny, -(half + c.radius_a), 0.0)
         c.local_bx_2, c.local_by_2 = core_in_body(
@@ -184,11 +170,8 @@ def reset_impulses(contact_out):
     """Clear the cached forces of a contact, and its graph colour."""
     c = contact_out
     c.color = -1
-    c.rolling_force = 0.0
-    c.normal_force_1 = 0.0
-    c.tangent_force_1 = 0.0
-    c.normal_force_2 = 0.0
-    c.tangent_force_2 = 0.0
+    c.rolling_force, c.normal_force_1, c.tangent_force_1 = 0.0, 0.0, 0.0
+    c.normal_force_2, c.tangent_force_2 = 0.0, 0.0
 
 
 @kernel
@@ -274,8 +257,7 @@ def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
     ax_2, ay_2, dx_2, dy_2 = ax_1, ay_1, dx_1, dy_1
     if two:
         ax_2, ay_2, dx_2, dy_2 = cores_at(a, turn_a, b, turn_b, c.local_ax_2, c.local_ay_2, c.local_bx_2, c.local_by_2)
-    nx = c.local_nx
-    ny = c.local_ny
+    nx, ny = c.local_nx, c.local_ny
     moved = 0.0
     rolled = 0.0
     if c.frame == CORES:
@@ -288,15 +270,11 @@ def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
         elif c.frame == WITH_B:
             nx, ny = rotate(nx, ny, turn_b[0], turn_b[1])
         moved = max(abs(dy_1 * nx - dx_1 * ny), abs(dy_2 * nx - dx_2 * ny))
-    c.normal_x = nx + 0.0
-    c.normal_y = ny + 0.0
-    gap_1 = dx_1 * nx + dy_1 * ny
-    gap_2 = dx_2 * nx + dy_2 * ny
-    wandered_1 = False
-    wandered_2 = False
+    c.normal_x, c.normal_y = nx + 0.0, ny + 0.0
+    gap_1, gap_2 = dx_1 * nx + dy_1 * ny, dx_2 * nx + dy_2 * ny
+    wandered_1, wandered_2 = False, False
     if two and wander < math.inf:
-        x = ax_2 - ax_1
-        y = ay_2 - ay_1
+        x, y = ax_2 - ax_1, ay_2 - ay_1
         with_a = c.frame == WITH_A
         first, second = (dx_1, dy_1), (dx_2, dy_2)
         if is_clipped(c, c.share_1):
@@ -315,14 +293,12 @@ def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
 @kernel
 def update_contacts(bodies, contacts_inout):
     """Update separations, points and normals of all contacts to the present poses. O(contacts)."""
-    row_a = -1
-    row_b = -1
+    row_a, row_b = -1, -1
     turn_a = (1.0, 0.0)
     turn_b = (1.0, 0.0)
     for i in range(len(contacts_inout)):
         c = contacts_inout[i]
-        a = bodies[c.body_row_a]
-        b = bodies[c.body_row_b]
+        a, b = bodies[c.body_row_a], bodies[c.body_row_b]
         # The contacts of a pair, and often those of a body, are adjacent.
         if c.body_row_a != row_a:
             row_a = c.body_row_a
@@ -361,8 +337,7 @@ def recycle_distance(contact, distance):
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
     if c.count == 1 or not loaded or c.radius_a > 0.0 or c.radius_b > 0.0:
         return distance
-    x = c.x_2 - c.x_1
-    y = c.y_2 - c.y_1
+    x, y = c.x_2 - c.x_1, c.y_2 - c.y_1
     far = RECYCLE_MOVE * distance
     return far if far * far <= RECYCLE_SHARE * RECYCLE_SHARE * (x * x + y * y) else distance
 
@@ -413,14 +388,12 @@ def is_unmoved(body):
 def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
     """Update points, normals and separations of all contacts to the present poses, and flag those that can be recycled
     in the next step: see can_recycle. O(contacts)."""
-    row_a = -1
-    row_b = -1
+    row_a, row_b = -1, -1
     turn_a = (1.0, 0.0)
     turn_b = (1.0, 0.0)
     for i in range(len(contacts_inout)):
         c = contacts_inout[i]
-        a = bodies_inout[c.body_row_a]
-        b = bodies_inout[c.body_row_b]
+        a, b = bodies_inout[c.body_row_a], bodies_inout[c.body_row_b]
         # The contacts of a pair, and often those of a body, are adjacent.
         if c.body_row_a != row_a:
             row_a = c.body_row_a

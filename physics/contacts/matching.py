@@ -80,10 +80,8 @@ def begin_step(geometry, p, q, a, b, contact_inout):
     p, q: BODY rows of the sides; a, b: their SHAPE rows.
     """
     c = contact_inout
-    c.normal_impulse_1 = 0.0
-    c.tangent_impulse_1 = 0.0
-    c.normal_impulse_2 = 0.0
-    c.tangent_impulse_2 = 0.0
+    c.normal_impulse_1, c.tangent_impulse_1 = 0.0, 0.0
+    c.normal_impulse_2, c.tangent_impulse_2 = 0.0, 0.0
     c.color = -1
     forces = abs(c.normal_force_1) + abs(c.tangent_force_1) + abs(c.normal_force_2) + abs(c.tangent_force_2)
     if not forces + abs(c.rolling_force) < LARGEST_FORCE:
@@ -107,8 +105,7 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
     count = 0
     kept = 0
     passed = 0
-    i = 0
-    j = 0
+    i, j = 0, 0
     while True:
         while passed < len(stale) and stale[passed] == kept:
             passed += 1
@@ -167,14 +164,11 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
     a, b: its SHAPE rows.
     """
     c = contact_inout
-    c.body_row_a = a.body_row
-    c.body_row_b = b.body_row
-    c.row_a = row_a
-    c.row_b = row_b
+    c.body_row_a, c.body_row_b = a.body_row, b.body_row
+    c.row_a, c.row_b = row_a, row_b
     c.candidate = candidate
     c.previous = place
-    c.persisted_1 = True
-    c.persisted_2 = True
+    c.persisted_1, c.persisted_2 = True, True
     c.of_new_pair = False
     c.touched = touches(c)
 
@@ -212,8 +206,7 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
             j += 1
         if j == len(previous_inout) or not is_of(previous_inout[j], a.id, b.id) or a.kind == MASK or b.kind == MASK:
             continue
-        p = bodies[a.body_row]
-        q = bodies[b.body_row]
+        p, q = bodies[a.body_row], bodies[b.body_row]
         # The pairs of a body are adjacent.
         if a.body_row != row_a:
             row_a = a.body_row
@@ -225,8 +218,7 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
             if fits and not (unmoved and c.can_recycle and is_finite(c)):
                 c.row_a = candidates[i, 0]
                 c.row_b = candidates[i, 1]
-                turn_p = rotation_of(p.angle)
-                turn_q = rotation_of(q.angle)
+                turn_p, turn_q = rotation_of(p.angle), rotation_of(q.angle)
                 fits = not c.swept and can_recycle(shapes, p, turn_p, q, turn_q, distance, math.inf, c)
             last += 1
         if not fits:

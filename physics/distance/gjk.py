@@ -190,10 +190,8 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
         return TOUCHING
-    nx = state_inout[NORMAL_X]
-    ny = state_inout[NORMAL_Y]
-    i = support(a, a_count, nx, ny)
-    j = support(b, b_count, -nx, -ny)
+    nx, ny = state_inout[NORMAL_X], state_inout[NORMAL_Y]
+    i, j = support(a, a_count, nx, ny), support(b, b_count, -nx, -ny)
     count = int(state_inout[COUNT])
     for k in range(count):
         if int(simplex_inout[k, 0]) == i and int(simplex_inout[k, 1]) == j:
@@ -304,10 +302,8 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
     The number is 1 if the difference is a point.
     """
     for axis in range(2):
-        x = 1.0 - axis
-        y = float(axis)
-        i = support(a, a_count, x, y)
-        j = support(b, b_count, -x, -y)
+        x, y = 1.0 - axis, float(axis)
+        i, j = support(a, a_count, x, y), support(b, b_count, -x, -y)
         k = support(a, a_count, -x, -y)
         m = support(b, b_count, x, y)
         write_polytope_corner(i, j, 0, polytope_out)
@@ -340,8 +336,7 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
     n = k + 1 if k + 1 < count else 0
     nx = polytope_inout[k, 2]
     ny = polytope_inout[k, 3]
-    i = support(a, a_count, nx, ny)
-    j = support(b, b_count, -nx, -ny)
+    i, j = support(a, a_count, nx, ny), support(b, b_count, -nx, -ny)
     # Tested at both ends: a corner collinear with the edge is no progress.
     for end in range(2):
         at = k if end == 0 else n
@@ -443,8 +438,7 @@ def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
     · parts of B).
     """
     best = math.inf
-    best_i = -1
-    best_j = -1
+    best_i, best_j = -1, -1
     totals_out[0] = 0.0
     totals_out[1] = 0.0
     for i in range(len(a.counts)):
@@ -460,8 +454,7 @@ def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
             totals_out[1] += workspace.state[CAPPED]
             if separation < best:
                 best = separation
-                best_i = i
-                best_j = j
+                best_i, best_j = i, j
     if best_i >= 0 and len(a.counts) * len(b.counts) > 1:
         copy_part(a.corners, best_i, a.counts[best_i], corners_a_out)
         copy_part(b.corners, best_j, b.counts[best_j], corners_b_out)

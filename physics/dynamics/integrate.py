@@ -50,14 +50,11 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
                 b.vy += drag_rate * dt * wind_y
             if drag:
                 keep = 1.0 / (1.0 + drag_rate * dt)
-                b.vx = keep * b.vx
-                b.vy = keep * b.vy
+                b.vx, b.vy = keep * b.vx, keep * b.vy
                 if rotation:
                     b.angular_velocity = keep * b.angular_velocity
             b.forced = b.force_x != 0.0 or b.force_y != 0.0
-            b.force_x = 0.0
-            b.force_y = 0.0
-            b.torque = 0.0
+            b.force_x, b.force_y, b.torque = 0.0, 0.0, 0.0
 
     return integrate_velocities
 
@@ -70,8 +67,7 @@ def make_position_pass(rotation: bool) -> Callable:
         """Move bodies by the free fraction of their motion in dt [s], and keep their previous poses. O(rows)."""
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
-            b.previous_x = b.x
-            b.previous_y = b.y
+            b.previous_x, b.previous_y = b.x, b.y
             b.previous_angle = b.angle
             if b.kind == STATIC or b.quarantined:
                 continue
@@ -79,12 +75,10 @@ def make_position_pass(rotation: bool) -> Callable:
             h = dt * b.fraction
             if rotation and b.angular_velocity != 0.0:
                 u, v = rotate(b.local_center_x, b.local_center_y, *rotation_of(b.angle))
-                center_x = b.x + u + h * b.vx
-                center_y = b.y + v + h * b.vy
+                center_x, center_y = b.x + u + h * b.vx, b.y + v + h * b.vy
                 b.angle += h * b.angular_velocity
                 u, v = rotate(b.local_center_x, b.local_center_y, *rotation_of(b.angle))
-                b.x = center_x - u
-                b.y = center_y - v
+                b.x, b.y = center_x - u, center_y - v
             else:
                 b.x += h * b.vx
                 b.y += h * b.vy
@@ -96,12 +90,10 @@ def make_position_pass(rotation: bool) -> Callable:
 def put_center(u, v, body_inout):
     """Write the world centre of mass [px] of a BODY row, offset u, v from its origin, and its last finite pose."""
     b = body_inout
-    b.center_x = b.x + u
-    b.center_y = b.y + v
+    b.center_x, b.center_y = b.x + u, b.y + v
     b.has_current_contacts = False
     if abs(b.x) < math.inf and abs(b.y) < math.inf and abs(b.angle) < math.inf:
-        b.settled_x = b.x
-        b.settled_y = b.y
+        b.settled_x, b.settled_y = b.x, b.y
         b.settled_angle = b.angle
 
 
@@ -109,11 +101,9 @@ def put_center(u, v, body_inout):
 def refresh_center(body_inout):
     """Write the world centre of mass [px] of a BODY row at its present pose; NaN if the angle is not finite."""
     b = body_inout
-    u = b.local_center_x
-    v = b.local_center_y
+    u, v = b.local_center_x, b.local_center_y
     if not abs(b.angle) < math.inf:  # its cosine would be NaN in compiled code, and an error in plain code
-        u = math.nan
-        v = math.nan
+        u, v = math.nan, math.nan
     elif b.angle != 0.0:
         u, v = rotate(u, v, *rotation_of(b.angle))
     put_center(u, v, b)
@@ -153,14 +143,10 @@ def integrate_velocities(state: StepState) -> None:
     "integrate_positions",
     reads=("effects", "awake", "bodies", "shapes", "library", "dt"),
     writes=(
-        "work",
-        "library",
-        *(f"bodies.{name}" for name in ("x", "y", "angle", "previous_x", "previous_y", "previous_angle")),
-        *(f"bodies.{name}" for name in ("center_x", "center_y", "has_current_contacts")),
-        *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-        *PLACED,
+        "work", "library", *PLACED, *(f"bodies.{name}" for name in ("center_x", "center_y", "has_current_contacts")),
+        *(f"bodies.{state}{name}" for state in ("", "previous_", "settled_") for name in ("x", "y", "angle")),
     ),
-)
+)  # fmt: skip
 def integrate_positions(state: StepState) -> None:
     """Integrate poses from velocities, up to the free fraction; update boxes and rasters."""
     rows, bodies = state.awake.bodies, state.bodies
@@ -216,15 +202,10 @@ WRITES = (
 def disable_body(body_inout):
     """Quarantine a body at its present pose: at rest and without forces."""
     b = body_inout
-    b.previous_x = b.x
-    b.previous_y = b.y
+    b.previous_x, b.previous_y = b.x, b.y
     b.previous_angle = b.angle
-    b.vx = 0.0
-    b.vy = 0.0
-    b.angular_velocity = 0.0
-    b.force_x = 0.0
-    b.force_y = 0.0
-    b.torque = 0.0
+    b.vx, b.vy, b.angular_velocity = 0.0, 0.0, 0.0
+    b.force_x, b.force_y, b.torque = 0.0, 0.0, 0.0
     b.awake = False
     b.quarantined = True
 
@@ -306,8 +287,7 @@ def take_broken_bodies(rows, course, bodies_inout, broken_out):
         there = is_within_limits(b)
         if not there or not is_finite_in_step(b, course.gravity_x, course.gravity_y, course.speed_limit, course.dt):
             if not there:
-                b.x = b.settled_x
-                b.y = b.settled_y
+                b.x, b.y = b.settled_x, b.settled_y
                 b.angle = b.settled_angle
             found = take_body(rows[k], NOT_FINITE, found, bodies_inout, broken_out)
     return found

@@ -336,8 +336,7 @@ def join_groups(bodies, contacts, friction, groups_inout):
         c = contacts[i]
         if c.sensor or not is_loaded(c):
             continue
-        a = is_free(bodies[c.body_row_a])
-        b = is_free(bodies[c.body_row_b])
+        a, b = is_free(bodies[c.body_row_a]), is_free(bodies[c.body_row_b])
         if c.count == 2 and min(c.normal_force_1, c.normal_force_2) > 0.0:
             if a:
                 g.faces[c.body_row_a] = True
@@ -446,8 +445,7 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
             continue
         way = 0.0 if g.faces[i] else abs(b.angular_velocity) * b.extent * fall.velocity_reach
         if not g.blocked[root]:
-            vx = b.vx
-            vy = b.vy
+            vx, vy = b.vx, b.vy
             away = vx * g.nx[root] + vy * g.ny[root]
             # Pressed on its surface, a body leaves it by no more than the height of this throw.
             if away * away < 2.0 * g.press[root] * fall.slop:

@@ -200,8 +200,7 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
             n = hull_at(geometry, shapes, rows[k], 0.0, 0.0, b.angle, r.local_b)
             place_mover(count, workspace)
             fraction = advance(count, radius, n, rounding(shapes, rows[k]), workspace.advance)
-            nx = -r.gap.gap[NX]
-            ny = -r.gap.gap[NY]
+            nx, ny = -r.gap.gap[NX], -r.gap.gap[NY]
         work_inout[GJK_ITERATIONS] += int(r.totals[0])
         work_inout[CAP_HITS] += int(r.totals[1])
         if fraction < MISS:

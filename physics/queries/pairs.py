@@ -307,12 +307,10 @@ def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out,
     corners_a_out, corners_b_out (16, 2): scratch. Return (separation [px], greater size of the two [px], rounds of GJK
     and EPA).
     """
-    a = bodies[0]
-    b = bodies[1]
+    a, b = bodies[0], bodies[1]
     count_a = hull_at(geometry, shapes, 0, a.x - x, a.y - y, a.angle, corners_a_out)
     count_b = hull_at(geometry, shapes, 1, b.x - x, b.y - y, b.angle, corners_b_out)
-    radius_a = rounding(shapes, 0)
-    radius_b = rounding(shapes, 1)
+    radius_a, radius_b = rounding(shapes, 0), rounding(shapes, 1)
     separation = shape_separation(corners_a_out, count_a, radius_a, corners_b_out, count_b, radius_b, (0, 0), workspace)
     size = max(size_of(corners_a_out, count_a, radius_a), size_of(corners_b_out, count_b, radius_b))
     return separation, size, workspace.state[ROUNDS]

@@ -23,8 +23,7 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
     It follows from the sides of the ray on which the ends lie, so no ray passes between two lines that share an end. A
     ray along the line hits its nearer end; a start on the line is hit at 0.
     """
-    side_a = dx * (ay - y) - dy * (ax - x)
-    side_b = dx * (by - y) - dy * (bx - x)
+    side_a, side_b = dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)
     if (side_a > 0.0 and side_b > 0.0) or (side_a < 0.0 and side_b < 0.0):
         return MISS
     across = side_b - side_a
@@ -34,8 +33,7 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
     square = dx * dx + dy * dy
     if square == 0.0:
         return MISS
-    to_a = (dx * (ax - x) + dy * (ay - y)) / square
-    to_b = (dx * (bx - x) + dy * (by - y)) / square
+    to_a, to_b = (dx * (ax - x) + dy * (ay - y)) / square, (dx * (bx - x) + dy * (by - y)) / square
     near = min(to_a, to_b)
     far = max(to_a, to_b)
     if far < 0.0 or near > 1.0:
@@ -83,8 +81,7 @@ def cast_on_hull(corners, count, radius, x, y, dx, dy):
     if radius == 0.0:
         return cast_on_polygon(corners, count, ALL_EDGES, x, y, dx, dy)
     best = MISS
-    best_x = back_x
-    best_y = back_y
+    best_x, best_y = back_x, back_y
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
         nx, ny = edge_normal(corners, count, k)
@@ -101,13 +98,11 @@ def cast_on_hull(corners, count, radius, x, y, dx, dy):
             )
             if fraction < best:
                 best = fraction
-                best_x = nx
-                best_y = ny
+                best_x, best_y = nx, ny
         fraction, nx, ny = sweep_circles(x - corners[k, 0], y - corners[k, 1], dx, dy, radius)
         if fraction < best:
             best = fraction
-            best_x = nx
-            best_y = ny
+            best_x, best_y = nx, ny
     return best, best_x, best_y
 
 
@@ -137,15 +132,13 @@ def cast_on_chain(geometry, chain, body, ray):
 
     A ray of zero length tests whether its point is on the line. O(blocks + links near the ray).
     """
-    cosine = math.cos(body.angle)
-    sine = math.sin(body.angle)
+    cosine, sine = math.cos(body.angle), math.sin(body.angle)
     x, y = rotate(ray[0] - body.x, ray[1] - body.y, cosine, -sine)
     dx, dy = rotate(ray[2], ray[3], cosine, -sine)
     span = geometry.chains[chain]
     point = dx == 0.0 and dy == 0.0
     best = MISS
-    best_x = 0.0
-    best_y = -1.0
+    best_x, best_y = 0.0, -1.0
     for block in range(span.blocks):
         box = geometry.link_blocks[span.first_block + block]
         if not crosses_box(x, y, dx, dy, box.min_x, box.min_y, box.max_x, box.max_y):
@@ -162,8 +155,7 @@ def cast_on_chain(geometry, chain, body, ray):
             fraction = cast_on_line(link.ax, link.ay, link.bx, link.by, x, y, dx, dy)
             if fraction < best:
                 best = fraction
-                best_x = nx
-                best_y = ny
+                best_x, best_y = nx, ny
     best_x, best_y = rotate(best_x, best_y, cosine, sine)
     return best, best_x, best_y
 
@@ -246,8 +238,7 @@ def cast_on_tiles(geometry, grid, ray, corners_inout):
     step_x = 1 if dx > 0.0 else -1
     step_y = 1 if dy > 0.0 else -1
     best = MISS
-    best_x = 0.0
-    best_y = -1.0
+    best_x, best_y = 0.0, -1.0
     while 0 <= column < g.columns and 0 <= row < g.rows:
         # This cell and its neighbours: a border belongs to both sides.
         for j in range(-1, 2):
@@ -255,8 +246,7 @@ def cast_on_tiles(geometry, grid, ray, corners_inout):
                 fraction, nx, ny = cast_on_cell(geometry, grid, row + j, column + i, ray, corners_inout)
                 if fraction < best:
                     best = fraction
-                    best_x = nx
-                    best_y = ny
+                    best_x, best_y = nx, ny
         across = next_border(x, dx, column, size)
         down = next_border(y, dy, row, size)
         # A cell in between may still have a nearer hit.
@@ -309,8 +299,7 @@ def inside_polygon(corners, count, x, y):
 def point_in_tiles(geometry, grid, x, y, corners_inout):
     """Return whether a point, seen from the grid's origin [px], lies in a closed solid tile or slope."""
     g = geometry.grids[grid]
-    column = math.floor(x / g.tile_size)
-    row = math.floor(y / g.tile_size)
+    column, row = math.floor(x / g.tile_size), math.floor(y / g.tile_size)
     # On a border the tile before it contains the point, too.
     first_column = column - 1 if column * g.tile_size == x else column
     first_row = row - 1 if row * g.tile_size == y else row

@@ -30,15 +30,12 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
     cosine, sine = cosine_and_sine(angle, angle)
     first = corners[r.hull]
     min_x, min_y = rotate(first.x, first.y, cosine, sine)
-    max_x = min_x
-    max_y = min_y
+    max_x, max_y = min_x, min_y
     for k in range(r.hull + 1, r.hull + r.hull_count):
         corner = corners[k]
         u, v = rotate(corner.x, corner.y, cosine, sine)
-        min_x = min(min_x, u)
-        max_x = max(max_x, u)
-        min_y = min(min_y, v)
-        max_y = max(max_y, v)
+        min_x, max_x = min(min_x, u), max(max_x, u)
+        min_y, max_y = min(min_y, v), max(max_y, v)
     return x + min_x, y + min_y, x + max_x, y + max_y
 
 
@@ -71,8 +68,7 @@ def box_as_tested(geometry, shape):
     r = geometry.rasters[shape.raster]
     if not shape.snap or r.area == 0:
         return shape.min_x, shape.min_y, shape.max_x, shape.max_y
-    left = float(shape.left)
-    top = float(shape.top)
+    left, top = float(shape.left), float(shape.top)
     return left + r.set_left, top + r.set_top, left + r.set_right, top + r.set_bottom
 
 
@@ -156,8 +152,7 @@ def raster_aabb(geometry, raster, x, y):
     r = geometry.rasters[raster]
     if r.area == 0:
         return x, y, x, y
-    left = float(snapped(x, r.origin_x))
-    top = float(snapped(y, r.origin_y))
+    left, top = float(snapped(x, r.origin_x)), float(snapped(y, r.origin_y))
     return left + r.set_left, top + r.set_top, left + r.set_right, top + r.set_bottom
 
 
@@ -166,8 +161,7 @@ def upright_aabb(raster, x, y):
     """Return the AABB [px] of the solid pixels of an unrotated mask at its exact pose: as raster_aabb, unrounded."""
     if raster.area == 0:
         return x, y, x, y
-    left = x - raster.origin_x
-    top = y - raster.origin_y
+    left, top = x - raster.origin_x, y - raster.origin_y
     return left + raster.set_left, top + raster.set_top, left + raster.set_right, top + raster.set_bottom
 
 
@@ -210,15 +204,12 @@ def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
     span = polygons[polygon]
     first = table[span.offset]
     min_x, min_y = rotate(first.x, first.y, cosine, sine)
-    max_x = min_x
-    max_y = min_y
+    max_x, max_y = min_x, min_y
     for k in range(1, span.count):
         corner = table[span.offset + k]
         u, v = rotate(corner.x, corner.y, cosine, sine)
-        min_x = min(min_x, u)
-        max_x = max(max_x, u)
-        min_y = min(min_y, v)
-        max_y = max(max_y, v)
+        min_x, max_x = min(min_x, u), max(max_x, u)
+        min_y, max_y = min(min_y, v), max(max_y, v)
     return x + min_x - radius, y + min_y - radius, x + max_x + radius, y + max_y + radius
 
 
@@ -238,26 +229,20 @@ def rounding(shapes, row):
 def chain_aabb(geometry, chain, cosine, sine):
     """Return the AABB [px] of a chain's links rotated about its body's origin. O(links); at angle 0 O(blocks)."""
     span = geometry.chains[chain]
-    min_x = math.inf
-    min_y = math.inf
-    max_x = -math.inf
-    max_y = -math.inf
+    min_x, min_y = math.inf, math.inf
+    max_x, max_y = -math.inf, -math.inf
     if sine == 0.0 and cosine == 1.0:
         for k in range(span.first_block, span.first_block + span.blocks):
             block = geometry.link_blocks[k]
-            min_x = min(min_x, block.min_x)
-            min_y = min(min_y, block.min_y)
-            max_x = max(max_x, block.max_x)
-            max_y = max(max_y, block.max_y)
+            min_x, min_y = min(min_x, block.min_x), min(min_y, block.min_y)
+            max_x, max_y = max(max_x, block.max_x), max(max_y, block.max_y)
         return min_x, min_y, max_x, max_y
     for k in range(span.offset, span.offset + span.count):
         link = geometry.links[k]
         for end in range(2):
             u, v = rotate(link.ax if end == 0 else link.bx, link.ay if end == 0 else link.by, cosine, sine)
-            min_x = min(min_x, u)
-            min_y = min(min_y, v)
-            max_x = max(max_x, u)
-            max_y = max(max_y, v)
+            min_x, min_y = min(min_x, u), min(min_y, v)
+            max_x, max_y = max(max_x, u), max(max_y, v)
     return min_x, min_y, max_x, max_y
 
 
@@ -368,10 +353,8 @@ def place_mask(rasters, raster_of, body, shape_inout):
     if r.area == 0:
         s.min_x, s.min_y, s.max_x, s.max_y = body.x, body.y, body.x, body.y
         return
-    s.min_x = float(s.left + r.set_left)
-    s.min_y = float(s.top + r.set_top)
-    s.max_x = float(s.left + r.set_right)
-    s.max_y = float(s.top + r.set_bottom)
+    s.min_x, s.min_y = float(s.left + r.set_left), float(s.top + r.set_top)
+    s.max_x, s.max_y = float(s.left + r.set_right), float(s.top + r.set_bottom)
 
 
 @kernel
@@ -411,10 +394,8 @@ def refresh_boxes(rows, geometry, bodies, shapes_inout):
                 )
         elif s.kind == CIRCLE:
             x, y = rotate(s.local_x, s.local_y, *rotation_of(b.angle))
-            s.min_x = b.x + x - s.radius
-            s.min_y = b.y + y - s.radius
-            s.max_x = b.x + x + s.radius
-            s.max_y = b.y + y + s.radius
+            s.min_x, s.min_y = b.x + x - s.radius, b.y + y - s.radius
+            s.max_x, s.max_y = b.x + x + s.radius, b.y + y + s.radius
         elif s.kind == POLYGON:
             s.min_x, s.min_y, s.max_x, s.max_y = polygon_aabb(
                 polygons, table, s.geometry, s.radius, b.x, b.y, *rotation_of(b.angle)

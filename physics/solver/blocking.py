@@ -17,6 +17,7 @@ from physics.dynamics.integrate import place_shapes
 from physics.islands.sleep import in_order
 from physics.jit import kernel, subkernel
 from physics.math2d import rotate
+from physics.shapes.placement import PLACED
 from physics.solver.projection import PushSet
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.step_state import SOLVER_ROWS, StepState, stage
@@ -49,12 +50,10 @@ def stay_behind(bodies_inout, manifolds_inout, work_inout):
         for side in range(2):
             b = bodies_inout[m.body_row_a if side == 0 else m.body_row_b]
             if b.kind == DYNAMIC and (b.x != b.previous_x or b.y != b.previous_y or b.angle != b.previous_angle):
-                b.x = b.previous_x
-                b.y = b.previous_y
+                b.x, b.y = b.previous_x, b.previous_y
                 b.angle = b.previous_angle
                 u, v = rotate(b.local_center_x, b.local_center_y, math.cos(b.angle), math.sin(b.angle))
-                b.center_x = b.x + u
-                b.center_y = b.y + v
+                b.center_x, b.center_y = b.x + u, b.y + v
                 m.swept = True
                 put_back += 1
     return put_back
@@ -81,8 +80,7 @@ def stop_approach(bodies_inout, manifolds_inout):
         m = manifolds_inout[i]
         if not m.swept or m.sensor:
             continue
-        a = bodies_inout[m.body_row_a]
-        b = bodies_inout[m.body_row_b]
+        a, b = bodies_inout[m.body_row_a], bodies_inout[m.body_row_b]
         m.normal_impulse_1 = stop_at_point(m.x_1, m.y_1, m.normal_x, m.normal_y, a, b)
         if m.count == 2:
             m.normal_impulse_2 = stop_at_point(m.x_2, m.y_2, m.normal_x, m.normal_y, a, b)
@@ -135,18 +133,14 @@ def solve(state: StepState, contacts: PushSet) -> float:
 @stage(
     "blocking",
     reads=(
-        *("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "contact_rows"),
+        "effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes", "library", "pairs", "contact_rows",
         "workspace",
     ),
     writes=(
-        "contact_rows",
-        "library",
-        "work",
-        "workspace",
+        "contact_rows", "library", "work", "workspace", *PLACED,
         *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "vx", "vy", "fraction")),
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
-)
+)  # fmt: skip
 def blocking(state: StepState) -> None:
     """Keep each body that would overlap at its old pose."""
     solve(state, state.workspace.contacts)

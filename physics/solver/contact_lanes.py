@@ -138,10 +138,8 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
     deepest = 0.0
     for i in range(len(contacts)):
         c = contacts[i]
-        row_a = motion_of[c.body_row_a]
-        row_b = motion_of[c.body_row_b]
-        a = motions[row_a]
-        b = motions[row_b]
+        row_a, row_b = motion_of[c.body_row_a], motion_of[c.body_row_b]
+        a, b = motions[row_a], motions[row_b]
         if (
             c.sensor
             or a.inverse_mass + b.inverse_mass == 0.0
@@ -606,8 +604,7 @@ def store_lanes(blocks, count, inverse_h, share, contacts_inout):
             if i < 0:
                 continue
             c = contacts_inout[i]
-            c.normal_impulse_1 = s[at.TOTAL_1 + lane]
-            c.normal_impulse_2 = s[at.TOTAL_2 + lane]
+            c.normal_impulse_1, c.normal_impulse_2 = s[at.TOTAL_1 + lane], s[at.TOTAL_2 + lane]
             c.tangent_impulse_1 = s[at.TANGENT_TOTAL_1 + lane]
             c.tangent_impulse_2 = s[at.TANGENT_TOTAL_2 + lane]
             c.normal_force_1 = share * (inverse_h * s[at.NORMAL_1 + lane]) + rest * c.normal_force_1

@@ -31,8 +31,7 @@ SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 @inlined
 def work_of_surfaces(c, lane, a, b):
     """Return the work of the impulses of a lane by surfaces that move: kinematic bodies and conveyors."""
-    nx = c[at.NX + lane]
-    ny = c[at.NY + lane]
+    nx, ny = c[at.NX + lane], c[at.NY + lane]
     work = abs(c[at.SURFACE + lane] * (c[at.TANGENT_TOTAL_1 + lane] + c[at.TANGENT_TOTAL_2 + lane]))
     for side in range(2):
         o = a if side == 0 else b
@@ -48,8 +47,7 @@ def work_of_surfaces(c, lane, a, b):
             else:
                 x = c[(at.BX_1 if point == 0 else at.BX_2) + lane]
                 y = c[(at.BY_1 if point == 0 else at.BY_2) + lane]
-            vx = o.vx - o.angular_velocity * y
-            vy = o.vy + o.angular_velocity * x
+            vx, vy = o.vx - o.angular_velocity * y, o.vy + o.angular_velocity * x
             work -= sign * ((normal * nx - tangent * ny) * vx + (normal * ny + tangent * nx) * vy)
     return work
 
@@ -62,8 +60,7 @@ def work_of_lift(c, lane, a, b, context):
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
     first = along + b.turn * c[at.B_1 + lane] - a.turn * c[at.A_1 + lane]
     second = along + b.turn * c[at.B_2 + lane] - a.turn * c[at.A_2 + lane]
-    first = min(max(first, 0.0), context.slop)
-    second = min(max(second, 0.0), context.slop)
+    first, second = min(max(first, 0.0), context.slop), min(max(second, 0.0), context.slop)
     return (c[at.TOTAL_1 + lane] * first + c[at.TOTAL_2 + lane] * second) * context.inverse_dt
 
 
@@ -78,8 +75,7 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
     if motion.inverse_mass == 0.0:
         return
     if e.normal_x == 0.0 and e.normal_y == 0.0:
-        e.normal_x = nx
-        e.normal_y = ny
+        e.normal_x, e.normal_y = nx, ny
     e.in_all = e.in_all or rubs or abs(nx * e.normal_y - ny * e.normal_x) > PARALLEL
 
 
@@ -107,8 +103,7 @@ def scale_motion(root, balance, motion_inout):
     if not root.anchored:
         vx = root.vx - root.spin * (balance.y + m.dy - root.middle_y)
         vy = root.vy + root.spin * (balance.x + m.dx - root.middle_x)
-        m.vx = vx + root.scale * (m.vx - vx)
-        m.vy = vy + root.scale * (m.vy - vy)
+        m.vx, m.vy = vx + root.scale * (m.vx - vx), vy + root.scale * (m.vy - vy)
         if m.inverse_inertia > 0.0:
             m.angular_velocity = root.spin + root.scale * (m.angular_velocity - root.spin)
         return
@@ -130,11 +125,9 @@ def scale_motion(root, balance, motion_inout):
 def note_face(c, lane, a, b, root_inout):
     """Note whether a lane is parallel or perpendicular to the others of its root, and the speed of a kinematic side."""
     e = root_inout
-    nx = c[at.NX + lane]
-    ny = c[at.NY + lane]
+    nx, ny = c[at.NX + lane], c[at.NY + lane]
     if e.face_x == 0.0 and e.face_y == 0.0:
-        e.face_x = nx
-        e.face_y = ny
+        e.face_x, e.face_y = nx, ny
     least = min(abs(nx * e.face_x + ny * e.face_y), abs(nx * e.face_y - ny * e.face_x))
     e.oblique = e.oblique or least > FACES or c[at.RESTITUTION + lane] > 0.0
     for side in range(2):
@@ -195,23 +188,14 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
 def reset_balance(balance_out):
     """Write 0 to the fields that are summed or noted at a root."""
     e = balance_out
-    e.lift = 0.0
-    e.surfaces = 0.0
-    e.face_x = 0.0
-    e.face_y = 0.0
-    e.fastest = 0.0
+    e.lift, e.surfaces = 0.0, 0.0
+    e.face_x, e.face_y, e.fastest = 0.0, 0.0, 0.0
     e.oblique = False
     e.pushed = False
-    e.mass = 0.0
-    e.load = 0.0
-    e.vx = 0.0
-    e.vy = 0.0
-    e.middle_x = 0.0
-    e.middle_y = 0.0
-    e.spin = 0.0
-    e.inertia = 0.0
-    e.normal_x = 0.0
-    e.normal_y = 0.0
+    e.mass, e.load = 0.0, 0.0
+    e.vx, e.vy = 0.0, 0.0
+    e.middle_x, e.middle_y, e.spin = 0.0, 0.0, 0.0
+    e.inertia, e.normal_x, e.normal_y = 0.0, 0.0, 0.0
     e.in_all = False
     e.anchored = False
 
@@ -248,8 +232,7 @@ def add_momentum(motion, balance, root_inout):
     m = motion
     e = root_inout
     mass = 1.0 / m.inverse_mass if m.inverse_mass > 0.0 else 0.0
-    x = balance.x + m.dx - e.x
-    y = balance.y + m.dy - e.y
+    x, y = balance.x + m.dx - e.x, balance.y + m.dy - e.y
     e.mass += mass
     e.vx += mass * m.vx
     e.vy += mass * m.vy
@@ -290,8 +273,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
                 continue
             row_a = blocks.motion_a[block, lane]
             row_b = blocks.motion_b[block, lane]
-            a = motions[row_a]
-            b = motions[row_b]
+            a, b = motions[row_a], motions[row_b]
             root = balance_inout[parents[row_a if links_islands[row_a] else row_b]]
             root.surfaces += work_of_surfaces(c, lane, a, b)
             root.lift += work_of_lift(c, lane, a, b, context)
@@ -433,13 +415,11 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
                 continue
             root.face_speed = max(root.face_speed, edges.face_speeds[i])
             if edges.face_speeds[i] > 0.0 and root.push_x == 0.0 and root.push_y == 0.0:
-                root.push_x = x
-                root.push_y = y
+                root.push_x, root.push_y = x, y
             if edges.overlaps[i] > slop:
                 root.face_depth = max(root.face_depth, edges.overlaps[i])
                 if root.face_x == 0.0 and root.face_y == 0.0:
-                    root.face_x = x
-                    root.face_y = y
+                    root.face_x, root.face_y = x, y
 
 
 @subkernel

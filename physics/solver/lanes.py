@@ -269,11 +269,9 @@ def gather_poses(a, b, lane, s_out):
 @inlined
 def scatter_velocities(s, lane, a_out, b_out):
     """Write the velocities of a lane back to its MOTION rows."""
-    a_out.vx = s[VX_A + lane]
-    a_out.vy = s[VY_A + lane]
+    a_out.vx, a_out.vy = s[VX_A + lane], s[VY_A + lane]
     a_out.angular_velocity = s[W_A + lane]
-    b_out.vx = s[VX_B + lane]
-    b_out.vy = s[VY_B + lane]
+    b_out.vx, b_out.vy = s[VX_B + lane], s[VY_B + lane]
     b_out.angular_velocity = s[W_B + lane]
 
 
@@ -285,12 +283,9 @@ def measure_gaps(lane, s, c_inout):
     here, and stay fixed where speeds are computed.
     """
     c = c_inout
-    nx = c[NX + lane]
-    ny = c[NY + lane]
-    cos_a = s[COS_A + lane]
-    sin_a = s[SIN_A + lane]
-    cos_b = s[COS_B + lane]
-    sin_b = s[SIN_B + lane]
+    nx, ny = c[NX + lane], c[NY + lane]
+    cos_a, sin_a = s[COS_A + lane], s[SIN_A + lane]
+    cos_b, sin_b = s[COS_B + lane], s[SIN_B + lane]
     core = c[RADIUS_A + lane] * cos_a + c[RADIUS_B + lane] * cos_b
     gap = core + (s[DX_B + lane] - s[DX_A + lane]) * nx + (s[DY_B + lane] - s[DY_A + lane]) * ny
     x = (cos_b * c[BX_1 + lane] - sin_b * c[BY_1 + lane]) - (cos_a * c[AX_1 + lane] - sin_a * c[AY_1 + lane])
@@ -309,8 +304,7 @@ def arms_of(x, y, radius, cosine, sine, nx, ny):
     """
     x -= radius * nx
     y -= radius * ny
-    u = cosine * x - sine * y
-    v = sine * x + cosine * y
+    u, v = cosine * x - sine * y, sine * x + cosine * y
     return u * ny - v * nx, u * nx + v * ny + radius
 
 
@@ -321,8 +315,7 @@ def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
     A point stays at its place on the core of a shape; the radius from there to the surface does not turn.
     """
     c = c_inout
-    nx = c[NX + lane]
-    ny = c[NY + lane]
+    nx, ny = c[NX + lane], c[NY + lane]
     ra = c[RADIUS_A + lane]
     rb = -c[RADIUS_B + lane]
     c[A_1 + lane], c[TANGENT_A_1 + lane] = arms_of(c[AX_1 + lane], c[AY_1 + lane], ra, cos_a, sin_a, nx, ny)
@@ -336,13 +329,10 @@ def write_masses(lane, c_inout):
     """Write the effective masses at the present moment arms, and the factors of the block solver."""
     c = c_inout
     masses = c[IM_A + lane] + c[IM_B + lane]
-    ii_a = c[II_A + lane]
-    ii_b = c[II_B + lane]
+    ii_a, ii_b = c[II_A + lane], c[II_B + lane]
     two = c[MASS_2 + lane] > 0.0
-    a_1 = c[A_1 + lane]
-    b_1 = c[B_1 + lane]
-    a_2 = c[A_2 + lane]
-    b_2 = c[B_2 + lane]
+    a_1, b_1 = c[A_1 + lane], c[B_1 + lane]
+    a_2, b_2 = c[A_2 + lane], c[B_2 + lane]
     k_1 = masses + ii_a * a_1 * a_1 + ii_b * b_1 * b_1
     k_2 = masses + ii_a * a_2 * a_2 + ii_b * b_2 * b_2
     k_12 = masses + ii_a * a_1 * a_2 + ii_b * b_1 * b_2
@@ -351,10 +341,8 @@ def write_masses(lane, c_inout):
     c[OFF_DIAGONAL_1 + lane] = c[MASS_1 + lane] * k_12 if two else 0.0
     c[OFF_DIAGONAL_2 + lane] = c[MASS_2 + lane] * k_12 if two else 0.0
     c[BLOCK_FACTOR + lane] = block_factor(c[OFF_DIAGONAL_1 + lane], c[OFF_DIAGONAL_2 + lane]) if two else 0.0
-    a_1 = c[TANGENT_A_1 + lane]
-    b_1 = c[TANGENT_B_1 + lane]
-    a_2 = c[TANGENT_A_2 + lane]
-    b_2 = c[TANGENT_B_2 + lane]
+    a_1, b_1 = c[TANGENT_A_1 + lane], c[TANGENT_B_1 + lane]
+    a_2, b_2 = c[TANGENT_A_2 + lane], c[TANGENT_B_2 + lane]
     k_1 = masses + ii_a * a_1 * a_1 + ii_b * b_1 * b_1
     k_2 = masses + ii_a * a_2 * a_2 + ii_b * b_2 * b_2
     c[TANGENT_MASS_1 + lane] = 1.0 / k_1 if k_1 > 0.0 else 0.0
@@ -381,10 +369,8 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
         vx, vy [px/s]: velocity of B's centre relative to A's. wa, wb [1/s]: angular velocities.
         """
         c = c_inout
-        nx = c[NX + lane]
-        ny = c[NY + lane]
-        a = c[a_line + lane]
-        b = c[b_line + lane]
+        nx, ny = c[NX + lane], c[NY + lane]
+        a, b = c[a_line + lane], c[b_line + lane]
         old = c[impulse_line + lane]
         speed = vy * nx - vx * ny + (wb * b - wa * a) - c[SURFACE + lane]
         impulse = clamp(old - c[mass_line + lane] * speed, c[FRICTION + lane] * normal_impulse)
@@ -425,8 +411,7 @@ def relative_speed(c, lane, second, a, b):
 @subkernel
 def push_pair(c, lane, second, impulse, a_inout, b_inout):
     """Apply an impulse along the normal at a point of a lane, to B forwards and to A backwards."""
-    x = impulse * c[NX + lane]
-    y = impulse * c[NY + lane]
+    x, y = impulse * c[NX + lane], impulse * c[NY + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
     a_inout.angular_velocity -= a_inout.inverse_inertia * impulse * c[(A_2 if second else A_1) + lane]
@@ -446,8 +431,7 @@ def tangential_speed(c, lane, second, a, b):
 @subkernel
 def push_along(c, lane, second, impulse, a_inout, b_inout):
     """Apply an impulse along the tangent at a point of a lane, to B forwards and to A backwards."""
-    x = -impulse * c[NY + lane]
-    y = impulse * c[NX + lane]
+    x, y = -impulse * c[NY + lane], impulse * c[NX + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
     a_inout.angular_velocity -= a_inout.inverse_inertia * impulse * c[(TANGENT_A_2 if second else TANGENT_A_1) + lane]
@@ -513,8 +497,7 @@ def sticks(a, b, contact, distance):
     never sticks, because it has to leave its overlap.
     """
     c = contact
-    x = b.center_x - a.center_x - c.apart_x
-    y = b.center_y - a.center_y - c.apart_y
+    x, y = b.center_x - a.center_x - c.apart_x, b.center_y - a.center_y - c.apart_y
     return (
         c.count == 2
         and c.tangential_offset == 0.0
@@ -537,8 +520,7 @@ GRIPPING = 0.99  # share of the limit of friction up to which a contact does not
 def tangential_drift(a, b, contact):
     """Return how far [px] B's side has moved along a sticking contact since it was found. a, b: BODY rows."""
     c = contact
-    x = b.center_x - a.center_x - c.apart_x
-    y = b.center_y - a.center_y - c.apart_y
+    x, y = b.center_x - a.center_x - c.apart_x, b.center_y - a.center_y - c.apart_y
     on_a = c.held_ax_1 * c.held_nx + c.held_ay_1 * c.held_ny
     on_b = on_a - (c.apart_x * c.held_nx + c.apart_y * c.held_ny)
     turned = (b.angle - c.angle_b) * on_b - (a.angle - c.angle_a) * on_a
@@ -649,19 +631,16 @@ def make_write_point(second: bool) -> Callable:
         """Write point, separation and the cached impulses for a substep of h [s]. p, q: BODY rows of the sides."""
         m = contact
         c = c_out
-        nx = c[NX + lane]
-        ny = c[NY + lane]
+        nx, ny = c[NX + lane], c[NY + lane]
         x = m.x_2 if second else m.x_1
         y = m.y_2 if second else m.y_1
-        ax = x - p.center_x
-        ay = y - p.center_y
+        ax, ay = x - p.center_x, y - p.center_y
         bx = x - q.center_x + m.tangential_offset * ny  # the present position of B's point
         by = y - q.center_y - m.tangential_offset * nx
         if sticking:
             ax = m.held_ax_2 if second else m.held_ax_1
             ay = m.held_ay_2 if second else m.held_ay_1
-            bx = ax - m.apart_x
-            by = ay - m.apart_y
+            bx, by = ax - m.apart_x, ay - m.apart_y
         separation = m.separation_2 if second else m.separation_1
         base = separation - ((bx - ax) * nx + (by - ay) * ny) - (m.radius_a + m.radius_b)
         c[ax_line + lane] = ax
@@ -724,10 +703,8 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c = blocks_out.lines[block * SIZE : (block + 1) * SIZE]
             m = contacts_inout[row]
             m.color = plan.colors[edge]
-            a = motions[row_a]
-            b = motions[row_b]
-            p = bodies[m.body_row_a]
-            q = bodies[m.body_row_b]
+            a, b = motions[row_a], motions[row_b]
+            p, q = bodies[m.body_row_a], bodies[m.body_row_b]
             sticking = sticks(p, q, m, context.limits.sticking)
             c[NX + lane] = m.held_nx if sticking else m.normal_x
             c[NY + lane] = m.held_ny if sticking else m.normal_y

@@ -37,19 +37,12 @@ def kinetic_energy(motion):
 def reset_motion(motion_out):
     """Write the fields with which every body starts a step: no motion, no mass and no contact yet."""
     m = motion_out
-    m.pseudo_vx = 0.0
-    m.pseudo_vy = 0.0
-    m.pseudo_w = 0.0
-    m.dx = 0.0
-    m.dy = 0.0
+    m.pseudo_vx, m.pseudo_vy, m.pseudo_w = 0.0, 0.0, 0.0
+    m.dx, m.dy = 0.0, 0.0
     m.cosine = 1.0
-    m.sine = 0.0
-    m.turn = 0.0
-    m.acceleration_x = 0.0
-    m.acceleration_y = 0.0
-    m.angular_acceleration = 0.0
-    m.inverse_mass = 0.0
-    m.inverse_inertia = 0.0
+    m.sine, m.turn = 0.0, 0.0
+    m.acceleration_x, m.acceleration_y, m.angular_acceleration = 0.0, 0.0, 0.0
+    m.inverse_mass, m.inverse_inertia = 0.0, 0.0
     m.in_contact = False
     m.is_character = False
     m.estimate = 0.0
@@ -63,13 +56,9 @@ def write_fixed(motions_out, lists_out):
     """Write row 0, which no impulse moves."""
     m = motions_out[0]
     reset_motion(m)
-    m.vx = 0.0
-    m.vy = 0.0
-    m.angular_velocity = 0.0
-    m.free_vx = 0.0
-    m.free_vy = 0.0
-    m.free_w = 0.0
-    m.cooldown = 0.0
+    m.vx, m.vy, m.angular_velocity = 0.0, 0.0, 0.0
+    m.free_vx, m.free_vy = 0.0, 0.0
+    m.free_w, m.cooldown = 0.0, 0.0
     m.substeps = 0
     m.moves = False
     m.is_dynamic = False
@@ -115,8 +104,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             b = bodies[rows[k]]
             lists_out.motion_of[rows[k]] = k + 1
             m = motions_out[k + 1]
-            m.vx = b.vx
-            m.vy = b.vy
+            m.vx, m.vy = b.vx, b.vy
             m.angular_velocity = b.angular_velocity if rotation else 0.0
             m.free_vx = m.start_vx = m.vx
             m.free_vy = m.start_vy = m.vy
@@ -129,8 +117,7 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
             e = lists_out.balance[k + 1]
             e.reserve = b.reserve if 0.0 <= b.reserve < math.inf else 0.0
             e.before = 0.0
-            e.x = b.center_x
-            e.y = b.center_y
+            e.x, e.y = b.center_x, b.center_y
             lists_out.links_islands[k + 1] = m.is_dynamic
             lists_out.rank[k + 1] = STATIC_RANK if not m.moves else (KINEMATIC_RANK if b.kind == KINEMATIC else 0)
             lists_out.has_finite_mass[k + 1] = m.is_dynamic and b.inverse_mass > 0.0
@@ -175,15 +162,12 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
         for i in range(len(members)):
             m = motions_inout[members[i]]
             m.in_contact = False
-            given_x = m.vx - m.free_vx
-            given_y = m.vy - m.free_vy
+            given_x, given_y = m.vx - m.free_vx, m.vy - m.free_vy
             m.vx += h * m.acceleration_x
             m.vy += h * m.acceleration_y
             if drag:
-                m.vx = keep * m.vx
-                m.vy = keep * m.vy
-            m.free_vx = m.vx
-            m.free_vy = m.vy
+                m.vx, m.vy = keep * m.vx, keep * m.vy
+            m.free_vx, m.free_vy = m.vx, m.vy
             m.vx += given_x
             m.vy += given_y
             if rotation:
@@ -223,9 +207,7 @@ def make_substep_positions(rotation: bool) -> Callable:
                 m.dx += h * share * m.pseudo_vx
                 m.dy += h * share * m.pseudo_vy
                 turn += share * m.pseudo_w
-                m.pseudo_vx = 0.0
-                m.pseudo_vy = 0.0
-                m.pseudo_w = 0.0
+                m.pseudo_vx, m.pseudo_vy, m.pseudo_w = 0.0, 0.0, 0.0
             if rotation and turn != 0.0:
                 m.turn += h * turn
                 m.cosine, m.sine = rotation_of(m.turn)
@@ -240,8 +222,7 @@ def move_kinematic(kinematic, time, motions_inout):
     """
     for i in range(len(kinematic)):
         m = motions_inout[kinematic[i]]
-        m.dx = time * m.vx
-        m.dy = time * m.vy
+        m.dx, m.dy = time * m.vx, time * m.vy
         m.turn = time * m.angular_velocity
         m.cosine, m.sine = rotation_of(m.turn)
 
@@ -263,19 +244,15 @@ def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
         b = bodies_inout[rows[k]]
         m = motions[k + 1]
         lists_inout.motion_of[rows[k]] = 0
-        b.previous_x = b.x
-        b.previous_y = b.y
+        b.previous_x, b.previous_y = b.x, b.y
         b.previous_angle = b.angle
-        b.force_x = 0.0
-        b.force_y = 0.0
-        b.torque = 0.0
+        b.force_x, b.force_y, b.torque = 0.0, 0.0, 0.0
         b.fraction = 1.0
         if not m.moves:
             refresh_center(b)
             non_finite_count += int(not is_usable(b, speed_limit))
             continue
-        b.vx = m.vx
-        b.vy = m.vy
+        b.vx, b.vy = m.vx, m.vy
         b.angular_velocity = m.angular_velocity
         b.substeps = m.substeps
         b.cooldown = m.cooldown
@@ -289,8 +266,7 @@ def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
         else:
             b.angle += m.turn
             u, v = rotate(b.local_center_x, b.local_center_y, *rotation_of(b.angle))
-            b.x = b.center_x - u
-            b.y = b.center_y - v
+            b.x, b.y = b.center_x - u, b.center_y - v
             put_center(u, v, b)
         non_finite_count += int(not is_usable(b, speed_limit))
     return non_finite_count
@@ -346,35 +322,15 @@ class Motions:
 
 
 READS = (
-    "effects",
-    "tolerances",
-    "gravity",
-    "drag",
-    "wind",
-    "dt",
-    "span",
-    "substeps",
-    "accuracy",
-    "awake",
-    "bodies",
-    "shapes",
-    "characters",
-    "library",
-    "contact_rows",
-    "workspace",
-)
+    "effects", "tolerances", "gravity", "drag", "wind", "dt", "span", "substeps", "accuracy", "awake", "bodies",
+    "shapes", "characters", "library", "contact_rows", "workspace",
+)  # fmt: skip
 WRITES = (
-    "contact_rows",
-    "library",
-    "non_finite_count",
-    "work",
-    "workspace",
+    "contact_rows", "library", "non_finite_count", "work", "workspace", "bodies.has_current_contacts",
     *(f"bodies.{name}" for name in ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "center_y")),
-    *(f"bodies.previous_{name}" for name in ("x", "y", "angle")),
-    *(f"bodies.settled_{name}" for name in ("x", "y", "angle")),
-    "bodies.has_current_contacts",
+    *(f"bodies.{state}_{name}" for state in ("previous", "settled") for name in ("x", "y", "angle")),
     *(f"bodies.{name}" for name in ("force_x", "force_y", "torque", "fraction", "substeps", "cooldown", "reserve")),
-)
+)  # fmt: skip
 
 
 def run_solver(state: StepState, solve: Callable[[StepState, Any], float]) -> None:

@@ -14,6 +14,7 @@ from physics.dynamics.integrate import place_shapes, shift_bodies
 from physics.jit import kernel, subkernel
 from physics.math2d import norm
 from physics.settings import PROJECTION_PASSES
+from physics.shapes.placement import PLACED
 from physics.tables.body import DYNAMIC, OFF
 from physics.tables.contact import PUSH
 from physics.tables.step_state import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS, StepState, stage
@@ -70,32 +71,26 @@ def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_
         m = manifolds[i]
         if m.sensor:
             continue
-        a = bodies[m.body_row_a]
-        b = bodies[m.body_row_b]
+        a, b = bodies[m.body_row_a], bodies[m.body_row_b]
         friction, restitution, rolling, surface_speed = mixed(geometry, shapes[m.row_a], shapes[m.row_b], m)
         for k in range(m.count):
             r = pushes_out[found]
             r.manifold = i
             r.second = k == 1
             r.swept = m.swept
-            r.body_row_a = m.body_row_a
-            r.body_row_b = m.body_row_b
+            r.body_row_a, r.body_row_b = m.body_row_a, m.body_row_b
             r.x = m.x_1 if k == 0 else m.x_2
             r.y = m.y_1 if k == 0 else m.y_2
-            r.normal_x = m.normal_x
-            r.normal_y = m.normal_y
+            r.normal_x, r.normal_y = m.normal_x, m.normal_y
             r.separation = m.separation_1 if k == 0 else m.separation_2
-            r.anchor_x = b.center_x - a.center_x
-            r.anchor_y = b.center_y - a.center_y
+            r.anchor_x, r.anchor_y = b.center_x - a.center_x, b.center_y - a.center_y
             r.speed = m.speed_1 if k == 0 else m.speed_2
             r.threshold = restitution_threshold(press, a, b, m.normal_x, m.normal_y)
             r.friction = friction
             r.restitution = restitution
             r.surface_speed = surface_speed if conveyor == 1 else 0.0
             r.rolling_limit = rolling
-            r.normal_impulse = 0.0
-            r.tangent_impulse = 0.0
-            r.rolling_impulse = 0.0
+            r.normal_impulse, r.tangent_impulse, r.rolling_impulse = 0.0, 0.0, 0.0
             found += 1
     return found
 
@@ -221,13 +216,11 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
         """
         for i in range(len(pushes_inout)):
             c = pushes_inout[i]
-            a = bodies_inout[c.body_row_a]
-            b = bodies_inout[c.body_row_b]
+            a, b = bodies_inout[c.body_row_a], bodies_inout[c.body_row_b]
             inverse_masses = a.inverse_mass + b.inverse_mass
             if inverse_masses == 0.0:
                 continue
-            nx = c.normal_x
-            ny = c.normal_y
+            nx, ny = c.normal_x, c.normal_y
             separation = (
                 c.separation
                 + nx * ((b.center_x - a.center_x) - c.anchor_x)
@@ -236,18 +229,15 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
             if separation > 0.0 and not c.swept and c.normal_impulse == 0.0:
                 continue
             work_inout[SOLVER_ROWS] += 1
-            ax = c.x - a.center_x
-            ay = c.y - a.center_y
-            bx = c.x - b.center_x
-            by = c.y - b.center_y
+            ax, ay = c.x - a.center_x, c.y - a.center_y
+            bx, by = c.x - b.center_x, c.y - b.center_y
             wanted = 0.0
             if restitution and c.speed > c.threshold:
                 wanted = c.restitution * c.speed
                 work_inout[RESTITUTION_ROWS] += first
             effective = inverse_masses
             if rotation:
-                a_arm = ax * ny - ay * nx
-                b_arm = bx * ny - by * nx
+                a_arm, b_arm = ax * ny - ay * nx, bx * ny - by * nx
                 effective += a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
             change = (wanted + closing_speed(a, b, c.x, c.y, nx, ny, 0.0)) / effective
             impulse = max(c.normal_impulse + change, 0.0)
@@ -259,16 +249,13 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
                 resist_rolling(c, a, b)
             if friction and c.friction > 0.0:
                 work_inout[TANGENT_ROWS] += 1
-                tx = -ny
-                ty = nx
-                vx = b.vx - a.vx
-                vy = b.vy - a.vy
+                tx, ty = -ny, nx
+                vx, vy = b.vx - a.vx, b.vy - a.vy
                 effective = inverse_masses
                 if rotation:
                     vx += a.angular_velocity * ay - b.angular_velocity * by
                     vy += b.angular_velocity * bx - a.angular_velocity * ax
-                    a_arm = ax * ty - ay * tx
-                    b_arm = bx * ty - by * tx
+                    a_arm, b_arm = ax * ty - ay * tx, bx * ty - by * tx
                     effective += a.inverse_inertia * a_arm * a_arm + b.inverse_inertia * b_arm * b_arm
                 change = -(vx * tx + vy * ty - c.surface_speed) / effective
                 limit = c.friction * c.normal_impulse
@@ -279,8 +266,7 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
                 push(change * tx, change * ty, bx, by, rotation, b)
             if separation < 0.0:
                 share = -separation / inverse_masses
-                x = share * nx
-                y = share * ny
+                x, y = share * nx, share * ny
                 a.x -= a.inverse_mass * x
                 a.y -= a.inverse_mass * y
                 a.center_x -= a.inverse_mass * x
@@ -351,32 +337,14 @@ def _hold_back(state, rows, before):
 @stage(
     "projection",
     reads=(
-        *(
-            "effects",
-            "stacks",
-            "tolerances",
-            "gravity",
-            "drag",
-            "wind",
-            "dt",
-            "awake",
-            "bodies",
-            "shapes",
-            "library",
-            "pairs",
-            "contact_rows",
-        ),
-        "workspace",
+        "effects", "stacks", "tolerances", "gravity", "drag", "wind", "dt", "awake", "bodies", "shapes", "library",
+        "pairs", "contact_rows", "workspace",
     ),
     writes=(
-        "contact_rows",
-        "library",
-        "work",
-        "workspace",
+        "contact_rows", "library", "work", "workspace", *PLACED,
         *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "vx", "vy", "angular_velocity", "fraction")),
-        *(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top")),
     ),
-)
+)  # fmt: skip
 def projection(state: StepState) -> None:
     """Separate the bodies at the poses where they ended. A step of length 0 reports contacts and moves nothing."""
     if state.dt > 0.0:

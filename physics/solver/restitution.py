@@ -306,8 +306,7 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
     change = impacts_inout[last - 1]
     _, old_1, wanted_1 = hits_at(r, first_point)
     _, old_2, wanted_2 = hits_at(o, second_point)
-    arm_1 = arm_of(blocks, r, first_point, sign)
-    arm_2 = arm_of(blocks, o, second_point, other)
+    arm_1, arm_2 = arm_of(blocks, r, first_point, sign), arm_of(blocks, o, second_point, other)
     k_11 = mover.inverse_mass + mover.inverse_inertia * arm_1 * arm_1
     missing_1 = wanted_1 + speed_now(blocks, r, first_point, sign, change)
     if k_11 <= 0.0:
@@ -325,8 +324,7 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
         return 0.0
     k_12 = sign * other * (mover.inverse_mass * along + mover.inverse_inertia * arm_1 * arm_2)
     missing_2 = wanted_2 + speed_now(blocks, o, second_point, other, change)
-    off_1 = k_12 / k_11
-    off_2 = k_12 / k_22
+    off_1, off_2 = k_12 / k_11, k_12 / k_22
     x_1, x_2 = solve_two(missing_1 / k_11, missing_2 / k_22, off_1, off_2, block_factor(off_1, off_2), old_1, old_2)
     strike(blocks, r, first_point, sign, x_1 - old_1, mover, change)
     strike(blocks, o, second_point, other, x_2 - old_2, mover, change)
@@ -584,8 +582,7 @@ def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, wo
     shared = False
     for i in range(count):
         r = impacts_inout[i]
-        total_1 = line_of(blocks, r, at.TOTAL_1)
-        total_2 = line_of(blocks, r, at.TOTAL_2)
+        total_1, total_2 = line_of(blocks, r, at.TOTAL_1), line_of(blocks, r, at.TOTAL_2)
         if r.simulated:
             work_inout[RESTITUTION_ROWS] += int(total_1 > 0.0) + int(total_2 > 0.0)
             continue
@@ -599,10 +596,8 @@ def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, wo
         k = impacts_inout[kept]
         k.block = r.block
         k.lane = r.lane
-        k.bounces_1 = first
-        k.bounces_2 = second
-        k.impulse_1 = total_1
-        k.impulse_2 = total_2
+        k.bounces_1, k.bounces_2 = first, second
+        k.impulse_1, k.impulse_2 = total_1, total_2
         k.wanted_1 = line_of(blocks, r, at.RESTITUTION) * r.speed_1
         k.wanted_2 = line_of(blocks, r, at.RESTITUTION) * r.speed_2
         kept += 1
@@ -647,10 +642,8 @@ def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_ino
                 r = impacts_inout[count]
                 r.block = block
                 r.lane = lane
-                r.bounces_1 = False
-                r.bounces_2 = False
-                r.impulse_1 = 0.0
-                r.impulse_2 = 0.0
+                r.bounces_1, r.bounces_2 = False, False
+                r.impulse_1, r.impulse_2 = 0.0, 0.0
                 r.wanted_1 = min(relative_speed(c, lane, False, a, b), 0.0)
                 r.wanted_2 = min(relative_speed(c, lane, True, a, b), 0.0) if c[at.MASS_2 + lane] > 0.0 else 0.0
                 count += 1
@@ -669,8 +662,7 @@ def bounce_row(impact_inout, motions_inout, blocks_inout):
     handed_on = not (r.bounces_1 or r.bounces_2)
     first = r.bounces_1 or handed_on
     second = r.bounces_2 or (handed_on and points_of(blocks_inout, r) == 2)
-    change_1 = 0.0
-    change_2 = 0.0
+    change_1, change_2 = 0.0, 0.0
     if first and second:
         change_1, change_2 = bounce_together(r.wanted_1, r.wanted_2, r.impulse_1, r.impulse_2, c, lane, a, b)
     elif first:
@@ -751,8 +743,7 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
             r.bounces_2 = points_of(blocks_inout, r) == 2 and speed_2 > least
             r.wanted_1 = c[at.RESTITUTION + r.lane] * speed_1
             r.wanted_2 = c[at.RESTITUTION + r.lane] * speed_2
-            r.impulse_1 = 0.0
-            r.impulse_2 = 0.0
+            r.impulse_1, r.impulse_2 = 0.0, 0.0
             found = found or r.bounces_1 or r.bounces_2
         if not found:
             return True

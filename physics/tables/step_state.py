@@ -11,51 +11,15 @@ from physics.settings import Tolerances
 # Work counters of a step: their names, and the index of each in the int64 array that kernels add to.
 
 COUNTERS = (
-    "bodies_integrated",
-    "nodes_visited",
-    "pairs_tested",
-    "candidates",
-    "filtered",
-    "narrow_tests",
-    "mask_tests",
-    "contacts",
-    "toi_calls",
-    "solver_rows",
-    "tangent_rows",
-    "restitution_rows",
-    "gjk_iterations",
-    "cap_hits",
-    "sensor_tests",
-    "joints_solved",
-    "islands",
-    "carved_pixels",
-    "swaps",
-    "reinserts",
-    "cells_touched",
-)
+    "bodies_integrated", "nodes_visited", "pairs_tested", "candidates", "filtered", "narrow_tests", "mask_tests",
+    "contacts", "toi_calls", "solver_rows", "tangent_rows", "restitution_rows", "gjk_iterations", "cap_hits",
+    "sensor_tests", "joints_solved", "islands", "carved_pixels", "swaps", "reinserts", "cells_touched",
+)  # fmt: skip
 (
-    BODIES_INTEGRATED,
-    NODES_VISITED,
-    PAIRS_TESTED,
-    CANDIDATES,
-    FILTERED,
-    NARROW_TESTS,
-    MASK_TESTS,
-    CONTACTS,
-    TOI_CALLS,
-    SOLVER_ROWS,
-    TANGENT_ROWS,
-    RESTITUTION_ROWS,
-    GJK_ITERATIONS,
-    CAP_HITS,
-    SENSOR_TESTS,
-    JOINTS_SOLVED,
-    ISLANDS,
-    CARVED_PIXELS,
-    SWAPS,
-    REINSERTS,
-    CELLS_TOUCHED,
-) = range(len(COUNTERS))
+    BODIES_INTEGRATED, NODES_VISITED, PAIRS_TESTED, CANDIDATES, FILTERED, NARROW_TESTS, MASK_TESTS,
+    CONTACTS, TOI_CALLS, SOLVER_ROWS, TANGENT_ROWS, RESTITUTION_ROWS, GJK_ITERATIONS, CAP_HITS,
+    SENSOR_TESTS, JOINTS_SOLVED, ISLANDS, CARVED_PIXELS, SWAPS, REINSERTS, CELLS_TOUCHED,
+) = range(len(COUNTERS))  # fmt: skip
 
 
 # ---- world tables ----------------------------------------------------------------------------------------------------

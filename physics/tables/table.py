@@ -84,8 +84,7 @@ class Table:
 @subkernel
 def row_of(table, identity):
     """Return the row of an id in a table sorted by id, or -1. O(log rows)."""
-    low = 0
-    high = len(table)
+    low, high = 0, len(table)
     while low < high:
         middle = (low + high) // 2
         if table[middle].id < identity:
@@ -135,6 +134,5 @@ def root_of(row, parents_inout):
 @subkernel
 def join_trees(a, b, parents_inout):
     """Join the trees of two rows; the lower root stays."""
-    first = root_of(a, parents_inout)
-    second = root_of(b, parents_inout)
+    first, second = root_of(a, parents_inout), root_of(b, parents_inout)
     parents_inout[max(first, second)] = min(first, second)
