@@ -20,7 +20,6 @@ REBUILD_FROM = 64  # up to this many changed proxies, each leaf is moved by itse
 STACK = 256  # far above any height that fits in memory
 WIDTH = 2  # boxes of a node. Four, tested at once, made a step at most 4 % faster (5,300 bodies, most of them static)
 
-
 # ---- tree nodes ------------------------------------------------------------------------------------------------------
 # Nodes of a BVH with AVL balance: insert, remove, rotate, improve.
 #

@@ -18,11 +18,10 @@ from physics.tables.step_state import BODIES_INTEGRATED, StepState, stage
 
 BOTH = (False, True)
 
-
 # ---- integration -----------------------------------------------------------------------------------------------------
 # Semi-implicit Euler integration.
 #
-# Implicit drag v / (1 + c h) is stable for any c. Source of both: Catto, Numerical Methods, GDC 2015.
+# Implicit drag v / (1 + c h) is stable for any c. Source: Catto, Numerical Methods, GDC 2015.
 
 
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:

@@ -234,7 +234,7 @@ def list_awake(state: StepState) -> None:
 # Bodies that friction links move as one, a group. A group with friction on a body that stands still is anchored. The
 # others move freely, but for the surfaces that they press on without friction: the projection of their acceleration
 # onto the directions that these surfaces leave open. In the plane, only the surface that the acceleration presses most
-# can remain a face of this projection; any other surface that it meets along that face blocks it. #
+# can remain a face of this projection; any other surface that it meets along that face blocks it.
 
 FREE_TIME = 60.0  # [s] for which the motion of a sleeping body would have stayed under the slop
 

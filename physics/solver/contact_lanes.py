@@ -641,7 +641,6 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
 
 FINISH = {(e, f): make_finish_lanes(restitution=e, friction=f) for e in BOTH for f in BOTH}
 
-
 # ---- constraint set --------------------------------------------------------------------------------------------------
 # The contacts of a world as the stacking solvers see them.
 

@@ -24,7 +24,6 @@ FORGETTING = 0.1  # [1/s] rate at which an island forgets the energy that it has
 QUICK_LIFT = 0.02  # lift in slops that needs no proof
 SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 
-
 # ---- work ------------------------------------------------------------------------------------------------------------
 
 

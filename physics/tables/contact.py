@@ -41,7 +41,6 @@ EVENT = np.dtype(
 HIT = np.dtype(EVENT.descr + [("speed", np.float64), ("normal_impulse", np.float64)])
 QUARANTINE = np.dtype([("body", np.int64), ("reason", "U96")])
 
-
 # ---- contact ---------------------------------------------------------------------------------------------------------
 # CONTACT: two shapes that touch or may touch in this step. A row holds the manifold that a collider found, and beside
 # it the contact cache, which worlds with a stacking solver keep from step to step.
