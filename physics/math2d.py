@@ -24,8 +24,7 @@ def unit(x, y, fallback_x, fallback_y):
     largest = max(abs(x), abs(y))
     if largest == 0.0:
         return fallback_x, fallback_y
-    sx = x / largest
-    sy = y / largest
+    sx, sy = x / largest, y / largest
     length = math.sqrt(sx * sx + sy * sy)
     return sx / length, sy / length
 
@@ -42,8 +41,7 @@ def norm(x, y):
     largest = max(abs(x), abs(y))
     if largest == 0.0:
         return 0.0
-    sx = x / largest
-    sy = y / largest
+    sx, sy = x / largest, y / largest
     return largest * math.sqrt(sx * sx + sy * sy)
 
 
@@ -74,8 +72,7 @@ def cosine_and_sine(angle, greatest):
 
     greatest [rad]: the greatest of the angles from which it was subtracted, which sets its precision.
     """
-    cosine = math.cos(angle)
-    sine = math.sin(angle)
+    cosine, sine = math.cos(angle), math.sin(angle)
     off = RIGHT * max(1.0, abs(greatest))
     if abs(cosine) <= off:
         return 0.0, 1.0 if sine > 0.0 else -1.0

@@ -130,8 +130,7 @@ def read_vertices(found, path, workspace):
         here = workspace.chain[found - 1 - k]
         place = places[here]
         vertex = vertices[k]
-        vertex.x = place.x
-        vertex.y = place.y
+        vertex.x, vertex.y = place.x, place.y
         vertex.at = place.at - turns * path.cracks
         vertex.anchor = place.anchor
         vertex.broken = False
@@ -143,8 +142,7 @@ def read_vertices(found, path, workspace):
                 vertex.broken = vertex.broken or (places[other].corner and not places[other].allowed)
     for k in range(count):
         vertex = vertices[k]
-        x = vertices[k + 1].x - vertex.x
-        y = vertices[k + 1].y - vertex.y
+        x, y = vertices[k + 1].x - vertex.x, vertices[k + 1].y - vertex.y
         vertex.length = math.sqrt(x * x + y * y)
         vertex.along_x = x / vertex.length if vertex.length > 0.0 else 0.0
         vertex.along_y = y / vertex.length if vertex.length > 0.0 else 0.0
@@ -237,8 +235,7 @@ def fit_at(row, half, middles, fitted_out):
     half = half if half > 0 else 1
     whole = 3.0 * half * (half + 1) - 1.0
     share = 3.0 / ((2.0 * half - 1.0) * (2.0 * half + 1.0) * (2.0 * half + 3.0))
-    x = whole * middles[row].x
-    y = whole * middles[row].y
+    x, y = whole * middles[row].x, whole * middles[row].y
     along_x = along_y = 0.0
     for k in range(1, half + 1):
         before, after = middles[row - k], middles[row + k]
@@ -248,8 +245,7 @@ def fit_at(row, half, middles, fitted_out):
         along_x += k * (after.x - before.x)
         along_y += k * (after.y - before.y)
     size = math.sqrt(along_x * along_x + along_y * along_y)
-    fitted_out.x = x * share
-    fitted_out.y = y * share
+    fitted_out.x, fitted_out.y = x * share, y * share
     fitted_out.along_x = along_x / size if size > 0.0 else 0.0
     fitted_out.along_y = along_y / size if size > 0.0 else 0.0
 
@@ -286,8 +282,7 @@ def fit_of(at, curve, fitted):
 @subkernel
 def off_corner(x, y, before, run, most):
     """Return a move (x, y) [px] from a corner between two runs, limited so that it ends within `most` of them."""
-    x = min(max(x, -most), most)
-    y = min(max(y, -most), most)
+    x, y = min(max(x, -most), most), min(max(y, -most), most)
     ahead = x * right_of(run.direction) + y * down_of(run.direction)
     back = -x * right_of(before.direction) - y * down_of(before.direction)
     squared = x * x + y * y
@@ -308,11 +303,9 @@ def put_on_curve(n, k, along, curve, path, workspace):
     run = runs[k % path.count]
     right, down = right_of(run.direction), down_of(run.direction)
     at = run.at + along + k // path.count * path.cracks
-    x = run.x + along * right
-    y = run.y + along * down
+    x, y = run.x + along * right, run.y + along * down
     fit_x, fit_y, along_x, along_y = fit_of(at, curve, workspace.fitted)
-    off_x = fit_x - x
-    off_y = fit_y - y
+    off_x, off_y = fit_x - x, fit_y - y
     most = INSIDE * path.reach
     if along == 0.0:
         off_x, off_y = off_corner(off_x, off_y, runs[(k + path.count - 1) % path.count], run, most)
@@ -322,13 +315,11 @@ def put_on_curve(n, k, along, curve, path, workspace):
         if ahead > LEVEL:
             off -= (off_x * right + off_y * down) * (along_y * right - along_x * down) / ahead
         off = min(max(off, -most), most)
-        off_x = -off * down
-        off_y = off * right
+        off_x, off_y = -off * down, off * right
     x = min(max(math.floor((x + off_x) * GRAINS + 0.5) * GRAIN, path.low), path.high)
     y = min(max(math.floor((y + off_y) * GRAINS + 0.5) * GRAIN, path.low), path.high)
     put_place(n, x, y, at, run, False, True, workspace.places)
-    workspace.places[n].along_x = along_x
-    workspace.places[n].along_y = along_y
+    workspace.places[n].along_x, workspace.places[n].along_y = along_x, along_y
     return n + 1
 
 
@@ -455,8 +446,7 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
     found = cheapest(0, places - 1, path.reach, CURVE_PRICES, workspace.places, workspace.chain)
     for k in range(found - 1):
         place = workspace.places[workspace.chain[found - 1 - k]]
-        points_out[n + k].x = place.x
-        points_out[n + k].y = place.y
+        points_out[n + k].x, points_out[n + k].y = place.x, place.y
         points_out[n + k].at = place.at
     return n + found - 1 if found > 0 else n
 
@@ -465,8 +455,7 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
 def put_points_of(first, length, vertices, n, points_out):
     """Append the points of some vertices. Returns the number of points."""
     for k in range(first, first + length):
-        points_out[n].x = vertices[k].x
-        points_out[n].y = vertices[k].y
+        points_out[n].x, points_out[n].y = vertices[k].x, vertices[k].y
         points_out[n].at = vertices[k].at
         n += 1
     return n

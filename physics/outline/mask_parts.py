@@ -54,8 +54,7 @@ def join_touching(n, sides_inout):
                 before = p.previous
                 sides_inout[before].next = b
                 sides_inout[q.previous].next = a
-                p.previous = q.previous
-                q.previous = before
+                p.previous, q.previous = q.previous, before
                 apart = min(p.apart, q.apart)
                 p.apart = apart
                 k = p.next

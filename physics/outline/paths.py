@@ -138,8 +138,7 @@ def follow(window, x, y, direction, marks_inout):
 
     marks_inout: [row, col] uint8, set for each crack whose solid pixel lies below it.
     """
-    first_x = x
-    first_y = y
+    first_x, first_y = x, y
     first = direction
     count = 0
     while is_own(window, x, y, direction):
@@ -164,8 +163,7 @@ def record(window, x, y, direction, cracks, runs_out):
         if turned:
             count += 1
             run = runs_out[count]
-            run.x = x
-            run.y = y
+            run.x, run.y = x, y
             run.direction = direction
             run.length = 0
             run.at = k
@@ -238,17 +236,14 @@ def stays(runs, count, k, closed):
 def put_place(n, x, y, at, run, corner, allowed, places_inout):
     """Append a place on a run, `at` cracks along the path, to places (PLACE)."""
     place = places_inout[n]
-    place.x = x
-    place.y = y
+    place.x, place.y = x, y
     place.at = at
     place.right = right_of(run.direction)
     place.down = down_of(run.direction)
     place.corner = corner
     place.allowed = allowed
     place.anchor = False
-    place.along_x = 0.0
-    place.along_y = 0.0
-    place.swept = 0.0
+    place.along_x, place.along_y, place.swept = 0.0, 0.0, 0.0
     if n > 0:
         last = places_inout[n - 1]
         place.swept = last.swept + last.x * y - last.y * x
@@ -265,8 +260,7 @@ def put_run(n, run, start, end, offset, places_inout):
             continue
         along = 0.5 if step == 0 else (run.length / 2.0 if step == 1 else run.length - 0.5)
         if start < run.at + along < end:
-            x = run.x + along * right_of(run.direction)
-            y = run.y + along * down_of(run.direction)
+            x, y = run.x + along * right_of(run.direction), run.y + along * down_of(run.direction)
             put_place(n, x, y, run.at + along + offset, run, False, True, places_inout)
             n += 1
     return n
@@ -304,8 +298,7 @@ def faults_of_angles(begin, to):
     """Return the sum of the squared sines of a line's angles with the curve at its ends, times its length [px]; 1 for
     each end that leads backwards.
     """
-    x = to.x - begin.x
-    y = to.y - begin.y
+    x, y = to.x - begin.x, to.y - begin.y
     squared = x * x + y * y
     if squared == 0.0:
         return 0.0
@@ -320,10 +313,8 @@ def faults_of_angles(begin, to):
 def try_lines(start, last, reach, prices, places_inout):
     """Lower the costs of the places up to `last` that a line from `start` can reach (O'Rourke 1981)."""
     begin = places_inout[start]
-    x = begin.x
-    y = begin.y
-    along_x = begin.right
-    along_y = begin.down
+    x, y = begin.x, begin.y
+    along_x, along_y = begin.right, begin.down
     least = 0.0  # bounds of dy / (dx + dy), both along the path
     most = 1.0
     bent = False

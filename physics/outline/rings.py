@@ -38,8 +38,7 @@ def put_side(n, first, x, y, inner, sides_inout):
         sides_inout[n - 1].inner = inner
         return n
     side = sides_inout[n]
-    side.x = x
-    side.y = y
+    side.x, side.y = x, y
     side.next = n + 1
     side.previous = n - 1
     side.twin = -1
@@ -77,8 +76,7 @@ def close_ring(n, first, sides_inout):
 @subkernel
 def turn_at(sides, a, b, c):
     """Return the turn of the path over three corners at the second one [px2]: > 0 clockwise on the screen, convex."""
-    p = sides[a]
-    q = sides[b]
+    p, q = sides[a], sides[b]
     r = sides[c]
     return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x)
 
@@ -102,8 +100,7 @@ def faces(sides, k, m):
     to = sides[m]
     after = sides[side.next]
     before = sides[side.previous]
-    x = to.x - side.x
-    y = to.y - side.y
+    x, y = to.x - side.x, to.y - side.y
     from_after = (after.x - side.x) * y - (after.y - side.y) * x
     to_before = x * (before.y - side.y) - y * (before.x - side.x)
     turn = turn_at(sides, side.previous, k, side.next)
@@ -115,12 +112,10 @@ def faces(sides, k, m):
 @subkernel
 def blocks(sides, k, a, b):
     """Return whether side k crosses the line between corners a and b, or starts on it between its ends."""
-    p = sides[a]
-    q = sides[b]
+    p, q = sides[a], sides[b]
     r = sides[k]
     s = sides[r.next]
-    x = q.x - p.x
-    y = q.y - p.y
+    x, y = q.x - p.x, q.y - p.y
     start = x * (r.y - p.y) - y * (r.x - p.x)
     if start == 0.0:
         along = x * (r.x - p.x) + y * (r.y - p.y)
@@ -128,10 +123,8 @@ def blocks(sides, k, a, b):
     end = x * (s.y - p.y) - y * (s.x - p.x)
     if end == 0.0 or (start > 0.0) == (end > 0.0):
         return False
-    u = s.x - r.x
-    v = s.y - r.y
-    of_p = u * (p.y - r.y) - v * (p.x - r.x)
-    of_q = u * (q.y - r.y) - v * (q.x - r.x)
+    u, v = s.x - r.x, s.y - r.y
+    of_p, of_q = u * (p.y - r.y) - v * (p.x - r.x), u * (q.y - r.y) - v * (q.x - r.x)
     return (of_p > 0.0 and of_q < 0.0) or (of_p < 0.0 and of_q > 0.0)
 
 
@@ -168,10 +161,8 @@ def put_cut(n, a, b, sides_inout):
     back = sides_inout[n + 1]
     start = sides_inout[a]
     end = sides_inout[b]
-    there.x = start.x
-    there.y = start.y
-    back.x = end.x
-    back.y = end.y
+    there.x, there.y = start.x, start.y
+    back.x, back.y = end.x, end.y
     there.previous = start.previous
     sides_inout[start.previous].next = n
     back.previous = end.previous
@@ -255,8 +246,7 @@ def shortest_bridge(n, start, sides):
     start: a side of the hole.
     """
     best = math.inf
-    best_a = -1
-    best_b = -1
+    best_a, best_b = -1, -1
     a = start
     while True:
         p = sides[a]
@@ -266,8 +256,7 @@ def shortest_bridge(n, start, sides):
                 distance = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y)
                 if 0.0 < distance < best and sees_through(sides, n, a, b):
                     best = distance
-                    best_a = a
-                    best_b = b
+                    best_a, best_b = a, b
         a = p.next
         if a == start:
             return best_a, best_b
@@ -345,8 +334,7 @@ def cut_large(n, most, sides_inout):
 @subkernel
 def is_needed(sides, k, m):
     """Return whether the corner at the start of a cut (side k, its twin m) would be reflex without it."""
-    p = sides[sides[k].previous]
-    q = sides[k]
+    p, q = sides[sides[k].previous], sides[k]
     after = sides[sides[m].next]
     r = sides[after.next]
     turn = (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x)

@@ -170,8 +170,7 @@ def turn_bits(turn):
 @subkernel
 def first_of(around, number):
     """Return the index of the first meeting of a tile numbered `number` or higher. O(log meetings)."""
-    low = 0
-    high = len(around)
+    low, high = 0, len(around)
     while low < high:
         middle = (low + high) // 2
         if around[middle, 4] < number:

@@ -94,8 +94,7 @@ def stretch(runs, count, at, seen, x, y):
             sum_xy += off_x * off_y
     if n < 2:
         return 0.0, 0.0, 0.0, False, False
-    x_x = sum_xx - sum_x * sum_x / n
-    y_y = sum_yy - sum_y * sum_y / n
+    x_x, y_y = sum_xx - sum_x * sum_x / n, sum_yy - sum_y * sum_y / n
     steep = y_y > x_x
     spread = max(x_x, y_y)
     slope = (sum_xy - sum_x * sum_y / n) / spread if spread > 0.0 else 0.0
@@ -142,11 +141,9 @@ def is_straight(runs, count, at):
                     if before and after:
                         return False
                     if before:
-                        first_x = x
-                        first_y = y
+                        first_x, first_y = x, y
                     elif after:
-                        last_x = x
-                        last_y = y
+                        last_x, last_y = x, y
                     if first_x * last_y - first_y * last_x < 0.0:
                         return False
     return True
@@ -160,8 +157,7 @@ def bend(runs, count, at, x, y):
     """
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
     for part in range(2):
-        base_x = (U_4 * sum_x - U_2 * uu_x) / SPREAD
-        base_y = (U_4 * sum_y - U_2 * uu_y) / SPREAD
+        base_x, base_y = (U_4 * sum_x - U_2 * uu_x) / SPREAD, (U_4 * sum_y - U_2 * uu_y) / SPREAD
         bend_x = (2.0 * SEEN * uu_x - U_2 * sum_x) / SPREAD
         bend_y = (2.0 * SEEN * uu_y - U_2 * sum_y) / SPREAD
         for k in range(count):
@@ -178,8 +174,7 @@ def bend(runs, count, at, x, y):
                     uu_x += u * u * off_x
                     uu_y += u * u * off_y
                     continue
-                along_x = u_x / U_2 + 2.0 * u * bend_x
-                along_y = u_y / U_2 + 2.0 * u * bend_y
+                along_x, along_y = u_x / U_2 + 2.0 * u * bend_x, u_y / U_2 + 2.0 * u * bend_y
                 off_x -= base_x + u * (u_x / U_2 + u * bend_x)
                 off_y -= base_y + u * (u_y / U_2 + u * bend_y)
                 off = along_x * off_y - along_y * off_x
@@ -259,8 +254,7 @@ def aside(window, runs, count, k, distance):
     step = runs[k + side]
     if runs[k - 1].direction != runs[k + 1].direction or min(step.length, run.length) >= SHARP:
         return 0.0
-    x = run.x + right_of(run.direction) * distance
-    y = run.y + down_of(run.direction) * distance
+    x, y = run.x + right_of(run.direction) * distance, run.y + down_of(run.direction) * distance
     level = run.direction & 1 == 1
     way = runs[k - 1].direction
     off = meets(runs, count, run.at + distance, x, y, level) * (right_of(way) if level else down_of(way))
@@ -279,8 +273,7 @@ def crossing(window, runs, count, at, after):
         k += 1
     run = runs[k]
     distance = at - run.at
-    x = run.x + right_of(run.direction) * distance
-    y = run.y + down_of(run.direction) * distance
+    x, y = run.x + right_of(run.direction) * distance, run.y + down_of(run.direction) * distance
     at_side = x == window.low or x == window.high
     at_end = y == window.low or y == window.high
     if distance > 0:
@@ -381,8 +374,7 @@ def put_points(window, found, path, workspace):
     piece.count = lay_lines(found, path, workspace.lines, counts[1], workspace.points) - counts[1]
     piece.closed = path.closed
     piece.used = False
-    a = workspace.points[piece.first]
-    b = workspace.points[piece.first + piece.count - 1]
+    a, b = workspace.points[piece.first], workspace.points[piece.first + piece.count - 1]
     piece.start = along_border(window, a.x, a.y)
     piece.end = along_border(window, b.x, b.y)
     counts[0] += 1

@@ -193,8 +193,7 @@ def shared_rectangle(a, b, dx, dy):
 @subkernel
 def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
     """Return (found, x, y) of the first shared pixel in reading order, in A's columns and rows. O(words) at worst."""
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+    a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     if left >= right or top >= bottom:
         return False, 0, 0
@@ -202,8 +201,7 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
         row, shared = shared_row(words, a.offset + top, left, b.offset + top - dy, left - dx, bottom - top)
         return row < bottom - top, left + lowest_bit(shared), top + row
     for y in range(top, bottom):
-        row_a = a.offset + y * a.stride
-        row_b = b.offset + (y - dy) * b.stride
+        row_a, row_b = a.offset + y * a.stride, b.offset + (y - dy) * b.stride
         x = left
         while x < right:
             shared = both(
@@ -223,8 +221,7 @@ def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
     row_*: index of their first words; box_*: their solid bounds (left, top, right, bottom). O(1) for a right guess,
     else O(rows).
     """
-    left = max(box_a[0], box_b[0] + dx)
-    top = max(box_a[1], box_b[1] + dy)
+    left, top = max(box_a[0], box_b[0] + dx), max(box_a[1], box_b[1] + dy)
     if left >= min(box_a[2], box_b[2] + dx):
         return -1
     bottom = min(box_a[3], box_b[3] + dy)
@@ -251,12 +248,10 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
     right_up, right_down, right_kept = shifts_to(dx + 1)
     from_b = row_b - dy
     area = 0
-    sum_x = 0
-    sum_y = 0
+    sum_x, sum_y = 0, 0
     more = 0
     for row in range(max(box_a[1], box_b[1] + dy), min(box_a[3], box_b[3] + dy)):
-        a = words[word(row_a + row)]
-        b = words[word(from_b + row)]
+        a, b = words[word(row_a + row)], words[word(from_b + row)]
         shared = both(a, moved(b, up, down, kept))
         bits = popcount(shared)
         area += bits
@@ -270,8 +265,7 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
 @subkernel
 def shared_area(rasters, words, mask_a, mask_b, dx, dy):
     """Return the number of shared pixels. O(words)."""
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+    a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     area = 0
     if left >= right:
@@ -281,8 +275,7 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
             area += popcount(shared_word(words, a.offset + y, left, b.offset + y - dy, left - dx))
         return area
     for y in range(top, bottom):
-        row_a = a.offset + y * a.stride
-        row_b = b.offset + (y - dy) * b.stride
+        row_a, row_b = a.offset + y * a.stride, b.offset + (y - dy) * b.stride
         x = left
         while x < right:
             area += popcount(
@@ -298,17 +291,14 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
 @subkernel
 def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
     """Return (area, sum of x, sum of y) over the shared pixels, in A's columns and rows. O(words)."""
-    a = rasters[mask_a]
-    b = rasters[mask_b]
+    a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     area = 0
-    sum_x = 0
-    sum_y = 0
+    sum_x, sum_y = 0, 0
     if left >= right:
         return area, sum_x, sum_y
     for y in range(top, bottom):
-        row_a = a.offset + y * a.stride
-        row_b = b.offset + (y - dy) * b.stride
+        row_a, row_b = a.offset + y * a.stride, b.offset + (y - dy) * b.stride
         x = left
         while x < right:
             shared = both(

@@ -80,12 +80,9 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 @subkernel
 def box_in_raster(a, b, u, v, cosine, sine):
     """Return (left, top, right, bottom) of the pixels of B whose squares may overlap the solid bounds of A."""
-    half_x = 0.5 * (a.set_right - a.set_left)
-    half_y = 0.5 * (a.set_bottom - a.set_top)
-    dx = a.set_left + half_x - u
-    dy = a.set_top + half_y - v
-    x = cosine * dx + sine * dy
-    y = cosine * dy - sine * dx
+    half_x, half_y = 0.5 * (a.set_right - a.set_left), 0.5 * (a.set_bottom - a.set_top)
+    dx, dy = a.set_left + half_x - u, a.set_top + half_y - v
+    x, y = cosine * dx + sine * dy, cosine * dy - sine * dx
     reach_x = abs(cosine) * half_x + abs(sine) * half_y
     reach_y = abs(sine) * half_x + abs(cosine) * half_y
     return (
@@ -121,8 +118,7 @@ def run_near(a, left, right, x, y, cosine, sine, margin):
 @subkernel
 def square_under(words, a, x, y, cosine, sine, near):
     """Return (found, column, row) of the first pixel of A whose square overlaps that of B centred at x, y. O(1)."""
-    column = math.floor(x)
-    row = math.floor(y)
+    column, row = math.floor(x), math.floor(y)
     for j in range(max(0, row - 1), min(a.height, row + 2)):
         solid = both(bits_from(words, a.offset + j * a.stride, a.stride, column - 1), columns_up_to(3))
         while solid != word(0):
@@ -137,8 +133,7 @@ def square_under(words, a, x, y, cosine, sine, near):
 def first_upright(pair, u, v):
     """Return first_squares for equal angles: a pixel of B covers up to four of A, so up to four ANDs. O(words)."""
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
-    column = math.floor(u + slack)
-    row = math.floor(v + slack)
+    column, row = math.floor(u + slack), math.floor(v + slack)
     for down in range(2 if v - row > slack else 1):
         for across in range(2 if u - column > slack else 1):
             found, x, y = first_pixel(pair.rasters, pair.words, pair.frame, pair.other, column + across, row + down)
@@ -157,22 +152,19 @@ def first_squares(pair, u, v):
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
         return first_upright(pair, u, v)
-    a = pair.rasters[pair.frame]
-    b = pair.rasters[pair.other]
+    a, b = pair.rasters[pair.frame], pair.rasters[pair.other]
     reach = reach_of(cosine, sine)
     near = reach - slack_of(a, b)
     left, top, right, bottom = box_in_raster(a, b, u, v, cosine, sine)
     for row in range(top, bottom):
-        x = u + 0.5 * cosine - (row + 0.5) * sine
-        y = v + 0.5 * sine + (row + 0.5) * cosine
+        x, y = u + 0.5 * cosine - (row + 0.5) * sine, v + 0.5 * sine + (row + 0.5) * cosine
         start, end = run_near(a, left, right, x, y, cosine, sine, reach - 0.5)
         while start < end:
             solid = both(bits_from(words, b.offset + row * b.stride, b.stride, start), columns_up_to(end - start))
             while solid != word(0):
                 column = start + lowest_bit(solid)
                 solid = without_lowest(solid)
-                px = x + column * cosine
-                py = y + column * sine
+                px, py = x + column * cosine, y + column * sine
                 if is_set(words, a.halo + (math.floor(py) + 1) * a.halo_stride, math.floor(px) + 1):
                     found, i, j = square_under(words, a, px, py, cosine, sine, near)
                     if found:
@@ -193,8 +185,7 @@ def squares_way_out(pair, nx, ny, most):
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     depth = 0.0
     while depth <= most:
-        x = pair.u + depth * nx
-        y = pair.v + depth * ny
+        x, y = pair.u + depth * nx, pair.v + depth * ny
         found, i, j, column, row = first_squares(pair, x, y)
         if not found:
             return depth
@@ -220,8 +211,7 @@ def line_share(px, py, qx, qy, width, height):
     The box's sides cut the line into up to three pieces; the clamped x is linear along each.
     """
     area = 0.0
-    moment_x = 0.0
-    moment_y = 0.0
+    moment_x, moment_y = 0.0, 0.0
     start = clamp(py, 0.0, height)
     end = clamp(qy, 0.0, height)
     if start == end:
@@ -229,13 +219,11 @@ def line_share(px, py, qx, qy, width, height):
     slope = (qx - px) / (qy - py) if qy != py else 0.0
     x0 = px if start == py else px + slope * (start - py)
     x1 = qx if end == qy else qx + slope * (end - qy)
-    first = 0.0
-    second = 1.0
+    first, second = 0.0, 1.0
     if x0 != x1:
         at_left = clamp(-x0 / (x1 - x0), 0.0, 1.0)
         at_right = clamp((width - x0) / (x1 - x0), 0.0, 1.0)
-        first = min(at_left, at_right)
-        second = max(at_left, at_right)
+        first, second = min(at_left, at_right), max(at_left, at_right)
     for piece in range(3):
         low = 0.0 if piece == 0 else (first if piece == 1 else second)
         high = first if piece == 0 else (second if piece == 1 else 1.0)
@@ -255,8 +243,7 @@ def line_share(px, py, qx, qy, width, height):
 @subkernel
 def arc_primitives(x, y, radius, angle):
     """Return the integrals from 0 to an angle of x dy, x²/2 dy and x y dy along a circle around (x, y)."""
-    cosine = math.cos(angle)
-    sine = math.sin(angle)
+    cosine, sine = math.cos(angle), math.sin(angle)
     r2 = radius * radius
     straight = x * radius * sine + r2 * (0.5 * angle + 0.5 * sine * cosine)
     squared = 0.5 * (
@@ -291,15 +278,13 @@ def next_cut(x, y, radius, width, height, after, until):
 def arc_share(x, y, radius, start, end, width, height):
     """Return the share, as line_share, of the arc around (x, y) [px] from `start` to a larger `end` [rad]."""
     area = 0.0
-    moment_x = 0.0
-    moment_y = 0.0
+    moment_x, moment_y = 0.0, 0.0
     low = start
     while low < end:
         high = next_cut(x, y, radius, width, height, low, end)
         # Not the middle: there an arc between two cuts may just touch a line.
         within = low + 0.4 * (high - low)
-        at_x = x + radius * math.cos(within)
-        at_y = y + radius * math.sin(within)
+        at_x, at_y = x + radius * math.cos(within), y + radius * math.sin(within)
         if 0.0 < at_y < height and at_x > 0.0:
             if at_x < width:
                 a0, x0, y0 = arc_primitives(x, y, radius, low)
@@ -328,10 +313,8 @@ def arc_share(x, y, radius, start, end, width, height):
 def square_share(x, y, cosine, sine, width, height):
     """Return (area, moment of x, moment of y) of a rotated unit square around (x, y) in 0..width x 0..height."""
     area = 0.0
-    moment_x = 0.0
-    moment_y = 0.0
-    ux = 0.5 * (cosine + sine)
-    uy = 0.5 * (sine - cosine)
+    moment_x, moment_y = 0.0, 0.0
+    ux, uy = 0.5 * (cosine + sine), 0.5 * (sine - cosine)
     for _ in range(4):
         # From one corner to the next, by a quarter turn.
         a, mx, my = line_share(x + ux, y + uy, x - uy, y + ux, width, height)
@@ -345,11 +328,9 @@ def square_share(x, y, cosine, sine, width, height):
 @subkernel
 def share_under(words, a, x, y, cosine, sine):
     """Return (area, moment of x, moment of y) that the square of B centred at x, y shares with A."""
-    column = math.floor(x) - 1
-    row = math.floor(y) - 1
+    column, row = math.floor(x) - 1, math.floor(y) - 1
     area = 0.0
-    moment_x = 0.0
-    moment_y = 0.0
+    moment_x, moment_y = 0.0, 0.0
     solid = 0
     for j in range(max(0, row), min(a.height, row + 3)):
         solid += popcount(both(bits_from(words, a.offset + j * a.stride, a.stride, column), columns_up_to(3)))
@@ -377,24 +358,20 @@ def shared_squares(pair, u, v):
     The moments over the area are the centroid.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
-    a = pair.rasters[pair.frame]
-    b = pair.rasters[pair.other]
+    a, b = pair.rasters[pair.frame], pair.rasters[pair.other]
     area = 0.0
-    moment_x = 0.0
-    moment_y = 0.0
+    moment_x, moment_y = 0.0, 0.0
     margin = reach_of(cosine, sine) - 0.5
     left, top, right, bottom = box_in_raster(a, b, u, v, cosine, sine)
     for row in range(top, bottom):
-        x = u + 0.5 * cosine - (row + 0.5) * sine
-        y = v + 0.5 * sine + (row + 0.5) * cosine
+        x, y = u + 0.5 * cosine - (row + 0.5) * sine, v + 0.5 * sine + (row + 0.5) * cosine
         start, end = run_near(a, left, right, x, y, cosine, sine, margin)
         while start < end:
             solid = both(bits_from(words, b.offset + row * b.stride, b.stride, start), columns_up_to(end - start))
             while solid != word(0):
                 column = start + lowest_bit(solid)
                 solid = without_lowest(solid)
-                px = x + column * cosine
-                py = y + column * sine
+                px, py = x + column * cosine, y + column * sine
                 if is_set(words, a.halo + (math.floor(py) + 1) * a.halo_stride, math.floor(px) + 1):
                     part, mx, my = share_under(words, a, px, py, cosine, sine)
                     area += part

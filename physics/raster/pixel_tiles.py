@@ -526,8 +526,7 @@ def is_in_hull(corners, radius, x, y):
         following = k + 1 if k + 1 < len(corners) else 0
         dx = corners[following, 0] - ax
         dy = corners[following, 1] - ay
-        px = x - ax
-        py = y - ay
+        px, py = x - ax, y - ay
         inside = inside and dx * py - dy * px >= 0.0
         size = dx * dx + dy * dy
         along = min(1.0, max(0.0, (px * dx + py * dy) / size)) if size > 0.0 else 0.0
@@ -544,10 +543,8 @@ def find_in_hull(words, left, top, corners, radius, found_out):
     words, found_out (64,) uint64; left, top [px] of the tile in the hull's coordinates; corners (n, 2) [px], n >= 1,
     clockwise on the screen. O(pixels within the hull's box · n).
     """
-    min_x = math.inf
-    max_x = -math.inf
-    min_y = math.inf
-    max_y = -math.inf
+    min_x, max_x = math.inf, -math.inf
+    min_y, max_y = math.inf, -math.inf
     for k in range(len(corners)):
         min_x = min(min_x, corners[k, 0])
         max_x = max(max_x, corners[k, 0])
@@ -571,8 +568,7 @@ def find_in_hull(words, left, top, corners, radius, found_out):
 @subkernel
 def is_in_pixels(solid, x, y):
     """Return whether a point [px] is in a solid pixel of solid[row, column], its sides included."""
-    column = math.floor(x)
-    row = math.floor(y)
+    column, row = math.floor(x), math.floor(y)
     for j in range(row - 1 if y == row else row, row + 1):
         for i in range(column - 1 if x == column else column, column + 1):
             if 0 <= j < solid.shape[0] and 0 <= i < solid.shape[1] and solid[j, i]:
