@@ -1,13 +1,13 @@
 """Five steel balls in a row, struck by one or two: do only as many leave at the other end?
 
 What to see: with a hair of air between the balls each collision is one of two, and momentum and energy allow one
-result: the last ball leaves with the whole speed. The same row in three channels, one per solver. Close the gap, or
-send two into the wall so closely that three meet in one step: then momentum and energy do not fix the result, and the
-solvers differ.
+result: the last ball leaves with the whole speed. The same row in three channels, one per solver. Close the gap: then
+several balls meet in one step, and momentum and energy do not fix the result. Sequential impulse and soft step solve
+such hits together, and as many still leave as came; projection scatters its row.
 
 Why it matters: A chain of hits in one step shows whether a solver passes impulses on, or mixes them.
 
-To try: set the gap to 0, then take two strikers, and see which row loses its order first.
+To try: set the gap to 0, then take two strikers, and see which row loses its order.
 
 Source: Hutzler, Delaney, Weaire, MacLeod, Rocking Newton's Cradle, American Journal of Physics, 2004.
 """

@@ -11,7 +11,7 @@ import pygame
 
 from game.drawing.colors import INK, PAPER, SKY, faded
 from game.drawing.rotated import poses_between
-from physics import PixelMask
+from physics import PixelMask, TileGrid
 from physics.shapes.values import Convex
 from scenes.lab.pieces import RAMPS, hull, placed, scaled, turning
 
@@ -105,6 +105,9 @@ def draw_ground(surface, shape, zoom, pose, sensor):
     """Draw a static shape on the canvas; a sensor in one colour."""
     if isinstance(shape, PixelMask):
         return
+    if isinstance(shape, TileGrid):
+        draw_tiles(surface, shape, zoom, pose)
+        return
     points = placed(shape, zoom, pose)
     if not isinstance(shape, Convex):  # a chain
         pygame.draw.lines(surface, INK, False, [(x, y + 2) for x, y in points], 3)
@@ -118,6 +121,17 @@ def draw_ground(surface, shape, zoom, pose, sensor):
     else:
         pygame.draw.polygon(surface, faded(SKY, 0.3) if sensor else GROUND, points)
         pygame.draw.polygon(surface, SKY if sensor else RIM, points, 1)
+
+
+def draw_tiles(surface, grid, zoom, pose):
+    """Draw the solid tiles of a grid, with a line around each tile."""
+    x, y, _ = pose
+    size = grid.tile_size * zoom
+    for row, column in np.argwhere(grid.solid).tolist():
+        left, top = round(x + column * size), round(y + row * size)
+        width, height = round(x + (column + 1) * size) - left, round(y + (row + 1) * size) - top
+        surface.fill(GROUND, (left, top, width, height))
+        pygame.draw.rect(surface, RIM, (left, top, width + 1, height + 1), 1)
 
 
 def draw_plain(surface, shape, zoom, pose, ramp):

@@ -155,6 +155,18 @@ def test_without_a_gap_momentum_stays_and_energy_never_grows():
     assert all(row[-1].velocity[0] > 0.1 * SPEED for row in scene.balls)
 
 
+@pytest.mark.parametrize("gap", [0, 1, 3])
+@pytest.mark.parametrize("strikers", [1, 2, 3])
+def test_as_many_leave_a_row_that_touches_under_the_solvers_of_its_text(strikers, gap):
+    scene = Cradle(seed=1)
+    scene.change("slider:strikers", strikers)
+    scene.change("slider:gap", gap)
+    play(scene, steps=150)
+    for name in ("sequential_impulse", "soft_step"):
+        assert max(scene.results[name, strikers, gap]) < 1e-9, name
+    assert (scene.results["projection", strikers, gap][0] > 0.1) == (gap == 0)
+
+
 # --- billiards -------------------------------------------------------------------------------------------------------
 
 

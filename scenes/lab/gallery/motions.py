@@ -1,20 +1,31 @@
 """Pages of motions with a known end: bounces, glancing blows, a slope, seams."""
 
-from math import cos, hypot, radians, sin, sqrt, tan
+from math import cos, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
 
-from physics import Capsule, Chain, Circle, Effects, Filter, Material, Polygon
-from scenes.lab.gallery.page import LAST, METER, MM, PUSHED, SOFT, Page, Way, floor
+from physics import Capsule, Chain, Circle, Effects, Filter, Material, Polygon, TileGrid
+from scenes.lab.gallery.page import LAST, METER, MM, PUSHED, SOFT, Page, floor
 
 BALL, DROP, BOUNCES = 0.25 * METER, 0.5 * METER, 17
 GRAVITY = 9.8 * METER
 DISC = 0.5 * METER
 SPEEDS = (2.5 * METER, 5.0 * METER, 20.0 * METER)
 SLOPE = radians(30.0)
-TILE, TILES = 0.5 * METER, 28
-SLIDERS = ((Circle(7.0), 7.0), (Capsule((-7.0, 0.0), (7.0, 0.0), 5.0), 5.0))  # shape, height of the middle
-SLIDING = 5.5 * METER  # [px/s]
+TILE, TILES = 16.0, 24  # [px]; number in a lane
+OCTAGON = 8.0 / cos(pi / 8)  # [px] radius of the corners of one that stands 8 px high
+SLIDERS = (  # shape, height of its middle [px]
+    (Polygon.box(16.0, 16.0), 8.0),
+    (Circle(8.0), 8.0),
+    (Capsule((-5.0, 0.0), (5.0, 0.0), 8.0), 8.0),
+    (Polygon([(OCTAGON * cos(pi * (k + 0.5) / 4), OCTAGON * sin(pi * (k + 0.5) / 4)) for k in range(8)]), 8.0),
+)
+GROUNDS = ("grids", "boxes", "chains")  # one lane each
+LANE = 78.0  # [px] between two lanes
+SLIDING = (60.0, 150.0, 120.0)  # [px/s] in each lane
+APART = 28.0  # [px] between two sliders
+LAP = 100  # steps, after which the sliders begin again
+TRIPPED = 1.0  # [%] of the speed lost: a mark is drawn
 SETTLED = 60  # steps after which a box has settled
 
 
@@ -96,31 +107,54 @@ def creep(side):
     return MM * hypot(x - side.kept["at"][0], y - side.kept["at"][1])
 
 
-def build_seams(side, ground):
-    """Build a disc and a capsule on a long floor: of single boxes, or one chain."""
-    below = Filter(1)
+def pieces(ground):
+    """Return (x [px], shape) of the pieces of level ground at y = 0: two tile grids, or boxes, or chains."""
+    half, long = TILES // 2, 4
+    return {
+        "grids": [(TILE * half * k, TileGrid(np.ones((1, half), bool), TILE)) for k in range(2)],
+        "boxes": [(TILE * k, Polygon.box(TILE, TILE, (TILE / 2, TILE / 2))) for k in range(TILES)],
+        "chains": [(TILE * k, Chain([(TILE * link, 0.0) for link in range(long + 1)])) for k in range(0, TILES, long)],
+    }[ground]
+
+
+def build_seams(side, speeds=SLIDING):
+    """Build three lanes of level ground in pieces, with four sliders each; speeds: of each lane [px/s]."""
     smooth = Material(friction=0.0)
-    if ground == "boxes":
-        places = [((k + 0.5) * TILE, TILE / 2) for k in range(TILES)]
-        side.world.add_bodies(Polygon.box(TILE, TILE), places, kind="static", filter=below, material=smooth)
-    else:
-        points = [(k * TILE, 0.0) for k in range(TILES + 1)]
-        side.world.add_body(Chain(points), kind="static", filter=below, material=smooth)
-    side.kept["sliders"] = [
-        side.world.add_body(
-            shape,
-            position=(0.5 * METER + METER * number, -high),
-            velocity=(SLIDING, 0.0),
-            material=smooth,
-            filter=Filter(2 << number, 1),
-        )
-        for number, (shape, high) in enumerate(SLIDERS)
-    ]
+    side.kept.update(chance=np.random.default_rng(6), speeds=speeds, sliders=[], lost=0.0, hop=0.0)
+    for lane, ground in enumerate(GROUNDS):
+        for x, shape in pieces(ground):
+            side.world.add_body(shape, position=(x, LANE * lane), kind="static", filter=Filter(1), material=smooth)
+        for number, (shape, high) in enumerate(SLIDERS):
+            place = (TILE + APART * number, LANE * lane - high)
+            only_ground = Filter(2 << number, 1)
+            slider = side.world.add_body(shape, position=place, material=smooth, filter=only_ground)
+            side.kept["sliders"].append((slider, place, speeds[lane]))
+
+
+def slide(side):
+    """Begin a lap, at another part of a step."""
+    if side.steps % LAP == 0:
+        side.kept["tripped"] = set()
+        for slider, (x, y), speed in side.kept["sliders"]:
+            slider.move_to((x + side.kept["chance"].uniform(0.0, speed / 60.0), y), 0.0)
+            slider.velocity, slider.angular_velocity = (speed, 0.0), 0.0
 
 
 def slowed(side):
-    """Return the greatest change of a slider's speed [%]."""
-    return max(100.0 * abs(each.velocity[0] - SLIDING) / SLIDING for each in side.kept["sliders"])
+    """Return the greatest change of a slider's speed [%]; mark the places where one trips, and note the highest hop."""
+    kept, worst = side.kept, 0.0
+    for slider, (_, y), speed in kept["sliders"]:
+        lost = 100.0 * abs(slider.velocity[0] - speed) / speed
+        worst, kept["hop"] = max(worst, lost), max(kept["hop"], y - slider.position[1])
+        if lost > TRIPPED and slider.id not in kept["tripped"]:
+            kept["tripped"].add(slider.id)
+            side.mark(slider.position, good=False)
+    return worst
+
+
+def hop_text(side):
+    """Return the highest hop as text."""
+    return f"hops of {side.kept['hop']:.2f} px at most"
 
 
 PAGES = (
@@ -172,17 +206,19 @@ PAGES = (
     ),
     Page(
         "seams",
-        "The seams of a floor",
-        "Both floors are flat: boxes slow what slides, a chain does not.",
-        "A box knows no neighbour: what is round and sunk in by a hair meets its corner from the side.",
-        Way("28 single boxes", bodies={"ground": "boxes"}),
-        Way("one chain", bodies={"ground": "chain"}),
+        "Level ground in pieces",
+        "Two tile grids, 24 boxes, six chains, all level: left boxes trip at seams, right nothing does.",
+        "Sunk in by a hair, a corner meets the side of the next piece; right such contacts at seams are dropped.",
+        PUSHED,
+        SOFT,
         Effects(response=True, gravity=True, rotation=True, stacking=True),
-        lambda side: build_seams(side, **side.way.bodies),
+        build_seams,
         slowed,
         "% of the speed",
-        0.001,
-        130,
-        (7.0 * METER, -1.0 * METER, 14.4 * METER),
+        0.1,
+        3 * LAP,
+        (TILE * TILES / 2, 0.95 * LANE, TILE * TILES),
+        act=slide,
+        also=hop_text,
     ),
 )

@@ -20,12 +20,16 @@ WORST, LAST = "worst", "last"  # error of a run that is compared with the limit
 
 @dataclass(frozen=True)
 class Way:
-    """One of a page's two ways. world: arguments of its World; bodies: arguments of its build(); without: effects."""
+    """One of a page's two ways. world: arguments of its World; bodies: arguments of its build(); without: effects.
+
+    step: makes a step of its side instead of World.step(), for a method that the engine does not have.
+    """
 
     name: str
     world: Mapping[str, Any] = field(default_factory=dict)
     bodies: Mapping[str, Any] = field(default_factory=dict)
     without: tuple[str, ...] = ()
+    step: Callable[["Side"], None] | None = None
 
 
 def auto(accuracy):
@@ -38,7 +42,7 @@ def auto(accuracy):
 
 SOFT = Way("soft step", {"solver": "soft_step"})
 KEPT = Way("sequential impulse", {"solver": "sequential_impulse"})
-PUSHED = Way("projection", {"solver": "projection"})
+PUSHED = Way("projection", {"solver": "projection"}, without=("stacking",))  # which it ignores
 
 
 @dataclass(frozen=True)
@@ -75,8 +79,9 @@ class Page:
     act: Callable[["Side"], None] | None = None  # before each step
     judged: str = WORST
     alike: bool = False
-    glance: int = 28  # frames of the bot's first look
+    glance: int = 24  # frames of the bot's first look
     larger: Larger | None = None
+    also: Callable[["Side"], str] | None = None  # a second figure, as text
 
 
 class Side:
@@ -102,7 +107,10 @@ class Side:
         """Make one step, without its error: the sides are measured after both have moved."""
         if self.page.act is not None:
             self.page.act(self)
-        self.world.step()
+        if self.way.step is None:
+            self.world.step()
+        else:
+            self.way.step(self)
         self.steps += 1
 
     def mark(self, place, good):

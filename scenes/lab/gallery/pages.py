@@ -1,5 +1,5 @@
 """All pages of the gallery, in their order."""
 
-from scenes.lab.gallery import extremes, masks, motions, piles, sweeps
+from scenes.lab.gallery import contacts, extremes, masks, motions, piles, sweeps
 
-PAGES = (*sweeps.PAGES, *motions.PAGES, *piles.PAGES, *masks.PAGES, *extremes.PAGES)
+PAGES = (*sweeps.PAGES, *motions.PAGES, *contacts.PAGES, *piles.PAGES, *masks.PAGES, *extremes.PAGES)
