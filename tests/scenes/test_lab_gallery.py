@@ -1,24 +1,33 @@
 """lab/gallery: the naive way leaves each page's limit and ours keeps it, or both are alike."""
 
 import numpy as np
+import pygame
 import pytest
 
 import physics
+from game.audio.sound import Sounds
 from game.drawing.canvas import CANVAS_SIZE, SMALL, TEXT, Canvas
+from game.drawing.colors import GREEN, PAPER, RED
 from game.drawing.font import load_font
+from game.input.devices import DeviceSource
 from game.input.inputs import InputFrame, InputState
 from game.measure.measured_runs import RunFigures
 from game.measure.moment import Moment
 from game.measure.timing import RUNS, Cost
 from game.measurement_requests import Recipe
+from game.overlays.stack import Overlays, layer_names
+from game.run.picture import Picture
 from game.run.session import Session
 from game.run.sources import BotSource
+from game.screens.play import Play
 from physics import World
 from scenes.lab.gallery.page import Side
 from scenes.lab.gallery.pages import PAGES
-from scenes.lab.gallery.scene import NAMES, TOURED, Gallery, amount, is_met
+from scenes.lab.gallery.scene import NAMES, PLOT, TOURED, VIEWS, Gallery, amount, is_met
+from tests.game.reading import assert_text_is_apart
 
 HEAVY = {"column", "struck", "point", "crowd", "far", "asleep", "cards", "squares", "wall", "rods", "bullets", "beam"}
+HEAVY |= {"gate", "bowl", "wheel", "seams"}
 needs_speed = pytest.mark.skipif(not physics.JIT, reason="hundreds of steps of many bodies")
 BY_WEIGHT = [pytest.param(page, id=page.name, marks=needs_speed if page.name in HEAVY else ()) for page in PAGES]
 
@@ -110,6 +119,53 @@ def test_its_two_lines_fit_the_picture(page):
     for way in (page.naive, page.ours):
         assert load_font(TEXT).measure(way.name, 1)[0] <= 230
     assert load_font(SMALL).measure(page.unit, 1)[0] <= 110
+
+
+@pytest.mark.usefixtures("nothing_is_measured")
+@pytest.mark.parametrize("page", [page for page in PAGES if page.also is not None], ids=lambda page: page.name)
+def test_text_of_a_page_with_two_figures_is_apart(page):
+    scene = opened(page.name)
+    scene.bot = InputFrame
+    play = Play(scene, DeviceSource(), Sounds(silent=True), bot=True)
+    for steps in (0, 25, 70):
+        while scene.frame < steps:
+            play.step()
+        for width in (480, 960, 1440):
+            for layers in ((), layer_names()):
+                play.overlays = Overlays(layers)
+                play.overlays.note(scene)
+                frame = play.draw(Picture(pygame.Surface((width, width * 9 // 16))))
+                assert_text_is_apart(frame.boxes, frame.rect)
+        for side, (left, _, _, _) in zip(scene.sides, VIEWS, strict=True):
+            reach = left + 2 + load_font(SMALL).measure(page.also(side), 1)[0]
+            assert reach < left + PLOT[0], page.also(side)
+
+
+def test_a_figure_is_green_only_when_the_page_is_judged():
+    scene = opened("wheel")
+    page = scene.page
+    for steps, color in ((0, PAPER), (2, PAPER), (page.steps, GREEN)):
+        for side in scene.sides:
+            side.steps = steps
+        assert color_of(scene, "0") == {color}
+    for side in scene.sides:
+        side.steps, side.worst = 2, 2.0 * page.limit
+    assert color_of(scene, amount(2.0 * page.limit)) == {RED}, "beyond its limit it is wrong at once"
+
+
+def color_of(scene, figure):
+    """Colours in which a text is drawn."""
+    canvas, found = Canvas(), set()
+    canvas.begin((0, 0, 0))
+    drawn = canvas.text
+
+    def noting(text, x, y, color, *others, **options):
+        found.update([color] if text == figure else [])
+        return drawn(text, x, y, color, *others, **options)
+
+    canvas.text = noting
+    scene.draw(canvas, 1.0)
+    return found
 
 
 def test_keys_turn_the_pages_and_begin_them_again():
