@@ -5,7 +5,7 @@ from math import cos, hypot, pi, sin
 import numpy as np
 
 from physics import Chain, Circle, Effects, Filter, Material, Polygon
-from scenes.lab.gallery.page import METER, PUSHED, SOFT, Page, Way, floor
+from scenes.lab.gallery.page import METER, PLAIN, SOFT, Page, Way, floor
 from scenes.lab.gallery.simulated import SEEN_ONLY, step_naively
 
 CRATE, GATE_SIZE = 20.0, (16.0, 100.0)  # [px]
@@ -160,7 +160,7 @@ PAGES = (
         "To and fro in a bowl",
         "A smooth disc in a bowl of 240 links: left it rises less each time, right as high as at first.",
         "Left a step ends inside the wall and is put right afterwards; right the disc is held before it is inside.",
-        PUSHED,
+        PLAIN,
         SOFT,
         SMOOTH,
         build_bowl,

@@ -5,7 +5,7 @@ from math import cos, hypot, pi, radians, sin, sqrt, tan
 import numpy as np
 
 from physics import Capsule, Chain, Circle, Effects, Filter, Material, Polygon, TileGrid
-from scenes.lab.gallery.page import LAST, METER, MM, PUSHED, SOFT, Page, floor
+from scenes.lab.gallery.page import LAST, METER, MM, PLAIN, PUSHED, SOFT, Page, floor
 
 BALL, DROP, BOUNCES = 0.25 * METER, 0.5 * METER, 17
 GRAVITY = 9.8 * METER
@@ -209,7 +209,7 @@ PAGES = (
         "Level ground in pieces",
         "Two tile grids, 24 boxes, six chains, all level: left boxes trip at seams, right nothing does.",
         "Sunk in by a hair, a corner meets the side of the next piece; right such contacts at seams are dropped.",
-        PUSHED,
+        PLAIN,
         SOFT,
         Effects(response=True, gravity=True, rotation=True, stacking=True),
         build_seams,

@@ -42,7 +42,8 @@ def auto(accuracy):
 
 SOFT = Way("soft step", {"solver": "soft_step"})
 KEPT = Way("sequential impulse", {"solver": "sequential_impulse"})
-PUSHED = Way("projection", {"solver": "projection"}, without=("stacking",))  # which it ignores
+PUSHED = Way("projection", {"solver": "projection"})
+PLAIN = Way("projection", PUSHED.world, without=("stacking",))
 
 
 @dataclass(frozen=True)

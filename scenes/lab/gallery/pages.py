@@ -2,4 +2,4 @@
 
 from scenes.lab.gallery import contacts, extremes, masks, motions, piles, sweeps
 
-PAGES = (*sweeps.PAGES, *motions.PAGES, *contacts.PAGES, *piles.PAGES, *masks.PAGES, *extremes.PAGES)
+PAGES = (*sweeps.PAGES, *piles.PAGES, *contacts.PAGES, *motions.PAGES, *masks.PAGES, *extremes.PAGES)

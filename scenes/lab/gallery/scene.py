@@ -69,7 +69,7 @@ class Gallery(Scene):
         "a thousand bodies at one point, 10^7 px from the origin",
     )
     solvers = SOLVERS
-    keeps = {"substeps": "each page names its two ways to solve itself: they are what is compared"}
+    keeps = {"solver": "each page names its two ways to solve itself: they are what is compared"}
     sliders = (Slider("page", 0, len(PAGES) - 1, 0, choices=NAMES),)
     actions = (("left right", "page"), ("Space", "again"))
     head = HEAD
