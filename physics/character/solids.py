@@ -161,7 +161,7 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
             return 0.0, -nx, -ny, x, y
         scratch.points[0] = 1.0 if depth > 0.0 else 0.0
         return depth, -nx, -ny, x, y
-    own = pushing_edges(Hull(mine, count, radius, ALL_EDGES), theirs)
+    own = pushing_edges(Hull(mine, count, radius, ALL_EDGES), theirs, False)
     points = collide_hulls(Hull(mine, count, radius, own), theirs, 0.0, 0.0, deepest, scratch.points)
     return manifold_depth(points, scratch.points)
 
@@ -384,7 +384,7 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
         return -separation if hit and separation < 0.0 else 0.0, -nx, -ny
     facing = ALL_EDGES
     if is_slope:
-        facing = pushing_edges(Hull(mine, count, radius, ALL_EDGES), tile)
+        facing = pushing_edges(Hull(mine, count, radius, ALL_EDGES), tile, False)
     elif edges != ALL_EDGES:
         facing = pushing_edges_on_tile(mine, count, edges)
     points = collide_hulls(tile, Hull(mine, count, radius, facing), 0.0, 0.0, deepest, scratch.points)

@@ -477,7 +477,8 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
     b = hull_of(geometry, bodies, shapes, row_b, workspace.b)
     deepest = math.inf
     if s.inner != 0 or o.inner != 0:
-        a_edges, b_edges = a.edges & pushing_edges(a, b), b.edges & pushing_edges(b, a)
+        a_edges = a.edges & pushing_edges(a, b, True)
+        b_edges = b.edges & pushing_edges(b, a, True)
         a = Hull(a.corners, a.count, a.radius, a_edges)
         b = Hull(b.corners, b.count, b.radius, b_edges)
         # Without a dynamic body there is no response: the contact of any part will do.

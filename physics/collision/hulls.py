@@ -29,6 +29,7 @@ from physics.tables.shape import TURNS
 CIRCLE_CORNER = 32  # a disc on a corner, + its number
 CORNERS = 2048  # two corners of hulls, + i * 16 + j
 OPEN_END = 3000  # the face across an open end of a chain, + 0 at a or 1 at b
+FLAT = math.cos(math.radians(6.0))  # cosine between a side and a face beneath it along which it may lie
 PART = 4096  # features of one tile run or one link
 
 
@@ -509,18 +510,45 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
 
 
 @subkernel
-def pushing_edges(a, b):
+def ends_face(corners, count, edges, corner, nx, ny):
+    """Return whether a corner ends a touchable side whose normal is nearly the unit direction (nx, ny)."""
+    for back in range(2):
+        side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
+        if (edges >> side) & 1:
+            own_x, own_y = edge_normal(corners, count, side)
+            if nx * own_x + ny * own_y >= FLAT:
+                return True
+    return False
+
+
+@subkernel
+def is_over(corners, count, edge, x, y):
+    """Return whether a point lies between the ends of an edge, along it."""
+    following = edge + 1 if edge + 1 < count else 0
+    dx = corners[following, 0] - corners[edge, 0]
+    dy = corners[following, 1] - corners[edge, 1]
+    along = dx * (x - corners[edge, 0]) + dy * (y - corners[edge, 1])
+    return 0.0 <= along <= dx * dx + dy * dy
+
+
+@subkernel
+def pushing_edges(a, b, over_ends):
     """Return the edges of Hull A that may push it out of Hull B: those that face a touchable corner of B.
 
-    The other edges face a corner behind which B's neighbour continues the surface.
+    With over_ends so do those over which the end of a touchable side of B lies, nearly along them: its other end may be
+    touched too. The other edges face a corner behind which B's neighbour continues the surface.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES
     found = 0xFFFF0000
     for k in range(a.count):
         nx, ny = edge_normal(a.corners, a.count, k)
-        if is_normal_at_corner(b.corners, b.count, b.edges, support(b.corners, b.count, -nx, -ny), -nx, -ny):
+        corner = support(b.corners, b.count, -nx, -ny)
+        if is_normal_at_corner(b.corners, b.count, b.edges, corner, -nx, -ny):
             found |= 1 << k
+        elif over_ends and is_over(a.corners, a.count, k, b.corners[corner, 0], b.corners[corner, 1]):
+            if ends_face(b.corners, b.count, b.edges, corner, -nx, -ny):
+                found |= 1 << k
     return found
 
 
