@@ -85,11 +85,13 @@ class Step:
 
     @cached_property
     def alone(self) -> np.ndarray:
-        """Dynamic bodies on which nothing but gravity acted from outside: without a force, and without a contact,
-        directly or through others, with a static, sleeping or kinematic body.
+        """Dynamic bodies on which nothing but gravity acted from outside, for the whole step: without a force, not
+        stopped within it, and without a contact, directly or through others, with a static, sleeping, kinematic or
+        stopped body.
         """
         rows = self.world.bodies
         still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced
+        still |= rows["fraction"] < 1.0
         if self.world.effects.response and len(self.contacts):
             still = self.spread(still, np.ones(len(self.now), bool))
         return ~still

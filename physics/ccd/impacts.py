@@ -7,7 +7,7 @@ from physics.ccd.time_of_impact import MISS, sweep_circle_polygon, sweep_circles
 from physics.collision.hulls import ALL_EDGES, Hull, collide_polygon_circle, middle_of
 from physics.collision.manifold import open_manifold
 from physics.jit import kernel, subkernel
-from physics.math2d import norm, rotate
+from physics.math2d import norm, rotate, unit
 from physics.shapes.placement import corners_at, is_hull
 from physics.tables.body import AUTO, DYNAMIC, KINEMATIC, OFF, RAY, STATIC, SWEPT, TOI
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, POLYGON, TILES
@@ -343,17 +343,49 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
     return found
 
 
+FREELY = 1e-3  # greatest deviation of a path from that of free fall, as a share of what gravity adds to it
+
+
+@subkernel
+def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
+    """Take from a body what gravity [px/s2] gave it in the share of its path that it does not make.
+
+    Otherwise its energy would change: that of a falling body would rise. A body that fell freely has the velocity of
+    the time at which it stopped. Others, that hit something on their path, are slowed down in proportion.
+    """
+    b = body_inout
+    pull = norm(gravity_x, gravity_y) * abs(b.gravity_scale)
+    nx, ny = unit(b.gravity_scale * gravity_x, b.gravity_scale * gravity_y, 0.0, 0.0)
+    fall = path_x * nx + path_y * ny
+    along = b.vx * nx + b.vy * ny
+    if abs((along - 0.5 * pull * dt) * dt - fall) <= FREELY * pull * dt * dt:
+        b.vx -= lost * pull * dt * nx
+        b.vy -= lost * pull * dt * ny
+    elif fall > 0.0:
+        square = b.vx * b.vx + b.vy * b.vy
+        left = square - 2.0 * pull * lost * fall
+        scale = math.sqrt(left / square) if left > 0.0 and square > 0.0 else 0.0
+        b.vx *= scale
+        b.vy *= scale
+
+
 @kernel
-def move_back(rows, paths, bodies_inout):
-    """Move the stopped dynamic bodies back to where they stopped; their velocities stay. O(rows)."""
+def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
+    """Move the stopped dynamic bodies back to where they stopped: the rest of the step of dt [s] is lost for them.
+
+    gravity [px/s2]: see lose_fall. O(rows).
+    """
     for k in range(len(rows)):
         i = rows[k]
         b = bodies_inout[i]
         if b.fraction >= 1.0 or b.kind != DYNAMIC:
             continue
         f = b.fraction
-        b.center_x = paths[i, 0] + f * (paths[i, 3] - paths[i, 0])
-        b.center_y = paths[i, 1] + f * (paths[i, 4] - paths[i, 1])
+        path_x = paths[i, 3] - paths[i, 0]
+        path_y = paths[i, 4] - paths[i, 1]
+        lose_fall(1.0 - f, path_x, path_y, gravity_x, gravity_y, dt, b)
+        b.center_x = paths[i, 0] + f * path_x
+        b.center_y = paths[i, 1] + f * path_y
         turn = f * (b.angle - b.previous_angle)
         if turn == 0.0:
             b.x = b.previous_x + (b.center_x - paths[i, 0])

@@ -344,10 +344,11 @@ def _written(state, impacts, response) -> np.ndarray:
 
 @stage(
     "time_of_impact",
-    reads=(*FORESEEN, "contact_rows", "swept_sensors", "broadphase"),
+    reads=(*FORESEEN, "contact_rows", "swept_sensors", "broadphase", "gravity"),
     writes=(
         "contact_rows", "swept_sensors", "ghosts", "pairs", "broadphase", "library", "work", "workspace",
-        "bodies.fraction", *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y")), *PLACED,
+        "bodies.fraction", *PLACED,
+        *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "vx", "vy")),
     ),
 )  # fmt: skip
 def sweep_piles(state: StepState) -> None:
@@ -368,7 +369,8 @@ def sweep_piles(state: StepState) -> None:
     stopped = rows[bodies["fraction"][rows] < 1.0]
     if len(stopped):
         state.ghosts = np.column_stack([bodies["id"][stopped], paths[stopped], bodies["fraction"][stopped]])
-        move_back(stopped, paths, bodies)
+        gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
+        move_back(stopped, paths, *gravity, state.dt, bodies)
         push_stopped(state, stopped)
         place_shapes(state)
     _tell(state, met)
