@@ -604,7 +604,7 @@ def add_rows(
     rows["vx"], rows["vy"] = np.asarray(velocities).T
     rows["angle"], rows["angular_velocity"] = angles, spin
     for name in ("x", "y", "angle"):
-        rows["previous_" + name] = rows["still_" + name] = rows[name]
+        rows["previous_" + name] = rows["still_" + name] = rows["rocking_" + name] = rows[name]
     rows["gravity_scale"], rows["continuous"], rows["fixed_rotation"] = gravity_scale, swept, fixed_rotation
     rows["allow_sleep"] = allow_sleep
     rows["awake"], rows["fraction"], rows["bullet"], rows["island"] = True, 1.0, bullet, -1

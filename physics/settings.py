@@ -62,6 +62,11 @@ ITERATIONS_PER_SUBSTEP = 2.5  # passes of sequential impulses at the cost of one
 COLORS = 62  # bits of an int64 that are safe to shift; constraints without a colour are solved first, in order
 SLEEP_SPEED = 0.05  # [m/s] of the fastest point; a body that moves no faster on average falls asleep after …
 SLEEP_TIME = 0.5  # [s] (both Box2D v3.2)
+# A round body that rocks on another loses nothing, and would keep a heap awake for minutes. In a world with sleeping a
+# body that rocks within …
+ROCKING_RANGE = 0.3  # [m] … of a pose, by its fastest point, for …
+ROCKING_TIME = 2.0  # [s] … gets a rolling resistance of …
+ROCKING_RESISTANCE = 0.002  # [m] … so that it comes to rest: it moves by that much from its balance at most
 PUSH_ROUNDS = 16  # greatest number of pushes by kinematic surfaces in the rest of a step; a corner needs two
 IMPACT_ROUNDS = 64  # greatest number of searches for impacts after an impact stopped the partner of another
 
@@ -90,6 +95,8 @@ class Limits(NamedTuple):
     impact_speed: float  # [px/s] slower approaches are no impacts
     push_speed: float  # [px/s]
     deep: float  # [px] overlap with a body of infinite mass from which a body may be without room
+    rocking_range: float  # [px] see ROCKING_RANGE
+    rocking_resistance: float  # [px]
 
 
 @dataclass(frozen=True)
@@ -128,5 +135,7 @@ def tolerances(pixels_per_meter: float) -> Tolerances:
             RESTITUTION_SPEED * scale,
             PUSH_SPEED * scale,
             SPECULATIVE_DISTANCE * scale,
+            ROCKING_RANGE * scale,
+            ROCKING_RESISTANCE * scale,
         ),
     )

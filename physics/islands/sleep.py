@@ -464,6 +464,7 @@ def advance_sleep_times(
     dt,
     slow,
     patience,
+    rocking_range,
     # write
     parents_inout,
     least_out,
@@ -472,7 +473,8 @@ def advance_sleep_times(
 ):
     """Advance the sleep times of the awake bodies. Return (islands of awake dynamic bodies, whether one may be ready).
 
-    A body starts again when it has moved further than in `patience` [s] at speed `slow` [px/s]. rows: the awake bodies;
+    A body starts again when it has moved further than in `patience` [s] at speed `slow` [px/s]. rocking_range [px]: see
+    settings.ROCKING_RANGE; the time of rocking advances beside. rows: the awake bodies;
     edges, count, parents_inout: see graph.join. least_out, excess_out (bodies): at the root of each island the least
     sleep time, and the sum of the squares of the speeds beyond that of `slow`. O(rows + count).
     """
@@ -488,6 +490,13 @@ def advance_sleep_times(
             islands += 1
         if not is_free(b):
             continue
+        moved = norm(b.x - b.rocking_x, b.y - b.rocking_y) + abs(b.angle - b.rocking_angle) * b.extent
+        if not moved <= rocking_range:
+            b.rocking_x = b.x
+            b.rocking_y = b.y
+            b.rocking_angle = b.angle
+            b.rocking_time = 0.0
+        b.rocking_time += dt
         before = b.sleep_time
         far = norm(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
         b.sleep_time = 0.0 if far or not b.allow_sleep else before + dt
@@ -598,6 +607,10 @@ class IslandWorkspace:
         "bodies.still_y",
         "bodies.still_angle",
         "bodies.sleep_time",
+        "bodies.rocking_x",
+        "bodies.rocking_y",
+        "bodies.rocking_angle",
+        "bodies.rocking_time",
         "bodies.vx",
         "bodies.vy",
         "bodies.angular_velocity",
@@ -623,6 +636,7 @@ def rest(state: StepState) -> None:
         state.dt,
         state.tolerances.sleep_speed,
         SLEEP_TIME,
+        state.tolerances.limits.rocking_range,
         search.parents,
         search.least,
         search.excess,

@@ -624,11 +624,13 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
         impacts_inout: scratch, as long as the contacts.
         """
         if restitution:
-            # The speeds of impacts are those at the start of the step, and so are the arms.
+            # The speeds of impacts are those at the start of the step, and so are normals and arms.
             for block in range(count):
                 if blocks_inout.turns[block]:
                     c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
                     for lane in range(lanes_of(blocks_inout.contact, block)):
+                        c[at.NX + lane] = c[at.START_NX + lane]
+                        c[at.NY + lane] = c[at.START_NY + lane]
                         write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
                         write_masses(lane, c)
             restore_bounces(contacts_inout, count, context, impacts_inout, motions_inout, blocks_inout, work_inout)

@@ -8,7 +8,10 @@ import numpy as np
 
 from physics.jit import inlined, kernel, subkernel
 from physics.jit.plain import JIT, Builtin, put_in
-from physics.settings import COLORS, CROWD, STICKING_TURN
+from physics.settings import COLORS, CROWD, ROCKING_TIME, STICKING_TURN
+from physics.solver.step_context import restitution_threshold
+from physics.tables.body import DYNAMIC, STATIC
+from physics.tables.contact import UPRIGHT, WITH_A, WITH_B
 from physics.tables.step_state import SOLVER_ROWS, TANGENT_ROWS
 from physics.tables.table import zeros_in_lines
 
@@ -87,10 +90,21 @@ LANES = 8 if JIT else 1
     BOUNCING,  # 1: the sides approached fast enough to bounce; 0: not
     PUSH_1,  # impulses of the pseudo-velocities, of sequential impulses
     PUSH_2,
-    TURNS,  # 1: its moment arms turn with the bodies in this step; 0: not
+    TURNS,  # how it follows its bodies in the step: FIXED, ARMS, NORMAL_OF_A, NORMAL_OF_B, NORMAL_OF_CORES
+    START_NX,  # unit normal at the start of the step
+    START_NY,
+    LAST_NX,  # unit normal at the start of the substep, …
+    LAST_NY,
+    LAST_NORMAL,  # … and the sums of the impulses of both points before they are relaxed along the present one
+    LAST_TANGENT,
     MOST,  # greatest normal impulse of a substep at one point
     SIZE,
-) = (line * LANES for line in range(64))
+) = (line * LANES for line in range(70))
+FIXED = 0.0  # normal and moment arms are those of the start of the step
+ARMS = 1.0  # moment arms turn with the bodies
+NORMAL_OF_A = 2.0  # … and the normal is that of a face of A on the core of B …
+NORMAL_OF_B = 3.0  # … or of a face of B on the core of A …
+NORMAL_OF_CORES = 4.0  # … or points from core to core
 # Offsets of the values that a pass gathers from the motions of each block. They have an array of their own: among the
 # others they were a quarter of the memory traffic of a pass.
 (VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (
@@ -279,14 +293,20 @@ def scatter_velocities(s, lane, a_out, b_out):
 def measure_gaps(lane, s, c_inout):
     """Write the separations [px] at both points of a lane.
 
-    A round surface does not move when its body rotates, because only the core moves. Moment arms rotate with the bodies
-    here, and stay fixed where speeds are computed.
+    A round surface does not move when its body rotates, because only the core moves. Points rotate with the bodies
+    here.
     """
     c = c_inout
-    nx, ny = c[NX + lane], c[NY + lane]
-    cos_a, sin_a = s[COS_A + lane], s[SIN_A + lane]
-    cos_b, sin_b = s[COS_B + lane], s[SIN_B + lane]
-    core = c[RADIUS_A + lane] * cos_a + c[RADIUS_B + lane] * cos_b
+    nx = c[NX + lane]
+    ny = c[NY + lane]
+    cos_a = s[COS_A + lane]
+    sin_a = s[SIN_A + lane]
+    cos_b = s[COS_B + lane]
+    sin_b = s[SIN_B + lane]
+    turn_c = nx * c[START_NX + lane] + ny * c[START_NY + lane]
+    turn_s = ny * c[START_NX + lane] - nx * c[START_NY + lane]
+    core = c[RADIUS_A + lane] * (cos_a * turn_c + sin_a * turn_s)
+    core += c[RADIUS_B + lane] * (cos_b * turn_c + sin_b * turn_s)
     gap = core + (s[DX_B + lane] - s[DX_A + lane]) * nx + (s[DY_B + lane] - s[DY_A + lane]) * ny
     x = (cos_b * c[BX_1 + lane] - sin_b * c[BY_1 + lane]) - (cos_a * c[AX_1 + lane] - sin_a * c[AY_1 + lane])
     y = (sin_b * c[BX_1 + lane] + cos_b * c[BY_1 + lane]) - (sin_a * c[AX_1 + lane] + cos_a * c[AY_1 + lane])
@@ -297,14 +317,16 @@ def measure_gaps(lane, s, c_inout):
 
 
 @inlined
-def arms_of(x, y, radius, cosine, sine, nx, ny):
+def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
     """Return the moment arms [px] of impulses along the normal and along the tangent at a point of a turned body.
 
-    x, y: the point before the turn, on a surface at a radius from the core in the direction of the normal.
+    x, y: the point before the turn, on a surface at a radius from the core in the direction of the normal, then
+    (start_nx, start_ny), now (nx, ny).
     """
-    x -= radius * nx
-    y -= radius * ny
-    u, v = cosine * x - sine * y, sine * x + cosine * y
+    x -= radius * start_nx
+    y -= radius * start_ny
+    u = cosine * x - sine * y
+    v = sine * x + cosine * y
     return u * ny - v * nx, u * nx + v * ny + radius
 
 
@@ -315,13 +337,16 @@ def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
     A point stays at its place on the core of a shape; the radius from there to the surface does not turn.
     """
     c = c_inout
-    nx, ny = c[NX + lane], c[NY + lane]
+    nx = c[NX + lane]
+    ny = c[NY + lane]
+    x = c[START_NX + lane]
+    y = c[START_NY + lane]
     ra = c[RADIUS_A + lane]
     rb = -c[RADIUS_B + lane]
-    c[A_1 + lane], c[TANGENT_A_1 + lane] = arms_of(c[AX_1 + lane], c[AY_1 + lane], ra, cos_a, sin_a, nx, ny)
-    c[B_1 + lane], c[TANGENT_B_1 + lane] = arms_of(c[BX_1 + lane], c[BY_1 + lane], rb, cos_b, sin_b, nx, ny)
-    c[A_2 + lane], c[TANGENT_A_2 + lane] = arms_of(c[AX_2 + lane], c[AY_2 + lane], ra, cos_a, sin_a, nx, ny)
-    c[B_2 + lane], c[TANGENT_B_2 + lane] = arms_of(c[BX_2 + lane], c[BY_2 + lane], rb, cos_b, sin_b, nx, ny)
+    c[A_1 + lane], c[TANGENT_A_1 + lane] = arms_of(c[AX_1 + lane], c[AY_1 + lane], ra, cos_a, sin_a, x, y, nx, ny)
+    c[B_1 + lane], c[TANGENT_B_1 + lane] = arms_of(c[BX_1 + lane], c[BY_1 + lane], rb, cos_b, sin_b, x, y, nx, ny)
+    c[A_2 + lane], c[TANGENT_A_2 + lane] = arms_of(c[AX_2 + lane], c[AY_2 + lane], ra, cos_a, sin_a, x, y, nx, ny)
+    c[B_2 + lane], c[TANGENT_B_2 + lane] = arms_of(c[BX_2 + lane], c[BY_2 + lane], rb, cos_b, sin_b, x, y, nx, ny)
 
 
 @inlined
@@ -460,7 +485,7 @@ def speed_of_impact(speed, separation, acceleration):
 # column buckles (Catto, Box2D v3: contact recycling).
 
 BOTH = (False, True)
-TURNING = 1e-3  # [rad] turn in a step from which the moment arms of a round contact follow it
+TURNING = 1e-5  # [rad] turn in a step from which a round contact follows it; bodies at rest turn less
 
 
 @subkernel
@@ -510,8 +535,6 @@ def sticks(a, b, contact, distance):
     )
 
 
-NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
-
 DRIFT_SLOPS = 0.1  # greatest drift that is taken back, in slops
 GRIPPING = 0.99  # share of the limit of friction up to which a contact does not slip
 
@@ -553,30 +576,33 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
 
 
 @inlined
-def arms_turn(contact, a, b, dt):
-    """Return whether the moment arms of a contact follow its bodies, MOTION rows: it is round, and they turn."""
-    is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
-    return is_round and dt * max(abs(a.angular_velocity), abs(b.angular_velocity)) > TURNING
+def how_it_turns(contact, a, b, dt, lane, c):
+    """Return how the normal and the moment arms of a lane follow its bodies, MOTION rows, see TURNS.
+
+    They do if it is round and its bodies turn. An elastic impact is undone by restitution, at the arms of the start.
+    """
+    m = contact
+    elastic = m.restitution > 0.0 and (c[LOADED + lane] == 0.0 or c[BOUNCING + lane] > 0.0)
+    turn = dt * max(abs(a.angular_velocity), abs(b.angular_velocity))
+    if elastic or (m.radius_a == 0.0 and m.radius_b == 0.0) or turn <= TURNING:
+        return FIXED
+    if m.count == 2 or m.frame == UPRIGHT:
+        return ARMS
+    return NORMAL_OF_A if m.frame == WITH_A else (NORMAL_OF_B if m.frame == WITH_B else NORMAL_OF_CORES)
 
 
 @inlined
-def restitution_threshold(contact, a, b, degrees, context):
-    """Return the approach speed [px/s] up to which a contact does not bounce.
+def rocks(body):
+    """Return whether a body may be one of two that rock on each other: static, or in one place for a while."""
+    return body.kind == STATIC or (body.kind == DYNAMIC and body.rocking_time >= ROCKING_TIME)
 
-    A new contact bounces at any speed if no acceleration presses its sides together: otherwise a slow ball would stick
-    to a wall in space. One that touched in the step before bounces only beyond what acceleration adds in two steps.
-    a, b: MOTION rows of its sides, with their numbers of constraints. Two bodies with other constraints do not fall
-    together.
-    """
-    m = contact
-    on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
-    on_b = -(b.acceleration_x * m.normal_x + b.acceleration_y * m.normal_y)
-    least = NO_PRESS * (abs(a.acceleration_x) + abs(a.acceleration_y) + abs(b.acceleration_x) + abs(b.acceleration_y))
-    together = degrees[0] <= 1 and degrees[1] <= 1 and a.inverse_mass > 0.0 and b.inverse_mass > 0.0
-    press = on_a + on_b if together else max(on_a, 0.0) + max(on_b, 0.0)
-    if m.touched:
-        return max(context.restitution_speed, 2.0 * context.dt * press)
-    return context.restitution_speed if press > least else 0.0
+
+@inlined
+def rolling_limit(contact, p, q, limits):
+    """Return the rolling resistance [px] of a contact; p, q: BODY rows of its sides."""
+    is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
+    still = is_round and contact.friction > 0.0 and rocks(p) and rocks(q)
+    return max(contact.rolling_resistance, limits.rocking_resistance if still else 0.0)
 
 
 @inlined
@@ -708,6 +734,7 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             sticking = sticks(p, q, m, context.limits.sticking)
             c[NX + lane] = m.held_nx if sticking else m.normal_x
             c[NY + lane] = m.held_ny if sticking else m.normal_y
+            c[START_NX + lane], c[START_NY + lane] = c[NX + lane], c[NY + lane]
             c[IM_A + lane] = a.inverse_mass
             c[II_A + lane] = a.inverse_inertia
             c[IM_B + lane] = b.inverse_mass
@@ -724,14 +751,13 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
             c[MASS_2 + lane] = 1.0 if m.count == 2 else 0.0
             write_arms(lane, 1.0, 0.0, 1.0, 0.0, c)
             write_masses(lane, c)
-            turns = arms_turn(m, a, b, context.dt)
-            c[TURNS + lane] = 1.0 if turns else 0.0
-            blocks_out.turns[block] = blocks_out.turns[block] or turns
+            c[TURNS + lane] = how_it_turns(m, a, b, context.dt, lane, c)
+            blocks_out.turns[block] = blocks_out.turns[block] or c[TURNS + lane] != FIXED
             turning = a.inverse_inertia + b.inverse_inertia
             c[MOST + lane] = math.inf
             if plan.squeezed[0]:
                 limit_impulses(a, b, plan.squeeze[row_a], plan.squeeze[row_b], context.h, lane, c)
-            c[ROLLING_LIMIT + lane] = m.rolling_resistance if friction else 0.0
+            c[ROLLING_LIMIT + lane] = rolling_limit(m, p, q, context.limits) if friction else 0.0
             c[ROLLING_MASS + lane] = 1.0 / turning if turning > 0.0 else 0.0
             c[ROLLING + lane] = context.h * m.rolling_force
             c[SURFACE + lane] = m.surface_speed if conveyor else 0.0

@@ -52,7 +52,7 @@ def press_of(press, body, nx, ny):
 def restitution_threshold(press, a, b, nx, ny):
     """Return the approach speed [px/s] up to which two BODY rows do not bounce along a normal.
 
-    Where no acceleration presses them together they bounce at any speed; see lanes.restitution_threshold.
+    Where no acceleration presses them together they bounce at any speed; see step_context.restitution_threshold.
     """
     into = max(press_of(press, a, nx, ny), 0.0) + max(press_of(press, b, -nx, -ny), 0.0)
     if into == 0.0:

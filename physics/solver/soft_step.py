@@ -1,5 +1,6 @@
 """Small substeps with soft contacts: the passes over lanes, and the solver made of them."""
 
+import math
 from collections.abc import Callable, Mapping
 
 from physics.jit import inlined, kernel, noalias, subkernel
@@ -342,12 +343,66 @@ RELAX = {(r, f): make_soft_pass(biased=False, rotation=r, friction=f) for r in B
 WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 
 
+@inlined
+def turn_normal(lane, s, c_inout):
+    """Write the normal of a lane at the present poses, and the base of its separations along it. See lanes.TURNS."""
+    c = c_inout
+    turns = c[at.TURNS + lane]
+    of_a = turns == at.NORMAL_OF_A
+    of_b = turns == at.NORMAL_OF_B
+    cosine = s[at.COS_A + lane] if of_a else (s[at.COS_B + lane] if of_b else 1.0)
+    sine = s[at.SIN_A + lane] if of_a else (s[at.SIN_B + lane] if of_b else 0.0)
+    start_x = c[at.START_NX + lane]
+    start_y = c[at.START_NY + lane]
+    nx = cosine * start_x - sine * start_y
+    ny = sine * start_x + cosine * start_y
+    # From core to core.
+    apart_x = c[at.BX_1 + lane] - c[at.AX_1 + lane]
+    apart_y = c[at.BY_1 + lane] - c[at.AY_1 + lane]
+    x = c[at.BX_1 + lane] + c[at.RADIUS_B + lane] * start_x
+    y = c[at.BY_1 + lane] + c[at.RADIUS_B + lane] * start_y
+    dx = s[at.DX_B + lane] - s[at.DX_A + lane] - apart_x + s[at.COS_B + lane] * x - s[at.SIN_B + lane] * y
+    dy = s[at.DY_B + lane] - s[at.DY_A + lane] - apart_y + s[at.SIN_B + lane] * x + s[at.COS_B + lane] * y
+    x = c[at.AX_1 + lane] - c[at.RADIUS_A + lane] * start_x
+    y = c[at.AY_1 + lane] - c[at.RADIUS_A + lane] * start_y
+    dx -= s[at.COS_A + lane] * x - s[at.SIN_A + lane] * y
+    dy -= s[at.SIN_A + lane] * x + s[at.COS_A + lane] * y
+    length = math.sqrt(dx * dx + dy * dy)
+    of_cores = (turns == at.NORMAL_OF_CORES) & (length > 0.0)
+    over = 1.0 / (length if length > 0.0 else 1.0)
+    nx = dx * over if of_cores else nx
+    ny = dy * over if of_cores else ny
+    c[at.BASE_1 + lane] += apart_x * (c[at.NX + lane] - nx) + apart_y * (c[at.NY + lane] - ny)
+    c[at.BASE_2 + lane] = c[at.BASE_1 + lane] if turns >= at.NORMAL_OF_A else c[at.BASE_2 + lane]
+    c[at.NX + lane] = nx
+    c[at.NY + lane] = ny
+
+
+@inlined
+def follow_core(lane, s, c_inout):
+    """Write the moment arms of a face at the core that it lies on, which moves along it."""
+    c = c_inout
+    turns = c[at.TURNS + lane]
+    of_a = turns == at.NORMAL_OF_A
+    of_b = turns == at.NORMAL_OF_B
+    nx = c[at.NX + lane]
+    ny = c[at.NY + lane]
+    x = s[at.DX_B + lane] - s[at.DX_A + lane] + c[at.AX_1 + lane] - c[at.BX_1 + lane]
+    y = s[at.DY_B + lane] - s[at.DY_A + lane] + c[at.AY_1 + lane] - c[at.BY_1 + lane]
+    across = x * ny - y * nx
+    along = x * nx + y * ny
+    c[at.A_1 + lane] = c[at.B_1 + lane] + across if of_a else c[at.A_1 + lane]
+    c[at.TANGENT_A_1 + lane] = c[at.TANGENT_B_1 + lane] + along if of_a else c[at.TANGENT_A_1 + lane]
+    c[at.B_1 + lane] = c[at.A_1 + lane] - across if of_b else c[at.B_1 + lane]
+    c[at.TANGENT_B_1 + lane] = c[at.TANGENT_A_1 + lane] - along if of_b else c[at.TANGENT_B_1 + lane]
+
+
 @noalias
 def turn_arms(count, motions_inout, blocks_inout):
-    """Write the moment arms of round contacts at the present poses, and the effective masses there. O(count).
+    """Write the normals and moment arms of round contacts at the present poses, and the effective masses there.
 
-    The impulses with which the next substep starts act at the new arms: arms of the substep before would let the torque
-    lag, and a lag adds energy.
+    The impulses with which the next substep starts act at the new arms, and along the new normals, see turn_impulses:
+    those of the substep before would let torques and forces lag, and a lag adds energy. O(count).
     """
     s = blocks_inout.gathered
     for block in range(count):
@@ -358,17 +413,21 @@ def turn_arms(count, motions_inout, blocks_inout):
         for lane in range(wide):
             a = motions_inout[blocks_inout.motion_a[block, lane]]
             b = motions_inout[blocks_inout.motion_b[block, lane]]
-            # An elastic impact is undone by restitution, at the arms of the start of the step.
-            bounces = c[at.LOADED + lane] == 0.0 or c[at.BOUNCING + lane] > 0.0
-            elastic = c[at.RESTITUTION + lane] > 0.0 and bounces
-            is_round = not elastic and c[at.TURNS + lane] > 0.0
-            s[at.COS_A + lane] = a.cosine if is_round else 1.0
-            s[at.SIN_A + lane] = a.sine if is_round else 0.0
-            s[at.COS_B + lane] = b.cosine if is_round else 1.0
-            s[at.SIN_B + lane] = b.sine if is_round else 0.0
+            gather_poses(a, b, lane, s)
         for lane in range(wide):
+            turns = c[at.TURNS + lane] != at.FIXED
+            cos_a = s[at.COS_A + lane] if turns else 1.0
+            sin_a = s[at.SIN_A + lane] if turns else 0.0
+            cos_b = s[at.COS_B + lane] if turns else 1.0
+            sin_b = s[at.SIN_B + lane] if turns else 0.0
+            c[at.LAST_NX + lane] = c[at.NX + lane]
+            c[at.LAST_NY + lane] = c[at.NY + lane]
+            c[at.LAST_NORMAL + lane] = c[at.NORMAL_1 + lane] + c[at.NORMAL_2 + lane]
+            c[at.LAST_TANGENT + lane] = c[at.TANGENT_1 + lane] + c[at.TANGENT_2 + lane]
             before_a, before_b = angular_impulses(lane, c)
-            write_arms(lane, s[at.COS_A + lane], s[at.SIN_A + lane], s[at.COS_B + lane], s[at.SIN_B + lane], c)
+            turn_normal(lane, s, c)
+            write_arms(lane, cos_a, sin_a, cos_b, sin_b, c)
+            follow_core(lane, s, c)
             write_masses(lane, c)
             on_a, on_b = angular_impulses(lane, c)
             s[at.W_A + lane] = c[at.II_A + lane] * (on_a - before_a)
@@ -376,6 +435,43 @@ def turn_arms(count, motions_inout, blocks_inout):
         for lane in range(wide):
             motions_inout[blocks_inout.motion_a[block, lane]].free_w += s[at.W_A + lane]
             motions_inout[blocks_inout.motion_b[block, lane]].free_w -= s[at.W_B + lane]
+
+
+@noalias
+def turn_impulses(count, motions_inout, blocks_inout):
+    """Turn the impulses that the relaxing pass has left to the present normals of round contacts. O(count).
+
+    The next substep starts with them. Those that it has removed along the present normals were given along the former
+    ones: what is left of their difference is removed too.
+    """
+    s = blocks_inout.gathered
+    for block in range(count):
+        if not blocks_inout.turns[block]:
+            continue
+        c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
+        wide = lanes_of(blocks_inout.contact, block)
+        for lane in range(wide):
+            normal = c[at.NORMAL_1 + lane] + c[at.NORMAL_2 + lane]
+            tangent = c[at.TANGENT_1 + lane] + c[at.TANGENT_2 + lane]
+            nx = c[at.LAST_NX + lane] - c[at.NX + lane]
+            ny = c[at.LAST_NY + lane] - c[at.NY + lane]
+            s[at.DX_A + lane] = normal * nx - tangent * ny
+            s[at.DY_A + lane] = normal * ny + tangent * nx
+            normal = c[at.LAST_NORMAL + lane] - normal
+            tangent = c[at.LAST_TANGENT + lane] - tangent
+            s[at.DX_B + lane] = normal * nx - tangent * ny
+            s[at.DY_B + lane] = normal * ny + tangent * nx
+        for lane in range(wide):
+            a = motions_inout[blocks_inout.motion_a[block, lane]]
+            a.free_vx -= c[at.IM_A + lane] * s[at.DX_A + lane]
+            a.free_vy -= c[at.IM_A + lane] * s[at.DY_A + lane]
+            a.vx += c[at.IM_A + lane] * s[at.DX_B + lane]
+            a.vy += c[at.IM_A + lane] * s[at.DY_B + lane]
+            b = motions_inout[blocks_inout.motion_b[block, lane]]
+            b.free_vx += c[at.IM_B + lane] * s[at.DX_A + lane]
+            b.free_vy += c[at.IM_B + lane] * s[at.DY_A + lane]
+            b.vx -= c[at.IM_B + lane] * s[at.DX_B + lane]
+            b.vy -= c[at.IM_B + lane] * s[at.DY_B + lane]
 
 
 # ---- soft step -------------------------------------------------------------------------------------------------------
@@ -433,6 +529,8 @@ def make_substeps(
                 turn_arms(count, motions_inout, blocks_inout)
             if relaxed:
                 relax(count, context, motions_inout, blocks_inout)
+            if rotation:
+                turn_impulses(count, motions_inout, blocks_inout)
 
     return run_substeps
 

@@ -20,6 +20,7 @@ from physics.settings import (
     Tolerances,
 )
 
+NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
 DRIFT_SHARE = 0.02  # share of the drift of a sticking contact that friction takes back in a step
 
 # ---- context ---------------------------------------------------------------------------------------------------------
@@ -123,3 +124,26 @@ def separation_speed(separation, inverse_h, slop, rate, push_speed):
     beyond = beyond if beyond < push_speed else push_speed
     deep = -separation > slop * (1.0 + CALM_SHARE)
     return -separation * inverse_h if separation > 0.0 else (beyond if deep else 0.0)
+
+
+# ---- restitution -----------------------------------------------------------------------------------------------------
+
+
+@inlined
+def restitution_threshold(contact, a, b, degrees, context):
+    """Return the approach speed [px/s] up to which a contact does not bounce.
+
+    A new contact bounces at any speed if no acceleration presses its sides together: otherwise a slow ball would stick
+    to a wall in space. One that touched in the step before bounces only beyond what acceleration adds in two steps.
+    a, b: MOTION rows of its sides, with their numbers of constraints. Two bodies with other constraints do not fall
+    together.
+    """
+    m = contact
+    on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
+    on_b = -(b.acceleration_x * m.normal_x + b.acceleration_y * m.normal_y)
+    least = NO_PRESS * (abs(a.acceleration_x) + abs(a.acceleration_y) + abs(b.acceleration_x) + abs(b.acceleration_y))
+    together = degrees[0] <= 1 and degrees[1] <= 1 and a.inverse_mass > 0.0 and b.inverse_mass > 0.0
+    press = on_a + on_b if together else max(on_a, 0.0) + max(on_b, 0.0)
+    if m.touched:
+        return max(context.restitution_speed, 2.0 * context.dt * press)
+    return context.restitution_speed if press > least else 0.0

@@ -58,6 +58,10 @@ BODY = in_lines(
         ("still_y", np.float64),
         ("still_angle", np.float64),
         ("sleep_time", np.float64),  # [s] time spent near that pose
+        ("rocking_x", np.float64),  # [px] reference pose of the test for bodies that rock in place
+        ("rocking_y", np.float64),
+        ("rocking_angle", np.float64),
+        ("rocking_time", np.float64),  # [s] time spent around that pose
         ("island", np.int64),  # lowest body id of its island; -1: none
         ("reserve", np.float64),  # energy that its contacts have taken of late
         ("cooldown", np.float64),  # [s] > 0 while fewer substeps would do, < 0 while the most were too few

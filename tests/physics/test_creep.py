@@ -3,6 +3,7 @@
 import pytest
 
 from physics import Effects, Material, Polygon, World
+from physics.step import STACKING
 from tests.stability.piles import needs_speed
 
 SCALE = 32.0  # [px/m]
@@ -23,8 +24,9 @@ def plank(density, x, **settings):
 
 
 @needs_speed
-@pytest.mark.parametrize("settings", [{}, {"substeps": 16}, {"solver": "sequential_impulse", "substeps": 16}],
-                         ids=["auto", "16", "sequential 16"])  # fmt: skip
+@pytest.mark.parametrize("settings", [{}, {"substeps": 16}, {"solver": "sequential_impulse"},
+                                      {"solver": "sequential_impulse", "substeps": 16}],
+                         ids=["auto", "16", "sequential", "sequential 16"])  # fmt: skip
 @pytest.mark.parametrize("density", [1.0, 10.0, 50.0])
 def test_a_light_plank_under_a_load_stays_within_a_tenth_of_a_millimetre_a_minute(density, settings):
     for x in (-2.4, -1.3, 0.0, 0.7, 1.9, 3.1):
@@ -36,6 +38,20 @@ def test_a_light_plank_under_a_load_stays_within_a_tenth_of_a_millimetre_a_minut
             world.step()
         crept = max(abs(body.position.x - first) for body, first in zip(bodies, start, strict=True))
         assert crept / SCALE * 1000 <= 0.1, f"{x} m: {crept / SCALE * 1000:.3f} mm"
+
+
+@needs_speed
+@pytest.mark.parametrize("solver", STACKING)
+@pytest.mark.parametrize("rows", [10, 20, 30])
+def test_a_pyramid_comes_to_rest_with_as_many_passes_as_its_load_needs(rows, solver):
+    world = World(EFFECTS, solver=solver)
+    world.add_body(Polygon.box(4000, 40), position=(0, 20), kind="static")
+    for row in range(rows):
+        places = [((k - (rows - row - 1) / 2) * 17, -8 - 16 * row) for k in range(rows - row)]
+        world.add_bodies(Polygon.box(16, 16), places)
+    for _ in range(240):
+        world.step()
+    assert max(body.velocity.length for body in world if body.kind == "dynamic") <= 0.2
 
 
 @pytest.mark.parametrize("speed", [5.0, 40.0, 150.0])

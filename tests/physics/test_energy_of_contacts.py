@@ -68,6 +68,79 @@ def test_a_disc_in_a_bowl_of_links_never_gains(links, radius, start, substeps):
     assert found[-120:].max() >= share - 0.05
 
 
+def rocking(half_height, tilt, effects=EFFECTS, **settings):
+    """A plank that rocks on a static disc of 12 px, rolled from its middle by an angle."""
+    world, rough = World(effects, **settings), Material(friction=0.9)
+    world.add_body(Circle(12), kind="static", material=rough)
+    n, t = (math.sin(tilt), -math.cos(tilt)), (math.cos(tilt), math.sin(tilt))
+    place = [(12 + half_height) * n[k] - 12 * tilt * t[k] for k in range(2)]
+    return world, world.add_body(Polygon.box(24, 2 * half_height), position=place, angle=tilt, material=rough)
+
+
+@needs_speed
+@pytest.mark.parametrize("substeps", SUBSTEPS)
+@pytest.mark.parametrize("half_height", [2, 3, 6, 9])
+def test_a_plank_that_rocks_on_a_round_body_swings_no_further(half_height, substeps):
+    """Its normal, and the point that it is pressed at, turn with it: held for a step, they would lag and add energy."""
+    for tilt in (0.005, 0.02, 0.06, 0.15, 0.3, 0.45):
+        world, plank = rocking(half_height, tilt, substeps=substeps)
+        swings = []
+        for _ in range(6):
+            angles = []
+            for _ in range(300):
+                world.step()
+                angles.append(abs(plank.angle))
+            swings.append(max(angles))
+        assert swings[0] <= 1.01 * tilt, (tilt, swings)
+        assert all(b <= 1.0005 * a for a, b in zip(swings, swings[1:], strict=False)), (tilt, swings)
+        assert swings[-1] >= (0.78 if substeps in (4, "auto") else 0.95) * tilt, (tilt, swings)
+
+
+@needs_speed
+@pytest.mark.parametrize("half_height", [2, 4, 6, 9])
+def test_sequential_impulses_damp_a_plank_that_rocks(half_height):
+    for tilt in (0.02, 0.1, 0.3):
+        world, plank = rocking(half_height, tilt, solver="sequential_impulse")
+        swings = []
+        for _ in range(1800):
+            world.step()
+            swings.append(abs(plank.angle))
+        assert max(swings) <= 1.005 * tilt and max(swings[-300:]) <= tilt
+
+
+@needs_speed
+@pytest.mark.parametrize("half_height, tilt", [(2, 0.01), (2, 0.2), (3, 0.05), (3, 0.3), (6, 0.1), (9, 0.06)])
+def test_what_rocks_in_place_sleeps_in_worlds_with_sleeping(half_height, tilt):
+    world, plank = rocking(half_height, tilt, Effects.rigid_bodies())
+    for _ in range(900):
+        world.step()
+    assert not plank.awake and abs(plank.angle) <= 0.06
+
+
+@needs_speed
+@pytest.mark.parametrize("settings", [{}, {"substeps": 4}, {"substeps": 16}], ids=["auto", "4", "16"])
+def test_discs_planks_and_capsules_that_roll_on_each_other_never_gain(settings):
+    shapes = (Circle(9), Polygon.box(30, 6), Capsule((-8, 0), (8, 0), 5), Polygon.box(14, 14))
+    for seed in range(10):
+        rng = np.random.default_rng(seed)
+        world, rough = World(EFFECTS, **settings), Material(friction=0.9)
+        world.add_body(Chain([(-90, -200), (-60, 0), (60, 0), (90, -200)][::-1]), kind="static", material=rough)
+        order = rng.permutation(4)
+        bodies = [
+            world.add_body(shapes[k], position=(rng.uniform(-2, 2), -12 - 24 * place), material=rough)
+            for place, k in enumerate(order)
+        ]
+
+        def energy(bodies=bodies, gravity=world.gravity[1]):
+            return sum(body.kinetic_energy - body.mass * gravity * (body.center.y) for body in bodies)
+
+        start = last = energy()
+        for _ in range(600):
+            world.step()
+            assert energy() - last <= 1e-3 * abs(start), seed
+            last = energy()
+
+
 @needs_speed
 @pytest.mark.parametrize("scene", [lambda: eccentric(17, 60, 0.5, solver="sequential_impulse"),
                                    lambda: bowl(240, 20, 0.7, solver="sequential_impulse")])  # fmt: skip

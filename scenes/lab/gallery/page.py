@@ -41,7 +41,7 @@ def auto(accuracy):
 
 
 SOFT = Way("soft step", {"solver": "soft_step"})
-KEPT = Way("sequential impulse", {"solver": "sequential_impulse"})
+KEPT = Way("sequential impulse, 10 passes", {"solver": "sequential_impulse", "substeps": 4})
 PUSHED = Way("projection", {"solver": "projection"})
 PLAIN = Way("projection", PUSHED.world, without=("stacking",))
 

@@ -29,8 +29,9 @@ TABLES = ("bodies", "shapes", "proxies", "characters", "contact_rows")
 # body they belong to aside.
 WRITTEN_ANEW = {
     "bodies": {
-        *(f"{when}_{axis}" for when in ("previous", "settled", "still") for axis in ("x", "y", "angle")),
+        *(f"{when}_{axis}" for when in ("previous", "settled", "still", "rocking") for axis in ("x", "y", "angle")),
         "sleep_time",
+        "rocking_time",
         "cooldown",
         "reserve",
     },
