@@ -15,7 +15,9 @@ from game.startup import say
 
 
 class Arcade:
-    """Shared state. `running` turns False to end the program. `message`: report on the files that were read."""
+    """State shared by all screens. `running` turns False to end the program. `message`: warning about settings or
+    records that could not be read, or "".
+    """
 
     def __init__(
         self, options: Options, registry: Registry, settings: Settings, surface: pygame.Surface, message: str = ""

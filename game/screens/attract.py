@@ -16,7 +16,7 @@ from game.screens.parts.status_line import draw_line
 from game.screens.screen import SceneScreen
 
 SCENES = ("shooter", "platformer", "lander", "lab/pyramid", "lab/masks")
-SECONDS = 25  # of each
+SECONDS = 25  # for which each scene is shown
 STEPS = SECONDS * 60
 AFTER_END = 180  # steps for which an ended game stays on screen
 LINE = "DEMO - press any key"
@@ -24,9 +24,9 @@ ENDS_IT = (pygame.KEYDOWN, pygame.MOUSEBUTTONDOWN, pygame.CONTROLLERBUTTONDOWN, 
 
 
 class Attract(SceneScreen):
-    """The demonstration. `make(name)` builds a scene.
+    """Demonstration of one scene after the other. `make(name)` builds a scene.
 
-    `outcome` becomes ("back",). `quiet` asks the app to play the music low.
+    `outcome` becomes ("back",) when it ends. `quiet`: the music is played low.
     """
 
     shows_pointer = False
@@ -48,7 +48,7 @@ class Attract(SceneScreen):
 
     @property
     def tune(self) -> str | None:
-        """Music of the current scene."""
+        """Name of the current scene's music."""
         return self.demo.scene.music if self.demo else "title"
 
     def feed(self, event: pygame.event.Event) -> bool:
@@ -84,7 +84,7 @@ class Attract(SceneScreen):
         self.demo = Demo(scene, self.accessibility)
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene, and a line that it is a demonstration."""
+        """Draw the scene, and a line of text that says it is a demonstration."""
         if self.demo is None:
             return picture.presenter.frame
         frame = self.demo.draw(picture)

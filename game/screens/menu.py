@@ -23,7 +23,7 @@ FOOT = "\u2191 \u2193 choose   Enter plays   Esc back"
 
 
 class Menu(CanvasScreen):
-    """Choice of a scene. `outcome` becomes ("play", name, level file or None) or ("back",)."""
+    """Menu in which the player chooses a scene. `outcome` becomes ("play", name, level file or None) or ("back",)."""
 
     tune = "title"
 
@@ -31,7 +31,7 @@ class Menu(CanvasScreen):
         super().__init__()
         self.registry, self.records = registry, records
         self.ground = DuskBackground()
-        self.tables = {}  # (scene class, level file) -> its table, cached: the file is read for it
+        self.tables = {}  # (scene class, level file) -> key of its high-score table; cached, since it needs the file
         self.entries = self._entries()  # (scene class or None for Back, level file or None) of each row
         inside = LIST.inflate(-32, 0)
         self.list = RowList(lambda: self.rows, (inside.x, LIST.y + 36, inside.width, 192), self.cues)
@@ -42,7 +42,7 @@ class Menu(CanvasScreen):
         self.time = 0.0
 
     def _entries(self):
-        """Return one entry per row, built together with the rows."""
+        """Rebuild self.rows, and return an entry (scene class or None, level file or None) for each row."""
         entries, self.rows, group = [], [], None
         for scene_class in self.registry.all_classes():
             own = scene_class.name.split("/")[0] if "/" in scene_class.name else ""
@@ -67,7 +67,7 @@ class Menu(CanvasScreen):
         self.outcome = ("back",)
 
     def resume(self) -> None:
-        """Refresh when the screen is shown again: the folder may have new levels."""
+        """Refresh the list when the screen is shown again, because the level folder may have new files."""
         mark = self.list.mark
         self.tables.clear()
         self.entries = self._entries()
@@ -83,7 +83,7 @@ class Menu(CanvasScreen):
         self.list.step(inputs, dt)
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the list, and a description of the marked scene."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Play", FOOT)
         self.list.draw(canvas)
@@ -113,7 +113,9 @@ class Menu(CanvasScreen):
             y += height
 
     def _table(self, scene_class, level):
-        """Return the key of a scene's table; None for an unreadable level, whose error is shown when it is played."""
+        """Return the key of a scene's high-score table. None: the level file is unreadable; its error is shown when it
+        is played.
+        """
         if (scene_class, level) not in self.tables:
             try:
                 self.tables[scene_class, level] = table_of(scene_class.name, level)
@@ -122,7 +124,7 @@ class Menu(CanvasScreen):
         return self.tables[scene_class, level]
 
     def _draw_best(self, canvas, scene_class, level, x, y):
-        """Draw the first place of the scene's table, beside the picture."""
+        """Draw the best entry of the scene's high-score table beside the scene's picture."""
         if scene_class.ranked_by is None or self.records is None:
             return
         best = self.records.best(self._table(scene_class, level))

@@ -1,4 +1,4 @@
-"""A message, such as an unusable file with place and reason. Any confirm or cancel goes back."""
+"""Screen with a message, such as why a file cannot be used. Enter, Esc or a click goes back."""
 
 from collections.abc import Sequence
 
@@ -11,11 +11,11 @@ from game.screens.parts.rows import confirmed
 from game.screens.screen import CanvasScreen
 
 WIDTH = 400
-MOST_LINES = 6  # of one part; a longer one is cut
+MOST_LINES = 6  # of one part; longer text is cut
 
 
 class MessageScreen(CanvasScreen):
-    """A screen of `parts`: (label, text) pairs. `outcome` becomes ("back",)."""
+    """Screen that shows `parts`, (label, text) pairs, under a title. `outcome` becomes ("back",)."""
 
     def __init__(self, title: str, parts: Sequence[tuple[str, str]], ground: Background | None = None) -> None:
         super().__init__()
@@ -31,7 +31,7 @@ class MessageScreen(CanvasScreen):
             self.outcome = ("back",)
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the box with its title and parts."""
         self.ground.draw(canvas, self.time)
         lines = []
         for label, text in self.parts:
@@ -50,7 +50,7 @@ class MessageScreen(CanvasScreen):
 
 
 def _broken(canvas, line, width):
-    """Return a line without spaces that is too long (a path), split into pieces that fit."""
+    """Yield the pieces of a line that has no spaces (such as a path) and is too wide; each piece fits into `width`."""
     while canvas.measure(line)[0] > width:
         end = len(line)
         while canvas.measure(line[:end])[0] > width:
@@ -61,5 +61,5 @@ def _broken(canvas, line, width):
 
 
 def error_message(error: UsageError, ground: Background | None = None) -> MessageScreen:
-    """Return the screen of a UsageError; a FileError is shown in its three parts."""
+    """Return a screen that shows a UsageError. A FileError is shown in three parts."""
     return MessageScreen(error.headline, error.parts, ground)

@@ -15,10 +15,10 @@ WIDTH = 192
 
 
 class PauseMenu(CanvasScreen):
-    """The menu. `outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
+    """The pause menu. `outcome`: ("back",), ("restart",), ("settings", page), ("save_replay",), ("tour",) or ("menu",).
 
-    can_save: a replay of this run can be saved. message: reason why the game stopped by itself, or "". pairs: (key,
-    function) of the game.
+    can_save: whether a replay of this run can be saved. message: reason if the game paused by itself, or "". pairs:
+    (key, function) of the game's keys.
     """
 
     holds_music = True
@@ -68,7 +68,7 @@ class PauseMenu(CanvasScreen):
         self.list.step(inputs, dt)
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the menu over the darkened game; below it the message, or else the keys."""
         self.ground.draw(canvas, self.time)
         lines = wrap(self.message, WIDTH - 24, TEXT)
         rect = self.list.rect.inflate(32, 24)

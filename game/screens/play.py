@@ -35,14 +35,15 @@ from game.screens.parts.switches import Switches
 from game.screens.parts.timeline import Timeline
 from game.screens.screen import SceneScreen
 
-RECORDED_ON = 120  # steps recorded after the end, so that a replay shows it
+RECORDED_ON = 120  # steps recorded after the end of a game, so that a replay shows the end
 EASIER = ("tier", "narrowphase", "slider:")  # changes that make a score an assisted one
 
 
 class Play(SceneScreen):
-    """One scene on the screen. `outcome`: ("pause", message), ("result",), or ("menu",) for a bot's game.
+    """Screen on which a scene is played. `outcome`: ("pause", message), ("result",), or ("menu",) for a bot's game.
 
-    settings: the player's, or None in a test. A person's run is recorded in `recorder`, from its last restart on.
+    settings: the player's settings, or None in a test. A person's run is recorded in `recorder`, from the last restart
+    on.
     """
 
     takes_game_input = True
@@ -61,7 +62,7 @@ class Play(SceneScreen):
     ) -> None:
         super().__init__()
         self.scene, self.devices, self.sounds, self.settings = scene, devices, sounds, settings
-        self.last_frame: int | None = None  # the last step of the run, None for no end
+        self.last_frame: int | None = None  # number of steps after which the run ends; None: it does not end
         self.person = not bot and recording is None
         source = recording or (BotSource(devices) if bot else devices)
         self.renews = self.person and not records  # each attempt gets its own recording
@@ -105,12 +106,12 @@ class Play(SceneScreen):
 
     @property
     def tune(self) -> str | None:
-        """Music of this moment."""
+        """Name of the scene's music at this moment."""
         return self.scene.music
 
     @property
     def open_panel(self) -> Panel | CostPanel | None:
-        """The open panel, else None."""
+        """The open panel; None if none is open."""
         return self.costs if self.costs_open else self.panel if self.panel_open else None
 
     @property
@@ -120,7 +121,9 @@ class Play(SceneScreen):
         return working or self.scene.draggable or not self.scene.hides_pointer
 
     def apply_settings(self) -> None:
-        """Apply the player's settings. Changes of the game are input, so that a recording contains them."""
+        """Apply the player's settings. Those that change the game are input of the next step, so that a recording
+        contains them.
+        """
         if self.settings is None:
             return
         self.scene.set_accessibility(self.settings.accessibility())
@@ -133,7 +136,7 @@ class Play(SceneScreen):
                 self.devices.change(f"assist:{name}", value)
 
     def resume(self) -> None:
-        """Update when the screen is shown again."""
+        """Update the clock and the settings when the screen is shown again."""
         self.clock.rest()
         self.apply_settings()
         if self.timeline is not None:
@@ -141,7 +144,7 @@ class Play(SceneScreen):
 
     @property
     def finished(self) -> bool:
-        """True after the last step of a run of given length."""
+        """True after the last step, if the command line limits the number of steps."""
         return self.last_frame is not None and self.session.report.steps >= self.last_frame
 
     def lose_focus(self) -> None:
@@ -175,7 +178,7 @@ class Play(SceneScreen):
                 return
 
     def _went(self):
-        """Update after the scene moved to another step of its past."""
+        """Update after the timeline has moved the scene to another step."""
         assert self.timeline is not None
         self.assisted = True
         self.measuring.end_race()
@@ -184,7 +187,9 @@ class Play(SceneScreen):
             self.scene.set_accessibility(self.settings.accessibility())
 
     def drop_future(self) -> None:
-        """Continue the game and its recording from a step of the past, with the settings made since."""
+        """Continue the game and its recording from the step to which it was rewound, with the current settings. Later
+        steps are lost.
+        """
         self.step_inspector.leave()
         if self.timeline is not None and not self.timeline.rewind.live:
             self.apply_settings()
@@ -207,7 +212,7 @@ class Play(SceneScreen):
             self._note_result()
 
     def _note_help(self):
-        """Record the changes that make a score an assisted one."""
+        """Mark the score as assisted if this step had help: slow motion, an easier setting, invincibility, dragging."""
         slow = self.clock.speed < 1.0 or self.clock.game_speed < 1.0 or self.clock.paused
         changed = any(name.startswith(EASIER) for name, _ in self.session.inputs.now.changes)
         if slow or changed or self.scene.assist.get("invincible") or self.scene.drag.holds:
@@ -228,16 +233,17 @@ class Play(SceneScreen):
             self.outcome = ("result",)
 
     def end_run(self) -> None:
-        """Hand on the recording of the ended run, once."""
+        """Pass the recording of the ended run to run_ended(), once."""
         self.drop_future()
         if self.renews and self.recorder is not None:
             self.run_ended(self.recorder, self.scene.result)
             self.recorder = self.session.recorder = None
 
     def restart(self) -> None:
-        """Restart from the first frame. A person's attempt is a run of its own, with its own recording.
+        """Restart the scene from its first frame. A person's attempt becomes a run with its own recording.
 
-        Its first input contains the choices made before, so that the recording is independent of earlier runs.
+        The first input of that recording contains the settings chosen before, so that it is independent of earlier
+        runs.
         """
         self.step_inspector.leave()
         self.table = table_of(self.scene.name, self.scene.level_file)
@@ -251,19 +257,19 @@ class Play(SceneScreen):
         self.devices.change("restart", True)
 
     def request_restart(self) -> None:
-        """Restart; in an ended game open its result first, so that a hasty key loses no score."""
+        """Restart the game. If it has ended, open its result instead, so that a hasty key loses no score."""
         if self.person and self.scene.result is not None:
             self.outcome = ("result",)
         else:
             self.restart()
 
     def switch_solver(self, way: int) -> None:
-        """Change to the next solver, or the previous one."""
+        """Change to the next solver (`way` 1) or the previous one (-1)."""
         self.switches.solver(way)
 
     @property
     def news(self) -> str:
-        """Line about the last switch, "" once it is old."""
+        """Line of text about the last switch, "" once it is old."""
         return self.switches.news
 
     def toggle_pause(self) -> None:
@@ -276,7 +282,7 @@ class Play(SceneScreen):
         self.clock.request_step()
 
     def toggle_step_inspector(self) -> None:
-        """Freeze, and inspect the next step stage by stage; if a step is inspected, leave it."""
+        """Freeze the game and inspect its next step stage by stage; if a step is being inspected, end the inspection."""
         if self.step_inspector.open:
             self.step_inspector.leave()
         else:
@@ -316,7 +322,7 @@ class Play(SceneScreen):
         return event.type == pygame.KEYDOWN and press(self, event.key)
 
     def stop(self) -> None:
-        """Go to the pause menu; from an ended game to its result; from a bot's game to the menu."""
+        """Go to the pause menu; to the result if the game has ended; to the scene menu from a bot's game."""
         if not self.person:
             self.outcome = ("menu",)
         else:
@@ -339,16 +345,16 @@ class Play(SceneScreen):
         self.devices.release_all()
 
     def close_costs(self) -> None:
-        """Stop measuring; results are kept."""
+        """Close the plot of accuracy and cost, and stop its measurements. Results are kept."""
         self.costs_open = False
         self.measuring.close()
 
     def try_setting(self, setting: Setting) -> None:
-        """Apply a measured setting."""
+        """Apply a setting chosen in the plot of accuracy and cost."""
         self.switches.report(self.measuring.apply(setting))
 
     def start_race(self, setting: Setting) -> None:
-        """Restart, in a race against the same scene under a measured setting."""
+        """Restart the scene in a race against a copy of it under this setting."""
         self.switches.report(self.measuring.start_race(setting))
         if self.measuring.race is not None:
             self.restart()
@@ -366,7 +372,9 @@ class Play(SceneScreen):
             self.switches.report(news)
 
     def _below(self) -> StepInspectorView | Timeline | None:
-        """Return the element over the bottom of the picture while the game is paused."""
+        """Return the element at the bottom of the picture while the game is paused: step inspector or timeline; None
+        for none.
+        """
         if self.step_inspector.open:
             return self.step_inspector
         return self.timeline if self.timeline is not None and (self.clock.paused or self.timeline.runs) else None

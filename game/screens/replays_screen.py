@@ -1,4 +1,4 @@
-"""The replays of this user: description, playback, keeping and locating."""
+"""The screen of the user's replays: lists, describes, plays and keeps them, and shows where their files are."""
 
 from collections.abc import Callable
 from functools import partial
@@ -24,8 +24,9 @@ MISSING = object()  # not read yet
 
 
 class ReplaysScreen(CanvasScreen):
-    """List of replays. `outcome` becomes ("watch", path) or ("back",). `copy(text)` copies to the clipboard, True if
-    that worked.
+    """List of replays. `outcome` becomes ("watch", path) or ("back",).
+
+    `copy(text)` copies a text to the clipboard and returns whether that worked.
     """
 
     tune = "title"
@@ -48,7 +49,7 @@ class ReplaysScreen(CanvasScreen):
 
     @property
     def chosen(self) -> tuple[Path, bool] | None:
-        """(path, kept by the player) of the marked replay, or None."""
+        """(path, whether the player keeps it) of the marked replay; None while Back is marked."""
         return self.entries[self.list.mark] if self.list.mark < len(self.entries) else None
 
     def _rows(self):
@@ -106,7 +107,7 @@ class ReplaysScreen(CanvasScreen):
         self.message = "The path is on the clipboard: send the file to a friend." if copied else f"The file: {path}"
 
     def resume(self) -> None:
-        """Refresh when the screen is shown again: there may be other files."""
+        """Refresh the list when the screen is shown again, because the files may have changed."""
         before = self.chosen
         self.entries = shelf()
         if before in self.entries:
@@ -142,7 +143,7 @@ class ReplaysScreen(CanvasScreen):
                 self.message, self.card.mark = "", 0
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the list, and a card about the marked replay."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Replays", FOOT)
         self.list.draw(canvas, not self.inside)
@@ -192,7 +193,7 @@ class ReplaysScreen(CanvasScreen):
 
 
 def _path_lines(text, width):
-    """Return a text wrapped at spaces, and a path at its slashes."""
+    """Return the lines of a text wrapped at spaces and, in paths, at slashes."""
     return [
         line.replace("/ ", "/").replace("\\ ", "\\")
         for line in wrap(text.replace("/", "/ ").replace("\\", "\\ "), width, SMALL)

@@ -1,4 +1,4 @@
-"""The result of a game: won or lost, points and time, the place in the table, initials, and the next screens."""
+"""The screen after a game: won or lost, points and time, the place in the high scores, initials, and a menu."""
 
 from collections.abc import Callable, Iterable
 
@@ -20,7 +20,8 @@ COUNT_SECONDS = 0.8  # the numbers count up this long
 
 
 class ResultScreen(CanvasScreen):
-    """The result. `place`: 1..10 in the table, or None. `enter(initials)` is called once when they are accepted.
+    """The result of a game. `place`: 1..10 in the high scores, or None. `enter(initials)` is called once, when the
+    initials are accepted.
 
     `outcome`: ("again",), ("save_replay",), ("scores",) or ("menu",).
     """
@@ -90,18 +91,20 @@ class ResultScreen(CanvasScreen):
         self.list.step(inputs, dt)
 
     def report(self, message: str) -> None:
-        """Show a message under the list, in place of the last one."""
+        """Show a message under the list, in place of the previous one."""
         self.notes[:] = [message]
 
     def accept(self) -> None:
-        """Accept the initials as they are, so that neither a hasty Esc nor closing the window loses a place."""
+        """Accept the initials as they are, so that a hasty Esc or closing the window does not lose the place in the
+        high scores.
+        """
         asked = self.asked
         if asked is not None:
             asked.done = True
             self.enter(asked.text)
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the result, and the initials or the menu."""
         self.ground.draw(canvas, self.time)
         draw_box(canvas, PAGE)
         x, y = PAGE[0] + PAGE[2] // 2, PAGE[1] + 12

@@ -1,4 +1,6 @@
-"""High scores: one page per ranked scene and per own level that was played; left and right change it."""
+"""High scores: a page for each ranked scene, and for each level of the player's own that was played. Left and right
+turn pages.
+"""
 
 from pathlib import Path
 from typing import NamedTuple
@@ -24,7 +26,9 @@ HEADS = ("", "NAME", "POINTS", "TIME", "DATE", "")
 
 
 class Page(NamedTuple):
-    """The heading of a table, its key in the records, and its order."""
+    """A page of high scores: its heading, the key of its table in the records, and the result that orders it ("points"
+    or "seconds").
+    """
 
     title: str
     table: str
@@ -32,8 +36,8 @@ class Page(NamedTuple):
 
 
 def pages_of(registry: Registry, records: Records, played: tuple[str, Path | None] | None = None) -> list[Page]:
-    """Return the pages in menu order; played: (scene name, level file) of a game that need not be in the levels'
-    folder.
+    """Return the pages in menu order. played: (scene name, level file) of the current game; its level gets a page even
+    if the file is not in the level folder.
     """
     found = []
     for scene_class in registry.all_classes():
@@ -54,7 +58,9 @@ def pages_of(registry: Registry, records: Records, played: tuple[str, Path | Non
 
 
 class ScoresScreen(CanvasScreen):
-    """The pages. `outcome`: ("back",). pages: see pages_of; shown: the first table; newest: (table, place) to mark."""
+    """Pages of high scores. `outcome`: ("back",). pages: from pages_of(). shown: key of the table to show first.
+    newest: (table, place) of the entry to mark.
+    """
 
     def __init__(
         self,
@@ -80,7 +86,7 @@ class ScoresScreen(CanvasScreen):
 
     @property
     def arrows(self) -> tuple[pygame.Rect, pygame.Rect]:
-        """Rects whose click changes the page: (left, right)."""
+        """Rects of the (left, right) arrows; a click on one turns the page."""
         return pygame.Rect(PAGE.x + 8, PAGE.y + 36, 24, 16), pygame.Rect(PAGE.right - 32, PAGE.y + 36, 24, 16)
 
     def step(self, inputs: InputState, dt: float) -> None:
@@ -102,7 +108,7 @@ class ScoresScreen(CanvasScreen):
             self.turners.pointer = inputs.pointer
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the current page."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, PAGE, "High scores")
         self.turners.draw(canvas)

@@ -1,7 +1,7 @@
-"""The interface between the program and the screen on top.
+"""Interface between the program and the screen on top of the stack.
 
-A screen is drawn on the canvas and moved in fixed steps (CanvasScreen), or it shows a scene, keeps its own time and
-draws at the window's resolution (SceneScreen).
+A CanvasScreen (a menu or message) is drawn on the canvas and moved in fixed steps by the program. A SceneScreen shows a
+scene, makes the scene's steps itself, and draws at the window's resolution.
 """
 
 from abc import ABC, abstractmethod
@@ -21,17 +21,17 @@ Outcome = tuple[str, *tuple[Any, ...]]  # a name in the table of game/screens/st
 
 
 class Screen:
-    """The interface, with default answers.
+    """The interface, with defaults.
 
-    `outcome`: the next screen, None while it stays. `cues`: sounds of its menus since they were last played.
+    `outcome`: where to go next; None while the screen stays. `cues`: sounds of the screen's menus to play next.
     """
 
     shows_pointer: bool = True
     tune: str | None = None  # the music; None: the music continues
-    quiet: bool = False  # the music is low: a demonstration
+    quiet: bool = False  # the music is played low, as in the demonstration
     holds_music: bool = False  # the music stops until another screen is on top
     takes_game_input: bool = False  # keys and buttons have the player's bindings, not those of menus
-    shows_scene: bool = False  # a scene with damaged files, which is then closed
+    shows_scene: bool = False  # the screen shows a scene, and is closed if the scene's files turn out damaged
     shows_result: bool = False  # messages about the game are shown here
     wants_screenshot: bool = False  # the picture just drawn is to be saved; the program resets this
     failure: str = ""  # a line for the terminal, with exit code 1, if the program ends on this screen
@@ -52,11 +52,11 @@ class Screen:
 
     @property
     def finished(self) -> bool:
-        """True after the last step of the run given on the command line: the program ends."""
+        """True if the program should end, because the run given on the command line is complete."""
         return False
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Process an event before the devices do; return whether it was used."""
+        """Process an event before it becomes game or menu input; return whether it was used."""
         return False
 
     def resume(self) -> None:
@@ -66,17 +66,17 @@ class Screen:
         """React to the loss of the window's focus."""
 
     def close(self) -> None:
-        """Clean up when it is left for the screen below."""
+        """Clean up when the player leaves this screen for the one below."""
 
     def accept(self) -> None:
-        """Accept a pending entry, because the window closes."""
+        """Accept a pending entry, such as initials, because the window closes."""
 
     def report(self, message: str) -> None:
-        """Show one line about an action of this screen."""
+        """Show one line of text about the result of an action of this screen."""
 
 
 class CanvasScreen(Screen, ABC):
-    """A title, a menu, a table, a message."""
+    """A screen drawn on the canvas: title, menu, table or message."""
 
     @abstractmethod
     def step(self, inputs: InputState, dt: float) -> None:
@@ -84,10 +84,12 @@ class CanvasScreen(Screen, ABC):
 
     @abstractmethod
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the screen. alpha: interpolation between the last two steps, 0..1."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """Make one turn of the program's loop: the due steps, each with its input, until the screen is left."""
+        """Make the due steps, each with its input, until the screen is left; then draw the screen. Called once per
+        picture.
+        """
         for inputs in steps:
             self.step(inputs, STEP_SECONDS)
             if self.outcome is not None:
@@ -97,7 +99,7 @@ class CanvasScreen(Screen, ABC):
 
 
 class SceneScreen(Screen, ABC):
-    """A scene that is played, watched or demonstrated."""
+    """A screen that plays, replays or demonstrates a scene."""
 
     shows_scene = True
 
@@ -110,8 +112,8 @@ class SceneScreen(Screen, ABC):
         """Draw the scene and the elements over it; return the frame."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """Make one turn of the program's loop at `now` [s]. Return the frame, on which the frame time may be
-        written.
+        """Make the steps due at `now` [s], and draw the scene. Return the frame, so that the program can write the
+        frame time on it. Called once per picture.
         """
         self.advance(now)
         return self.draw(picture)

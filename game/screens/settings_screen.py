@@ -1,4 +1,4 @@
-"""The settings: pages at the left, the marked page's rows at the right. Every change applies at once."""
+"""The settings: a list of pages at the left, the rows of the marked page at the right. Every change applies at once."""
 
 from collections.abc import Callable
 
@@ -26,9 +26,11 @@ BINDING_FOOT = "Enter or click, then press the new one   Esc keeps the old"
 
 
 class SettingsScreen(CanvasScreen):
-    """Editor of a Settings object. `changed()` applies it; `saved()` is called when the screen is left.
+    """Editor of a Settings object. `changed()` is called to apply each change; `saved()` is called when the screen is
+    left.
 
-    `outcome` becomes ("back",). page: the name of the first page, already entered.
+    `outcome` becomes ("back",). page: name of the page to open first, with the keys on its rows; None: the list of
+    pages.
     """
 
     def __init__(
@@ -83,11 +85,11 @@ class SettingsScreen(CanvasScreen):
         self.message = ""
 
     def close(self) -> None:
-        """Save the changes."""
+        """Call saved(), which saves the settings."""
         self.saved()
 
     def feed(self, event: pygame.event.Event) -> bool:
-        """Take the key or button that an action waits for; return whether the event was used."""
+        """Bind the key or button of this event, if the screen waits for one. Return whether the event was used."""
         if self.waiting_for is None:
             return False
         device, action = self.waiting_for
@@ -142,7 +144,7 @@ class SettingsScreen(CanvasScreen):
                 self.list.show_marked()
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the list of pages and the marked page."""
         self.ground.draw(canvas, self.time)
         draw_page(canvas, LIST, "Settings", FOOT)
         self.pages.draw(canvas, not self.inside)

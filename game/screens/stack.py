@@ -37,13 +37,13 @@ AnyScreen = CanvasScreen | SceneScreen
 
 
 class Screens:
-    """The stack; the screen on top is visible and audible. `played`: the game on the stack, or None."""
+    """The stack of screens; only the top screen is visible and audible. `played`: the game on the stack, or None."""
 
     def __init__(self, arcade: Arcade) -> None:
         self.arcade = arcade
         self.stack: list[AnyScreen] = []
         self.played: Play | None = None
-        self.last_played: str | None = None  # its scene, marked in the menu
+        self.last_played: str | None = None  # name of the scene played last, marked in the menu
         self.table: dict[str, Callable[..., None]] = {
             "title": self.title,
             "menu": self.menu,
@@ -66,7 +66,7 @@ class Screens:
         self.newest: tuple[str, int | None] | None = None  # (table, place) of the last entry, marked in the high scores
 
     def open_first(self) -> None:
-        """Open the screen of the command line: a recording, a scene, or the title."""
+        """Open the first screen, as the command line says: a recording, a scene, or the title."""
         arcade, options = self.arcade, self.arcade.options
         if options.replay and not options.is_a_run:
             self.watch(options.replay)
@@ -81,7 +81,9 @@ class Screens:
         return self.stack[-1]
 
     def follow(self, outcome: Outcome) -> None:
-        """Open the screen that the top screen named. An unusable file becomes a message."""
+        """Carry out an outcome of the top screen, (name, *arguments): call the method that `table` has for the name. An
+        unusable file leads to a message.
+        """
         name, *rest = outcome
         self.top.outcome = None
         try:
@@ -90,9 +92,9 @@ class Screens:
             self.complain(error, name not in ("watch", "file"))
 
     def complain(self, error: UsageError, ends_scene: bool = True) -> None:
-        """Show the error of an unusable file, over the screen to continue with.
+        """Show a message about an unusable file, over the screen to return to.
 
-        ends_scene: False for a file other than that of the scene on top, which then continues.
+        ends_scene: whether the file belongs to the scene on top, which is then closed.
         """
         if ends_scene and self.top.shows_scene:
             self.stack.pop()
@@ -109,12 +111,12 @@ class Screens:
         return SceneBackground(self.played.scene) if self.played else None
 
     def title(self, message: str = "") -> None:
-        """Show the title alone."""
+        """Show the title as the only screen."""
         self._leave_play()
         self.stack = [Title(message)]
 
     def menu(self) -> None:
-        """Open the scene menu, over the title."""
+        """Show the scene menu, with the title below it on the stack."""
         self._leave_play()
         self.stack = [Title(), self._scene_menu()]
 
@@ -126,7 +128,7 @@ class Screens:
         self.top.resume()
 
     def settings(self, page: str | None = None) -> None:
-        """Open the settings, over a game or over the title."""
+        """Open the settings over the current screen. page: the page to open first, or None."""
         arcade = self.arcade
         changed, saved = self._settings_changed, arcade.save_settings
         self.stack.append(SettingsScreen(arcade.settings, arcade.devices, changed, self._ground(), page, saved))
@@ -137,7 +139,7 @@ class Screens:
             self.played.apply_settings()
 
     def scores(self) -> None:
-        """Open the high scores; from a game those of its scene or level."""
+        """Open the high scores; from a game at the table of its scene or level."""
         arcade, play = self.arcade, self.played
         pages = pages_of(arcade.registry, arcade.records, play and (play.scene.name, play.scene.level_file))
         self.stack.append(ScoresScreen(pages, arcade.records, play and play.table, self.newest, self._ground()))
@@ -147,9 +149,10 @@ class Screens:
         self.stack.append(ReplaysScreen(self.arcade.registry, copy_text))
 
     def open_file(self, path: str | Path) -> None:
-        """Open a file dropped on the window: a picture goes to a scene that takes pictures, all else is watched.
+        """Open a file dropped on the window: a PNG picture starts the scene that takes pictures as levels; any other
+        file is played as a recording.
 
-        The game continues if the file is unusable. Raises UsageError then.
+        Raises UsageError for an unusable file; the current game then continues.
         """
         classes = self.arcade.registry.all_classes() if Path(path).suffix.lower() == ".png" else []
         taker = next((each for each in classes if each.takes_level and each.level_suffix == ".png"), None)
@@ -164,7 +167,7 @@ class Screens:
         self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
 
     def watch(self, path: str | Path) -> None:
-        """Play a recording. Raises UsageError for an unusable one."""
+        """Play a recording. Raises UsageError if the file is unusable."""
         arcade = self.arcade
         recording, scene_class = load_replay_for(path, arcade.registry)
         level = recording.level_path()
@@ -182,20 +185,20 @@ class Screens:
         self.stack.append(Tour(self._make_shown, arcade.registry.names, arcade.devices, accessibility))
 
     def attract(self) -> None:
-        """Start the demonstration, until any input."""
+        """Start the demonstration, which any input ends."""
         self.stack.append(Attract(self._make_shown, self.arcade.registry.names, self.arcade.settings.accessibility()))
 
     def _make_shown(self, name):
         return self.arcade.registry.scene_class(name)(0)
 
     def play(self, name: str, level: Path | None = None) -> None:
-        """Play a scene of the menu."""
+        """Play a scene chosen in the menu."""
         arcade = self.arcade
         scene = arcade.registry.scene_class(name)(arcade.options.seed or 0, level=level)
         self._begin(Play(scene, arcade.devices, arcade.sounds, settings=arcade.settings))
 
     def play_first(self) -> None:
-        """Play the scene of the command line, with its options."""
+        """Play the scene that the command line names, with its options."""
         arcade, options = self.arcade, self.arcade.options
         scene = make_scene(options, arcade.registry)
         play = Play(
@@ -223,7 +226,9 @@ class Screens:
         self.played = play
 
     def _bring_best(self, play):
-        """Pass the best run to the scene: its points, or its ghost."""
+        """Pass the best run so far to the scene: its points and, in scenes ranked by time, its recorded path as a
+        ghost.
+        """
         scene = play.scene
         best = self.arcade.records.best(play.table)
         if best is not None:
@@ -246,12 +251,14 @@ class Screens:
             self.played = None
 
     def _game(self) -> Play:
-        """Return the game on the stack; its pause menu and its result are only reached from it."""
+        """Return the game on the stack. Pause menu and result, which call this, are open only over a game."""
         assert self.played is not None
         return self.played
 
     def pause(self, message: str = "") -> None:
-        """Open the pause menu; after the end of a game its result, so that its place in the table is not lost."""
+        """Open the pause menu; if the game has ended, open its result instead, so that its place in the high scores is
+        not lost.
+        """
         play = self._game()
         if play.scene.result is not None:
             self.result()
@@ -260,7 +267,7 @@ class Screens:
         self.stack.append(PauseMenu(play.scene, play.renews, message, pairs))
 
     def restart(self) -> None:
-        """Go back from the pause menu or the result into the game, from its start."""
+        """Restart the game from the pause menu or the result, which are closed."""
         play = self._game()
         while self.top is not play:
             self.stack.pop()
@@ -269,7 +276,7 @@ class Screens:
         play.resume()
 
     def result(self) -> None:
-        """Open the result of the game; a ranked run asks for initials."""
+        """Open the result of the game. If it is ranked, the screen asks for initials."""
         arcade, play = self.arcade, self._game()
         scene, result = play.scene, play.scene.result
         assert result is not None
@@ -303,7 +310,7 @@ class Screens:
         self.stack.append(screen)
 
     def enter_results(self) -> None:
-        """Enter a place in the table that waits for initials, with the last ones entered, because the window closes."""
+        """Enter an ended game in the high scores with the initials used last, because the window closes."""
         play = self.played
         if play is not None and play.since_result and not any(screen.shows_result for screen in self.stack):
             self.result()
@@ -311,7 +318,7 @@ class Screens:
             screen.accept()
 
     def save_replay(self) -> None:
-        """Keep the run so far, and show its path."""
+        """Save a replay of the run so far, and show the file's name."""
         play = self._game()
         assert play.recorder is not None  # otherwise the screens do not offer it
         play.drop_future()

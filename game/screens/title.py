@@ -1,5 +1,5 @@
-"""The title: two planes pass, their boxes overlap, and HIT appears only where pixels overlap. When idle, it starts the
-demonstration.
+"""The title: two planes pass, and HIT appears only where their pixels overlap, not their boxes alone. After IDLE
+seconds without input the demonstration starts.
 """
 
 from math import pi, sin
@@ -30,7 +30,9 @@ ENTRIES = (
 
 
 class Title(CanvasScreen):
-    """The first screen. `outcome` becomes that of the chosen entry, or ("attract",) after IDLE."""
+    """The first screen. `outcome` becomes that of the chosen entry in ENTRIES, or ("attract",) after IDLE seconds
+    without input.
+    """
 
     tune = "title"
 
@@ -52,7 +54,7 @@ class Title(CanvasScreen):
         self.outcome = outcome
 
     def resume(self) -> None:
-        """Update when the screen is shown again."""
+        """Start the idle time anew when the screen is shown again."""
         self.idle = 0.0
 
     def step(self, inputs: InputState, dt: float) -> None:
@@ -72,7 +74,7 @@ class Title(CanvasScreen):
             self.outcome = ("attract",)
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the planes, the logo and the menu."""
         self.backdrop.draw(canvas, self.time * 40.0)
         self._draw_planes(canvas)
         canvas.sprite(self.logo, canvas.rect.centerx, LOGO_Y + self.logo.get_height() // 2)
@@ -86,7 +88,7 @@ class Title(CanvasScreen):
         canvas.text(foot, canvas.rect.centerx, FOOT_Y, FOG, SMALL, 1, "center", True)
 
     def _draw_planes(self, canvas):
-        """Draw both planes, with boxes coloured by the result of pygame's own masks."""
+        """Draw both planes, with boxes coloured by whether pygame's masks of them overlap."""
         phase = self.time % LOOP / LOOP
         sway = sin(phase * 2 * pi)
         a = self.left.get_rect(center=(round(262 + 40 * sway), round(180 + 4 * sin(phase * 4 * pi))))

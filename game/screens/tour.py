@@ -1,6 +1,7 @@
-"""One minute of overlays: bots play, one layer after the other is shown, and two lines describe it.
+"""One-minute tour of the overlays: bots play, one layer after the other is shown, and a card describes it in two lines.
 
-Each stop waits until its subject appears, freezes that step with a ring around it, and then continues.
+Each stop of the tour waits for an example of its layer, freezes that step with a ring around the example, and then lets
+the scene run on.
 """
 
 from collections.abc import Callable, Sequence
@@ -23,12 +24,12 @@ from game.screens.parts.panel_rows import layer_rows
 from game.screens.parts.subjects import SUBJECTS, subject_of
 from game.screens.screen import SceneScreen
 
-SECONDS, STILL = 5, 3  # of each stop, twelve are a minute; for STILL of them the step is frozen
-PATIENCE = 900  # steps that a stop waits for its subject
-MARGIN = 6  # [canvas px] between a subject and its ring
+SECONDS, STILL = 5, 3  # duration of each of the twelve stops; the step is frozen for STILL of them
+PATIENCE = 900  # steps that a stop waits for an example of its layer
+MARGIN = 6  # [canvas px] between an example and the ring around it
 EDGE = 6  # [text px] between the card and the border of the picture
 CARD = (312, 66)  # [text px]
-# Scene and steps its bot plays first; layer, or the panel; title; two lines.
+# Of each stop: (scene, steps that its bot plays first), layer or "panel", title, two lines of text.
 GAME, LEVEL = ("shooter", 800), ("platformer", 240)
 HEAPS, PILE, SHOTS = ("lab/sleeping", 100), ("lab/pyramid", 120), ("lab/tunnelling", 90)
 STOPS = (
@@ -114,7 +115,7 @@ KEYS = {
     pygame.K_ESCAPE: LEAVE,
     pygame.K_BACKSPACE: LEAVE,
 }
-AHEAD = 0.03  # [s] of each picture spent on the steps before the stop
+AHEAD = 0.03  # [s] of each picture spent on the steps before a stop begins
 BUTTONS = {
     "a": NEXT,
     "right shoulder": NEXT,
@@ -128,8 +129,9 @@ BUTTONS = {
 
 
 class Tour(SceneScreen):
-    """The tour. `make(name)` builds a scene; a stop whose scene is missing shows the first one. `outcome` becomes
-    ("back",).
+    """The tour. `make(name)` builds a scene; a stop whose scene is missing uses the first scene in `names`.
+
+    `outcome` becomes ("back",) at the end.
     """
 
     tune = "title"
@@ -142,9 +144,9 @@ class Tour(SceneScreen):
         self.stops = [stop if stop[0][0] in names else ((names[0], 0), *stop[1:]) for stop in STOPS]
         self.demos = {}  # scene name -> Demo, which continues from stop to stop
         self.at = 0
-        self.shown = 0  # steps of this stop, from the appearance of its subject
-        self.waited = 0  # steps until then
-        self.subject: pygame.Rect | None = None  # its place on the canvas, while the step is frozen
+        self.shown = 0  # steps of this stop since its example appeared
+        self.waited = 0  # steps that this stop has waited for its example
+        self.subject: pygame.Rect | None = None  # place of the example on the canvas, while the step is frozen
         self.ring: pygame.Rect | None = None  # around the subject of the last picture [frame px]
         self.card = pygame.Rect(0, 0, 0, 0)  # of the last picture [frame px]
         self.places = []  # (rect, action) of the last picture
@@ -161,7 +163,7 @@ class Tour(SceneScreen):
 
     @property
     def begins_in(self) -> int:
-        """Number of steps that the bot plays first, fast."""
+        """Number of steps that the bot still has to play, fast, before this stop begins."""
         return self.stops[self.at][0][1] - self.demo.session.report.steps
 
     def _panel_rows(self):
@@ -178,7 +180,7 @@ class Tour(SceneScreen):
 
     @property
     def waits(self) -> bool:
-        """True while the bot plays fast, up to the appearance of the stop's subject."""
+        """True while the bot plays fast, until an example of this stop's layer appears."""
         return not self.shown and self.subject is None and (self.begins_in > 0 or self.waited < PATIENCE)
 
     def advance(self, now: float) -> None:
@@ -202,7 +204,7 @@ class Tour(SceneScreen):
             self._go(NEXT)
 
     def _play_ahead(self):
-        """Make steps for as long as a picture allows, up to the appearance of the subject."""
+        """Make steps for at most AHEAD seconds, until an example of this stop's layer appears."""
         layer, started = self.stops[self.at][1], perf_counter()
         while self.waits and perf_counter() - started < AHEAD:
             if self.begins_in <= 0:
@@ -217,7 +219,7 @@ class Tour(SceneScreen):
                     self._play_again()
 
     def _play_again(self):
-        """Restart a bot that has finished, so that the scene never stops."""
+        """Restart the scene when its game has ended, so that the bot always plays."""
         self.demo.scene.restart()
 
     def _go(self, what):
@@ -248,7 +250,7 @@ class Tour(SceneScreen):
         return what is not None
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene with this stop's layer, a ring around its subject, and its card elsewhere."""
+        """Draw the scene with this stop's layer, a ring around the example, and the card beside the ring."""
         layer = self.stops[self.at][1]
         demo = self.demo
         with_panel = layer == "panel"
@@ -267,13 +269,13 @@ class Tour(SceneScreen):
         return frame
 
     def _ring_on(self, frame):
-        """Return the ring around the subject on a frame [frame px]; None without a subject."""
+        """Return the ring's rect around the example [frame px]; None without an example."""
         if self.subject is None:
             return None
         return frame.from_canvas(self.subject.inflate(2 * MARGIN, 2 * MARGIN))
 
     def _reserve(self, frame):
-        """Place the card off the ring where it covers the least text, and reserve its place."""
+        """Place the card beside the ring where it covers the least text, and reserve both places."""
         ring = self._ring_on(frame)
         beside_panel = self.stops[self.at][1] == "panel"
         self.card = docked(frame, frame.area.clip(frame.rect) if beside_panel else frame.rect, ring)
@@ -302,7 +304,7 @@ class Tour(SceneScreen):
         self._draw_foot(frame, rect, scale)
 
     def _draw_foot(self, frame, rect, scale):
-        """Draw dots for the stops, and the functions of the keys; all of it can be clicked."""
+        """Draw a dot for each stop, the progress of this stop, and the functions of the keys, which can be clicked."""
         self.places = []
         y = rect.bottom - 11 * scale
         for number in range(len(self.stops)):
@@ -320,8 +322,8 @@ class Tour(SceneScreen):
 
 
 def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.Rect:
-    """Return the card's place in an area: a corner, or the middle of a border, clear of the ring, over the least
-    text.
+    """Return the card's place in an area: at a corner or the middle of the top or bottom border, clear of the ring if
+    possible, where it covers the least text.
     """
     scale = frame.scale_for(CARD[0])
     size = (min(CARD[0] * scale, area.width), CARD[1] * scale)
@@ -335,7 +337,7 @@ def docked(frame: Frame, area: pygame.Rect, ring: pygame.Rect | None) -> pygame.
 
 
 def draw_ring(frame: Frame, ring: pygame.Rect) -> None:
-    """Draw a golden ring between two dark lines, visible on any ground."""
+    """Draw a golden rectangle between two dark lines, visible on any background."""
     thick = max(2, frame.scale)
     outer = ring.inflate(2 * thick, 2 * thick).clip(frame.rect)
     corner = 5 * frame.scale

@@ -1,4 +1,6 @@
-"""The replay screen: play, freeze, slow motion, step, seek; overlays and panel as in play, but no changes."""
+"""The screen that plays a recording: freeze, slow motion, single steps, seek; overlays and panel as in a game, but the
+recorded game cannot be changed.
+"""
 
 import pygame
 
@@ -22,7 +24,7 @@ SPEEDS = (0.25, 0.5, 1.0, 2.0, 4.0)
 SPEED_NAMES = ("1/4", "1/2", "1", "2", "4")
 LEAP = 5 * 60  # frames of one leap by left or right
 SEEK_SECONDS = 0.025  # of each picture, spent on a seek
-HIDE_SECONDS = 3.0  # after the last input, before the controls disappear; the next input shows them
+HIDE_SECONDS = 3.0  # time without input after which the controls disappear; the next input shows them again
 LEAST_WIDTH = 360  # [text px] that the controls need
 BAR_HEIGHT = 26  # [text px] of the controls at the bottom
 KEYS_LINE = (
@@ -45,7 +47,7 @@ BUTTON_KEYS = {
 
 
 class Watch(SceneScreen):
-    """Player of a Tape. `outcome` becomes ("back",). `recorded`: the name of the file."""
+    """Player of a recording (a Tape). `outcome` becomes ("back",). name: the recording's file."""
 
     def __init__(
         self, tape: Tape, devices: DeviceSource, sounds: Sounds, accessibility: Accessibility, name: str = ""
@@ -74,19 +76,19 @@ class Watch(SceneScreen):
 
     @property
     def tune(self) -> str | None:
-        """The music of the recorded game."""
+        """Name of the recorded game's music."""
         return self.tape.scene.music
 
     @property
     def failure(self) -> str:
-        """Difference between game and recording, if any; with another version of physics it is expected and not a
-        failure.
+        """Message if the game differs from the recording, otherwise "". A recording of another version of physics may
+        differ: that is no failure.
         """
         return "" if self.tape.recording.outdated else self.tape.diverged
 
     @property
     def diverged(self) -> bool:
-        """True from the frame on at which the game differed from the recording."""
+        """True from the frame on at which the game first differed from the recording."""
         return self.tape.diverged_at is not None and self.tape.position >= self.tape.diverged_at
 
     def advance(self, now: float) -> None:
@@ -105,7 +107,7 @@ class Watch(SceneScreen):
             self.clock.paused = True
 
     def step(self) -> None:
-        """Play one recorded step, with its sounds at normal speed."""
+        """Play one recorded step. Its sounds are played only at normal speed."""
         if not self.tape.ended:
             self.tape.step()
             self.overlays.note(self.tape.scene)
@@ -121,18 +123,22 @@ class Watch(SceneScreen):
             self.clock.paused = not self.clock.paused
 
     def turn_speed(self, way: int) -> None:
-        """Change to the next speed, or the previous one."""
+        """Change to the next higher speed (`way` 1) or the next lower one (-1)."""
         self.speed = max(0, min(len(SPEEDS) - 1, self.speed + way))
         self.clock.game_speed = SPEEDS[self.speed]
 
     def leap(self, frames: int) -> None:
-        """Move by so many frames, from the current frame or from the goal of a seek."""
+        """Seek to a frame `frames` later (earlier if negative), counted from the current frame or, during a seek, from
+        its goal.
+        """
         start = self.tape.position if self.tape.goal is None else self.tape.goal
         self.tape.begin_seek(start + frames)
 
     @property
     def shows_controls(self) -> bool:
-        """False during plain playback, so that the controls hide no part of the game."""
+        """True while the controls are visible. They hide during undisturbed playback, so that they cover no part of the
+        game.
+        """
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
     def feed(self, event: pygame.event.Event) -> bool:
@@ -210,7 +216,7 @@ class Watch(SceneScreen):
         self.outcome = ("back",)
 
     def draw(self, picture: Picture) -> Frame:
-        """Draw the scene, the elements over it, and the controls."""
+        """Draw the scene, its overlays and panel, and the controls."""
         panel = self.panel if self.panel_open else None
         frame = picture.draw_scene(self.tape.scene, self.overlays, self.clock.alpha, panel, self._reserve)
         if self.shows_controls and not (panel and picture.presenter.crowded):
@@ -220,7 +226,7 @@ class Watch(SceneScreen):
         return frame
 
     def _reserve(self, frame):
-        """Reserve the place of the controls, for the legend of the overlays."""
+        """Reserve the place of the controls, so that the legend of the overlays avoids it."""
         if self.shows_controls:
             frame.reserve(self._controls_rect(frame))
 
@@ -246,7 +252,7 @@ class Watch(SceneScreen):
             frame.text(KEYS_LINE, rect.centerx, rect.bottom - 9 * scale, FOG, SMALL, scale, "center")
 
     def _draw_bar(self, frame, scale):
-        """Draw the current frame, the key frames, and the divergence."""
+        """Draw the bar: the current frame, the key frames, and the frame at which game and recording diverged."""
         surface, tape, bar = frame.surface, self.tape, self.bar
         line = pygame.Rect(bar.x, bar.centery - scale, bar.width, 2 * scale)
         surface.fill(DUSK, line)
@@ -277,7 +283,7 @@ class Watch(SceneScreen):
 
 
 def _draw_button(surface, rect, paused, scale):
-    """Draw two bars while it plays, a triangle while it is frozen."""
+    """Draw the button: two bars during playback, a triangle while frozen."""
     x, y, high = rect.x + 3 * scale, rect.y, rect.height
     if paused:
         pygame.draw.polygon(surface, GOLD, ((x, y), (x, y + high), (x + high, y + high // 2)))
@@ -287,7 +293,7 @@ def _draw_button(surface, rect, paused, scale):
 
 
 def watch_rows(watch: Watch) -> list[Row]:
-    """Return the rows of the panel: the view can be changed, the recorded game cannot."""
+    """Return the rows of the panel. They change the view, but not the recorded game."""
     scene, tape = watch.tape.scene, watch.tape
     spacing = tape.spacing // 60
     solver = plain_name(solver_name(scene) or "no solver")

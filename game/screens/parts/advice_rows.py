@@ -1,4 +1,6 @@
-"""Two lines under the finding: the recommended setting, and the tuner that applies it by itself."""
+"""Two lines below the finding of the cost panel: the recommended setting, and the tuner, which applies recommendations
+by itself.
+"""
 
 from collections.abc import Callable
 
@@ -16,18 +18,20 @@ ROW = 9  # [text px]
 
 
 class AdviceRows:
-    """Advice and tuner. now(): the current setting; apply(setting) applies one."""
+    """The two lines. now(): the current setting; apply(setting): apply a setting to the scene."""
 
     def __init__(self, tuner: Tuner, now: Callable[[], Setting], apply: Callable[[Setting], None]) -> None:
         self.tuner, self.now, self.apply = tuner, now, apply
         self.rects = [pygame.Rect(0, 0, 0, 0), pygame.Rect(0, 0, 0, 0)]
 
     def stamp(self) -> tuple:
-        """Return a value that changes with the text of the lines."""
+        """Return a value that changes whenever the text of the lines changes, so that the panel is painted again."""
         return self.tuner.on, len(self.tuner.decisions)
 
     def key(self, key: int) -> bool:
-        """Process a key: page up takes the advice, page down switches the tuner. Return whether it was one of these."""
+        """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether the key was one of
+        these.
+        """
         if key == TAKE:
             self.take()
         elif key == TUNE:
@@ -35,7 +39,7 @@ class AdviceRows:
         return key in (TAKE, TUNE)
 
     def click(self, position: tuple[int, int]) -> bool:
-        """Process a click: on one of the lines it does what the line's key does. Return whether it was on one."""
+        """Process a click: a click on a line has the effect of that line's key. Return whether a line was hit."""
         for rect, key in zip(self.rects, (TAKE, TUNE), strict=True):
             if rect.collidepoint(position):
                 return self.key(key)
@@ -48,7 +52,7 @@ class AdviceRows:
             self.apply(best)
 
     def draw(self, frame: Frame, left: int, y: int, width: int, scale: int) -> int:
-        """Draw the lines. Return the y below."""
+        """Draw the lines. Return the y below them."""
         texts = ((self._advice(), GREEN), (self._tuning(), SKY if self.tuner.on else FOG))
         for row, (text, color) in enumerate(texts):
             self.rects[row] = rect = pygame.Rect(left, y + row * ROW * scale, width, (ROW - 1) * scale)

@@ -1,4 +1,4 @@
-"""Backgrounds of menus: the dusk of the title, or the waiting game, darkened. Also the box that menus stand in."""
+"""Backgrounds of menus: the moving mountains of the title, or the paused game, darkened; and the box around a menu."""
 
 import pygame
 
@@ -9,12 +9,12 @@ from game.drawing.nine_slice import draw_box
 from game.scene import Scene
 
 DRIFT = 20.0  # [px/s] of the backdrop
-DIMMED = 72  # of 255: light of a waiting game that remains
+DIMMED = 72  # of 255: brightness of the paused game behind a menu
 MARGIN = 8  # [canvas px] between a page and the edge of the picture
 
 
 class DuskBackground:
-    """Moving mountains."""
+    """Background of moving mountains."""
 
     def __init__(self) -> None:
         self.backdrop = Backdrop()
@@ -25,15 +25,15 @@ class DuskBackground:
 
 
 class SceneBackground:
-    """The scene in its current state, darkened; it is drawn again in each picture, so that a changed setting shows at
-    once.
+    """Background that shows the paused scene, darkened. The scene is drawn anew for each picture, so that a changed
+    setting shows at once.
     """
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
 
     def draw(self, canvas: Canvas, time: float) -> None:
-        """Draw the scene. Menus may cover its text, which is reserved no longer."""
+        """Draw the scene darkened. The areas reserved for its text are released, so that a menu may cover them."""
         self.scene.draw(canvas, 1.0)
         canvas.surface.fill((DIMMED,) * 3, special_flags=pygame.BLEND_RGB_MULT)
         canvas.boxes.clear()
@@ -44,8 +44,8 @@ Background = DuskBackground | SceneBackground
 
 
 def draw_page(canvas: Canvas, rect: Box, title: str, foot: str = "") -> pygame.Rect:
-    """Draw a box with a title and a line under it; return the rect inside. foot: the keys' functions, in the last
-    line.
+    """Draw a box with a title and a line under the title; return the rect inside the box. foot: text of the box's last
+    line, which names the keys.
     """
     rect = pygame.Rect(rect)
     draw_box(canvas, rect)

@@ -1,4 +1,6 @@
-"""Contact inspector: a click on a contact of the frozen scene opens a card with that pair's path through the step."""
+"""Contact inspector: a click on a contact of the frozen scene opens a card on how each stage of the step treated that
+pair.
+"""
 
 import pygame
 
@@ -15,7 +17,9 @@ WIDTH, ROW, EDGE = 150, 7, 4  # [text px] of the card
 
 
 class ContactInspectorView:
-    """View of the contact inspector, a card: feed() takes clicks, draw() shows it; it closes when time goes on."""
+    """View of the contact inspector: feed() takes clicks, draw() shows the card of the chosen contact. The card closes
+    when the scene moves on.
+    """
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -25,8 +29,8 @@ class ContactInspectorView:
         self.reach = REACH  # [frame px]
 
     def feed(self, event: pygame.event.Event, frozen: bool) -> bool:
-        """Process a click: next to a contact it opens its card, elsewhere it closes it. Return whether the click was
-        used.
+        """Process a click: near a contact it opens that contact's card, elsewhere it closes the open card. Return
+        whether the click was used.
         """
         if not frozen or event.type != pygame.MOUSEBUTTONDOWN or event.button != 1:
             return False
@@ -47,7 +51,7 @@ class ContactInspectorView:
         self.chosen = world, touch
 
     def draw(self, frame: Frame, frozen: bool) -> None:
-        """Draw the ring and the card."""
+        """Draw a ring around the chosen contact, and its card."""
         self.lenses = [(world, frame.lens(camera)) for world, camera in self.scene.views()]
         self.reach = REACH * frame.scale
         if self.chosen is None:

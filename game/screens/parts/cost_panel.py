@@ -1,4 +1,6 @@
-"""Accuracy against cost in the running scene: every setting as a dot of error over time, beside the game."""
+"""Panel that plots accuracy against cost in the running scene: each setting is a dot of its error over its time per
+step.
+"""
 
 from collections.abc import Callable
 
@@ -24,8 +26,8 @@ TITLES = {
     "overlap": "bodies in each other: the deepest place",
     "way": "bodies astray from a reference run",
 }
-# Changed part of a setting -> its name, colour and form, so that dots differ without colour, too. The first difference
-# counts.
+# Changed part of a setting -> (name, colour, form) of its dot; forms differ, so that colour is not needed. If a setting
+# differs in several parts, the first one here counts.
 LOOKS: dict[str, tuple[str, Color, str]] = {
     "tier": ("tier", SKY, "square"),
     "broadphase": ("broad phase", GREEN, "diamond"),
@@ -41,14 +43,14 @@ FEET = (
     "click: play with it   M closes",
     "M closes",
 )
-LASTS = 15  # pictures that a painted panel lasts, whatever new results come
-TRAIL = 12  # settings tried last, joined by a line
+LASTS = 15  # pictures for which a painted panel is shown, even if new results arrive
+TRAIL = 12  # number of last applied settings that a line joins
 ROW = 8  # [text px]
 
 
 class CostPanel:
-    """Panel of accuracy and cost. now(): the current setting; apply(setting) applies one to the scene, or returns why
-    it cannot; race(setting) starts a race of the scene against itself under it; tuner: the scene's.
+    """Panel of accuracy and cost. now(): the current setting; apply(setting): apply it to the scene, or report why that
+    is impossible; race(setting): race the scene against a copy under that setting; tuner: the scene's tuner.
     """
 
     def __init__(
@@ -61,7 +63,7 @@ class CostPanel:
     ) -> None:
         self.surveyor, self.survey, self.now, self.apply, self.race = surveyor, surveyor.survey, now, apply, race
         self.advice = AdviceRows(tuner, now, apply)
-        self.kind: str | None = None  # of error; None: the first one
+        self.kind: str | None = None  # kind of error to plot; None: the first one
         self.trail: list[Setting] = []
         self.places: list[tuple[tuple[float, float], Setting]] = []  # dots of the last picture
         self.rows: list[tuple[pygame.Rect, Setting]] = []
@@ -74,12 +76,12 @@ class CostPanel:
         self.rect = self.head = pygame.Rect(0, 0, 0, 0)
 
     def shown_kind(self) -> str:
-        """Return the plotted error, "" before any result."""
+        """Return the kind of error that is plotted (a key of TITLES); "" before the first result."""
         kinds = self.survey.kinds
         return self.kind if self.kind in kinds else kinds[0] if kinds else ""
 
     def ranking(self) -> list[Setting]:
-        """Return the settings with cost and error, by rising cost."""
+        """Return the settings whose cost and error are known, the cheapest first."""
         known = self.survey.known(self.shown_kind())
         return sorted(known, key=lambda setting: known[setting][0].median)
 
@@ -102,8 +104,8 @@ class CostPanel:
         return False
 
     def key(self, key: int, shift: bool = False) -> bool:
-        """Process a key: up and down choose a setting, Enter applies it, with Shift races it; left and right change the
-        error.
+        """Process a key: up and down choose a setting, Enter applies it, Shift+Enter races it; left and right change
+        the kind of error. Return whether the key was used.
         """
         ranking = self.ranking()
         if key in (pygame.K_UP, pygame.K_DOWN) and ranking:
@@ -118,7 +120,7 @@ class CostPanel:
         return True
 
     def turn_kind(self, way: int) -> None:
-        """Plot another error, if there are several."""
+        """Plot the next kind of error (`way` 1) or the previous one (-1), if there are several."""
         kinds = self.survey.kinds
         if kinds:
             self.kind = following(kinds, self.shown_kind(), way)
@@ -133,8 +135,8 @@ class CostPanel:
         return setting if distance < reach else None
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the panel into a frame rect. New results are shown after a wait, because painting takes a tenth of a
-        frame.
+        """Draw the panel into a frame rect. Painting takes a tenth of a frame, so that new results are painted only
+        after LASTS pictures.
         """
         now = self.now()
         if not self.trail or self.trail[-1] != now:
@@ -152,7 +154,7 @@ class CostPanel:
         frame.fix(rect)
 
     def _paint(self, frame, rect, now):
-        """Paint heading, plot, legend of forms, finding and list."""
+        """Paint the heading, the plot, the legend of the dots' forms, the finding, the advice and the list."""
         self.rect, scale = rect, frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.2), rect)
         pygame.draw.line(frame.surface, SLATE, rect.topleft, rect.bottomleft, scale)
@@ -223,7 +225,7 @@ class CostPanel:
             pygame.draw.circle(frame.surface, PAPER, place, 4 * scale, 1)
 
     def _draw_name(self, frame, rect, places, known, now, scale):
-        """Draw the name of the hovered dot at it, else that of the current setting."""
+        """Draw the name of the hovered setting beside its dot; without one, the name of the current setting."""
         setting = self.hovered if self.hovered in places else now if now in places else None
         if setting is None:
             return
@@ -239,7 +241,7 @@ class CostPanel:
         frame.text(text, round(left), round(top), GOLD if setting == now else PAPER, SMALL, scale)
 
     def _draw_forms(self, frame, left, y, width, known, now, scale):
-        """Draw the legend of the forms in use, in as many lines as needed."""
+        """Draw the legend: name and form of each kind of dot in the plot. Return the y below it."""
         base = self.surveyor.here or now
         names = dict.fromkeys(kind_of(setting, base) for setting in known if setting != base)
         x = left
@@ -261,7 +263,7 @@ class CostPanel:
         return y + 2 * scale
 
     def _draw_list(self, frame, rect, known, now, scale):
-        """Draw the settings by cost, and the number of those that do not fit."""
+        """Draw the settings, the cheapest first, and how many do not fit above and below."""
         base, pareto_front = self.surveyor.here or now, set(self.survey.pareto_front(self.shown_kind()))
         ranking = self.ranking()
         frame.text("time of a step, noise, error", rect.right - 2 * scale, rect.y + scale, FOG, SMALL, scale, "right")
@@ -294,20 +296,22 @@ class CostPanel:
 
 
 def kind_of(setting: Setting, base: Setting) -> str:
-    """Return the part in which a setting differs from another."""
+    """Return the first part of `setting` that differs from `base`, as a key of LOOKS."""
     differs = setting.differs(base)
     return next(name for name in LOOKS if name in differs)
 
 
 def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
-    """Return colour and form of a dot; white for the setting in which the moment was taken."""
+    """Return (colour, form) of a setting's dot; a white circle for `base`, the setting in which the measured state was
+    taken.
+    """
     return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)][1:]
 
 
 def draw_form(
     surface: pygame.Surface, form: str, place: tuple[float, float], size: float, color: Color, full: bool
 ) -> None:
-    """Draw a small form; hollow if its value is only a bound."""
+    """Draw a dot's form. full: filled; otherwise hollow, because the error is only an upper bound."""
     x, y = place
     width = 0 if full else 1
     if form == "circle":
@@ -327,7 +331,7 @@ def draw_form(
 
 
 def _stairs(pareto_front):
-    """Return the border of the dominated region: right along each point's error, then down to the next."""
+    """Return the points of the stepped line along the Pareto front: right from each point, then down to the next."""
     points = []
     for (x, y), (next_x, _) in zip(pareto_front, pareto_front[1:], strict=False):
         points += [(x, y), (next_x, y)]
@@ -339,5 +343,5 @@ def _short(cost: Cost) -> str:
 
 
 def _failed(error: Error) -> str:
-    """Return the failures as text; they are shown beside the error and are no part of it."""
+    """Return the numbers of failures as text. They are shown beside the error and are not part of it."""
     return "".join(f", {count} {name.replace('_', ' ')}" for name, count in error.failures.items())

@@ -1,4 +1,4 @@
-"""A scene played by its bot on a screen: for the title's demonstration and for the tour."""
+"""A scene that its bot plays: for the title's demonstration and for the tour."""
 
 from collections.abc import Callable
 
@@ -13,7 +13,7 @@ from game.scene import Scene
 
 
 class Demo:
-    """A scene, its bot, its clock and its overlays, with an optional panel."""
+    """A scene with its bot, clock and overlays."""
 
     def __init__(self, scene: Scene, accessibility: Accessibility) -> None:
         self.scene = scene
@@ -37,5 +37,5 @@ class Demo:
     def draw(
         self, picture: Picture, panel: Docked | None = None, reserve: Callable[[Frame], None] | None = None
     ) -> Frame:
-        """Draw the scene and return the frame; see Picture.draw_scene."""
+        """Draw the scene, with an optional panel; return the frame. For panel and reserve see Picture.draw_scene."""
         return picture.draw_scene(self.scene, self.overlays, self.clock.alpha, panel, reserve)

@@ -1,4 +1,4 @@
-"""The panel's table of all effects: declared or not, time per step in this scene, number of kernels."""
+"""The panel's table of effects: whether the scene declares each one, its time per step, and its number of kernels."""
 
 from game.drawing.colors import GREEN
 from game.drawing.number_text import plain_name
@@ -12,7 +12,7 @@ UNKNOWN = "-"
 
 
 def effect_rows(measuring: Measuring) -> list[Row]:
-    """Return a head, a line per effect, and a line on the state of the measurement."""
+    """Return the table's rows: a heading, a line for each effect, and a note if the measurement failed."""
     ledger = measuring.ledger
     rows = [Row(HEAD, "Effects", cells=("us a step", "kernels"))]
     for name in EFFECTS:
@@ -26,7 +26,9 @@ def effect_rows(measuring: Measuring) -> list[Row]:
 
 
 def price_text(known: EffectCost, busy: bool) -> str:
-    """Return the time per step in microseconds; a time within the scatter of the runs is shown as none."""
+    """Return the effect's time per step [us] as text; "0" if it is not greater than the scatter of the runs, "..."
+    while it is measured, "-" if unknown.
+    """
     price = known.price
     if price is None:
         return WAITS if busy else UNKNOWN
@@ -34,14 +36,14 @@ def price_text(known: EffectCost, busy: bool) -> str:
 
 
 def kernels_text(known: EffectCost, busy: bool) -> str:
-    """Return the number of kernels compiled for it."""
+    """Return the number of kernels compiled for the effect as text; "..." while it is counted, "-" if unknown."""
     if known.kernels is None:
         return WAITS if busy else UNKNOWN
     return f"{known.kernels}"
 
 
 def hint_of(known: EffectCost) -> str:
-    """Return a short description of an effect."""
+    """Return a short description of the effect: whether the scene declares it, and its measured time with the scatter."""
     price, noise = known.price, known.noise
     if price is None:
         return "declared" if known.declared else "absent"
@@ -50,5 +52,5 @@ def hint_of(known: EffectCost) -> str:
 
 
 def digits(seconds: float) -> int:
-    """Return the decimals of a time in microseconds: none from ten on."""
+    """Return the number of decimals to show for a time given in seconds and shown in microseconds: none from 10 us on."""
     return 0 if abs(seconds) >= 1e-5 else 1

@@ -1,4 +1,4 @@
-"""The card of the first game: how to show the overlays."""
+"""The card shown in the player's first game: which keys show the overlays."""
 
 import pygame
 
@@ -15,7 +15,7 @@ SIZE = (224, 74)  # [text px]
 
 
 class HintCard:
-    """A card shown until one of its keys or a click on it closes it."""
+    """Card that stays until one of the keys on it, Enter, or a click on it closes it."""
 
     keeps_keys = False  # the keys on the card keep their function
 
@@ -23,7 +23,7 @@ class HintCard:
         self.rect = pygame.Rect(0, 0, 0, 0)
 
     def dismissed_by(self, event: pygame.event.Event, button: str | None) -> bool:
-        """Return whether this event closes the card; `button`: the pad's button it presses, or None."""
+        """Return whether this event closes the card. button: the pad button that the event presses, or None."""
         if event.type == pygame.KEYDOWN:
             return event.key in KEYS
         if event.type == pygame.MOUSEBUTTONDOWN:
@@ -31,7 +31,7 @@ class HintCard:
         return button in BUTTONS
 
     def remember(self, settings: Settings) -> None:
-        """Record that it was shown."""
+        """Record in the settings that the card was shown, so that it does not appear again."""
         settings.hint_seen = True
 
     def draw(self, frame: Frame) -> None:

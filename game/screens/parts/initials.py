@@ -1,4 +1,4 @@
-"""Input of three initials: up and down change a letter, left and right move; typing and clicking work, too."""
+"""Input of three initials: up and down change a letter, left and right move on. Letters can also be typed or clicked."""
 
 import pygame
 
@@ -14,7 +14,9 @@ GAP = 8
 
 
 class Initials:
-    """Three letters. `done`: they were accepted. `at`: 0..2 a letter, 3 the OK beside them."""
+    """Three letters. `done`: the player accepted them. `at`: the selected letter 0..2, or 3 for the OK button beside
+    them.
+    """
 
     def __init__(self, text: str, x: int, y: int, cues: list[str]) -> None:
         self.letters = list(text)
@@ -77,13 +79,15 @@ class Initials:
                     self._turn(number, -1 if pointer[1] < cell.centery else 1)
 
     def _turn(self, number, way):
-        """Change a letter. Up goes back in the alphabet, as usual in arcades: from A to Z is one step down."""
+        """Change a letter by `way` places in the alphabet, cyclically: a press of Up (-1) turns A into Z, as usual in
+        arcades.
+        """
         index = (LETTERS.index(self.letters[number]) + way) % len(LETTERS)
         self.letters[number] = LETTERS[index]
         self.cues.append("blip")
 
     def draw(self, canvas: Canvas) -> None:
-        """Draw the letters with arrows above and below, and OK."""
+        """Draw the letters, arrows above and below the selected one, and the OK button."""
         for number, cell in enumerate(self.cells):
             marked = number == self.at
             draw_box(canvas, cell, "panel_selected" if marked else "panel")

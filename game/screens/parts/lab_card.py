@@ -19,15 +19,15 @@ FOOT = "F1 or ?: this card   Enter or a click puts it away"
 KEYS = (pygame.K_F1, pygame.K_RETURN, pygame.K_KP_ENTER, pygame.K_ESCAPE)
 BUTTONS = ("a", "b", "start")
 WIDTH, EDGE, MARK = 236, 7, 3  # [text px] of the card, of its margin, and of a mark before a line
-GRID = 4  # places tried each way, less one
-FOLLOWS = INK  # a continuation of the line above
-GOALS = 84  # [text px] of goals at most
+GRID = 4  # a card is tried at GRID + 1 places in each direction
+FOLLOWS = INK  # mark of a wrapped line: the space of a square, without the square
+GOALS = 84  # [text px] greatest height of the list of goals
 EVERY = 30  # pictures between two checks of the goals
 
 
 class LabCard:
-    """Card shown at the first visit, and on demand, until it is closed. Raises ValueError for a scene whose source has
-    no "What to see:".
+    """Card about a lab, shown at the first visit and on demand, until it is closed. Raises ValueError for a scene whose
+    module docstring has no "What to see:".
     """
 
     keeps_keys = True
@@ -44,7 +44,7 @@ class LabCard:
         self.age = 0
 
     def dismissed_by(self, event: pygame.event.Event, button: str | None) -> bool:
-        """Return whether this event closes the card; `button`: the pad's button it presses, or None."""
+        """Return whether this event closes the card. button: the pad button that the event presses, or None."""
         if event.type == pygame.KEYDOWN:
             return event.key in KEYS or asks_for_card(event)
         if event.type == pygame.MOUSEBUTTONDOWN:
@@ -52,7 +52,7 @@ class LabCard:
         return button in BUTTONS
 
     def remember(self, settings: Settings) -> None:
-        """Record that it was shown, so that it is not opened again by itself."""
+        """Record in the settings that the card was shown, so that it does not open by itself again."""
         if self.scene.name not in settings.labs_seen:
             settings.labs_seen = [*settings.labs_seen, self.scene.name]
 
@@ -86,7 +86,9 @@ class LabCard:
         frame.fix(self.rect)
 
     def _lines(self, width, scale, room):
-        """Return the card's lines from top to bottom. width: [frame px] of a line; room: [text px] for all of them."""
+        """Return the card's lines from top to bottom. width: of a line [frame px]; room: height for all lines [text
+        px].
+        """
         lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
         for section, words, ink in zip(SECTIONS, self.text[1:], INKS, strict=True):
             words = words if section == SECTIONS[0] else f"{section}: {words}"
@@ -99,7 +101,9 @@ class LabCard:
         return [*lines, *end]
 
     def _goal_lines(self, width, scale, room):
-        """Return the goals, those with a result first; the others are counted if there is no room for them."""
+        """Return the lines of the lab's goals, those with a result first. Goals that do not fit into `room` [text px]
+        are only counted.
+        """
         lines, left = [], sorted(self.goals, key=self._waits)
         while left:
             goal = left[0]
@@ -118,7 +122,7 @@ class LabCard:
 
 
 class CardText(NamedTuple):
-    """The question of a lab, and the text of each of SECTIONS."""
+    """A lab's question, and the text of each section in SECTIONS ("" for a missing one)."""
 
     question: str
     see: str
@@ -128,7 +132,9 @@ class CardText(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the card. gap: [text px] above it; mark: colour of the square before it, FOLLOWS: only its space."""
+    """A line of the card. gap: space above it [text px]. mark: colour of the square before it; FOLLOWS: the space of a
+    square without one, for wrapped lines; None: neither.
+    """
 
     text: str
     ink: Color
@@ -138,22 +144,22 @@ class Line(NamedTuple):
 
     @property
     def height(self) -> int:
-        """Height [text px]."""
+        """Height of the line without the gap [text px]."""
         return 10 if self.font == TEXT else 7
 
 
 def paragraph(text: str, width: int, scale: int, ink: Color) -> list[Line]:
-    """Return a text in lines of so many frame pixels, with a gap above."""
+    """Return a text wrapped into lines of at most `width` frame pixels, with a gap above the first."""
     return [Line(each, ink, gap=0 if number else 3) for number, each in enumerate(wrap(text, width, SMALL, scale))]
 
 
 def height_of(lines: Iterable[Line]) -> int:
-    """Return the height of lines [text px]."""
+    """Return the height of lines and their gaps [text px]."""
     return sum(line.gap + line.height for line in lines)
 
 
 def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> pygame.Rect:
-    """Return the place of a rect in an area at which it covers the least text, out of a grid of places."""
+    """Return the place of a rect of this size in an area, chosen from a grid of places, where it covers the least text."""
     spare = area.width - size[0], area.height - size[1]
     places = [
         pygame.Rect(area.x + spare[0] * column // GRID, area.y + spare[1] * row // GRID, *size)
@@ -168,17 +174,18 @@ def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> py
 
 
 def first_card(scene: Scene, settings: Settings) -> "HintCard | LabCard | None":
-    """Return the card that a scene opens with: its own at the first visit; the keys before the very first game."""
+    """Return the card to show when a scene opens: a lab's own card at the first visit; the card of keys in the very
+    first game; otherwise None.
+    """
     if what_to_see(type(scene)) is not None:
         return LabCard(scene) if scene.name not in settings.labs_seen else None
     return None if settings.hint_seen else HintCard()
 
 
 def what_to_see(scene_class: type[Scene]) -> CardText | None:
-    """Return a lab's question and sections from the docstring at the head of its source; None if it has no "What to
-    see:".
+    """Return a lab's question and sections, read from its module docstring; None if that has no "What to see:".
 
-    A section is a paragraph that begins with its name and a colon; a missing one is "".
+    A section is a paragraph that begins with its name and a colon; a missing section is "".
     """
     question, *paragraphs = (sys.modules[scene_class.__module__].__doc__ or "").split("\n\n")
     found = dict.fromkeys(SECTIONS, "")
@@ -190,5 +197,5 @@ def what_to_see(scene_class: type[Scene]) -> CardText | None:
 
 
 def asks_for_card(event: pygame.event.Event) -> bool:
-    """Return whether a key opens the card."""
+    """Return whether the event is the key that opens a lab's card: F1 or "?"."""
     return event.key == pygame.K_F1 or getattr(event, "unicode", "") == "?"

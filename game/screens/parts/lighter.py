@@ -1,6 +1,4 @@
-"""Reduced load until physics is compiled, in scenes where plain kernels would allow fewer than ten pictures a
-second.
-"""
+"""Reduced load while physics is not yet compiled, for scenes that would run below ten pictures a second uncompiled."""
 
 from typing import Any
 
@@ -14,10 +12,12 @@ FRAMES = 2  # slow frames in a row before the load is reduced
 
 
 class Lighter:
-    """Switch of the load: applies the changes of Scene.lighter, and undoes them once all called kernels run compiled.
+    """Temporary reduction of a scene's load: applies the changes in Scene.lighter, and undoes them once all called
+    kernels run compiled.
 
-    They are applied before the first step if no kernel is on disk, else once frames are slow after loading. They are
-    part of the next step's input, so that a recording contains them. Changes by the player stay.
+    The changes are applied before the first step if no compiled kernel is on disk; otherwise once frames are slow after
+    loading. They are part of the next step's input, so that a recording contains them. Values that the player has
+    changed since are not undone.
     """
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
@@ -30,7 +30,7 @@ class Lighter:
 
     @property
     def line(self) -> str:
-        """The line to show meanwhile, on what is reduced; "" if nothing is changed."""
+        """The line of text to show while the load is reduced; "" if nothing is changed."""
         if not self.changed:
             return ""
         less = [f"{self.scene.lighter[name]} {name}" for name in self.changed if name == "substeps"]
@@ -39,7 +39,7 @@ class Lighter:
         return f"{' and '.join(less)} until the physics is compiled"
 
     def note(self, busy: float) -> None:
-        """Record the duration of a frame [s]."""
+        """Record the duration of a frame [s], and apply or undo the changes if they are due."""
         if self.over or not self.scene.lighter:
             return
         if self.changed:

@@ -1,4 +1,6 @@
-"""Connection of a played scene to its measurements: the world, the moments, and the changes of a setting."""
+"""Measurements of a scene while it is played: starts them in background processes, and applies the settings they
+recommend.
+"""
 
 from collections.abc import Hashable, Sequence
 from operator import is_
@@ -16,8 +18,8 @@ from game.screens.parts.race import Race
 from game.screens.parts.race_split import SplitScreen
 from physics import World
 
-LINGER = 0.5  # [s] for which the panel must be open before the effects are measured: a glance starts no process
-EVERY = 8.0  # [s] between moments, if the last one is measured and time goes on
+LINGER = 0.5  # [s] for which the panel must be open before the effects are measured, so that a glance starts no process
+EVERY = 8.0  # [s] between two moments (measured states of the world), if the last one is done and the game runs
 
 
 class Measuring:
@@ -33,15 +35,15 @@ class Measuring:
         )
         self.ledger = Surveyor()  # for the effects
         self.opened_at: float | None = None  # [s] opening time of the panel; None: it is closed
-        self.weighed = False  # whether the effects were requested since then
+        self.weighed = False  # whether the effects were measured since the panel was opened
         self.taken_at: tuple[float, int] | None = None  # [s] and step of the last moment
-        self.race: Race | None = None  # against another setting
-        self.split: SplitScreen | None = None  # screen that shows it; None: drawn over the scene
+        self.race: Race | None = None  # the running race; None: there is none
+        self.split: SplitScreen | None = None  # split screen of the race; None: the rival is drawn over the scene
         self.against = 0  # index in rivals(), as chosen in the panel
 
     @property
     def world(self) -> World:
-        """The measured world: that of the first picture, which the overlays show."""
+        """The measured world: the world of the scene's first view, which the overlays show."""
         return self.scene.views()[0][0]
 
     def now(self) -> Setting:
@@ -49,14 +51,16 @@ class Measuring:
         return here_of(self.world, self.scene.tier)
 
     def beside(self, now: float, panel_open: bool) -> None:
-        """Measure the requests of the scene, and of the panel while it is open. Call it once per picture, at `now`
-        [s].
+        """Measure the requests of the scene and, while the panel is open, the cost of its effects. Call it once per
+        picture, at `now` [s].
         """
         self._measure_request()
         self._measure_effects(now if panel_open else None)
 
     def _measure_effects(self, now):
-        """Measure the cost of each effect, from a moment soon after the panel was opened. now: None if it is closed."""
+        """Measure the cost of each effect, from a state taken soon after the panel was opened. now: time [s]; None: the
+        panel is closed.
+        """
         if now is None:
             if self.opened_at is not None:
                 self.ledger.stop()
@@ -73,7 +77,7 @@ class Measuring:
                 self.ledger.stop()
 
     def _measure_request(self) -> None:
-        """Measure the scene's requests, once."""
+        """Measure the scene's request if it is new, and pass the results to the scene."""
         request = self.scene.measured()
         if isinstance(request, SpriteRequest) and not (self.benched and all(map(is_, request, self.benched))):
             self.bench.stop()
@@ -89,10 +93,9 @@ class Measuring:
         self.scene.figures = self.bench.figures
 
     def turn(self, now: float) -> str:
-        """Collect results, and take a new moment when the last one is done. Return a line on the tuner's decision, or
-        "".
+        """Collect results, and take a new state of the world to measure when the previous one is done.
 
-        Call it once per picture, at `now` [s].
+        Return a line about a decision of the tuner, or "" if there is none. Call it once per picture, at `now` [s].
         """
         self.surveyor.turn()
         self._take_moment(now)
@@ -103,7 +106,7 @@ class Measuring:
         return f"tuned: {reported}" if not decided.refused else f"not tuned: {decided.refused}"
 
     def _try(self, setting):
-        """Apply a setting. Return the reason if it cannot be applied, else ""."""
+        """Apply a setting. Return "", or the reason if it cannot be applied."""
         changes = self._changes(setting)
         if isinstance(changes, str):
             return changes
@@ -120,7 +123,7 @@ class Measuring:
         self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name)
 
     def close(self) -> None:
-        """End the process, unless the tuner continues. Results are kept, and extended when the panel is opened
+        """Stop measuring settings, unless the tuner is on. Results are kept, and extended when the panel is opened
         again.
         """
         if self.tuner.on:
@@ -129,14 +132,16 @@ class Measuring:
         self.taken_at = None
 
     def leave(self) -> None:
-        """End all measurements: the scene is left."""
+        """End all measurements, because the player leaves the scene."""
         self.tuner.on = False
         self.close()
         self.bench.stop()
         self.ledger.stop()
 
     def apply(self, setting: Setting) -> str:
-        """Apply a setting to the scene, as input that a recording contains. Return a line about it."""
+        """Apply a setting to the scene as input of the next step, so that a recording contains it. Return a line to
+        show.
+        """
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
@@ -145,7 +150,9 @@ class Measuring:
         return f"{setting.label(now)}, was {now.label(setting)}" if changes else "that is what runs"
 
     def start_race(self, setting: Setting) -> str:
-        """Start a rival beside the scene, which must restart with its next step. Return a line about it."""
+        """Start a race against a copy of the scene under this setting. The caller must restart the scene in the next
+        step. Return a line to show.
+        """
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
@@ -159,19 +166,23 @@ class Measuring:
         self.race = self.split = None
 
     def toggle_split(self) -> str:
-        """Show the race on a split screen, or drawn over the scene. Return a line about it if there is no race."""
+        """Change between a split screen and the rival drawn over the scene. Return "", or a line to show if there is no
+        race.
+        """
         if self.race is None:
             return "no race: the panel starts one, or Shift and a click in the plot of costs"
         self.split = None if self.split is not None else SplitScreen(self.race)
         return ""
 
     def rivals(self) -> list[Setting]:
-        """Return the settings with one change, which the scene can be raced against."""
+        """Return the settings that differ from the current one in one part and that the scene can run under in a race."""
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(self._changes(setting), str)]
 
     def _changes(self, setting):
-        """Return [(change, value)] that bring the scene to a setting, or a sentence about why that is impossible."""
+        """Return the (name, value) changes that bring the scene to a setting, or a sentence that says why that is
+        impossible.
+        """
         changes = []
         for name in setting.differs(self.now()):
             change = self._change(self.scene, name, getattr(setting, name))
@@ -181,7 +192,9 @@ class Measuring:
         return changes
 
     def _change(self, scene, name, value):
-        """Return [(change, value)], or a sentence about why the change is impossible here."""
+        """Return the (name, value) changes for one part of a setting, or a sentence that says why the scene cannot
+        change it.
+        """
         if value is None:
             return []
         if name == "broadphase" and not scene.switches_broadphase:

@@ -1,7 +1,7 @@
-"""The panel: rows rebuilt in each picture, operated with keyboard or mouse.
+"""The side panel: a list of rows, rebuilt for each picture and operated with keyboard or mouse.
 
-A Row has a text and functions for turning and pressing; the panel is independent of scenes. Up and down move the mark,
-left and right turn a value, Enter presses.
+Up and down move the mark, left and right change the marked row's value, Enter presses the row. The panel is independent
+of scenes: a Row carries its text and the functions that it calls.
 """
 
 from collections.abc import Callable
@@ -23,7 +23,9 @@ WHEEL_ROWS = 3
 
 @dataclass(frozen=True)
 class Row:
-    """One line of the panel. `turn(direction)` and `press()` act; `put(share)` sets a slider to 0..1."""
+    """One line of the panel. `turn(direction)`: change the value, by -1 or 1; `press()`: Enter or a click;
+    `put(share)`: set a slider to a share 0..1 of its range.
+    """
 
     kind: str
     label: str
@@ -31,7 +33,7 @@ class Row:
     key: str = ""  # the key with the same function, shown at the right
     color: tuple = PAPER
     on: bool = False
-    share: float = 0.0  # of a slider's range
+    share: float = 0.0  # position of a slider in its range, 0..1
     turn: Callable | None = None
     press: Callable | None = None
     put: Callable | None = None
@@ -40,7 +42,7 @@ class Row:
 
 
 class Panel:
-    """A list of rows. `rows()` gives the current rows. `focused`: the keyboard operates the panel, not the game."""
+    """Panel of rows. `rows()` returns the current rows. `focused`: the keyboard operates the panel, not the game."""
 
     def __init__(self, rows: Callable[[], list[Row]]) -> None:
         self.rows = rows
@@ -192,7 +194,7 @@ class Panel:
             surface.fill(PAPER, (bar.x + int(bar.width * row.share) - scale, bar.y - scale, 2 * scale, 4 * scale))
 
     def _draw_foot(self, frame, rect, rows, scale):
-        """Draw the marked row's hint and how to leave. Return the top of the foot."""
+        """Draw the marked row's hint and the line on how to close the panel. Return the y at which this foot begins."""
         hint = rows[self.mark].hint if self.mark < len(rows) else ""
         way_out = "Tab closes, click the game to play on" if self.focused else "Tab closes, click here to change things"
         lines = ([hint] if hint else []) + [way_out]
@@ -205,7 +207,7 @@ class Panel:
 
 
 def _draw_line(frame, rect, row, scale):
-    """Draw a line of a table: a square, filled if it is on, its name, its cells."""
+    """Draw a line of a table: a square (filled if the row is on), the name, and the cells."""
     square = pygame.Rect(rect.x + 2 * scale, rect.y + 2 * scale, 5 * scale, 5 * scale)
     color = frame.tone(row.color) if row.on else FOG
     pygame.draw.rect(frame.surface, color, square, 0 if row.on else scale)
@@ -215,7 +217,9 @@ def _draw_line(frame, rect, row, scale):
 
 
 def _draw_cells(frame, rect, cells, y, color, scale):
-    """Draw columns at the right, the last one outermost. Return their left edge [frame px]."""
+    """Draw a table row's cells at the right of `rect`, the last cell outermost. Return the x at which the cells begin
+    [frame px].
+    """
     right = rect.right - 2 * scale
     for text in reversed(cells):
         if text:
@@ -234,17 +238,17 @@ def _draw_check(surface, x, rect, row, color, scale):
 
 
 def slider_bar(rect: pygame.Rect, scale: int) -> pygame.Rect:
-    """Return the bar of a slider row."""
+    """Return the rect of a slider's bar in its row."""
     return pygame.Rect(rect.x + 2 * scale, rect.bottom - 5 * scale, rect.width - 4 * scale, 2 * scale)
 
 
 def _share(rect, position):
-    """Return the position of a click in a row, 0..1."""
+    """Return how far right in a rect a click is, 0..1."""
     return max(0.0, min(1.0, (position[0] - rect.x) / max(rect.width, 1)))
 
 
 def act(row: Row, direction: int = 0) -> None:
-    """Press or turn a row; pressing a row that only turns turns it forward."""
+    """Turn a row by `direction` (-1 or 1); for 0 press it. A row without press() is turned forward instead."""
     if direction and row.turn is not None:
         row.turn(direction)
     elif row.press is not None:

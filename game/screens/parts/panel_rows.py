@@ -1,5 +1,5 @@
-"""The panel's rows while a scene is played. Every change of the simulation goes through devices.change, so that a
-recording contains it.
+"""The panel's rows while a scene is played. Every change of the simulation becomes input of the next step
+(devices.change), so that a recording contains it.
 """
 
 from game.drawing.number_text import plain_name
@@ -11,11 +11,13 @@ from game.screens.parts.effect_rows import effect_rows
 from game.screens.parts.panel import BUTTON, CHECK, CHOICE, HEAD, SLIDER, Row
 from game.screens.parts.played import Played
 
-LEAP = 60  # steps of the row "Rewind"
+LEAP = 60  # steps that a press of the row "Rewind" goes back
 
 
 def play_rows(play: Played) -> list[Row]:
-    """Return the rows for a Play screen. Those of this scene come first, so that they are visible in any window."""
+    """Return the rows for a Play screen. Rows that belong to this scene come first, so that they are visible in any
+    window.
+    """
     scene = play.scene
     return [
         Row(HEAD, scene.title),
@@ -115,13 +117,13 @@ def _switches(play, scene):
 
 
 def _solver_hint(scene):
-    """Return the hint of the row: its meaning, and the declared effects that the solver ignores."""
+    """Return the hint of the solver row: the declared effects that the solver ignores, or else the purpose of a solver."""
     ignored = ignored_effects(scene)
     return f"ignores {', '.join(map(plain_name, ignored))}" if ignored else "how overlaps are resolved"
 
 
 def layer_rows(overlays: Overlays) -> list[Row]:
-    """Return a check box per overlay layer."""
+    """Return a check box for each overlay layer."""
     return [
         Row(
             CHECK,

@@ -1,10 +1,10 @@
-"""Keys and buttons of a played scene, besides those of the game."""
+"""Keys and pad buttons of a played scene that do not control the game itself."""
 
 import pygame
 
 from game.screens.parts.played import Played
 
-KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key that means more than these is a move
+KEPT_ACTIONS = {"confirm", "cancel", "pause"}  # a key bound to any other action controls the game
 PANEL_BUTTONS = {
     "dpad up": pygame.K_UP,
     "dpad down": pygame.K_DOWN,
@@ -15,7 +15,7 @@ PANEL_BUTTONS = {
 
 
 def press(play: Played, key: int) -> bool:
-    """Apply a key that is not for the game. Return False if it has no function, or belongs to the game."""
+    """Apply a key that does not control the game. Return False if the key has no function or controls the game."""
     if set(play.devices.keys.get(key, ())) - KEPT_ACTIONS:
         return False  # the player bound it to a move, which it stays
     layers = {getattr(pygame, f"K_{layer.key}"): layer.name for layer in play.overlays.layers}
@@ -59,7 +59,7 @@ def press(play: Played, key: int) -> bool:
 
 
 def press_button(play: Played, button: str) -> bool:
-    """Apply a pad's button that is not for the game. Return False if it belongs to the game."""
+    """Apply a pad button that does not control the game. Return False if the button controls the game."""
     panel = play.open_panel
     if button == "start":
         play.stop()

@@ -1,4 +1,4 @@
-"""Interface of the screen that plays a scene, for the panel and the status line."""
+"""Interface of the screen that plays a scene, as used by the panel, the keys and the status line."""
 
 from typing import Protocol
 
@@ -20,7 +20,7 @@ from game.screens.parts.timeline import Timeline
 
 
 class Played(Protocol):
-    """A scene with its clock and overlays; `since_result`: steps since the game ended."""
+    """Screen with a scene, its clock and its overlays. `since_result`: steps since the game ended."""
 
     scene: Scene
     session: Session
@@ -45,7 +45,7 @@ class Played(Protocol):
 
     @property
     def news(self) -> str:
-        """Line about the last switch, or ""."""
+        """Line of text about the last switch, "" if there is none."""
         ...
 
     def toggle_pause(self) -> None:
@@ -61,11 +61,11 @@ class Played(Protocol):
         ...
 
     def start_race(self, setting: Setting) -> None:
-        """Restart, in a race against the same scene under another setting."""
+        """Restart the scene in a race against a copy of it under this setting."""
         ...
 
     def request_restart(self) -> None:
-        """Restart, unless that would lose a result."""
+        """Restart the game; if it has ended, show its result first, so that no score is lost."""
         ...
 
     def toggle_costs(self) -> None:
@@ -77,9 +77,9 @@ class Played(Protocol):
         ...
 
     def switch_solver(self, way: int) -> None:
-        """Change to the next solver, or the previous one."""
+        """Change to the next solver (`way` 1) or the previous one (-1)."""
         ...
 
     def stop(self) -> None:
-        """Go to the pause menu, or to the end of a run."""
+        """Go to the pause menu; if the game has ended, go to its result."""
         ...

@@ -1,4 +1,4 @@
-"""The race: the played scene and a rival under another setting, with the same seed and input."""
+"""The race: the played scene and a rival, which is the same scene under another setting, with the same seed and input."""
 
 from collections import deque
 from dataclasses import replace
@@ -22,15 +22,17 @@ from game.scene import Scene
 from physics import debug
 from physics.tables.shape import MASK
 
-# Settings of each of the two; all other input goes to both.
+# Changes that each of the two scenes has for itself; all other input goes to both.
 OWN = ("broadphase", "solver", "substeps", "tier", "narrowphase", "slider:solver", "slider:substeps")
-MOST = 400  # outlines in a picture; the line below counts the bodies that differ
-KEPT = 600  # steps for which the distance is kept
+MOST = 400  # outlines drawn at most; the figures count all bodies
+KEPT = 600  # steps for which the distance of the two scenes is kept
 
 
 class Race:
-    """A race; call step(session) after each step of the session. changes: differences of the rival, as Scene.change
-    takes them. Raises ValueError for an invalid change. The caller restarts the scene with its next input.
+    """A race; call step(session) after each step of the session. changes: (name, value) settings that the rival alone
+    has, as for Scene.change.
+
+    Raises ValueError for an invalid change. The caller restarts the scene with its next input.
     """
 
     def __init__(self, scene: Scene, changes: list[tuple[str, object]]) -> None:
@@ -47,7 +49,7 @@ class Race:
         self.apart: deque[float] = deque(maxlen=KEPT)  # [px] RMS distance over the common bodies, of the last steps
 
     def step(self, session: Session) -> None:
-        """Make the session's last step with the rival."""
+        """Repeat the session's last step with the rival, and measure the distance between the two scenes."""
         frame = session.inputs.now
         self.inputs.set(replace(frame, changes=tuple(each for each in frame.changes if each[0] not in OWN)))
         started = perf_counter()
@@ -61,7 +63,9 @@ class Race:
         self.apart.append(float(np.sqrt((gaps * gaps).mean())) if len(gaps) else 0.0)
 
     def _pair(self, frame):
-        """Match bodies by id. Ids follow the order of creation: once the runs differ, one id may denote two bodies."""
+        """Find the bodies that both scenes have. Ids follow the order of creation: once the scenes differ, one id may
+        denote two different bodies. Bodies are thus paired only if they appear in the same step at the same place.
+        """
         if any(name == "restart" for name, _ in frame.changes):
             self.same = self.seen = np.zeros(0, np.int64)
         ours, theirs = (each.world.bodies for each in (self.scene, self.rival))
@@ -72,19 +76,23 @@ class Race:
         self.seen = np.union1d(self.seen, np.union1d(ours["id"], theirs["id"]))
 
     def gaps(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return ((n, 2), (n, 2)) positions of the common bodies, in the scene and in the rival [px]."""
+        """Return the positions of the bodies that both scenes have, [px]: an (n, 2) array in the scene, and one in the
+        rival.
+        """
         ours, theirs = self.scene.world.bodies, self.rival.world.bodies
         mine, other = (np.flatnonzero(np.isin(rows["id"], self.same)) for rows in (ours, theirs))
         mine, other = mine[np.argsort(ours["id"][mine])], other[np.argsort(theirs["id"][other])]
         return np.column_stack([ours["x"], ours["y"]])[mine], np.column_stack([theirs["x"], theirs["y"]])[other]
 
     def distances(self) -> np.ndarray:
-        """Return (n,) distances of the common bodies between scene and rival [px]."""
+        """Return (n,) distances [px]: how far each body that both scenes have is from its counterpart in the rival."""
         ours, theirs = self.gaps()
         return np.hypot(*(ours - theirs).T)
 
     def report_lines(self) -> list[str]:
-        """Return three lines: the scene's setting and time, the rival's, and their distance."""
+        """Return three lines: setting and time of the scene, setting and time of the rival, and the distance between
+        them.
+        """
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
         apart = self.distances()
         rms = self.apart[-1] if self.apart else 0.0
@@ -98,7 +106,9 @@ class Race:
         ]
 
     def draw(self, frame: Frame) -> None:
-        """Draw the rival's outlines over the scene, a line to each body that differs, and the figures."""
+        """Draw the rival's outlines over the scene, a line from each displaced body to its counterpart, and the
+        figures.
+        """
         world, camera = self.scene.views()[0]
         lens = frame.lens(camera)
         frame.surface.set_clip(lens.clip)
@@ -108,7 +118,9 @@ class Race:
         self._draw_figures(frame)
 
     def draw_gaps(self, frame: Frame, scene: Scene) -> None:
-        """Draw a line in the picture of one of the two, from each body here to its place in the other."""
+        """Draw a line from each body to the position of its counterpart, if they are visibly apart. scene: the scene or
+        the rival, whichever this frame shows.
+        """
         world, camera = scene.views()[0]
         if world is scene.world:
             lens = frame.lens(camera)
@@ -121,7 +133,7 @@ class Race:
         frame.surface.set_clip(None)
 
     def _draw_rival(self, frame, lens):
-        """Draw the rival's outlines; boxes for masks."""
+        """Draw the outlines of the rival's shapes; masks and tiles are drawn as boxes."""
         color, world = frame.tone(SKY), self.rival.world
         seen = np.flatnonzero(lens.seen(debug.bounds(world)))[:MOST]
         for outline in debug.outlines(world, seen):
@@ -152,5 +164,5 @@ class Race:
 
 
 def distance_text(pixels: float) -> str:
-    """Return a distance with two figures, or in whole pixels if it has more."""
+    """Return a distance as text: two significant figures below 100 px, whole pixels above."""
     return f"{pixels:,.0f} px" if pixels >= 100.0 else f"{pixels:.2g} px"

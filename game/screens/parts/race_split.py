@@ -1,5 +1,5 @@
-"""The race on a split screen: the scene at the left, its rival at the right, with setting and time, and their distance
-below.
+"""The race on a split screen: the scene at the left and its rival at the right, with setting and time, and below them
+the distance between the two.
 """
 
 from collections import deque
@@ -18,11 +18,11 @@ from game.screens.parts.timeline import BAR_HEIGHT
 
 LEAST, MOST = 1e-3, 1e3  # [px] range of the plot
 LINE = 9  # [text px]
-NOT_HERE = {"invariants", "disagreement"}  # layers that count steps, which the rival does not report
+NOT_HERE = {"invariants", "disagreement"}  # layers that need each step reported, which the rival does not do
 
 
 class SplitScreen:
-    """Split screen: the two halves of a race, drawn over the game's part of a frame."""
+    """Split screen: both scenes of a race side by side, drawn over the game's part of a frame."""
 
     def __init__(self, race: Race) -> None:
         self.race = race
@@ -30,8 +30,8 @@ class SplitScreen:
         self.pictures: list[Picture] = []  # of the two
 
     def draw(self, frame: Frame, overlays: Overlays, alpha: float) -> None:
-        """Draw both halves in their current state, with these layers. alpha: interpolation between the last two
-        steps.
+        """Draw both scenes in their current state, with these overlays. alpha: interpolation between the last two
+        steps, 0..1.
         """
         area = frame.area.clip(frame.rect)
         size = area.width // 2, area.width // 2 * CANVAS_SIZE[1] // CANVAS_SIZE[0]
@@ -52,7 +52,7 @@ class SplitScreen:
         self._draw_below(frame, pygame.Rect(area.x, area.y + size[1], area.width, area.height - size[1]))
 
     def _make_pictures(self, width):
-        """Make the pictures of both halves, at a whole scale no smaller than their visible part."""
+        """Make the pictures of both scenes at a whole scale that is at least as large as their part of the frame."""
         scale = -(-width // CANVAS_SIZE[0])
         wanted = CANVAS_SIZE[0] * scale, CANVAS_SIZE[1] * scale
         if not self.pictures or self.pictures[0].presenter.frame.surface.get_size() != wanted:
@@ -82,7 +82,7 @@ class SplitScreen:
             self._draw_plot(frame, pygame.Rect(rect.x + 4 * scale, y + 2 * scale, rect.width - 8 * scale, high), scale)
 
     def _draw_plot(self, frame, rect, scale):
-        """Draw their distance over the last ten seconds, newest at the right, on a logarithmic scale."""
+        """Draw the distance between the scenes over the last ten seconds, newest at the right, on a logarithmic scale."""
         surface, apart = frame.surface, self.race.apart
         surface.fill(NIGHT, rect)
         for value in (0.01, 0.1, VISIBLE, 10.0, 100.0):
@@ -102,13 +102,13 @@ class SplitScreen:
 
 
 def _curve(apart: deque[float], rect: pygame.Rect) -> list[tuple[float, float]]:
-    """Return the points of a curve of distances [px], the last one on the right."""
+    """Return the points of a curve of distances [px], with the newest distance at the right border."""
     width = rect.width / (apart.maxlen or len(apart))
     first = rect.right - width * len(apart)
     return [(first + width * number, _height(value, rect)) for number, value in enumerate(apart)]
 
 
 def _height(value, rect):
-    """Return the frame y of a distance [px]; 0 lies on the bottom."""
+    """Return the frame y of a distance [px] on the logarithmic scale; LEAST and less lie at the bottom."""
     share = log10(min(max(value, LEAST), MOST) / LEAST) / log10(MOST / LEAST)
     return rect.bottom - 2 - share * (rect.height - 4)

@@ -1,7 +1,7 @@
-"""The list of every menu: rows with a focus mark, values to turn, bars to drag, scrolling.
+"""The list of rows that every menu uses: a mark, values to change, bars to drag, scrolling.
 
-Keyboard, controller and mouse work alike. A Row has a text and functions for pressing, turning and dragging; the list
-is independent of screens. All measures are canvas pixels on one grid of 8.
+Keyboard, controller and mouse work alike. A Row carries its text and the functions that it calls; the list is
+independent of screens. All measures are canvas pixels on a grid of 8.
 """
 
 from collections.abc import Callable
@@ -22,7 +22,9 @@ BAR_WIDTH = 64  # of a slider
 
 @dataclass(frozen=True)
 class Row:
-    """One line. `turn(-1 or 1)`, `press()`, `put(share 0..1)`; `head`: a heading, which cannot be marked."""
+    """One line of a list. `turn(-1 or 1)` changes the value, `press()` is called on Enter or a click, `put(share)` sets
+    a slider to 0..1. `head`: the line is a heading, which cannot be marked.
+    """
 
     label: str
     value: str = ""
@@ -36,14 +38,14 @@ class Row:
 
 
 class Repeat:
-    """Conversion of a held direction into single moves."""
+    """Conversion of a held direction into single moves: one at once, and then repeated ones."""
 
     def __init__(self, names: tuple[str, str]) -> None:
         self.names = names  # (action for -1, action for +1)
         self.wait = 0.0
 
     def move(self, inputs: InputState, dt: float) -> int:
-        """Return the move of this step: -1, 0 or +1."""
+        """Return the move of this step: -1, 0 or +1. Call it in each step; dt: its length [s]."""
         back, forth = self.names
         for action, way in ((back, -1), (forth, 1)):
             if inputs.pressed(action):
@@ -65,7 +67,9 @@ def confirmed(inputs: InputState) -> bool:
 
 
 class RowList:
-    """A list of rows. `rows()` gives the current rows, `rect` is their place; `cues`: a list for the menu's sounds."""
+    """A list of rows. `rows()` returns the current rows; `rect`: place of the list; `cues`: the screen's list of sounds
+    to play.
+    """
 
     def __init__(self, rows: Callable[[], list[Row]], rect: Box, cues: list[str], mark: int = 0) -> None:
         self.rows, self.rect, self.cues = rows, pygame.Rect(rect), cues
@@ -94,7 +98,9 @@ class RowList:
         return pygame.Rect(self.rect.x, self.rect.y + (number - self.first) * LINE, self.rect.width, LINE - 2)
 
     def show_marked(self) -> None:
-        """Move the mark to a row that can be marked, and scroll as little as shows it with its heading."""
+        """Move the mark to the nearest row that is no heading, and scroll until the marked row, with a heading above
+        it, is visible.
+        """
         rows = self.rows()
         live = [number for number, row in enumerate(rows) if not row.head]
         if live and self.mark not in live:
@@ -182,12 +188,12 @@ class RowList:
         return pygame.Rect(place.right - wide, place.y, wide, place.height)
 
     def bar_place(self, place: pygame.Rect) -> pygame.Rect:
-        """Return the bar of a slider's row."""
+        """Return the rect of a slider's bar in its row."""
         value = self.value_place(place)
         return pygame.Rect(value.x, value.centery - 2, BAR_WIDTH, 4)
 
     def draw(self, canvas: Canvas, focused: bool = True) -> None:
-        """Draw the visible rows. focused: the keys operate this list."""
+        """Draw the visible rows. focused: whether the keys operate this list."""
         rows = self.rows()
         for number in range(self.first, min(len(rows), self.first + self.room)):
             self._draw_row(canvas, rows[number], self.place(number), number == self.mark, focused)
@@ -220,7 +226,7 @@ class RowList:
         canvas.text(row.value, place.right - GRID // 2, place.y + 3, SKY, TEXT, 1, "right")
 
     def _draw_scroll_bar(self, surface, count):
-        """Draw the scroll bar: the visible part of the list."""
+        """Draw the scroll bar, if not all rows fit. count: number of rows."""
         if count > self.room:
             track = pygame.Rect(self.rect.right + 2, self.rect.y, 2, self.room * LINE - 2)
             surface.fill(DUSK, track)

@@ -1,4 +1,4 @@
-"""The pages of the settings: the rows of each, and their effect on the Settings."""
+"""The rows of each page of the settings, and their effect on the Settings."""
 
 from collections.abc import Callable
 from functools import partial
@@ -24,8 +24,8 @@ PALETTE_HINTS = {
 def rows_of(
     page: str, settings: Settings, changed: Callable[[], None], wait_for: Callable[[str, str], None]
 ) -> list[Row]:
-    """Return the rows of a page. changed() is called after each change; wait_for(device, action) waits for a key or
-    button.
+    """Return the rows of a page. changed() is called after each change; wait_for(device, action) asks the screen to
+    wait for a new key or button for an action.
     """
     if page in ("Keyboard", "Controller"):
         return _binding_rows("keys" if page == "Keyboard" else "buttons", settings, changed, wait_for)

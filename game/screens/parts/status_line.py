@@ -1,4 +1,4 @@
-"""The status line over a played scene: paused, slow, ended, or the keys."""
+"""The status line over a played scene: whether it is frozen, slow or ended; otherwise the keys."""
 
 import pygame
 
@@ -17,14 +17,14 @@ SHADE = (20, 16, 32, 225)
 
 
 def draw_status(frame: Frame, play: Played) -> None:
-    """Draw the status of a Play."""
+    """Draw the status line of a played scene."""
     text, color = status_of(play)
     if text:
         draw_line(frame, text, color, play.scene.head if play.measuring.split is None else 0)
 
 
 def status_of(play: Played) -> tuple[str, Color]:
-    """Return (text, color) of the line; "" if there is nothing to show."""
+    """Return (text, color) of the status line; the text is "" if there is nothing to show."""
     scene, clock = play.scene, play.clock
     if play.news:
         return play.news, GOLD
@@ -64,8 +64,8 @@ def draw_in_a_corner(frame: Frame, text: str) -> None:
 
 
 def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
-    """Draw a line beside the title, in the top line of `head` canvas px; without one near the bottom, or at any free
-    place.
+    """Draw a line of text beside the scene's title, in the top `head` canvas pixels. For head 0, or if it does not fit,
+    draw it near the bottom or at another free place.
     """
     if head and _draw_in_head(frame, text, color, head):
         return
@@ -84,7 +84,9 @@ def draw_line(frame: Frame, text: str, color: Color, head: int = 0) -> None:
 
 
 def _draw_in_head(frame, text, color, head):
-    """Draw a line in one row or two, as large as fits, in place of other text there. Return whether it fits."""
+    """Draw a line of text in one row or more at the top, as large as fits; hide other text there except the title.
+    Return whether it fits.
+    """
     band = frame.from_canvas((0, 0, frame.area.width // frame.scale, head)).clip(frame.rect)
     titles = [box for box, _ in frame.boxes if band.contains(box) and box.left < band.left + HEAD_TITLE * frame.scale]
     left = max((box.right for box in titles), default=band.left) + 6 * frame.scale
@@ -104,7 +106,7 @@ def _draw_in_head(frame, text, color, head):
 
 
 def _rows(frame, text, width, scale):
-    """Return the parts of a line in as few rows as hold them; none if a part is wider than a row."""
+    """Return the parts of a line in as few rows as possible; an empty list if a part is wider than a row."""
     rows = []
     for part in text.split(GAP):
         longer = f"{rows[-1]}{GAP}{part}" if rows else part

@@ -1,4 +1,4 @@
-"""Step inspector: the frozen scene stops after each stage of its next step, and a card describes the stage."""
+"""Step inspector: the frozen scene shows its next step stage by stage, and a card describes each stage."""
 
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -17,7 +17,7 @@ from game.run.step_inspector import Done, StepInspector, next_input
 from game.screens.parts.lab_card import least_covering
 
 WIDTH, ROW, EDGE = 200, 7, 4  # [text px] of the card
-BETWEEN = 2  # [text px] between two paragraphs of it
+BETWEEN = 2  # [text px] between two paragraphs of the card
 GAP = 5  # [text px] between two names in the strip
 KEYS_LINE = "\u2190 \u2192 a stage   Home End   E puts the step back"
 WORLDS_LINE = "   \u2191 \u2193 another world"
@@ -56,9 +56,10 @@ SHOWN = {
 
 
 class StepInspectorView:
-    """View of the step inspector: enter() and leave() it; feed() takes events in between, draw() shows strip and card.
+    """View of the step inspector: enter() starts the inspection, leave() ends it; in between feed() takes events, and
+    draw() shows the strip of stages and a card.
 
-    rewind: has the input of the next step if it was made before; None: steps cannot be inspected.
+    rewind: source of the next step's input if that step was made before; None: steps cannot be inspected.
     """
 
     def __init__(self, session: Session, rewind: Rewind | None, overlays: Overlays) -> None:
@@ -79,7 +80,9 @@ class StepInspectorView:
         return list({id(world): world for world, _ in self.session.scene.views()}.values())
 
     def enter(self, world: int = 0) -> str:
-        """Go to the start of the next step. Return the reason if that is impossible, else ""."""
+        """Start to inspect the next step of a world (an index in worlds()). Return "", or the reason if that is
+        impossible.
+        """
         self.leave()
         if self.rewind is None:
             return "a recording is only watched"
@@ -94,14 +97,14 @@ class StepInspectorView:
         return ""
 
     def leave(self) -> None:
-        """Restore the scene to its state before."""
+        """End the inspection: restore the scene to its state before the inspected step."""
         if self.step is not None:
             self.step.leave()
             self.step = None
             self.overlays.watch(self.session.scene)
 
     def feed(self, event: pygame.event.Event, button: str | None) -> bool:
-        """Process an event; return whether it was used. Events that neither this nor the overlays use end the
+        """Process an event; return whether it was used. A key that neither the inspector nor the overlays use ends the
         inspection.
         """
         step = self.step
@@ -127,7 +130,7 @@ class StepInspectorView:
         return True
 
     def _turn_world(self, way):
-        """Change to the next visible world that makes a step."""
+        """Inspect the step of the next visible world (`way` 1; -1: the previous one) that makes a step in this frame."""
         here, count = self.world, len(self.worlds())
         for number in range(1, count + 1):
             if not self.enter(here + way * number):
@@ -135,7 +138,7 @@ class StepInspectorView:
 
     @contextmanager
     def showing(self) -> Iterator[None]:
-        """Turn on the layers that show the effects of the last stage, besides those that are on."""
+        """Turn on, within the context, the overlays that show the results of the last stage, besides those that are on."""
         overlays, chosen = self.overlays, self.overlays.on
         if self.step is not None and self.step.done is not None:
             overlays.on = chosen | set(SHOWN.get(self.step.done.stage.stage, ()))
@@ -147,11 +150,13 @@ class StepInspectorView:
     # --- the picture ------------------------------------------------------------------------------------------------
 
     def reserve(self, frame: Frame) -> None:
-        """Reserve the strip's place."""
+        """Reserve the place of the strip of stages."""
         frame.reserve(self._layout(frame)[0])
 
     def _layout(self, frame):
-        """Return (rect of the strip, [(text, rect, number)] of the stages in it), over the bottom of the picture."""
+        """Return the strip's rect at the bottom of the picture, and (text, rect, stage number from 1) of each stage in
+        the strip.
+        """
         assert self.step is not None
         scale, area = frame.text_scale, frame.area.clip(frame.rect)
         several = len(self.step.starts) > 1
@@ -173,7 +178,7 @@ class StepInspectorView:
         ]
 
     def draw(self, frame: Frame) -> None:
-        """Draw the strip of stages, and the card of the last stage made."""
+        """Draw the strip of stages, and the card of the stage that was run last."""
         if self.step is None:
             return
         rect, names = self._layout(frame)
@@ -192,7 +197,7 @@ class StepInspectorView:
         self._draw_card(frame, rect.top)
 
     def _ring_view(self, frame):
-        """Draw a ring around the view of the inspected world, if there are several."""
+        """Draw a border around the view of the inspected world, if the scene shows several."""
         views = self.session.scene.views()
         if len(views) > 1 and self.step is not None:
             camera = next(camera for world, camera in views if world is self.step.world)
@@ -219,7 +224,7 @@ class StepInspectorView:
         frame.fix(rect)
 
     def _place(self, frame, area, size):
-        """Return the card's place: the top corner where it first covers least. It stays there from stage to stage."""
+        """Return the card's place: a top corner, chosen once per step as the one where the card covers the least text."""
         corners = area.left, area.right - size[0]
         if self.corner is None:
             narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))
@@ -228,7 +233,7 @@ class StepInspectorView:
         return pygame.Rect(corners[self.corner], area.top, *size)
 
     def _paragraphs(self):
-        """Return (text, colour, font, height) of each paragraph of the card."""
+        """Yield (text, colour, font, height) of each paragraph of the card."""
         step = self.step
         assert step is not None
         count, done = len(step.stages), step.done
@@ -256,7 +261,9 @@ class StepInspectorView:
 
 
 def described(done: Done) -> list[tuple[str, str]]:
-    """Return (head, text) pairs: changes and counts of a stage, and its declared fields."""
+    """Return (heading, text) pairs about a stage: what it changed and counted, and which fields it declares to read and
+    write.
+    """
     changes = [f"{name} {new}, were {old}" for name, old, new in done.rows]
     for name, rows, columns in done.changed:
         of = f" ({' '.join(columns)}) of" if columns else ""
@@ -271,7 +278,7 @@ def described(done: Done) -> list[tuple[str, str]]:
 
 
 def grouped(fields: Iterable[str]) -> str:
-    """Return the fields of a step, with the columns of a table in one group: "dt, library, bodies (x y)"."""
+    """Return the names of fields as text, the columns of a table in one group: "dt, library, bodies (x y)"."""
     whole: dict[str, list[str]] = {}
     for field in fields:
         name, _, column = field.partition(".")

@@ -1,4 +1,4 @@
-"""Subjects of overlay layers: where a scene shows an example of a layer now, the best one first."""
+"""Examples of what each overlay layer shows, found in the current step of a scene: boxes, the best example first."""
 
 from collections.abc import Callable, Iterable
 
@@ -11,11 +11,11 @@ from physics import World, debug
 
 POINT_REACH = 8.0  # [px] around a contact point
 BORDER = 10  # [canvas px] between a subject and the border of its view, for a ring
-LARGEST = (220, 84)  # [canvas px]: above or below a taller one there is no room for a card
+LARGEST = (220, 84)  # [canvas px] greatest size of an example; a taller one leaves no room for a card
 
 
 def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
-    """Return the place on the canvas of a layer's subject, whole and visible; None if there is none in this step."""
+    """Return the best example of a layer as a canvas rect that is completely visible; None if this step has no example."""
     for world, camera in scene.views():
         for rect in _on_canvas(SUBJECTS[layer](world), camera):
             return rect
@@ -23,7 +23,9 @@ def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
 
 
 def _on_canvas(rows: np.ndarray, camera: Camera) -> Iterable[pygame.Rect]:
-    """Return those of (n, 4) world boxes that fit in a view with a ring, as canvas rects."""
+    """Yield, as canvas rects, those of the (n, 4) world boxes that fit completely into the camera's view, with room for
+    a ring.
+    """
     inside = camera.viewport.inflate(-2 * BORDER, -2 * BORDER)
     left, top = camera.to_canvas(rows[:, 0], rows[:, 1])
     right, bottom = camera.to_canvas(rows[:, 2], rows[:, 3])
@@ -35,7 +37,9 @@ def _on_canvas(rows: np.ndarray, camera: Camera) -> Iterable[pygame.Rect]:
 
 
 def _around(boxes, ids, pairs):
-    """Return one box around both of each pair of shape ids; boxes: in the order of ids."""
+    """Return an (n, 4) array with a box around the two shapes of each pair. ids: ascending shape ids; boxes: one per
+    id; pairs: (n, 2) shape ids. Pairs of removed shapes are left out.
+    """
     rows = np.minimum(np.searchsorted(ids, pairs), len(ids) - 1)
     there = (ids[rows] == pairs).all(axis=1)  # a shape removed since the step has no row
     a, b = boxes[rows[there, 0]], boxes[rows[there, 1]]
@@ -49,13 +53,13 @@ def _of_pairs(world, pairs):
 
 
 def touching(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around two touching shapes."""
+    """Return (n, 4) boxes, each around two touching shapes."""
     rows = world.reported_rows()
     return _of_pairs(world, np.stack([rows["parent_a"], rows["parent_b"]], axis=1))
 
 
 def candidates(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around the candidate pairs of the broad phase."""
+    """Return (n, 4) boxes, each around the two shapes of a candidate pair of the broad phase."""
     return _of_pairs(world, world.candidates)
 
 
@@ -66,7 +70,7 @@ def moving(world: World) -> np.ndarray:
 
 
 def kept(world: World) -> np.ndarray:
-    """Return (n, 4) cells or boxes of the broad phase, those with the most shapes first."""
+    """Return (n, 4) cells or boxes of the broad phase's structure that hold a shape, those with the most shapes first."""
     rows, boxes = debug.structure(world).rects, debug.bounds(world)
     x, y = (boxes[:, 0] + boxes[:, 2]) / 2, (boxes[:, 1] + boxes[:, 3]) / 2
     inside = (rows[:, :1] <= x) & (x <= rows[:, 2:3]) & (rows[:, 1:2] <= y) & (y <= rows[:, 3:])
@@ -76,14 +80,14 @@ def kept(world: World) -> np.ndarray:
 
 
 def shared_pixels(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around the pixels that two masks share, the most first."""
+    """Return (n, 4) boxes around the pixels in which two masks overlap, the pair with the most such pixels first."""
     hits = sorted(debug.mask_hits(world), key=lambda hit: -int(hit[2].sum()))
     rows = [(left, top, left + solid.shape[1], top + solid.shape[0]) for left, top, solid in hits]
     return np.array(rows, float).reshape(-1, 4)
 
 
 def piled_up(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around the bodies of an island, those of the most bodies first."""
+    """Return (n, 4) boxes, each around all bodies of an island of at least two, the island with the most bodies first."""
     islands, boxes = debug.islands(world)[world.shapes["body_row"]], debug.bounds(world)
     names, counts = np.unique(islands[islands >= 0], return_counts=True)
     several = names[np.argsort(-counts, kind="stable")][: int((counts > 1).sum())]
@@ -107,7 +111,9 @@ def shapes_that_move(world: World) -> np.ndarray:
 
 
 def stopped_on_their_way(world: World) -> np.ndarray:
-    """Return (n, 4) boxes around the point where a body was stopped in the step and the point it was heading for."""
+    """Return (n, 4) boxes of bodies stopped at a time of impact: each holds the place where the body was stopped and
+    the place it would have reached.
+    """
     ghosts = debug.impact_ghosts(world)
     rows = world.rows(ghosts["body"]) if len(ghosts) else np.zeros(0, int)
     x, y = world.bodies["x"][rows], world.bodies["y"][rows]

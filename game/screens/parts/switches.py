@@ -1,4 +1,4 @@
-"""Switches of a running scene, by key or panel, and the line about the last switch."""
+"""Switches of a running scene, operated by key or panel, and the line of text about the last switch."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -13,9 +13,9 @@ REPORT_SECONDS = 2.5  # duration of the line about a switch
 
 
 class Switches:
-    """Switches that are input of the next step, so that a recording contains them.
+    """Switches of the scene. Each change is input of the next step, so that a recording contains it.
 
-    way: 1 the next, -1 the one before.
+    way: 1 for the next choice, -1 for the previous one.
     """
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
@@ -55,7 +55,7 @@ class Switches:
             self.report("no sprites here that could be tested as another shape")
 
     def narrowphase(self) -> None:
-        """Stop at boxes, or go on to the narrow phase."""
+        """Switch the narrow phase on or off; without it, two boxes that overlap count as a hit."""
         on = not self.scene.narrowphase
         self.devices.change("narrowphase", on)
         self.report("narrow phase: on, was off" if on else "narrow phase: off, was on: boxes that meet are a hit")
@@ -65,15 +65,17 @@ class Switches:
         self.report(f"{what}: {plain_name(str(new))}, was {plain_name(str(old or 'none'))}")
 
     def report(self, line: str) -> None:
-        """Show a line for a while."""
+        """Show a line of text for REPORT_SECONDS."""
         self.reported = line, self.now + REPORT_SECONDS
 
     @property
     def news(self) -> str:
-        """Line about the last switch, "" once it is old."""
+        """Line of text about the last switch; "" once REPORT_SECONDS are over."""
         return self.reported[0] if self.now < self.reported[1] else ""
 
 
 def following(names: Sequence[Any], name: Any, way: int) -> Any:
-    """Return the name `way` places further, cyclically; the first one if none is chosen."""
+    """Return the element `way` places after `name` in `names`, cyclically; the first element if `name` is not among
+    them.
+    """
     return names[(names.index(name) + way) % len(names)] if name in names else names[0]

@@ -1,6 +1,4 @@
-"""Rewind control: holding Backspace runs back, and while the game is frozen a bar shows the last ten seconds as a
-timeline.
-"""
+"""Rewind control: holding Backspace runs back; while the game is frozen, a bar shows the last ten seconds."""
 
 from collections.abc import Callable
 
@@ -14,7 +12,7 @@ from game.run.rewind import STEPS, Rewind
 
 SPEEDS = ((1.0, 1.0), (2.5, 2.0), (60.0, 4.0))  # (held for less than [s], multiple of the playing speed)
 REPEAT = 0.35  # [s] before a held arrow repeats
-MANY = 10  # steps with Shift
+MANY = 10  # steps of an arrow key with Shift
 LEAST_WIDTH = 360  # [text px] that the bar needs
 BAR_HEIGHT = 24  # [text px]
 MOST_CUT = 12  # [text px] height of text lines above the bar that are hidden if the bar covers a part of them
@@ -26,7 +24,9 @@ PAD_RUNS = {"left shoulder": -1, "right shoulder": 1}
 
 
 class Timeline:
-    """Control of a Rewind: feed() takes events, turn() goes to the step. went: called after each move."""
+    """Control of a Rewind: feed() takes events, turn() moves the scene to the chosen step. went(): called after each
+    move.
+    """
 
     def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
         self.rewind, self.went = rewind, went
@@ -38,7 +38,7 @@ class Timeline:
 
     @property
     def runs(self) -> bool:
-        """True while a key is held to run back; the game makes no steps then."""
+        """True while Backspace is held to run back; meanwhile the game makes no steps."""
         return self.control == BACK_KEY
 
     def let_go(self) -> None:
@@ -46,7 +46,9 @@ class Timeline:
         self.control, self.dragging, self.asked = None, False, None
 
     def feed(self, event: pygame.event.Event, devices: DeviceSource, frozen: bool, now: float) -> bool:
-        """Process an event; return whether it was used. devices: name a pad's buttons; now: of the last turn [s]."""
+        """Process an event; return whether it was used. devices: translate pad events into button names; now: time of
+        the last turn [s].
+        """
         button = devices.button_of(event)
         if event.type == pygame.KEYUP:
             return self._release(event.key)
@@ -101,14 +103,16 @@ class Timeline:
         self.asked = self.rewind.end - round((1.0 - max(0.0, min(1.0, share))) * STEPS)
 
     def go(self, steps: int) -> None:
-        """Go so many steps forward, or back if negative."""
+        """Move by this number of steps: forward, or back if negative."""
         before = self.rewind.position
         self.rewind.seek(before + steps)
         if self.rewind.position != before:
             self.went()
 
     def turn(self, now: float, frozen: bool) -> bool:
-        """Go to the chosen step at `now` [s]. Return whether a key runs back: the game makes no steps then."""
+        """Move to the step chosen by keys or mouse, at `now` [s]. Return whether Backspace is held to run back: then
+        the game must make no steps.
+        """
         if not frozen and not self.runs:
             self.let_go()
         goal = self._goal(now)
@@ -130,7 +134,7 @@ class Timeline:
         return goal
 
     def reserve(self, frame: Frame) -> None:
-        """Reserve the bar's place."""
+        """Reserve the place of the bar."""
         frame.reserve(self._rect(frame))
 
     def _rect(self, frame):
@@ -139,7 +143,7 @@ class Timeline:
         return pygame.Rect(area.x, area.bottom - high, area.width, high)
 
     def draw(self, frame: Frame) -> None:
-        """Draw ten seconds from left to right: the reachable part, the key frames, and the current step."""
+        """Draw the bar of the last ten seconds: the part that can be reached, the key frames, and the current step."""
         scale, rect, rewind = frame.scale_for(LEAST_WIDTH), self._rect(frame), self.rewind
         covered = [box for box, _ in frame.boxes if rect.colliderect(box)]
         top = min([rect.y, *(box.y - scale for box in covered if rect.y - box.y < MOST_CUT * scale)])

@@ -1,26 +1,26 @@
-"""Transition between screens: the old picture leaves in strips, or fades if flashing is reduced."""
+"""Transition between screens: the old picture disappears in strips, or fades if flashing is reduced."""
 
 import pygame
 
 SECONDS = 0.3
 STRIPS = 12
-SPREAD = 0.5  # of the time: delay of the last strip after the first
+SPREAD = 0.5  # delay of the last strip after the first, as a share of SECONDS
 
 
 class Wipe:
-    """The last picture of the previous screen, while a part of it is visible."""
+    """Transition from the previous screen's last picture to the current picture."""
 
     def __init__(self) -> None:
         self.old = None
         self.started = 0.0
 
     def begin(self, surface: pygame.Surface, now: float) -> None:
-        """Store the surface, for a transition from now [s] on."""
+        """Keep a copy of the surface, and start the transition at `now` [s]."""
         self.old = surface.copy()
         self.started = now
 
     def draw(self, surface: pygame.Surface, now: float, fades: bool = False) -> None:
-        """Draw the rest of the old picture over the new one."""
+        """Draw the remaining part of the old picture over the new one, at `now` [s]. fades: fade instead of strips."""
         if self.old is None:
             return
         share = (now - self.started) / SECONDS
@@ -33,7 +33,7 @@ class Wipe:
             self._draw_strips(surface, share)
 
     def _draw_strips(self, surface, share):
-        """Draw the strips, which narrow towards their left edges, the left ones first."""
+        """Draw the strips of the old picture. Each becomes narrower from the left; the left strips start first."""
         width, height = surface.get_size()
         for number in range(STRIPS):
             late = SPREAD * number / (STRIPS - 1)
