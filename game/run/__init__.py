@@ -1,1 +1,1 @@
-"""The run of a scene: its steps, recording, replay, digest, measurements and finished picture."""
+"""Running a scene: its steps, recording and replay, state digest, measurements, and the finished picture."""

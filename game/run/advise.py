@@ -1,4 +1,6 @@
-"""`--advise SCENE`: the bot plays the scene, every setting is measured at some moments, and the advice is printed."""
+"""`--advise SCENE`: let the bot play the scene, measure each setting at several moments of the run, and print the
+recommended setting.
+"""
 
 import json
 import sys
@@ -17,12 +19,14 @@ from game.run.session import Session
 from game.run.sources import BotSource
 from game.run.warmup import warm_up_scene
 
-MOMENTS = 3  # evenly spaced over the bot's run, the last at its end
+MOMENTS = 3  # measured states of the world, evenly spaced over the bot's run, the last at the end of the run
 EVERY = 2.0  # [s] between two lines of progress
 
 
 def run_advice(options: Options, registry: Registry) -> int:
-    """Measure, and print the advice. Return the exit code: 1 if no setting is within the error."""
+    """Measure the settings, and print the advice. Return the exit code: 1 if no setting has an error within the allowed
+    one.
+    """
     start_dummy_display()
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     error = VISIBLE if options.error is None else options.error
@@ -36,7 +40,7 @@ def run_advice(options: Options, registry: Registry) -> int:
 
 
 def moments_of(options: Options, registry: Registry) -> list[Moment]:
-    """Return the scene's first world at some moments of the bot's run."""
+    """Return MOMENTS states of the scene's first visible world, evenly spaced over the bot's run."""
     scene, frames, found = make_scene(options, registry), options.frames or DEFAULT_FRAMES, []
     session = Session(scene, BotSource())
     at = {frames * (number + 1) // MOMENTS for number in range(MOMENTS)} - {0}
@@ -49,7 +53,7 @@ def moments_of(options: Options, registry: Registry) -> list[Moment]:
 
 
 class Progress:
-    """Progress lines on standard error: the runs done and the estimated time left."""
+    """Progress lines on standard error: number of finished measurement runs, and estimated time left."""
 
     def __init__(self) -> None:
         self.started = self.reported = perf_counter()
@@ -63,7 +67,7 @@ class Progress:
 
 
 def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> list[str]:
-    """Return the results as lines of text."""
+    """Return the measured settings and the advice as lines of text."""
     here, best = advice.here, advice.best
     lines = [
         f"{options.scene}: {len(survey.dots)} settings at {survey.moments} moments of {STEPS} steps, {RUNS} runs each",
@@ -81,7 +85,9 @@ def lines_of(options: Options, error: float, advice: Advice, survey: Survey) -> 
 
 
 def interval(survey: Survey, setting: Setting, here: Setting) -> tuple[float, float]:
-    """Return the range of the time of `setting` as a share of that of `here`, from the least and the upper quartile."""
+    """Return (least, most) time of `setting` as a share of the time of `here`, from the fastest runs and the upper
+    quartiles of both.
+    """
     cost, now = survey.dots[setting].cost, survey.dots[here].cost
     assert cost is not None and now is not None
     return cost.least / now.upper, cost.upper / now.least

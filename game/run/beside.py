@@ -1,4 +1,6 @@
-"""Background compilation for the arcade: the played scene first, then all others, with one core left to the game."""
+"""Compilation in the background while the program runs: the played scene first, then all others; one core is left to a
+running game.
+"""
 
 import contextlib
 from collections.abc import Iterator
@@ -13,9 +15,9 @@ from physics.jit.workers import cores_here
 
 
 class Beside:
-    """The background compiler. Kernels run as plain Python until they are compiled, so nothing waits.
+    """The background compiler. Kernels run as plain Python until they are compiled, so that the game does not wait.
 
-    Compilation begins at `start` or at the first `turn`, after the title is shown.
+    Compilation begins with start() or the first turn(), which comes after the title is shown.
     """
 
     def __init__(self, registry: Registry, cores: int | None = None) -> None:
@@ -24,22 +26,24 @@ class Beside:
         self.background: Background | None = None
 
     def _all_scenes(self, registry) -> Iterator[type[Scene]]:
-        """Yield the scene classes one by one, each imported when it is due."""
+        """Yield the scene classes one by one. Each is imported only when it is asked for; scenes with errors are
+        skipped.
+        """
         for name in registry.names:
             with contextlib.suppress(UsageError):
                 yield registry.scene_class(name)
 
     def start(self, plays: bool = False) -> None:
-        """Start to compile in the background, if that has not begun. plays: leave one core to the scene."""
+        """Start compilation in the background, if it has not begun. plays: a scene is running, so leave one core to it."""
         if self.background is None and physics.JIT:
             self.background = physics.compile_in_background(self.cores)
         if self.background is not None:
             self.background.workers.limit = max(1, self.cores - plays)
 
     def turn(self, plays: bool) -> None:
-        """Continue the work; call once per turn of the program's loop.
+        """Continue compilation; call it once per turn of the program's loop.
 
-        plays: a scene is on the screen, so one core is left to it and no other scene is imported.
+        plays: a scene is on the screen. One core is then left to it, and no other scene is imported.
         """
         self.start(plays)
         if self.background is not None and not plays and (scene_class := next(self.scenes, None)) is not None:
@@ -51,7 +55,7 @@ class Beside:
         return 1.0 if self.background is None else self.background.share
 
     def stop(self) -> None:
-        """End the processes; compiled kernels stay."""
+        """End the compiler's processes. Kernels that are compiled stay usable."""
         if self.background is not None:
             self.background.stop()
             self.background = None

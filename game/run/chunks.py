@@ -1,7 +1,8 @@
-"""A compressed store for the bytes of a moment that shares unchanged chunks with the moment before.
+"""Compressed store for the bytes of a scene's state, in which successive states share the parts that did not change.
 
-Arrays are cut into chunks. Tables are cut column by column, since most columns of a table stay the same. A chunk is
-recognised by Python's hash of its bytes: 64 bits, with a different key in each process.
+Arrays are cut into blocks of bytes, called chunks. Tables are cut column by column, since most columns stay the same
+from one state to the next. Equal chunks are found by Python's hash of their bytes: 64 bits, with a different key in
+each process.
 """
 
 import sys
@@ -12,17 +13,19 @@ from collections.abc import Iterable, Iterator, Sequence
 import numpy as np
 
 CHUNK = 8192  # bytes: two columns of 500 rows
-LOOSE_CHUNK = 24576  # bytes, of data whose start may shift; a little less than the window of zlib (32 kB)
+LOOSE_CHUNK = 24576  # bytes, for data whose position may shift; a little less than the window of zlib (32 kB)
 WORD = 8  # bytes: tables whose rows are whole words are stored by columns
 ALIGNED = 16  # bytes: kernels are compiled for arrays aligned to their items
-LONGEST = 8  # largest depth of a chain of chunks, each compressed with the one before as dictionary
-WORTH = 0.8  # a chunk is stored relative to another if this takes less than WORTH of its own compressed size
-ALIKE = 0.2  # below this share of its size relative to another, a chunk is not compressed by itself for comparison
+LONGEST = 8  # most chunks in a chain in which each is compressed with the previous one as zlib dictionary
+WORTH = 0.8  # a dictionary is used if it reduces the compressed size of a chunk below this share
+ALIKE = 0.2  # below this share of the original size with a dictionary, compression without one is not tried
 LEVEL = 6  # of zlib: level 1 is three times as fast, for a sixth more bytes
 
 
 class Chunk:
-    """Some bytes, perhaps compressed. like: the chunk at the same place before, or None."""
+    """A block of bytes, possibly compressed. like: the chunk at the same place in the previous state, used as
+    dictionary to compress this one; None: no dictionary.
+    """
 
     __slots__ = ("data", "hash", "like", "packed")
 
@@ -32,16 +35,16 @@ class Chunk:
 
     @property
     def depth(self) -> int:
-        """The number of other chunks that are needed to read it."""
+        """Number of other chunks that must be decompressed to read this one."""
         return 0 if self.like is None else 1 + self.like.depth
 
     @property
     def first(self) -> "Chunk":
-        """The chunk at the start of the chain, which is read without another."""
+        """The first chunk of the chain of dictionaries, which can be read without another chunk."""
         return self if self.like is None else self.like.first
 
     def pack(self) -> None:
-        """Compress the chunk if that makes it smaller. The bytes of `like` are the dictionary if this saves enough."""
+        """Compress the chunk if that makes it smaller; use the bytes of `like` as dictionary if that saves enough."""
         by_like = None if self.like is None else _deflated(self.data, self.like.content())
         alike = by_like is not None and len(by_like) < ALIKE * len(self.data)
         own = b"" if alike else _deflated(self.data, b"")
@@ -53,7 +56,7 @@ class Chunk:
             self.data, self.packed = own, True
 
     def content(self) -> bytes:
-        """Return the original bytes."""
+        """Return the chunk's original bytes."""
         if not self.packed:
             return self.data
         reader = zlib.decompressobj(zdict=self.like.content()) if self.like is not None else zlib.decompressobj()
@@ -66,10 +69,11 @@ def _deflated(data, dictionary):
 
 
 class Chunks:
-    """The bytes of several buffers, in order, as chunks.
+    """The contents of several buffers, stored in order as chunks.
 
-    raw: the buffers. widths: bytes of an item of each, 0 if it is not an array. before: an earlier Chunks of the same
-    buffers, to share chunks with. `new`: the chunks that are not shared.
+    raw: the buffers. widths: size of an array item in each buffer [bytes], 0 if the buffer is not an array. before: the
+    Chunks of an earlier state of the same buffers, whose equal chunks are shared. `new`: the chunks that are not
+    shared.
     """
 
     def __init__(self, raw: Sequence[memoryview], widths: Sequence[int], before: "Chunks | None" = None) -> None:
@@ -110,16 +114,16 @@ class Chunks:
         return tuple(chunks)
 
     def __iter__(self) -> Iterator[Chunk]:
-        """Iterate over every chunk; shared ones come more than once."""
+        """Iterate over all chunks. A chunk that occurs several times is yielded each time."""
         return (chunk for part in self.parts for chunk in part)
 
     def _sizes(self):
-        """Return (bytes, bytes of a row) of each buffer."""
+        """Return (size, row size) of each buffer [bytes]; for the row size see _row()."""
         count = len(self.layout) // 2
         return zip(self.layout[:count], self.layout[count:], strict=True)
 
     def contents(self) -> list[memoryview]:
-        """Return writable copies of the buffers."""
+        """Return the contents of the buffers as writable copies."""
         parts = iter(self.parts)
         small = _joined(next(parts))
         found, at = [], 0
@@ -133,7 +137,7 @@ class Chunks:
 
 
 def bytes_of(many: Iterable[Chunks]) -> int:
-    """Return the bytes that these hold together, with Python's overhead; shared chunks count once."""
+    """Return the memory of several Chunks together [bytes], Python's overhead included. Shared chunks count once."""
     parts = {id(part): part for chunks in many for part in chunks.parts}
     layouts = {id(chunks.layout): chunks.layout for chunks in many}
     each = {id(chunk): chunk for part in parts.values() for chunk in part}
@@ -145,12 +149,14 @@ def bytes_of(many: Iterable[Chunks]) -> int:
 
 
 def _row(size, width):
-    """Return the bytes of a row of a table; 1 for other arrays, 0 for other data."""
+    """Return the row size of a buffer that is stored by columns [bytes]; 1 for other arrays, 0 for data that is no
+    array.
+    """
     return width if width % WORD == 0 and size > width else min(width, 1)
 
 
 def _by_columns(view, width):
-    """Return the bytes ordered by columns of words."""
+    """Return the bytes of a table of 8-byte words reordered by columns; other data unchanged. width: bytes of a row."""
     if width <= WORD:
         return view
     words = np.frombuffer(view, np.uint64).reshape(-1, width // WORD)
@@ -158,7 +164,7 @@ def _by_columns(view, width):
 
 
 def _by_rows(data: np.ndarray, width: int) -> np.ndarray:
-    """Return the bytes ordered by rows: the inverse of _by_columns."""
+    """Return the bytes reordered by rows: the inverse of _by_columns(). width: bytes of a row."""
     if width <= WORD:
         return data
     words = np.frombuffer(data, np.uint64).reshape(width // WORD, -1)
@@ -166,5 +172,5 @@ def _by_rows(data: np.ndarray, width: int) -> np.ndarray:
 
 
 def _joined(chunks):
-    """Return one writable array of the bytes of chunks."""
+    """Return the contents of chunks, joined in one writable array of bytes."""
     return np.frombuffer(bytearray(b"".join([chunk.content() for chunk in chunks])), np.uint8)

@@ -1,4 +1,6 @@
-"""The digest of a whole scene: every world in build order, the scene's own state, its random numbers."""
+"""Digest (hash) of the complete state of a scene: all worlds in build order, the scene's own state, and its random
+generator.
+"""
 
 import struct
 from hashlib import blake2b
@@ -7,7 +9,9 @@ from game.scene import Scene
 
 
 def scene_digest(scene: Scene) -> str:
-    """Return 32 hex digits. Floats count by their bits, with -0.0 as 0.0; raises TypeError for any other type."""
+    """Return the digest as 32 hex digits. Floats are hashed by their bits, with -0.0 as 0.0. Raises TypeError if
+    Scene.state() holds a type that cannot be hashed.
+    """
     digest = blake2b(digest_size=16)
     for world in scene.worlds:
         digest.update(world.digest().encode())

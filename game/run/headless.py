@@ -1,4 +1,4 @@
-"""A run without window, sound or waiting. Pictures are drawn only if an option needs them."""
+"""A run without window or sound, as fast as possible. Pictures are drawn only if an option needs them."""
 
 import json
 import os
@@ -23,7 +23,7 @@ from game.scene import Scene, set_loaded_aside
 
 
 def start_dummy_display() -> None:
-    """Set up pygame to draw without a display or sound device."""
+    """Set up pygame so that it can draw without a display or sound device."""
     os.environ["SDL_VIDEODRIVER"] = "dummy"
     os.environ["SDL_AUDIODRIVER"] = "dummy"
     os.environ["SDL_NO_SIGNAL_HANDLERS"] = "1"  # SDL would turn SIGTERM into an event, and no events are read here
@@ -32,7 +32,7 @@ def start_dummy_display() -> None:
 
 
 def run_headless(options: Options, registry: Registry) -> int:
-    """Run --frames steps and report. Return the exit code."""
+    """Run the scene for --frames steps and print the results. Return the exit code."""
     start_dummy_display()
     # Compile first, so that the times below do not include the compiler.
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
@@ -72,7 +72,7 @@ def run_headless(options: Options, registry: Registry) -> int:
 
 
 def save_or_fail(save: Callable[[str], object], path: str) -> None:
-    """Write an output file. Raises UsageError for a path that cannot be written."""
+    """Call save(path), which writes an output file. Raises UsageError if the file cannot be written."""
     try:
         save(path)
     except OSError as error:
@@ -80,7 +80,9 @@ def save_or_fail(save: Callable[[str], object], path: str) -> None:
 
 
 def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") -> int:
-    """Print the requested results and return the exit code. broken: the invariant that ended the run, or ""."""
+    """Print the requested results and return the exit code. broken: message about the broken invariant that ended the
+    run, or "".
+    """
     played = options.played_by_bot
     extra = [broken] if broken else report.strict_failures() if options.strict else []
     check = judge(scene, report.steps, extra) if played else not_judged(scene, extra)
@@ -97,7 +99,7 @@ def finish(scene: Scene, report: RunReport, options: Options, broken: str = "") 
 
 
 def summary_line(scene: Scene, report: RunReport, check: Check, played: bool) -> str:
-    """Return one line of text about the run."""
+    """Return one line of text that summarizes the run."""
     verdict = ("check ok" if check["ok"] else "check FAILED") if played else "nobody played, so nothing was checked"
     pending = f", {len(check['pending'])} goals pending" if played and check["pending"] else ""
     return f"{scene.name}: {report.steps} frames, seed {scene.seed}, {scene.broadphase}: {verdict}{pending}"

@@ -1,4 +1,4 @@
-"""A histogram of times in constant memory: bins 1 % wide, with the exact mean and maximum."""
+"""Histogram of durations in constant memory: bins 1 % wide, with the exact mean and maximum."""
 
 from math import floor, log
 
@@ -8,7 +8,7 @@ BINS = floor(log(LONGEST / SHORTEST) / WIDTH) + 1
 
 
 class Histogram:
-    """A histogram of times [s] that are added one by one."""
+    """Histogram of durations [s], added one by one."""
 
     def __init__(self) -> None:
         self.bins = [0] * BINS
@@ -16,7 +16,7 @@ class Histogram:
         self.total = self.largest = 0.0
 
     def add(self, seconds: float) -> None:
-        """Count one time [s]."""
+        """Count a duration [s]."""
         place = floor(log(max(seconds, SHORTEST) / SHORTEST) / WIDTH)
         self.bins[min(place, BINS - 1)] += 1
         self.count += 1
@@ -25,11 +25,13 @@ class Histogram:
 
     @property
     def mean(self) -> float:
-        """The exact mean [s]; 0 if nothing was added."""
+        """Exact mean [s]; 0 before the first duration."""
         return self.total / self.count if self.count else 0.0
 
     def quantile(self, share: float) -> float:
-        """Return the quantile [s] for a share 0..1; 0 if nothing was added."""
+        """Return the quantile [s] for a share 0..1 (0.5: the median), exact to half a percent; 0 before the first
+        duration.
+        """
         left = share * (self.count - 1) + 1.0
         for place, count in enumerate(self.bins):
             left -= count

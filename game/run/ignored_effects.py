@@ -1,4 +1,4 @@
-"""The effects that a running scene declares and a solver ignores: a list and a line of the HUD."""
+"""Effects that a running scene declares but its solver does not support: which ones, and a warning on the picture."""
 
 from collections.abc import Iterable
 
@@ -17,7 +17,9 @@ SHADE = (20, 16, 32, 225)
 
 
 def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
-    """Return {solver: names of ignored effects} for worlds whose solver ignores some, in the order of the worlds."""
+    """Return {solver: names of the declared effects that it ignores}, in the order of the worlds. Solvers that ignore
+    no effect are left out.
+    """
     found: dict[str, set[str]] = {}
     for world in worlds:
         ignored = world.ignored_effects
@@ -27,17 +29,17 @@ def ignored_by_solver(worlds: Iterable[World]) -> dict[str, list[str]]:
 
 
 def ignored_effects(scene: Scene) -> list[str]:
-    """Return the names of the effects that a world of the scene declares and its solver ignores."""
+    """Return the names of all effects that a world of the scene declares and that its solver ignores."""
     return in_order({name for names in ignored_by_solver(scene.worlds).values() for name in names})
 
 
 def in_order(names: set[str]) -> list[str]:
-    """Return names of effects in the order of Effects."""
+    """Return names of effects in the order of the fields of Effects."""
     return [name for name in Effects.__dataclass_fields__ if name in names]
 
 
 def sentences(scene: Scene) -> list[str]:
-    """Return a sentence per solver that ignores effects."""
+    """Return a sentence for each solver that ignores effects."""
     return [
         f"{plain_name(solver)} ignores {', '.join(map(plain_name, names))}"
         for solver, names in ignored_by_solver(scene.worlds).items()
@@ -45,10 +47,10 @@ def sentences(scene: Scene) -> list[str]:
 
 
 def draw_ignored(frame: Frame, scene: Scene) -> None:
-    """Write the sentences into a free corner of the game's part of a frame, below its head, in the largest text that
-    fits.
+    """Write the sentences into a free corner of the game's part of a frame, below its top line, in the largest text
+    that fits.
 
-    If no place is free, they are written at the bottom left and replace the text there.
+    If no place is free, write them at the bottom left, over the text there.
     """
     shown_ignored = sentences(scene)
     if not shown_ignored:
@@ -73,7 +75,9 @@ def _size(frame, rows, scale):
 
 
 def _places(area, size, scale):
-    """Yield places of a box from the bottom of an area to its top, at the left edge and then at the right edge."""
+    """Yield (x, y) places for a box from the bottom of an area to its top, first at the left edge, then at the right
+    edge.
+    """
     step, edge = LINE * scale, EDGE * scale
     for x in (area.left + edge, area.right - size[0] - edge):
         for y in range(area.bottom - size[1] - edge, area.top - 1, -step):

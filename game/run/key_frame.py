@@ -1,8 +1,8 @@
-"""A key frame: the whole state of a scene at one moment, in few bytes, which can be restored into the same scene.
+"""Key frame: a compact copy of the complete state of a scene, which can be restored into the same scene.
 
-The scene and its worlds stay the same objects: a reference to one sees it restored. Their contents are pickled, with
-arrays outside the pickle. Constant objects are stored by reference only: pictures, shapes, code, and objects whose deep
-copy is themselves.
+Restoring changes the contents of the scene and its worlds and keeps the objects, so that references to them stay valid.
+The contents are pickled, with arrays outside the pickle. Constant objects are stored by reference only: pictures,
+shapes, code, and objects whose deep copy is the object itself.
 """
 
 import io
@@ -21,13 +21,13 @@ from game.scene import Scene
 from physics import World
 from physics.tables.table import Table
 
-OUTSIDE = ("accessibility", "ghost", "best", "figures")  # attributes of a scene that are set from outside at any time
+OUTSIDE = ("accessibility", "ghost", "best", "figures")  # attributes that others set on a scene; not restored
 TRAIL = "trail"  # attribute of a scene that only grows, so its length is enough to restore it
 KEPT = (type, FunctionType, np.dtype, pygame.Surface)  # types of constant objects
 
 
 class KeyFrame:
-    """The state of a scene. before: an earlier key frame, to share unchanged data with."""
+    """Stored state of a scene. before: an earlier key frame of the scene, whose unchanged data is shared."""
 
     def __init__(self, scene: Scene, before: "KeyFrame | None" = None) -> None:
         self.scene = scene
@@ -44,7 +44,7 @@ class KeyFrame:
         self.chunks = Chunks(raw, [0, *writer.widths], before and before.chunks)
 
     def restore(self) -> None:
-        """Restore the scene."""
+        """Restore the scene to the stored state."""
         stream, *buffers = self.chunks.contents()
         reader = _Reader(io.BytesIO(stream), self.kept, buffers)
         scene = self.scene
@@ -59,26 +59,28 @@ class KeyFrame:
 
 
 def bytes_held(frames: Iterable[KeyFrame]) -> int:
-    """Return the bytes that these hold together; shared data counts once."""
+    """Return the memory of several key frames together [bytes]. Shared data counts once."""
     lists = {id(kept): kept for frame in frames for kept in (frame.kept, frame.worlds)}
     return sum(map(sys.getsizeof, lists.values())) + bytes_of([frame.chunks for frame in frames])
 
 
 def table_of(rows: np.ndarray, capacity: int) -> Table:
-    """Return a table with these rows; the unused rows behind them are not stored."""
+    """Return a table of this capacity with these rows. It is called on unpickling: a pickle holds only the rows in use."""
     table = Table(rows.dtype, capacity)
     table.append(len(rows)).view(np.uint8)[:] = rows.view(np.uint8)
     return table
 
 
 def shared(number: int) -> object:
-    """Stand for an object outside the pickle; a key frame reads its own list instead."""
+    """Stand, in the pickle, for the object with this index in the key frame's `kept`. Raises LookupError if called,
+    since a key frame's own reader replaces it.
+    """
     raise LookupError(f"object {number} is not in this pickle: a key frame holds it")
 
 
 class _Writer(pickle.Pickler):
-    """The pickler of a key frame. `kept`: the objects stored by reference; `worlds`: those of them that are still to be
-    pickled.
+    """Pickler of a key frame. `kept`: the objects stored by reference; `worlds`: the worlds among them, whose state is
+    pickled separately.
     """
 
     def __init__(self, file, scene):
@@ -124,7 +126,7 @@ class _Reader(pickle.Unpickler):
 
 
 def _same(new, old):
-    """Return the old list if it holds the same objects, else the new one."""
+    """Return `old` if it holds the same objects as `new`, otherwise `new`, so that equal tuples are stored once."""
     if old is not None and len(new) == len(old) and all(map(is_, new, old)):
         return old
     return new

@@ -1,19 +1,18 @@
-"""The fixed time step: real time goes in, whole steps of 1/60 s come out, and the rest is alpha.
+"""Fixed time step: converts real time into whole steps of 1/60 s; the remaining fraction of a step is alpha.
 
-pygame's Clock.tick(60) really gives 62 frames a second, because it counts whole milliseconds. So time is read from
-perf_counter and never assumed.
+Time is read from perf_counter: pygame's Clock.tick(60) counts whole milliseconds and so gives 62 frames a second.
 """
 
 from game.scene import STEP_SECONDS
 
-LONGEST_FRAME = 0.25  # [s] cap for a stall, as by a window drag or a debugger; more would cause a spiral of catching up
-WORST_LOAD = 2.0  # largest load that one frame counts with: a single long frame does not slow the next ones
+LONGEST_FRAME = 0.25  # [s] limit of a stall (window drag, debugger), so that its steps need not be made up for
+WORST_LOAD = 2.0  # limit of a frame's load, so that a single long frame does not slow the next ones
 SMOOTHING = 0.2  # weight of the last frame in the mean load
 SPEEDS = (1.0, 0.5, 0.25, 0.1, 0.05)  # slow motion, as fractions of real time
 
 
 class FixedStep:
-    """An accumulator of time. `advance(now)` returns the number of steps due; `alpha` is the fraction left."""
+    """Time accumulator. `advance(now)` returns the number of steps due; `alpha` is the remaining fraction of a step."""
 
     def __init__(self, step: float = STEP_SECONDS) -> None:
         self.step = step
@@ -27,7 +26,7 @@ class FixedStep:
         self.load: float | None = None  # mean ratio of the time that frames take to the time of their steps
 
     def advance(self, now: float) -> int:
-        """Return the whole steps due at `now` [s, perf_counter]. The first call only starts the clock."""
+        """Return the number of steps due at `now` [s, perf_counter]. The first call only starts the clock."""
         passed = 0.0 if self.before is None else min(max(now - self.before, 0.0), LONGEST_FRAME)
         self.before = now
         if self.paused:
@@ -45,12 +44,12 @@ class FixedStep:
     def behind(self) -> bool:
         """True if the machine cannot make the steps in time.
 
-        Time then slows down evenly to one step per frame, so that steps do not pile up.
+        The game then slows down to one step per frame, so that steps do not pile up.
         """
         return self.load is not None and self.load > 1.0
 
     def note(self, busy: float) -> None:
-        """Record the time [s] that the steps and the picture of this frame took."""
+        """Record the time [s] that this frame took for its steps and its picture."""
         if not self.due:  # a frame without steps does not measure their time; until one does, make one step per frame
             self.load = WORST_LOAD if self.load is None else self.load
             return
@@ -58,17 +57,17 @@ class FixedStep:
         self.load = load if self.load is None else self.load + (load - self.load) * SMOOTHING
 
     def rest(self) -> None:
-        """Stop counting time until advance() is called again, because another screen is shown."""
+        """Stop counting time until the next advance(), because another screen is shown."""
         self.before = None
         self.requested = 0
 
     @property
     def alpha(self) -> float:
-        """The place of drawing between the step before and the last one, 0..1. Paused: the last one."""
+        """Interpolation between the previous step (0) and the last step (1), for drawing; 1 while paused."""
         return 1.0 if self.paused else self.accumulator / self.step
 
     def request_step(self) -> None:
-        """Request one step while paused (single step)."""
+        """Request a single step while paused; the next advance() returns it."""
         self.requested += 1
 
     def slower(self) -> None:

@@ -12,7 +12,9 @@ DEFAULT_FRAMES = 600  # of a headless run without --frames: ten seconds
 
 @dataclass
 class Options:
-    """One field per flag, checked; `recording` is the file of --replay, read."""
+    """Checked options: a field for each flag of the command line. `recording` is the content of the file that --replay
+    names.
+    """
 
     list: bool = False
     scene: str | None = None
@@ -23,7 +25,7 @@ class Options:
     bot: bool = False
     record: str | None = None
     replay: str | None = None
-    overlay: tuple[str, ...] | None = None  # None: the scene's own
+    overlay: tuple[str, ...] | None = None  # overlay layers to show; None: the scene's default
     broadphase: str | None = None
     solver: str | None = None
     tier: str | None = None
@@ -44,28 +46,30 @@ class Options:
 
     @property
     def is_a_run(self) -> bool:
-        """True for a run that is measured, saved or watched: it is about one scene, and ends with it."""
+        """True if the run of one scene is measured, saved or limited in length; the program ends when that run ends."""
         return bool(self.frames or self.record or self.json or self.profile or self.screenshot or self.strict)
 
     @property
     def played_by_bot(self) -> bool:
-        """True if the scene's bot plays, or played the replayed recording: its goals are then checked."""
+        """True if the scene's bot plays, or played the recording that is replayed. Only then are the scene's goals
+        checked.
+        """
         return self.bot or bool(self.recording and self.recording.bot)
 
     @property
     def last_frame(self) -> int | None:
-        """The frame that the run ends with; None if the player ends it."""
+        """Number of frames after which the run ends; None if the player ends it."""
         return self.frames or (self.recording.frames if self.recording else None)
 
 
 def scene_class_of(options: Options, registry: Registry) -> type[Scene]:
-    """Return the class of the scene that the options name; they must name one."""
+    """Return the class of the scene that the options name. options.scene must not be None."""
     assert options.scene is not None
     return registry.scene_class(options.scene)
 
 
 def make_scene(options: Options, registry: Registry) -> Scene:
-    """Return the scene that the options name. Raises FileError for a level with a mistake."""
+    """Build the scene that the options name. Raises FileError for a level file with an error."""
     return scene_class_of(options, registry)(
         options.seed or 0, options.broadphase, options.solver, options.tier, options.level
     )

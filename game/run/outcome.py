@@ -1,4 +1,6 @@
-"""The measurements of a run: per stage, per frame, counters and events, summed over the scene's worlds."""
+"""Measurements of a run, summed over the scene's worlds: times of stages and frames, counters, events; and the check of
+the scene's goals.
+"""
 
 from collections.abc import Iterable
 from typing import Any
@@ -14,12 +16,12 @@ EVENTS = ("begin", "persist", "end", "hits")
 
 
 class RunReport:
-    """The measurements of a run, filled step by step. Times are seconds inside and milliseconds in to_json."""
+    """Measurements of a run, added step by step. Times are in seconds here, in milliseconds in to_json()."""
 
     def __init__(self) -> None:
         self.steps = 0
         self.frames = Histogram()  # update, and drawing where there was any; the last one is still open
-        self.last = None  # [s] the frame that drawing time may still be added to
+        self.last = None  # [s] duration of the last frame, to which drawing time may still be added
         self.updates = Histogram()  # update alone
         self.stages = {}  # name -> Histogram of the times per step
         self.counters = {}
@@ -27,7 +29,7 @@ class RunReport:
         self.quarantined = 0
 
     def note_step(self, scene: Scene, seconds: float) -> None:
-        """Add the measurements of the worlds in the last step, which took `seconds`."""
+        """Add the measurements of the last step of all worlds. seconds: duration of the scene's step."""
         self.steps += 1
         self._close_frame()
         self.last = seconds
@@ -45,7 +47,7 @@ class RunReport:
             self.stages.setdefault(name, Histogram()).add(spent)
 
     def note_drawing(self, seconds: float) -> None:
-        """Add drawing time to the frame of the last step."""
+        """Add drawing time [s] to the frame of the last step."""
         if self.last is not None:
             self.last += seconds
 
@@ -55,7 +57,9 @@ class RunReport:
             self.last = None
 
     def strict_failures(self) -> list[str]:
-        """Return the failures under --strict at the end of a run: quarantined bodies and cap hits."""
+        """Return the failures that --strict reports at the end of a run: quarantined bodies, and iterations that hit
+        their cap.
+        """
         failures = []
         if self.quarantined:
             failures.append(f"{self.quarantined} bodies were quarantined")
@@ -64,7 +68,7 @@ class RunReport:
         return failures
 
     def to_json(self, scene: Scene, check: Check) -> dict[str, Any]:
-        """Return the object that --json prints; `check` comes from judge()."""
+        """Return the object that --json prints. check: the result of judge()."""
         self._close_frame()
         return {
             "scene": scene.name,
@@ -84,7 +88,7 @@ class RunReport:
         }
 
     def profile_lines(self) -> list[str]:
-        """Return the table that --profile prints."""
+        """Return the lines of the table that --profile prints."""
         self._close_frame()
         lines = [f"{'':24}{'mean':>9}{'p50':>9}{'p99':>9}{'max':>9}  ms"]
         rows = {"frame": self.frames, "  update": self.updates}
@@ -100,18 +104,22 @@ class RunReport:
 
 
 def solver_name(scene: Scene) -> str | None:
-    """Return the solver that runs, also if the scene left the choice to the World."""
+    """Return the name of the solver in use, also where the scene leaves the choice to World; None for a scene without
+    worlds and choice.
+    """
     return scene.worlds[0].solver if scene.worlds else scene.solver
 
 
 def summary(times: Histogram, wanted: Iterable[str]) -> dict[str, float]:
-    """Return those of {mean, p50, p99, max} [ms] that are wanted; zeros if nothing was measured."""
+    """Return the statistics named in `wanted` (of mean, p50, p99, max) in milliseconds; 0 if nothing was measured."""
     found = {"mean": times.mean, "p50": times.quantile(0.5), "p99": times.quantile(0.99), "max": times.largest}
     return {name: round(1000.0 * found[name], 4) for name in wanted}
 
 
 def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
-    """Return {ok, failures, pending} for the scene's goals. A goal due after the last frame is pending, not failed."""
+    """Check the scene's goals after `frames` frames. Return {ok, failures, pending}; extra: further failures. A goal
+    that is due later is pending, not failed.
+    """
     failures, pending = list(extra), []
     for goal in scene.check():
         if goal.met:
@@ -125,5 +133,7 @@ def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
 
 
 def not_judged(scene: Scene, extra: Iterable[str] = ()) -> Check:
-    """Return the check of a run without a player: all goals are pending, and only --strict can fail it."""
+    """Return {ok, failures, pending} of a run that no bot played: all goals are pending; extra: failures found by
+    --strict.
+    """
     return {"ok": not extra, "failures": list(extra), "pending": [goal.name for goal in scene.check()]}

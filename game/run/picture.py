@@ -1,4 +1,4 @@
-"""One finished picture of a scene: canvas, scaling, overlays, panel. The same for a window and a screenshot."""
+"""The finished picture of a scene: canvas, scaling, overlays, panel; the same code for a window and a screenshot."""
 
 from collections.abc import Callable
 from io import BytesIO
@@ -16,27 +16,27 @@ from game.overlays.stack import Overlays, draw_legend, legend_columns, legend_si
 from game.run.ignored_effects import draw_ignored
 from game.scene import Scene
 
-GRAPH_LEAST = 120  # [text px] least width of the strip that is reserved for the stage times when they are on
+GRAPH_LEAST = 120  # [text px] least width of the graph of stage times
 
 
 class Drawable(Protocol):
-    """An object that can be shown alone on the canvas."""
+    """An object that draws a whole picture on the canvas: a title, menu or message screen."""
 
     def draw(self, canvas: Canvas, alpha: float) -> None:
-        """Draw the picture."""
+        """Draw the picture. alpha: interpolation between the last two steps, 0..1."""
         ...
 
 
 class Docked(Protocol):
-    """An object shown beside a scene: the panel."""
+    """An object that is drawn beside a scene: a panel."""
 
     def draw(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Paint into a frame rect."""
+        """Draw the object into a rect of the frame."""
         ...
 
 
 class Picture:
-    """The drawing of finished pictures onto `surface`: the window's, or one of screenshot size."""
+    """Drawing of finished pictures onto `surface`: that of the window, or for None a new one of screenshot size."""
 
     def __init__(self, surface: pygame.Surface | None = None) -> None:
         if surface is None:
@@ -52,10 +52,10 @@ class Picture:
         panel: Docked | None = None,
         reserve: Callable[[Frame], None] | None = None,
     ) -> Frame:
-        """Draw the whole picture and return the frame. With geometry shown, sprites are drawn at the poses after the
-        last step.
+        """Draw the whole picture of a scene and return the frame. If overlays show geometry, alpha is taken as 1, so
+        that sprites match the shapes.
 
-        reserve(frame): called before the overlays' text is placed, to reserve the places of later drawing.
+        reserve(frame): called before text of the overlays is placed, to reserve places for drawing that comes later.
         """
         if overlays.shows_geometry():
             alpha = 1.0
@@ -88,7 +88,7 @@ class Picture:
         return frame
 
     def draw_without(self, draw: Callable[[Frame], None], overlays: Overlays, panel: Docked | None = None) -> Frame:
-        """Draw draw(frame) in place of a scene, with the panel beside it."""
+        """Draw by draw(frame) instead of drawing a scene, with an optional panel beside it. Return the frame."""
         self.canvas.begin(INK)
         self.presenter.docked = panel is not None
         frame = self.presenter.present(self.canvas)
@@ -104,7 +104,7 @@ class Picture:
         draw_strip(frame, self.presenter.strip_rect, overlays)
 
     def draw_screen(self, screen: Drawable, alpha: float = 1.0) -> Frame:
-        """Draw a title or menu screen."""
+        """Draw a screen that has no scene: a title, menu or message. Return the frame."""
         self.canvas.begin(INK)
         screen.draw(self.canvas, alpha)
         self.presenter.docked = False
@@ -112,7 +112,9 @@ class Picture:
 
 
 def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
-    """Draw the strip under a docked game: legend on the left, stage times on the right, as far as they are on."""
+    """Draw the strip below a game that is shown beside a panel: legend at the left, stage times at the right,
+    invariants above, each if it is on.
+    """
     scale = frame.text_scale
     if rect.height < 40 * scale:
         return
@@ -129,7 +131,7 @@ def draw_strip(frame: Frame, rect: pygame.Rect, overlays: Overlays) -> None:
 
 
 def _invariants_above(frame, rect, overlays, scale):
-    """Draw the strip of invariants in the widest form that fits, and return the rest of the rect under it."""
+    """Draw the table of invariants in the widest form that fits, if it is on. Return the remaining rect below it."""
     if "invariants" in overlays.on:
         for width, height in overlays.invariants.sizes(frame):
             if width <= rect.width - 8 * scale and height <= rect.height - 4 * scale:
@@ -139,7 +141,9 @@ def _invariants_above(frame, rect, overlays, scale):
 
 
 def save_png(surface: pygame.Surface, path: str | Path) -> None:
-    """Write a surface as a PNG file, whatever its name. The write is atomic. Raises OSError."""
+    """Write a surface as a PNG file, whatever the file is called. The file appears complete or not at all (atomic
+    write). Raises OSError.
+    """
     picture = BytesIO()
     pygame.image.save(surface, picture, "picture.png")
     write_atomically(path, picture.getvalue(), makes_folder=False)

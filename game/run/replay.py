@@ -1,9 +1,8 @@
-"""Recordings: the inputs of every step, the seed, and a digest after every step.
+"""Recordings: the seed, the input of every step, and digests of the scene's state.
 
-A replay runs the scene again and names the first frame whose digest differs. The file is JSON with one line per run of
-equal input, so that it can be read, compared and repaired by hand. Version 2 adds the level, the date and the result;
-version 1 can still be read. A recording under another physics version is played, and the first different frame is
-reported.
+A replay runs the scene again and reports the first frame whose digest differs. The file is JSON; repeated input takes
+one line, so that the file can be read, compared and repaired by hand. Version 2 adds level, date and result; version 1
+can still be read. A recording of another physics version is played as well; its first different frame is only noted.
 """
 
 import json
@@ -22,7 +21,7 @@ from physics import PHYSICS_VERSION
 
 FORMAT, VERSION = "hitbox replay", 2
 DIGEST_EVERY = 1  # frames; 1 names the diverging frame exactly, and costs 0.1 ms a frame in the games
-KEPT_EVERY = 30  # frames between the digests of runs that are kept automatically: half a second is exact enough
+KEPT_EVERY = 30  # frames between two digests in automatic recordings: half a second is exact enough
 DIGITS = 16  # hex digits kept per frame: 64 bits
 LONGEST = 24 * 60 * 60 * 60  # frames: a day; without a limit a small file could exhaust the memory
 LARGEST_SEED = 2**62  # the physics takes 63 bits, and each further world of a scene adds one
@@ -32,7 +31,7 @@ MOST_POINTS = 10**15
 
 
 class Recorder:
-    """A recorder of the input and the digest of each step. every: frames between two digests."""
+    """Recorder of the input of each step, and of a digest after every `every` frames."""
 
     def __init__(self, scene: Scene, bot: bool = False, every: int = DIGEST_EVERY) -> None:
         level = scene.level_file
@@ -56,7 +55,7 @@ class Recorder:
         self.digests = []
 
     def note(self, frame: InputFrame, scene: Scene) -> None:
-        """Record a step; call after it with its input."""
+        """Record a step. Call it after the step; frame: the step's input."""
         self.frames += 1
         if self.runs and self.runs[-1][1] == frame:
             self.runs[-1][0] += 1
@@ -66,7 +65,7 @@ class Recorder:
             self.digests.append(scene_digest(scene)[:DIGITS])
 
     def cut(self, frames: int) -> None:
-        """Discard the recording after so many frames: the player rewound there and plays on."""
+        """Keep only the first `frames` frames, because the player rewound to that frame and plays on."""
         left = self.frames - frames
         self.frames -= max(0, left)
         while left > 0:
@@ -78,7 +77,7 @@ class Recorder:
         del self.digests[self.frames // self.every :]
 
     def save(self, path: str | Path, result: Result | None = None) -> None:
-        """Write the recording with the game.scene.Result at its end. Raises OSError."""
+        """Write the recording to a file, with the result of the game, if any. Raises OSError."""
         ended = result and {"won": bool(result.won), "points": int(result.points), "seconds": float(result.seconds)}
         head = {**self.head, "result": ended, "frames": self.frames}
         lines = [json.dumps(head)[:-1] + ",", '"inputs": [']
@@ -88,7 +87,9 @@ class Recorder:
 
 
 def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
-    """Return the changes that bring a new scene to the choices of this one, beyond those in a recording's head."""
+    """Return the (name, value) changes that bring a new scene to this scene's current settings. Settings that the head
+    of a recording holds are left out.
+    """
     changes: list[tuple[str, Any]] = [
         (f"slider:{s.name}", scene.values[s.name]) for s in scene.sliders if scene.values[s.name] != s.start
     ]
@@ -100,7 +101,7 @@ def chosen_before(scene: Scene) -> list[tuple[str, Any]]:
 
 
 class Replay:
-    """A recording read back: a source of input (`next`) and a check (`verify`)."""
+    """A recording that was read: next() returns the input of each step, verify() compares the scene's state."""
 
     def __init__(self, path: str | Path, data: dict[str, Any], frames: list[InputFrame]) -> None:
         self.path = path
@@ -111,21 +112,23 @@ class Replay:
         self.digests, self.physics = data["digests"], data["physics"]
         self.inputs = frames
         self.index = 0
-        self.parted = ""  # first difference under another physics version
+        self.parted = ""  # message about the first difference under another physics version
 
     @property
     def frames(self) -> int:
-        """The number of recorded steps."""
+        """Number of recorded steps."""
         return len(self.inputs)
 
     @property
     def outdated(self) -> str:
-        """A sentence if it was recorded under another physics version, else ""."""
+        """A sentence if the recording was made under another physics version, otherwise ""."""
         then = self.physics
         return "" if then == PHYSICS_VERSION else f"recorded under physics {then}, played under {PHYSICS_VERSION}"
 
     def level_path(self) -> Path | None:
-        """Return the file of the played level, None for the scene's own. Raises FileError if the file has changed."""
+        """Return the level file that was played; None for the scene's built-in level. Raises FileError if the file has
+        changed since.
+        """
         if self.level is None:
             return None
         path = Path(self.level["path"])
@@ -139,14 +142,15 @@ class Replay:
         return path
 
     def next(self, scene: object) -> InputFrame:
-        """Return the input of the next step; no input after the last."""
+        """Return the input of the next step; after the last step, empty input."""
         self.index += 1
         return self.inputs[self.index - 1] if self.index <= len(self.inputs) else NOTHING
 
     def verify(self, scene: Scene) -> None:
-        """Compare the digest after a step.
+        """Compare the scene's state after a step with the recorded digest, if this frame has one.
 
-        Raises ReplayDiverged naming the frame. Under another physics version the frame is recorded in `parted` instead.
+        Raises ReplayDiverged, which names the frame. Under another physics version, the first difference is noted in
+        `parted` instead.
         """
         frame = self.index
         if frame % self.every or frame // self.every > len(self.digests):
@@ -161,7 +165,7 @@ class Replay:
 
 
 def load_replay(path: str | Path) -> Replay:
-    """Read a recording. Raises FileError naming the file, the place and the reason."""
+    """Read a recording. Raises FileError, which names the file, the place in it, and the reason."""
     data = read_json(path)
     if isinstance(data, dict) and data.get("version") == 1:
         data = {**data, "level": None, "date": "", "result": None}

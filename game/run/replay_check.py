@@ -1,5 +1,5 @@
-"""The check that a recording fits its scene. Files come from friends and other versions, so every name and value is
-checked.
+"""Check that a recording can be played by its scene. Files come from friends and from other versions, so that every
+name and value is checked.
 """
 
 from pathlib import Path
@@ -12,8 +12,8 @@ from physics import BROADPHASES
 
 
 def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[Scene]]:
-    """Return (recording, scene class) of a file. Raises FileError for a file that is damaged or that its scene cannot
-    play.
+    """Read a recording; return (recording, class of its scene). Raises FileError if the file is damaged or its scene
+    cannot play it.
     """
     recording = load_replay(path)
     if recording.scene not in registry.names:
@@ -26,7 +26,9 @@ def load_replay_for(path: str | Path, registry: Registry) -> tuple[Replay, type[
 
 
 def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
-    """Check a recording against its scene. Raises FileError naming the first value that the scene does not have."""
+    """Check the values of a recording against its scene. Raises FileError, which names the first value that the scene
+    does not accept.
+    """
     path = recording.path
     for place, value, valid in (
         ("broadphase", recording.broadphase, tuple(BROADPHASES)),
@@ -51,7 +53,9 @@ def check_recording(recording: Replay, scene_class: type[Scene]) -> None:
 
 
 def is_possible(scene_class: type[Scene], name: object, value: object) -> bool:
-    """Return whether the scene takes that change; a scene whose worlds have solvers of their own takes no other."""
+    """Return whether the scene accepts a change (name, value) as input. A scene whose worlds have different solvers
+    accepts no change of the solver.
+    """
     if not isinstance(name, str) or isinstance(value, (list, dict)):
         return False
     kind, _, what = name.partition(":")

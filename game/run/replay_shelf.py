@@ -1,6 +1,6 @@
-"""The replays of this user: kept ones in replays/, and the last few runs in replays/recent/.
+"""The user's replay files: those kept by the player in replays/, and the last few runs in replays/recent/.
 
-Only files in recent/ are ever deleted, the oldest first; replays that the player kept stay.
+Only files in recent/ are ever deleted, the oldest first.
 """
 
 from itertools import chain, count
@@ -14,30 +14,30 @@ from game.run.replay import Recorder, Replay
 from game.run.replay_check import load_replay_for
 from game.scene import Result
 
-RECENT = 10  # runs that are kept automatically
+RECENT = 10  # number of runs that are kept automatically
 SHORTEST = 120  # frames: shorter runs are not kept
 
 
 def replays_folder() -> Path:
-    """Return the folder of kept replays, also for files from friends."""
+    """Return the folder of replays that the player keeps; files from friends belong here, too."""
     return data_folder() / "replays"
 
 
 def recent_folder() -> Path:
-    """Return the folder of the last runs."""
+    """Return the folder of the runs that are kept automatically."""
     return replays_folder() / "recent"
 
 
 def shelf() -> list[tuple[Path, bool]]:
-    """Return (path, kept on purpose) of all replays, newest first."""
+    """Return (path, whether the player keeps it) of all replays, newest first."""
     found = [(changed, path, True) for changed, path in files_of(replays_folder())]
     found += [(changed, path, False) for changed, path in files_of(recent_folder())]
     return [(path, kept) for _, path, kept in sorted(found, key=lambda each: (-each[0], each[1].name))]
 
 
 def files_of(folder: Path) -> list[tuple[float, Path]]:
-    """Return (time of change, path) of each replay in a folder. Entries that are not files, or are gone by now, are
-    left out.
+    """Return (modification time, path) of each replay in a folder. Folders, broken links and files deleted meanwhile
+    are left out.
     """
     found = []
     try:
@@ -55,7 +55,9 @@ def files_of(folder: Path) -> list[tuple[float, Path]]:
 
 
 def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
-    """Save a run as the newest recent one and delete the oldest. Return None for a run too short; raises OSError."""
+    """Save a run in recent/ and delete the oldest runs there. Return the path; None if the run is too short to keep.
+    Raises OSError.
+    """
     if recorder.frames < SHORTEST:
         return None
     path = free_name(recent_folder(), recorder.head["scene"])
@@ -68,9 +70,10 @@ def put_recent(recorder: Recorder, result: Result | None = None) -> Path | None:
 
 
 def keep(path: Path) -> Path:
-    """Copy a replay out of recent/ so that it stays, and return its new path. Raises OSError.
+    """Copy a replay from recent/ to replays/, so that it is not deleted, and return the copy's path. Raises OSError.
 
-    A different file of that name is not overwritten; one with the same content counts as the copy.
+    An existing file of the same name is kept: if it has the same content it serves as the copy, otherwise the copy gets
+    another name.
     """
     content = path.read_bytes()
     names = chain((path.name,), (f"{path.stem}-{number}{path.suffix}" for number in count(2)))
@@ -85,7 +88,7 @@ def keep(path: Path) -> Path:
 
 
 def read_shelf_entry(path: Path, registry: Registry) -> tuple[Replay | None, str]:
-    """Return (replay, ""), or (None, reason in one line) for a file that is damaged or that no scene can play."""
+    """Read a replay. Return (replay, ""), or (None, reason in one line) if the file is damaged or no scene can play it."""
     try:
         return load_replay_for(path, registry)[0], ""
     except FileError as error:

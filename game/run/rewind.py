@@ -1,12 +1,12 @@
-"""Rewind: the last ten seconds of a scene in play, with access to every step.
+"""Rewind: the last ten seconds of a running scene, of which every step can be restored.
 
-The inputs of the steps are stored between key frames. A seek restores the key frame before the step and makes the steps
-again. A key frame is taken once the steps since the last took KEY_SECONDS together, or there are MOST_STEPS of them;
-that bounds the time of a seek. An expensive key frame waits until the steps took twice as long as it, or is not taken
-at all. If key frames hold more than MOST_BYTES, the past is shorter. A restart by the player clears it.
-
-While kernels run plain, which makes steps slow, a key frame waits PLAIN times as long, and nothing is compressed: a
-seek in the first seconds of a first start may take as much longer.
+Key frames (stored states) are taken at intervals, and between them the inputs of the steps are stored. A seek restores
+the last key frame before the wanted step and makes the steps from there again. A key frame is due once the steps since
+the previous one took KEY_SECONDS, or number MOST_STEPS; this bounds the time of a seek. An expensive key frame waits
+until the steps took twice its own time, or is not taken at all. If key frames hold more than MOST_BYTES, the oldest are
+dropped. A restart by the player clears the past.
+While kernels run uncompiled, which makes steps slow, a key frame waits PLAIN times as long, and nothing is compressed.
+A seek in the first seconds of a first start may therefore take that much longer.
 """
 
 import pickle
@@ -21,50 +21,52 @@ from game.run.key_frame import KeyFrame, bytes_held
 from game.run.session import Session
 from physics.jit import tiers
 
-STEPS = 600  # of the past: ten seconds
+STEPS = 600  # steps that can be rewound: ten seconds
 KEY_SECONDS = 0.05  # [s] of steps between two key frames: with restoring, a seek stays below a tenth of a second
 PLAIN = 4  # measured with the lander, whose key frames take 6 ms: 1.3 instead of 5.4 ms per frame
 DEAREST = 0.1  # [s] greatest cost of a key frame
 MOST_STEPS = 90  # between two key frames
-STONE_COSTS = 5  # times the cost of a key frame: after so long, a seek takes one more for the next step back
+STONE_COSTS = 5  # after this many times the cost of a key frame, a seek takes an extra one for later seeks
 PACK_SECONDS = 0.001  # of each step, for compression of at least one chunk
 MOST_BYTES = 2**29  # of key frames, before compression
-FIXED = 2**18  # bytes: the fixed cost of a key frame equals that of so many bytes of tables
-MOST_RAW = 2048  # chunks that wait for compression, 16 MB; beyond that the oldest stay uncompressed
+FIXED = 2**18  # bytes of tables that cost as much as the fixed part of a key frame
+MOST_RAW = 2048  # chunks that wait for compression (16 MB); if there are more, the oldest stay uncompressed
 
 
 class Stretch:
-    """A key frame, and the inputs of the steps up to the next one. `before`: the input of the step before it."""
+    """A key frame and the inputs of the steps from it to the next key frame. `before`: input of the step that led to
+    the key frame.
+    """
 
     def __init__(self, start: int, key: KeyFrame, before: InputFrame) -> None:
         self.start, self.key, self.before = start, key, before
         self.spent = 0.0  # [s] duration of these steps
-        self.bytes = 0  # that the key frame does not share with earlier ones, before compression
+        self.bytes = 0  # size of the data that the key frame does not share with earlier ones, before compression
         self.packed = b""
         self.open: list[InputFrame] | None = []
 
     @property
     def inputs(self) -> list[InputFrame]:
-        """The inputs, one per step."""
+        """The inputs of the steps after the key frame, one per step."""
         return pickle.loads(zlib.decompress(self.packed)) if self.open is None else self.open
 
     def close(self) -> None:
-        """Compress the inputs; no more will follow."""
+        """Compress the inputs, because no more will follow."""
         if self.open is not None:
             self.packed, self.open = zlib.compress(pickle.dumps(self.open, 5)), None
 
     def cut(self, steps: int) -> None:
-        """Drop the inputs after so many steps, and accept new ones."""
+        """Keep the inputs of the first `steps` steps, and accept new ones after them."""
         inputs = self.inputs
         self.spent *= steps / max(1, len(inputs))
         self.open = inputs[:steps]
 
 
 class Rewind:
-    """The past of a session. `position`: step of the scene's current state; `end`: last step made. Call note() after
-    every step of the session.
+    """The past steps of a session. `position`: number of the step whose result the scene shows; `end`: number of the
+    last step made. Call note() after every step of the session.
 
-    prepared: called after a key frame was restored, before steps are made from it.
+    prepared(): called after a key frame was restored, before steps are made from it.
     """
 
     def __init__(self, session: Session, prepared: Callable[[], None] = lambda: None) -> None:
@@ -73,8 +75,8 @@ class Rewind:
         self.ended_at = 0  # the step in which the game ended, if it did
         self.recorder, self.recorded_from = session.recorder, 0  # the last recorder, and the step at which it began
         self.stretches: list[Stretch] = []
-        self.stones: dict[int, KeyFrame] = {}  # by step
-        self.steps_made = 0  # by the last seek
+        self.stones: dict[int, KeyFrame] = {}  # step -> extra key frame, taken during a long seek
+        self.steps_made = 0  # number of steps that the last seek had to make
         self.raw: deque[Chunk] = deque(maxlen=MOST_RAW)
         self.rates: deque[float] = deque(maxlen=8)  # [s] per byte of the tables, for the last key frames
         self._begin_stretch()
@@ -86,12 +88,12 @@ class Rewind:
 
     @property
     def live(self) -> bool:
-        """True if the scene's state is that of the last step made."""
+        """True if the scene shows the result of the last step made; False after a seek into the past."""
         return self.position == self.end
 
     @property
     def following(self) -> InputFrame | None:
-        """The input of the step after the current state; None at the end."""
+        """Recorded input of the step that follows the current state; None at the last step made."""
         if self.live:
             return None
         stretch = next(each for each in reversed(self.stretches) if each.start <= self.position)
@@ -99,18 +101,18 @@ class Rewind:
 
     @property
     def bytes(self) -> int:
-        """Memory of the past [bytes]."""
+        """Memory of the stored past [bytes]."""
         inputs = sum(len(each.packed) + 300 * len(each.open or ()) for each in self.stretches)
         return inputs + bytes_held([each.key for each in self.stretches])
 
     @property
     def since_result(self) -> int:
-        """Steps since the game ended, at the current state."""
+        """Number of steps since the game ended, counted at the current state; 0 if it has not ended."""
         return 0 if self.session.scene.result is None else self.position - self.ended_at + 1
 
     def note(self) -> None:
-        """Record a step of the session. Raises ValueError for a step made in the past, before which drop_future() is
-        needed.
+        """Record a step of the session. Raises ValueError if the step was made after a seek into the past without
+        drop_future().
         """
         if not self.live:
             raise ValueError(f"step {self.position} of {self.end} is not the last: drop_future() before it is made")
@@ -135,8 +137,8 @@ class Rewind:
                 self.raw.pop().pack()
 
     def _is_due(self, last):
-        """Return whether to take a key frame: it must cost at most half the time of the steps it saves, and at most
-        DEAREST, so that restoring takes at most a tenth of a second.
+        """Return whether to take a key frame now. Its cost may be at most half the time of the steps that it saves, and
+        at most DEAREST, so that restoring takes at most a tenth of a second.
         """
         enough = KEY_SECONDS * (PLAIN if tiers.wanted else 1)
         if last.spent < enough and len(last.open) < MOST_STEPS:
@@ -144,7 +146,7 @@ class Rewind:
         return self._cost() <= min(DEAREST, 0.5 * max(last.spent, enough))
 
     def _cost(self):
-        """Return the expected cost of a key frame [s], without interruptions."""
+        """Return the expected time of taking a key frame [s], from the fastest of the last ones."""
         return min(self.rates) * _weight(self.session.scene)
 
     def _begin_stretch(self):
@@ -165,7 +167,7 @@ class Rewind:
             del self.stretches[0]
 
     def seek(self, step: int) -> None:
-        """Go to a step, clamped to `start` .. `end`."""
+        """Restore the state after a step, clamped to `start` .. `end`."""
         step = max(self.start, min(self.end, step))
         self.steps_made = 0
         if step == self.position:
@@ -187,7 +189,9 @@ class Rewind:
         session.scene.cues.clear()
 
     def _put_back(self, stretch, inputs, step):
-        """Restore the last key frame or stone at or before a step."""
+        """Restore the last stored state at or before a step: the stretch's key frame, or one of the extra ones
+        (`stones`) from earlier seeks.
+        """
         last = stretch.start + len(inputs)
         self.stones = {at: stone for at, stone in self.stones.items() if stretch.start < at <= last}
         at = max((at for at in self.stones if at <= step), default=stretch.start)
@@ -199,7 +203,7 @@ class Rewind:
         self.prepared()
 
     def drop_future(self) -> None:
-        """Continue from here: drop the steps after the current state, also in the recorder."""
+        """Drop the steps after the current state, also in the recorder, so that the game continues from here."""
         self.stones.clear()
         if self.live:
             return
@@ -214,6 +218,6 @@ class Rewind:
 
 
 def _weight(scene):
-    """Return the bytes of the largest tables, with which the cost of a key frame grows."""
+    """Return the size of the scene's largest tables plus FIXED [bytes]; the cost of a key frame is proportional to it."""
     tables = ((world.bodies, world.shapes, world.contact_rows) for world in scene.worlds)
     return FIXED + sum(table.nbytes for each in tables for table in each)

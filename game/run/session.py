@@ -1,4 +1,4 @@
-"""Session: the stepping of a scene, with its input, recording, invariants and measurements."""
+"""Session: runs a scene step by step, with its input, recording, invariants and measurements."""
 
 from time import perf_counter
 
@@ -11,8 +11,8 @@ from game.scene import Scene
 
 
 class Session:
-    """One run of a scene. `source.next(scene)` gives the input; recorder and replay may be None. strict: a broken
-    invariant ends it.
+    """One run of a scene. `source.next(scene)` returns the input of each step; recorder and replay are optional.
+    strict: end the run at the first broken invariant.
     """
 
     def __init__(
@@ -33,10 +33,10 @@ class Session:
             scene.watch_invariants(strict=True)
 
     def step(self) -> None:
-        """Make one fixed step. Raises ReplayDiverged if a replay's digest differs, StrictFailure for a broken
-        invariant.
+        """Make one fixed step. Raises ReplayDiverged if the state differs from the replay's digest, and StrictFailure
+        for a broken invariant if strict.
 
-        The time of checking invariants is not counted as the scene's.
+        The time for checking invariants is not counted as time of the scene.
         """
         frame = self.source.next(self.scene)
         self.inputs.set(frame)

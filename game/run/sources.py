@@ -1,4 +1,4 @@
-"""Sources of input besides devices and recordings: a script, the scene's bot, no input."""
+"""Sources of input other than devices and recordings: a script, the scene's bot, and no input."""
 
 from collections.abc import Iterable
 from typing import Protocol
@@ -8,7 +8,7 @@ from game.scene import Scene
 
 
 class Source(Protocol):
-    """A source of the input of each step."""
+    """An object that supplies the input of each step."""
 
     def next(self, scene: Scene) -> InputFrame:
         """Return the input of the next step."""
@@ -16,26 +16,28 @@ class Source(Protocol):
 
 
 class ScriptSource:
-    """A source that plays a list of InputFrames, or of action sets, then nothing."""
+    """Source that supplies a list of inputs (InputFrames, or sets of actions), and empty input after its end."""
 
     def __init__(self, frames: Iterable[InputFrame | Iterable[str]]) -> None:
         self.frames = [f if isinstance(f, InputFrame) else InputFrame(frozenset(f)) for f in frames]
         self.index = 0
 
     def next(self, scene: object) -> InputFrame:
-        """Return the input of the next step."""
+        """Return the input of the next step; empty input after the end of the list."""
         self.index += 1
         return self.frames[self.index - 1] if self.index <= len(self.frames) else NOTHING
 
 
 class BotSource:
-    """A source that plays the scene's own bot. Changes that a person makes in the panel are added from `person`."""
+    """Source that lets the scene's bot play. person: source of a person's input, of which only the changes of settings
+    are added.
+    """
 
     def __init__(self, person: Source | None = None) -> None:
         self.person = person
 
     def next(self, scene: Scene) -> InputFrame:
-        """Return the input of the next step."""
+        """Return the bot's input for the next step, with the person's changes of settings."""
         played = scene.bot()
         frame = played if isinstance(played, InputFrame) else InputFrame(frozenset(played))
         if self.person is None:
@@ -45,8 +47,8 @@ class BotSource:
 
 
 class IdleSource:
-    """A source without input."""
+    """Source of empty input."""
 
     def next(self, scene: object) -> InputFrame:
-        """Return an empty frame."""
+        """Return empty input."""
         return NOTHING

@@ -1,8 +1,8 @@
-"""Step inspector: stop one step of a scene after any stage of its worlds, forwards and backwards.
+"""Step inspector: stop a step of a scene after any of its stages, and move forwards and backwards between stages.
 
-The scene makes its step from a key frame: its rules run up to the step of the world, which stops after the chosen
-stage, and the scene is left in that state. Every stop is reached from the start, so going back gives the same state to
-the bit. At the end the key frame is restored.
+The scene starts from a key frame, and its rules run until they step the world; the world's step is aborted after the
+chosen stage, and the scene is left in that state. Every state is reached from the key frame in this way, so that going
+back gives the same bits. At the end the key frame is restored.
 """
 
 from collections.abc import Callable
@@ -26,24 +26,25 @@ TABLES = ("bodies", "shapes", "characters", "contact_rows", "candidates")
 
 
 class Halted(Exception):
-    """The step has reached its stop."""
+    """Raised to abort a step after the chosen stage."""
 
 
 class Done(NamedTuple):
-    """A finished stage and its changes."""
+    """A finished stage and the changes that it made."""
 
     stage: Stage
     counted: dict[str, int]  # increments of the counters
-    changed: list[tuple[str, int, list[str]]]  # (table, rows, columns) with changed values
+    changed: list[tuple[str, int, list[str]]]  # (table, number of changed rows, names of changed columns)
     rows: list[tuple[str, int, int]]  # (table, rows before, rows now) of tables with another length
 
 
 class StepInspector:
-    """Inspector of one step. world: whose steps are inspected; before: the input of the step before; following(): that
-    of this one.
+    """Inspector of one step of a world. before: input of the previous step; following(): returns the input of the
+    inspected step.
 
-    `stages`: of all steps that this world makes in this frame, in order, empty if it makes none; `starts`: indices at
-    which a step begins; `place`: number of stages made; `done`: the last of them.
+    `stages`: the stages of all steps that the world makes in this frame, in order; empty if it makes none. `starts`:
+    index in `stages` at which each of these steps begins. `place`: number of stages that have run. `done`: the stage
+    that ran last, with its changes.
     """
 
     def __init__(
@@ -53,7 +54,7 @@ class StepInspector:
         self.key = KeyFrame(scene)
         self.stages: list[Stage] = []
         self.starts: list[int] = []
-        self.seconds: list[list[float]] = []  # of each stage, in every run so far
+        self.seconds: list[list[float]] = []  # [s] for each stage, its duration in every run so far
         self.place = self.ran = 0
         self.done: Done | None = None
         self.tables: dict[str, np.ndarray] = {}  # before the last stage
@@ -62,7 +63,7 @@ class StepInspector:
         self.go(0)
 
     def go(self, place: int) -> None:
-        """Go to the state after so many stages, clamped to those that exist."""
+        """Move to the state after the first `place` stages, clamped to the number of stages."""
         self.key.restore()
         if not self.stages:
             return
@@ -78,7 +79,7 @@ class StepInspector:
             )
 
     def leave(self) -> None:
-        """Restore the scene to its state before the step."""
+        """End the inspection: restore the scene to its state before the step."""
         self.key.restore()
 
     def _run(self):
@@ -94,7 +95,7 @@ class StepInspector:
             self.world.stepped_by = None
 
     def _make(self, world, dt):
-        """Make a step of the world up to the stop."""
+        """Make a step of the world, aborted after stage number `stop`; the scene calls this instead of the normal step."""
         with closing(staged_step(world, dt)) as steps:
             for stage in steps:
                 if stage is None:
@@ -119,7 +120,9 @@ class StepInspector:
 
 
 def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFrame], str]:
-    """Return (function that gives the input of the next step from the state before it, sentence on its origin)."""
+    """Return (function that returns the next step's input, called in the state before that step; sentence on where this
+    input comes from).
+    """
     recorded, held = rewind.following, replace(session.inputs.now, wheel=0, changes=())
     if recorded is not None:
         return lambda: recorded, "the input is that which was recorded"
@@ -129,13 +132,15 @@ def next_input(session: Session, rewind: Rewind) -> tuple[Callable[[], InputFram
 
 
 def photographed(world: WatchedWorld) -> dict[str, np.ndarray]:
-    """Return copies of the tables that a stage may write to, and of the counters."""
+    """Return copies of the tables that a stage may write, and of the counters ("work")."""
     found = {name: getattr(world, name).copy() for name in TABLES if name != "characters"}
     return {**found, "characters": world.characters.rows.copy(), "work": world.profile.work.copy()}
 
 
 def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.ndarray]) -> Done:
-    """Return the changes of a stage. Values are compared as bytes: nan equals nan, and -0 differs from 0."""
+    """Return a stage with the changes that it made. before, after: results of photographed(). Values are compared as
+    bytes: NaN equals NaN, and -0.0 differs from 0.0.
+    """
     work = (after["work"] - before["work"]).tolist()
     counted = {name: count for name, count in zip(COUNTERS, work, strict=True) if count}
     changed, rows = [], []
@@ -156,7 +161,7 @@ def compared(stage: Stage, before: dict[str, np.ndarray], after: dict[str, np.nd
 
 
 def _differing(old, new):
-    """Return the number of rows in which two columns of equal length differ."""
+    """Return the number of rows in which two columns of the same length differ."""
     if not len(new):
         return 0
     old, new = (np.ascontiguousarray(each).view(np.uint8).reshape(len(each), -1) for each in (old, new))

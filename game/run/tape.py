@@ -1,7 +1,8 @@
-"""Playback of a recording: forward step by step, and to any frame by key frames.
+"""Playback of a recording, step by step, with seeks to any frame by means of key frames.
 
-A key frame is a deep copy of the scene and its input. No game rule paints on pictures, so copies share them. Key frames
-are KEY_SECONDS apart, or further if a long recording would need more than MOST_KEYS, see `spacing`.
+A key frame is a deep copy of the scene and its input; copies share pictures, since game rules never paint on them. Key
+frames are KEY_SECONDS apart, or further in a long recording that would need more than MOST_KEYS of them (see
+`spacing`).
 """
 
 import copy
@@ -25,7 +26,7 @@ MOST_KEYS = 48
 
 
 class Tape:
-    """Playback of a Replay, `recording`. `make()` builds the scene as at the start."""
+    """Playback of a recording (a Replay). `make()` builds the scene in its initial state."""
 
     def __init__(self, make: Callable[[], Scene], recording: Replay) -> None:
         self.recording = recording
@@ -33,9 +34,9 @@ class Tape:
         seconds = max(KEY_SECONDS, -(-self.length // (60 * MOST_KEYS)))
         self.spacing = 60 * seconds  # [frames] between two key frames
         self.session = Session(make(), recording, replay=recording)
-        self.diverged = ""  # the line that names the frame, after a divergence
+        self.diverged = ""  # message with the frame at which scene and recording first differed
         self.diverged_at = None
-        self.goal = None  # the frame of the seek under way
+        self.goal = None  # frame to which a seek is under way
         self.keys = {}
         recording.index = 0
         self._note_key()
@@ -47,16 +48,18 @@ class Tape:
 
     @property
     def position(self) -> int:
-        """Number of frames played."""
+        """Number of frames played so far."""
         return self.recording.index
 
     @property
     def ended(self) -> bool:
-        """True after the last frame."""
+        """True after the last frame of the recording."""
         return self.position >= self.length
 
     def step(self) -> None:
-        """Play one frame; do nothing after the last. A divergence is recorded and playback continues."""
+        """Play one frame; after the last frame do nothing. A difference from the recording is noted, and playback
+        continues.
+        """
         if self.ended:
             return
         try:
@@ -73,13 +76,15 @@ class Tape:
             self.keys[self.position] = copy.deepcopy((self.scene, self.session.inputs))
 
     def seek(self, frame: int) -> None:
-        """Go to a frame, however long it takes."""
+        """Move to a frame, however long it takes."""
         self.begin_seek(frame)
         while self.goal is not None:
             self.seek_on(60.0)
 
     def begin_seek(self, frame: int) -> None:
-        """Go to the nearest key frame before; seek_on() makes the rest. An earlier seek is cancelled."""
+        """Begin to move to a frame: restore the nearest key frame before it. seek_on() plays the rest. A seek under way
+        is cancelled.
+        """
         frame = max(0, min(self.length, frame))
         nearest = max(key for key in self.keys if key <= frame)
         if frame < self.position or nearest > self.position:
@@ -88,7 +93,7 @@ class Tape:
         self.goal = frame if frame != self.position else None
 
     def seek_on(self, seconds: float) -> None:
-        """Play towards the frame of the seek, for so long at most."""
+        """Continue a seek: play towards its frame, for at most about `seconds`."""
         started = perf_counter()
         while self.goal is not None and self.position < self.goal:
             self.step()

@@ -19,9 +19,9 @@ BAR = 32  # characters
 def jobs_of(
     scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None, everything: bool = False
 ) -> list[Job]:
-    """Return the needs of one scene's worlds at their start, as jobs for physics.warmup.
+    """Return the kernels that the worlds of one scene need at their start, as jobs: arguments of physics.warmup().
 
-    everything: all pieces and all broad phases, whatever the scene declares.
+    everything: all optional parts of physics and all broad phases, not only those that the scene declares.
     """
     return [
         {
@@ -35,8 +35,8 @@ def jobs_of(
 
 
 def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solver: str | None = None) -> None:
-    """Compile the kernels that one scene needs at its start, with all cores, and load them; progress goes to standard
-    error.
+    """Compile, with all cores, the kernels that one scene needs at its start, and load them. Progress is written to
+    standard error.
     """
     progress = StderrProgress()
     with tiers.collecting() as found:
@@ -47,31 +47,39 @@ def warm_up_scene(scene_class: type[Scene], broadphase: str | None = None, solve
 
 
 def strategy_of(scene_class: type[Scene], chosen: str | None = None) -> str:
-    """Return the broad phase that a scene's worlds begin with; "all" if each has its own."""
+    """Return the broad phase that a scene's worlds begin with; "all" if each world has its own. chosen: the user's
+    choice, or None.
+    """
     return (chosen or scene_class.broadphase) if scene_class.switches_broadphase else "all"
 
 
 def solvers_of(scene_class: type[Scene], chosen: str | None = None) -> tuple[str | None, ...]:
-    """Return the names of all solvers that a scene's worlds may use; None is the World's own choice."""
+    """Return the names of all solvers that a scene's worlds may use; None stands for World's default. chosen: the
+    user's choice, or None.
+    """
     return tuple(dict.fromkeys((chosen or scene_class.solver, *scene_class.solvers)))
 
 
 def worlds_of(scene_class: type[Scene], chosen: str | None = None) -> list[tuple[Effects, str | None]]:
-    """Return (effects, solver) of all kinds of worlds that a scene may have; None is the World's own choice."""
+    """Return (effects, solver) of all kinds of worlds that a scene may build; solver None: World's default. chosen: the
+    user's choice of solver, or None.
+    """
     names = solvers_of(scene_class, chosen)
     others = [(each, name if each.stacking else None) for each in scene_class.other_effects for name in names]
     return list(dict.fromkeys([*((scene_class.effects, name) for name in names), *others]))
 
 
 def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
-    """Return the pieces of physics that a scene declares, and those of dragging."""
+    """Return the optional parts ("pieces") of physics that a scene declares, with "queries" if bodies can be dragged;
+    None if the scene does not restrict them.
+    """
     if scene_class.pieces is None:
         return None
     return (*scene_class.pieces, *("queries",) * (scene_class.draggable and "queries" not in scene_class.pieces))
 
 
 def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
-    """Run --warmup: compile every scene under every broad phase, with all cores. Return the exit code."""
+    """Run --warmup: compile the kernels of every scene under every broad phase, with all cores. Return the exit code."""
     stream: TextIO = sys.stdout if out is None else out
     started = perf_counter()
     classes = registry.all_classes()
@@ -88,7 +96,7 @@ def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
 
 
 def draw_bar(out: TextIO, share: float, name: str) -> None:
-    """Draw a progress line that overwrites itself on a terminal; draw nothing to a file or a pipe."""
+    """Draw a progress line that overwrites the previous one on a terminal. Nothing is written to a file or pipe."""
     if not out.isatty():
         return
     filled = int(share * BAR)
@@ -97,8 +105,8 @@ def draw_bar(out: TextIO, share: float, name: str) -> None:
 
 
 class StderrProgress:
-    """Progress of compilation on standard error once it has taken a second: one line of a terminal, else a line every
-    ten seconds.
+    """Progress of compilation on standard error, written once compilation has taken `quiet` seconds: one line that is
+    updated on a terminal, otherwise a line every ten seconds.
     """
 
     def __init__(self, quiet: float = 1.0) -> None:
@@ -107,7 +115,7 @@ class StderrProgress:
         self.shown = False
 
     def __call__(self, done: int, total: int, name: str) -> None:
-        """Write the progress if it is time to."""
+        """Write the progress if it is due. done, total: numbers of kernels."""
         now = perf_counter()
         if sys.stderr is None or now - self.started < self.quiet:
             return
@@ -120,7 +128,7 @@ class StderrProgress:
         sys.stderr.flush()
 
     def end(self) -> None:
-        """Write the total time if progress was written."""
+        """Write the total time, if any progress was written."""
         if self.shown and sys.stderr is not None:
             lead = "\r" if sys.stderr.isatty() else ""
             sys.stderr.write(f"{lead}hitbox: physics compiled in {perf_counter() - self.started:.0f} s{' ' * 24}\n")

@@ -1,4 +1,4 @@
-"""Input of three initials: up and down change a letter, left and right move on. Letters can also be typed or clicked."""
+"""Input of three initials: up and down change a letter, left and right move on; typing and clicking work, too."""
 
 import pygame
 
@@ -79,9 +79,7 @@ class Initials:
                     self._turn(number, -1 if pointer[1] < cell.centery else 1)
 
     def _turn(self, number, way):
-        """Change a letter by `way` places in the alphabet, cyclically: a press of Up (-1) turns A into Z, as usual in
-        arcades.
-        """
+        """Change a letter by `way` places in LETTERS, cyclically: a press of Up (-1) goes back, as usual in arcades."""
         index = (LETTERS.index(self.letters[number]) + way) % len(LETTERS)
         self.letters[number] = LETTERS[index]
         self.cues.append("blip")
