@@ -34,7 +34,9 @@ class Beside:
                 yield registry.scene_class(name)
 
     def start(self, plays: bool = False) -> None:
-        """Start compilation in the background, if it has not begun. plays: a scene is running, so leave one core to it."""
+        """Start compilation in the background, if it has not begun. plays: a scene is running, so leave one core to
+        it.
+        """
         if self.background is None and physics.JIT:
             self.background = physics.compile_in_background(self.cores)
         if self.background is not None:

@@ -65,7 +65,9 @@ def bytes_held(frames: Iterable[KeyFrame]) -> int:
 
 
 def table_of(rows: np.ndarray, capacity: int) -> Table:
-    """Return a table of this capacity with these rows. It is called on unpickling: a pickle holds only the rows in use."""
+    """Return a table of this capacity with these rows. It is called on unpickling: a pickle holds only the rows in
+    use.
+    """
     table = Table(rows.dtype, capacity)
     table.append(len(rows)).view(np.uint8)[:] = rows.view(np.uint8)
     return table

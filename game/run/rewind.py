@@ -218,6 +218,8 @@ class Rewind:
 
 
 def _weight(scene):
-    """Return the size of the scene's largest tables plus FIXED [bytes]; the cost of a key frame is proportional to it."""
+    """Return the size of the scene's largest tables plus FIXED [bytes]; the cost of a key frame is proportional to
+    it.
+    """
     tables = ((world.bodies, world.shapes, world.contact_rows) for world in scene.worlds)
     return FIXED + sum(table.nbytes for each in tables for table in each)

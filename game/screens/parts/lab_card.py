@@ -159,7 +159,9 @@ def height_of(lines: Iterable[Line]) -> int:
 
 
 def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> pygame.Rect:
-    """Return the place of a rect of this size in an area, chosen from a grid of places, where it covers the least text."""
+    """Return the place of a rect of this size in an area, chosen from a grid of places, where it covers the least
+    text.
+    """
     spare = area.width - size[0], area.height - size[1]
     places = [
         pygame.Rect(area.x + spare[0] * column // GRID, area.y + spare[1] * row // GRID, *size)

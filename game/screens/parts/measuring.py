@@ -175,7 +175,9 @@ class Measuring:
         return ""
 
     def rivals(self) -> list[Setting]:
-        """Return the settings that differ from the current one in one part and that the scene can run under in a race."""
+        """Return the settings that differ from the current one in one part and that the scene can run under in a
+        race.
+        """
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(self._changes(setting), str)]
 

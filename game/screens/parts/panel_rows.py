@@ -117,7 +117,9 @@ def _switches(play, scene):
 
 
 def _solver_hint(scene):
-    """Return the hint of the solver row: the declared effects that the solver ignores, or else the purpose of a solver."""
+    """Return the hint of the solver row: the declared effects that the solver ignores, or else the purpose of a
+    solver.
+    """
     ignored = ignored_effects(scene)
     return f"ignores {', '.join(map(plain_name, ignored))}" if ignored else "how overlaps are resolved"
 

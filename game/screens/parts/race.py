@@ -1,4 +1,6 @@
-"""The race: the played scene and a rival, which is the same scene under another setting, with the same seed and input."""
+"""The race: the played scene and a rival, which is the same scene under another setting, with the same seed and
+input.
+"""
 
 from collections import deque
 from dataclasses import replace

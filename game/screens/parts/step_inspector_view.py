@@ -130,7 +130,9 @@ class StepInspectorView:
         return True
 
     def _turn_world(self, way):
-        """Inspect the step of the next visible world (`way` 1; -1: the previous one) that makes a step in this frame."""
+        """Inspect the step of the next visible world (`way` 1; -1: the previous one) that makes a step in this
+        frame.
+        """
         here, count = self.world, len(self.worlds())
         for number in range(1, count + 1):
             if not self.enter(here + way * number):
@@ -138,7 +140,9 @@ class StepInspectorView:
 
     @contextmanager
     def showing(self) -> Iterator[None]:
-        """Turn on, within the context, the overlays that show the results of the last stage, besides those that are on."""
+        """Turn on, within the context, the overlays that show the results of the last stage, besides those that are
+        on.
+        """
         overlays, chosen = self.overlays, self.overlays.on
         if self.step is not None and self.step.done is not None:
             overlays.on = chosen | set(SHOWN.get(self.step.done.stage.stage, ()))
@@ -224,7 +228,9 @@ class StepInspectorView:
         frame.fix(rect)
 
     def _place(self, frame, area, size):
-        """Return the card's place: a top corner, chosen once per step as the one where the card covers the least text."""
+        """Return the card's place: a top corner, chosen once per step as the one where the card covers the least
+        text.
+        """
         corners = area.left, area.right - size[0]
         if self.corner is None:
             narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))
