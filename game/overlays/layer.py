@@ -1,4 +1,4 @@
-"""Base class of the overlay layers. Layers only read; each decides where it is drawn. LAYERS in stack.py lists them."""
+"""Base class of the overlay layers. A layer only reads the world. LAYERS in stack.py lists all layers."""
 
 from game.drawing.camera import Camera
 from game.drawing.canvas import Canvas
@@ -10,7 +10,9 @@ LegendLine = tuple[Color, str]
 
 
 class Layer:
-    """Overlay layer. `key`: the key that switches it; `color`: of its check box and of its first legend line."""
+    """Overlay layer. `key`: the key that switches the layer; `color`: colour of its check box and its first legend
+    line.
+    """
 
     name: str
     title: str
@@ -21,16 +23,20 @@ class Layer:
     under: bool = False  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the layer's budget evenly."""
+        """Start a picture in which the layer is drawn in this number of views. They share the layer's budget of drawn
+        objects evenly.
+        """
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens, where `on_frame` is True."""
+        """Draw a world at the window's resolution; lens: maps world to frame coordinates. Called if `on_frame` is
+        True.
+        """
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw one world on the canvas, where `on_canvas` is True."""
+        """Draw a world on the canvas, as the camera shows it. Called if `on_canvas` is True."""
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write labels that follow objects, where there is room."""
+        """Write the labels of drawn objects where there is room."""
 
     def notes(self) -> list[LegendLine]:
         """Return (color, text) lines for the legend."""

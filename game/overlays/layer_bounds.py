@@ -1,4 +1,4 @@
-"""AABBs and swept AABBs (bounding motion rectangles): the input of the broad phase."""
+"""AABBs and swept AABBs (bounding motion rectangles) of shapes and bodies: the input of the broad phase."""
 
 from collections.abc import Sequence
 from functools import lru_cache
@@ -13,15 +13,15 @@ from game.overlays.layer import Layer, LegendLine
 from physics import World, debug
 
 ALONE, STILL, PAIRED, TOUCHING, SENSOR = 0, 1, 2, 3, 4
-COLORS = (GREEN, faded(FOG, 0.35), ORANGE, RED, PINK)  # by state
-STAMPED = 48  # [frame px] boxes up to this size are stamped
+COLORS = (GREEN, faded(FOG, 0.35), ORANGE, RED, PINK)  # in the order of these states
+STAMPED = 48  # [frame px] boxes up to this size are blitted from a cached image
 BOX_BUDGET = 3000  # boxes drawn per picture; the note says how many there are
 
 
 def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Color], colors: np.ndarray) -> None:
-    """Outline (n, 4) world boxes in the palette's colours, small ones on top.
+    """Draw the outlines of (n, 4) world boxes, small ones on top.
 
-    colors: (n,) indices into palette.
+    palette: colours; colors: (n,) index into the palette for each box.
     """
     x0, y0 = lens.points(rows[:, 0], rows[:, 1])
     x1, y1 = lens.points(rows[:, 2], rows[:, 3])
@@ -46,7 +46,7 @@ def draw_boxes(frame: Frame, lens: Lens, rows: np.ndarray, palette: Sequence[Col
 
 @lru_cache(maxsize=2048)
 def outline(color: Color, width: int, height: int) -> pygame.Surface:
-    """Return the picture of a small box's outline. It is cached, so that many equal boxes are one blit call."""
+    """Return an image of a box's outline. Images are cached, so that many equal boxes are drawn by one blit call."""
     image = pygame.Surface((width, height))
     clear = (0, 0, 0) if color[:3] != (0, 0, 0) else (255, 255, 255)
     image.fill(clear)
@@ -56,17 +56,19 @@ def outline(color: Color, width: int, height: int) -> pygame.Surface:
 
 
 class Bounds(Layer):
-    """The tight AABB of every shape: green alone, orange in a candidate pair, red in contact, grey static."""
+    """The tight AABB of every shape: green if alone, orange in a candidate pair, red in contact, grey static, pink
+    sensor.
+    """
 
     name, title, key, color = "bounds", "Bounding boxes", "1", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the AABBs of a world through a lens."""
         rows = debug.bounds(world)
         self.total += len(rows)
         seen = np.flatnonzero(lens.seen(rows))[: self.room] if len(rows) else []
@@ -95,17 +97,17 @@ def _states(world, shapes):
 
 
 class Motion(Layer):
-    """Swept AABB (bounding motion rectangle) of every moving body: it covers the body's motion in one step."""
+    """The swept AABB (bounding motion rectangle) of every moving body, which covers the body's motion in one step."""
 
     name, title, key, color = "motion", "Motion rectangles", "2", SKY
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the swept AABBs of a world through a lens."""
         rows = debug.motion(world)
         self.total += len(rows)
         if len(rows) == 0:

@@ -1,4 +1,6 @@
-"""Centres of mass: the point that a body rotates about, its velocity, and its origin if that is elsewhere."""
+"""Centres of mass: for each body the point that it rotates about, its velocity, and its origin if that lies
+elsewhere.
+"""
 
 import numpy as np
 import pygame
@@ -17,19 +19,19 @@ APART = 1.0  # [px] minimum distance of a drawn origin from the centre of mass
 
 
 class Centers(Layer):
-    """Crash-test mark at the centre of mass of each dynamic body, with its displacement in 0.1 s and a line to its
-    origin.
+    """A mark, as on a crash-test dummy, at the centre of mass of each dynamic body, with an arrow of its motion in 0.1
+    s and a line to the body's origin.
     """
 
     name, title, key, color = "centers", "Centres of mass", "c", GOLD
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.room = CENTER_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the centres of mass of a world through a lens."""
         bodies = world.bodies
         bodies = bodies[(bodies["kind"] == DYNAMIC) & ~bodies["quarantined"]]
         self.total += len(bodies)
@@ -55,7 +57,7 @@ class Centers(Layer):
 
 
 def mark(surface: pygame.Surface, x: float, y: float, angle: float, radius: float) -> None:
-    """Draw a crash-test mark: a disc of two dark and two light quarters, rotated with the body."""
+    """Draw a crash-test mark: a disc of two dark and two light quarters, rotated by the body's angle."""
     pygame.draw.circle(surface, PAPER, (x, y), radius)
     cosine, sine = np.cos(angle) * radius, np.sin(angle) * radius
     for way in (1.0, -1.0):

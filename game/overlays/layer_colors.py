@@ -1,4 +1,6 @@
-"""Graph colours: contacts of one colour share no dynamic body, so they can be solved at once, in any order."""
+"""Graph colouring of the contacts: contacts of one colour share no dynamic body, so that they can be solved in
+parallel.
+"""
 
 import numpy as np
 import pygame
@@ -17,14 +19,14 @@ LISTED = 8  # colours with their own line in the legend
 
 
 class Colors(Layer):
-    """Lines from each contact to the centres of its dynamic bodies, in its graph colour. White: no colour, solved
-    first.
+    """Lines from each contact to the centres of its dynamic bodies, in the colour of its group. White: contacts without
+    a colour, which are solved first.
     """
 
     name, title, key, color = "colors", "Graph colours", "g", PINK
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.counts = np.zeros(0, int)
         self.overflow = 0
@@ -32,7 +34,7 @@ class Colors(Layer):
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the coloured contacts of a world through a lens."""
         rows = debug.contact_points(world)
         rows = rows[(rows["state"] == 1) | (rows["state"] == 2)]
         self.total += len(rows)
@@ -85,5 +87,5 @@ class Colors(Layer):
 
 
 def color_of(number: int) -> Color:
-    """Return the display colour of a graph colour; white for none."""
+    """Return the display colour of a graph colour; white for a negative number, which means no colour."""
     return SERIES[number % (len(SERIES) - 1)] if number >= 0 else WHITE

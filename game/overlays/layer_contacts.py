@@ -19,19 +19,21 @@ COLORS = (FOG, GREEN, SKY, PINK, SLATE)
 
 
 class Contacts(Layer):
-    """Dot per contact point in the colour of its state, with its normal from A to B and its depth in pixels."""
+    """A dot for each contact point, in the colour of its state, with the normal from shape A to shape B and the depth
+    [px].
+    """
 
     name, title, key, color = "contacts", "Contacts and normals", "6", ORANGE
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
         self.labels = []  # (text, x, y, align, colour), drawn after all fixed text is placed
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the contact points of a world through a lens."""
         rows = debug.contact_points(world)
         self.total += len(rows)
         if len(rows) == 0:
@@ -70,7 +72,7 @@ class Contacts(Layer):
             self.labels.append((f"{depth:.1f}", end_x, end_y, "left" if nx >= 0 else "right", GOLD))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the depths, and the distances of shapes that do not touch yet, where there is room."""
+        """Write the depths, and the distances of speculative contacts, where there is room."""
         for text, x, y, align, color in self.labels:
             frame.text_if_free(text, x, y, color, SMALL, frame.text_scale, align, True)
 
@@ -81,6 +83,6 @@ class Contacts(Layer):
 
 
 def seen_points(lens: Lens, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Return the row numbers of the frame points that lie in the view."""
+    """Return the indices of the points (x, y) [frame px] that lie in the view."""
     clip = lens.clip
     return np.flatnonzero((x >= clip.left) & (x < clip.right) & (y >= clip.top) & (y < clip.bottom))

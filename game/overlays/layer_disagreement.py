@@ -1,4 +1,4 @@
-"""False box hits: pairs in which a sprite's bounding box overlaps but its pixels do not."""
+"""False box hits: pairs with a sprite whose bounding boxes overlap but whose pixels do not."""
 
 from collections import deque
 
@@ -15,16 +15,16 @@ from physics import World, debug
 from physics.tables.shape import MASK
 
 LIE_BUDGET = 400  # pairs drawn per picture; the note says how many there are
-REMEMBERED = 600  # steps over which the share is counted
-KEPT = 50  # steps for which the mark of the player's own box stays, fading
+REMEMBERED = 600  # steps over which the share of false hits is counted
+KEPT = 50  # steps for which the mark of a false hit on the player stays, fading
 OWN = "your box would have died here"
 
 
 def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
-    """Return ((n, 2), (m, 2)) shape rows of pairs with a sprite whose boxes overlap: all pairs, and those without
-    contact.
+    """Return two arrays of shape-row pairs, (n, 2) and (m, 2): all candidate pairs with a sprite whose boxes overlap,
+    and those of them without a contact.
 
-    The pairs are those that the broad phase found in the last step, without sensors.
+    Candidates are the pairs that the broad phase found in the last step. Pairs with a sensor are left out.
     """
     ids, pairs = np.ascontiguousarray(world.shapes["id"]), world.candidates.astype(np.int64)
     none = np.zeros((0, 2), np.int64)
@@ -45,8 +45,8 @@ def false_hits(world: World) -> tuple[np.ndarray, np.ndarray]:
 
 
 class Disagreement(Layer):
-    """Boxes with false hits, in red. Call note(scene) once per step while it is on. A false hit on the player's own box
-    gets a text.
+    """The boxes of false hits, in red. Call note(scene) after each step while the layer is on. A false hit on the
+    player's body is marked with a text.
     """
 
     name, title, key, color = "disagreement", "Boxes that lie", "j", RED
@@ -56,14 +56,14 @@ class Disagreement(Layer):
         self.begin()
 
     def clear(self) -> None:
-        """Reset the counts (another scene, or a restart)."""
+        """Reset the counts, because the scene changed or restarted."""
         self.counts: deque[tuple[int, int]] = deque(maxlen=REMEMBERED)  # (box hits, false hits), by step
-        self.marks: list[list] = []  # [age in steps, the player's own box] of false hits on it
-        self.inside: dict[int, list] = {}  # by body whose box overlaps the player's own: [that box, whether it has hit]
+        self.marks: list[list] = []  # [age in steps, the player's box] of false hits on the player
+        self.inside: dict[int, list] = {}  # body whose box overlaps the player's -> [player's box, whether they hit]
         self.frame = 0
 
     def note(self, scene: Scene) -> None:
-        """Count the false hits of the last step."""
+        """Count the box hits and false hits of the last step."""
         if scene.frame < self.frame:
             self.clear()
         self.frame = scene.frame
@@ -74,7 +74,9 @@ class Disagreement(Layer):
             self._mark_own(scene, *reported[0])
 
     def _mark_own(self, scene, hits, lies):
-        """Mark the player's own box after another body's box has left it without a hit."""
+        """Add a mark at the player's box when another body's box leaves it without ever having hit it. hits, lies:
+        results of false_hits().
+        """
         own, world = scene.own_body, scene.world
         now = {}
         if own is not None:
@@ -93,13 +95,13 @@ class Disagreement(Layer):
         self.inside = now
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.room = LIE_BUDGET // views
         self.labels: list[tuple[int, float, float]] = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the boxes of false hits in a world, and the marks, through a lens."""
         _, lies = false_hits(world)
         self.total += len(lies)
         boxes = debug.bounds(world)
@@ -115,7 +117,7 @@ class Disagreement(Layer):
             self.labels.append((age, (left + right) / 2, top))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write a text at each recent false hit on the player's own box."""
+        """Write a text at each recent false hit on the player's body."""
         for age, x, y in reversed(self.labels):
             if age < KEPT // 2:
                 frame.text_if_free(OWN, x, y - 8 * frame.text_scale, GOLD, SMALL, frame.text_scale, "center", True)

@@ -1,4 +1,4 @@
-"""Feature ids: the corner or face that identifies a contact point from step to step."""
+"""Feature ids: numbers of the corners or faces that identify a contact point from step to step."""
 
 import pygame
 
@@ -10,22 +10,22 @@ from game.overlays.layer_contacts import seen_points
 from physics import World, debug
 
 FEATURE_BUDGET = 150  # contacts per picture
-PER_LINK = 4096  # feature of a chain or grid: number of the link or run times this, plus the corner on it
+PER_LINK = 4096  # feature id on a chain or grid: PER_LINK times the number of the link or tile run, plus the corner
 
 
 class Features(Layer):
-    """Number of each contact point, in its colour. While a body slides, number and colour stay."""
+    """The feature id of each contact point, with a colour for each id. Both stay the same while a body slides."""
 
     name, title, key, color = "features", "Feature ids", "f", PAPER
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.room = FEATURE_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the contact points of a world through a lens."""
         rows = debug.contact_points(world)
         self.total += len(rows)
         if len(rows) == 0:
@@ -39,7 +39,7 @@ class Features(Layer):
             self.labels.append((text_of(feature), x, y, color))
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the numbers above or below their points, left or right, where there is room."""
+        """Write each id beside its point, at one of four places where there is room."""
         scale = frame.text_scale
         for text, x, y, color in self.labels:
             for dx, dy, align in ((3, -7, "left"), (-3, -7, "right"), (3, 3, "left"), (-3, 3, "right")):
@@ -48,11 +48,11 @@ class Features(Layer):
                     break
 
     def notes(self) -> list[LegendLine]:
-        """Return (color, text) lines for the legend. Labels are drawn after the legend, so it counts points."""
+        """Return (color, text) lines for the legend. They count points, because ids are written after the legend."""
         return [(self.color, f"feature ids {len(self.labels)} of {self.total}, where room")]
 
 
 def text_of(feature: int) -> str:
-    """Return a feature as text: link:corner on chains and tiles."""
+    """Return a feature id as text; "link:corner" on chains and tiles."""
     link, corner = divmod(int(feature), PER_LINK)
     return f"{link}:{corner}" if link else f"{corner}"

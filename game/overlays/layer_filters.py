@@ -1,4 +1,6 @@
-"""Collision filters by colour: one colour per (membership, mask), with the pairs of kinds that may meet."""
+"""Collision filters: shapes with the same filter (membership and mask) have the same colour; the legend says which may
+collide.
+"""
 
 import numpy as np
 
@@ -9,12 +11,14 @@ from game.overlays.layer_bounds import BOX_BUDGET, draw_boxes
 from physics import World, debug
 
 KINDS_LISTED = 6  # lines in the legend; a further line counts the rest
-WRITTEN = 4  # names written of the kinds in a mask
+WRITTEN = 4  # number of names that the legend writes for a mask
 EVERYBODY = (0xFFFFFFFF, 0xFFFF)  # masks that include every kind
 
 
 class Filters(Layer):
-    """Box of each shape, inset, in the colour of its filter. Two kinds may meet if each is in the other's mask."""
+    """The box of each shape, drawn slightly smaller, in the colour of its filter. Two shapes may collide if each one's
+    membership is in the other's mask.
+    """
 
     name, title, key, color = "filters", "Filters by colour", "7", PINK
 
@@ -23,13 +27,13 @@ class Filters(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.kinds = {}  # (membership, mask) -> [colour, count]
         self.drawn = self.total = self.filtered = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the shapes' boxes of a world through a lens."""
         rows, shapes = debug.bounds(world), debug.shape_rows(world)
         self.total += len(rows)
         self.filtered += int(world.profile.counters["filtered"])
@@ -37,7 +41,7 @@ class Filters(Layer):
             return
         words = shapes["membership"].astype(np.uint64) << np.uint64(32) | shapes["mask"].astype(np.uint64)
         kinds, which, counts = np.unique(words, return_inverse=True, return_counts=True)
-        colors = []  # of this world's kinds; another view may have named them already
+        colors = []  # of this world's filters; an earlier view may have given them a colour already
         for word, count in zip(kinds.tolist(), counts.tolist(), strict=True):
             kind = self.kinds.setdefault((word >> 32, word & 0xFFFFFFFF), [SERIES[len(self.kinds) % len(SERIES)], 0])
             kind[1] += count
@@ -50,8 +54,8 @@ class Filters(Layer):
         draw_boxes(frame, lens, inner, colors, which[seen])
 
     def _who(self, word, written=32):
-        """Return the names of the kinds in a bit mask: all, or all but one, where that is shorter; at most `written`
-        names.
+        """Return the scene's names of the bits in a mask, at most `written` of them: "a, b", or "all but c" where that
+        is shorter.
         """
         if word in EVERYBODY:
             return "all"

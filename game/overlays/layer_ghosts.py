@@ -1,4 +1,6 @@
-"""Times of impact: poses at which fast bodies hit during a step, and the poses at which they would have ended."""
+"""Times of impact: the poses at which fast bodies hit during a step, and the poses that they would have reached
+otherwise.
+"""
 
 import numpy as np
 import pygame
@@ -14,11 +16,13 @@ from physics.tables.shape import PART
 
 GHOST_BUDGET = 200  # bodies per picture; the note says how many there are
 ARC_SCALE = 3.0  # [frame px per px] scale that sets the fineness of arcs
-KEPT = 45  # pictures for which a ghost stays, fading
+KEPT = 45  # steps for which an impact stays visible, fading
 
 
 class Ghosts(Layer):
-    """Body at its time of impact, in white, with its share of the step. Blue: end pose without impact."""
+    """Each body at its time of impact, in white, with the time as a share of the step; in blue the pose that it would
+    have reached.
+    """
 
     name, title, key, color = "ghosts", "Times of impact", "h", WHITE
 
@@ -27,13 +31,13 @@ class Ghosts(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.room = GHOST_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the recent impacts of a world through a lens."""
         kept = self._note(world)
         self.total += sum(1 for ghost in kept if ghost[0] == 0)
         width = max(1, frame.scale - 1)
@@ -52,7 +56,9 @@ class Ghosts(Layer):
                 self.labels.append((f"{fraction:.2f}", place[0], place[1], faded(WHITE, fading)))
 
     def _note(self, world):
-        """Age the kept ghosts, and add the impacts of a step that was not read yet."""
+        """Return the kept impacts of a world, after adding those of a step that is new since the last picture; older
+        ones age.
+        """
         kept, step, last = self.kept.get(id(world), ([], None, None))
         now = world.events  # a new object in every step
         if last is not world:
@@ -66,7 +72,7 @@ class Ghosts(Layer):
         return kept
 
     def _fresh(self, world):
-        """Return new ghosts of the bodies that had an impact in the last step: at the impact, and at the pose without
+        """Return the impacts of the last step: each with its body's outlines at the impact and at the pose without
         it.
         """
         ghosts = debug.impact_ghosts(world)[:GHOST_BUDGET]
@@ -89,7 +95,7 @@ class Ghosts(Layer):
         return found
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write the shares of the step where there is room."""
+        """Write the times of impact, as shares of the step, where there is room."""
         for text, x, y, color in self.labels:
             frame.text_if_free(text, x, y - 4 * frame.text_scale, color, SMALL, frame.text_scale, "left", True)
 

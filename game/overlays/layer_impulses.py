@@ -1,4 +1,4 @@
-"""Impulses: the normal and the friction impulse of each contact, as arrows."""
+"""Impulses: the normal impulse and the friction impulse of each contact, as arrows."""
 
 from math import hypot, log10
 
@@ -12,14 +12,16 @@ from game.overlays.layer_contacts import seen_points
 from physics import World, debug
 
 IMPULSE_BUDGET = 800  # contacts per picture; the note says how many there are
-LONGEST = 26.0  # [canvas px] the greatest length of an arrow …
-REFERENCE = 10.0  # … and the length for the impulse that the legend names
+LONGEST = 26.0  # [canvas px] greatest length of an arrow
+REFERENCE = 10.0  # [canvas px] length of an arrow for the impulse that the legend names
 TYPICAL = 0.9  # quantile of the normal impulses that sets the scale
 FADE = 0.95  # factor per picture by which the scale decays after a peak
 
 
 class Impulses(Layer):
-    """Normal impulse in red, on B or on the side that can move; friction in yellow. The legend names the scale."""
+    """Normal impulse in red, as it acts on body B, or on A if B cannot move; friction impulse in yellow. The legend
+    names the scale.
+    """
 
     name, title, key, color = "impulses", "Impulses", "9", RED
 
@@ -28,14 +30,14 @@ class Impulses(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.room = IMPULSE_BUDGET // views
         self.unit = step_of(self.level)
         self.level *= FADE
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the impulses of a world through a lens."""
         rows = debug.contact_points(world)
         rows = rows[(rows["normal_impulse"] != 0.0) | (rows["tangent_impulse"] != 0.0)]
         self.total += len(rows)
@@ -62,14 +64,16 @@ class Impulses(Layer):
 
 
 def can_move(bodies: np.ndarray, ids: np.ndarray) -> np.ndarray:
-    """Return a bool array: whether each of the bodies with these ids has a finite mass."""
+    """Return a bool array: for each of these body ids, whether the body exists and has a finite mass."""
     known = np.ascontiguousarray(bodies["id"])
     rows = np.minimum(np.searchsorted(known, ids), len(known) - 1)
     return (known[rows] == ids) & (bodies["inverse_mass"][rows] > 0.0)
 
 
 def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) -> None:
-    """Draw an arrow from (x, y) by (dx, dy) [frame px], cut at LONGEST. Below one canvas pixel it is not drawn."""
+    """Draw an arrow from (x, y) by (dx, dy) [frame px], at most LONGEST long. An arrow below one canvas pixel is not
+    drawn.
+    """
     length = hypot(dx, dy)
     if length < frame.scale:
         return
@@ -86,7 +90,9 @@ def arrow(frame: Frame, x: float, y: float, dx: float, dy: float, color: Color) 
 
 
 def step_of(value: float) -> float:
-    """Return the next of 1, 2, 5, 10, ... at or above a positive value, for a scale that changes seldom. 0 for 0."""
+    """Return the smallest of ..., 1, 2, 5, 10, ... that is not below a positive value; 0 for 0. Such a scale changes
+    seldom.
+    """
     if not 0.0 < value < float("inf"):
         return 0.0
     power = 10.0 ** int(np.floor(log10(value)))
@@ -94,7 +100,7 @@ def step_of(value: float) -> float:
 
 
 def short(value: float) -> str:
-    """Return a number of the form 1, 2 or 5 times a power of ten as short text."""
+    """Return a number that is 1, 2 or 5 times a power of ten as short text, such as "20k"."""
     for limit, divisor, letter in ((1e3, 1, ""), (1e6, 1e3, "k"), (1e9, 1e6, "M")):
         if value < limit:
             return f"{value / divisor:g}{letter}"

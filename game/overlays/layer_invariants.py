@@ -1,4 +1,6 @@
-"""Invariants: eleven indicators, U1 to U11, green, red or grey, and the message of the last broken one."""
+"""Invariants of the simulation: eleven indicators, U1 to U11, green (holds), red (broken) or grey (off), and a
+message.
+"""
 
 from collections.abc import Iterator
 
@@ -13,15 +15,15 @@ from game.invariants.monitor import InvariantMonitor, InvariantStatus
 from game.overlays.layer import Layer, LegendLine
 
 COLORS = {states.GREEN: GREEN, states.RED: RED, states.GREY: FOG}
-ROWS = (1, 2, 3, 4, 6, 11)  # row counts of the strip, the widest first
+ROWS = (1, 2, 3, 4, 6, 11)  # possible numbers of rows of the strip, the widest strip first
 LINE, LAMP, GAP, MARGIN = 8, 5, 5, 3  # [text px] of a row, a lamp, between two indicators, inside the frame
 COUNTED = 999  # greatest number of breaks that is written
 
 
 class Invariants(Layer):
-    """Strip of indicators, each with its id, its word and its number of breaks.
+    """Strip of indicators, each with its id, a word, and how often its invariant was broken.
 
-    Below them is the message of the indicator under the pointer, or of the last broken one.
+    Below them is a message about the indicator under the pointer, or about the invariant that was broken last.
     """
 
     name, title, key, color = "invariants", "Invariants", "u", GREEN
@@ -32,7 +34,9 @@ class Invariants(Layer):
         self.places: list[tuple[pygame.Rect, InvariantStatus]] = []  # of the last picture
 
     def note(self, monitor: InvariantMonitor | None) -> None:
-        """Record the cost of a step; call it every step. monitor: the scene's, None while invariants are off."""
+        """Record the time that checking the invariants took; call it in every step. monitor: the scene's, None while
+        invariants are off.
+        """
         if monitor is not None:
             self.cost.note(monitor.seconds)
 
@@ -44,13 +48,13 @@ class Invariants(Layer):
             yield columns * self._width(frame) + 2 * MARGIN * scale, ((rows + 1) * LINE + 2 * MARGIN) * scale
 
     def _width(self, frame):
-        """Return the width [frame px] of an indicator with its gap, the same for all: that of the widest."""
+        """Return the width [frame px] of an indicator with its gap; all are as wide as the widest."""
         scale = frame.text_scale
         widest = max(frame.measure(label_of(status), SMALL, scale)[0] for status in self.monitor.statuses)
         return widest + (LAMP + 2 + GAP) * scale
 
     def draw_strip(self, frame: Frame, rect: pygame.Rect, pointer: tuple[int, int] = (-1, -1)) -> None:
-        """Draw the strip into a frame rect of one of the sizes; `pointer`: position of the mouse."""
+        """Draw the strip into a frame rect of one of the sizes(). pointer: position of the mouse [frame px]."""
         scale = frame.text_scale
         frame.surface.fill(faded(NIGHT, 0.3), rect)
         pygame.draw.rect(frame.surface, SLATE, rect, 1)
@@ -79,8 +83,8 @@ class Invariants(Layer):
         frame.text(label_of(status), lamp.right + 2 * scale, top, tone, SMALL, scale)
 
     def message_at(self, pointer: tuple[int, int]) -> tuple[Color, str]:
-        """Return colour and text of the line below: of the indicator under the pointer, else the last broken one, else
-        a summary.
+        """Return (colour, text) of the message: about the indicator under the pointer, or the invariant broken last, or
+        else a summary.
         """
         for place, status in self.places:
             if place.collidepoint(pointer):
@@ -95,7 +99,7 @@ class Invariants(Layer):
         return FOG, self.summary()
 
     def summary(self) -> str:
-        """Return how many invariants hold, are broken or are off, and the cost per frame."""
+        """Return a text: how many invariants hold, are broken or are off, and the time of checking them per frame."""
         count = [status.state for status in self.monitor.statuses].count
         return (
             f"{count(states.GREEN)} hold, {count(states.RED)} broken, {count(states.GREY)} not asked, "
@@ -103,7 +107,7 @@ class Invariants(Layer):
         )
 
     def notes(self) -> list[LegendLine]:
-        """Return legend lines for the invariants that are off, grouped by reason."""
+        """Return (color, text) legend lines for the invariants that are off, grouped by reason."""
         reasons: dict[str, list[str]] = {}
         for status in self.monitor.statuses:
             if status.state == states.GREY:
@@ -112,5 +116,5 @@ class Invariants(Layer):
 
 
 def label_of(status: InvariantStatus) -> str:
-    """Return id and word of an indicator, and how often it was broken."""
+    """Return the label of an indicator: id, word, and how often its invariant was broken."""
     return f"{status.id} {status.word}" + (f" {min(status.breaks, COUNTED)}" if status.breaks else "")

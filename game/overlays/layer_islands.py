@@ -1,4 +1,6 @@
-"""Islands: bodies connected by contacts, which are solved together, and sleep together when all are at rest."""
+"""Islands: groups of bodies connected by contacts, which are solved together and fall asleep together when all are at
+rest.
+"""
 
 from collections.abc import Sequence
 from math import ceil, floor
@@ -20,20 +22,20 @@ FILL, ASLEEP_FILL, EDGE = 46, 120, 200  # opacity of 255
 
 
 class Islands(Layer):
-    """Hull and shapes of each island in its own colour; a sleeping one is grey, with a z."""
+    """Convex hull and shapes of each island in its own colour; a sleeping island is grey, with a z on each body."""
 
     name, title, key, color = "islands", "Islands, sleeping", "i", SERIES[1]
     under = True  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budgets evenly."""
         self.drawn = self.total = self.asleep = self.islands = 0
         self.found = False  # whether any world has the effect sleeping
         self.room, self.hulls = BODY_BUDGET // views, ISLAND_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the islands of a world through a lens."""
         self.found |= world.effects.sleeping
         islands, bodies = debug.islands(world), world.bodies
         moving = bodies["kind"] == 2
@@ -59,7 +61,9 @@ class Islands(Layer):
             self.labels.append(("z", x, y - 2 * frame.text_scale, FOG))
 
     def _draw_hulls(self, frame, lens, boxes, islands, asleep):
-        """Draw tinted hulls, each on a surface of its own size: one as large as the picture costs 2 ms."""
+        """Draw the translucent hulls, each on a surface of the hull's size; one of the picture's size would cost 2
+        ms.
+        """
         members = np.flatnonzero(islands >= 0)
         if len(members) == 0:
             return
@@ -88,8 +92,8 @@ class Islands(Layer):
 
 
 def hull_of(points: np.ndarray) -> list[list[float]]:
-    """Return hull corners of (n, 2) points: the farthest point in each of DIRECTIONS directions, so that the corners
-    stay few.
+    """Return approximate corners of the convex hull of (n, 2) points: the farthest point in each of DIRECTIONS
+    directions.
     """
     angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
     ways = np.column_stack((np.cos(angles), np.sin(angles)))
@@ -99,7 +103,7 @@ def hull_of(points: np.ndarray) -> list[list[float]]:
 def draw_hull(
     surface: pygame.Surface, clip: pygame.Rect, hull: Sequence[Sequence[float]], color: Color, fill: int, width: int
 ) -> None:
-    """Draw a polygon filled with opacity `fill`, 0..255, and its edge. Only the part in the clip costs time."""
+    """Draw a polygon filled with opacity `fill` (0..255), and its edge. The part outside the clip costs no time."""
     x, y = zip(*hull, strict=True)
     left, top = floor(min(x)) - width, floor(min(y)) - width
     place = pygame.Rect(left, top, ceil(max(x)) + width + 1 - left, ceil(max(y)) + width + 1 - top).clip(clip)
@@ -113,5 +117,5 @@ def draw_hull(
 
 
 def color_of(island: int) -> Color:
-    """Return a colour that differs between neighbouring numbers."""
+    """Return the colour of an island's number. Neighbouring numbers have different colours."""
     return SERIES[int(island) * 5 % (len(SERIES) - 1)]

@@ -1,7 +1,8 @@
-"""Pixel masks as they are tested, the pixels that two masks share, and the mask outlines used for response.
+"""Pixel masks as they are tested, the pixels in which two masks overlap, and the mask outlines used for collision
+response.
 
-Pixels are drawn on the canvas, before it is scaled: a mask pixel is a canvas pixel, so the overlay lies exactly on the
-sprite. Outlines are drawn over it at the window's resolution, at the exact pose.
+Masks are drawn on the canvas before it is scaled: a mask pixel is a canvas pixel, so that the overlay lies exactly on
+the sprite. Outlines are drawn over it at the window's resolution, at the exact pose.
 """
 
 from collections import OrderedDict
@@ -24,15 +25,15 @@ FILL = 96  # opacity of 255 of a mask's inside
 EDGE = (150, 210, 255, 255)
 HIT = (255, 250, 150, 255)
 SEAM = faded(ORANGE, 0.25)
-PART_BUDGET = 1200  # parts of outlines per picture; the note says how many there are
+PART_BUDGET = 1200  # convex parts of outlines per picture; the note says how many there are
 BLOCK = 160  # [px] larger masks are drawn in blocks of that size
-CACHE_SIZE = 512  # tinted masks kept; a rotating sprite has one per angle bucket
+CACHE_SIZE = 512  # number of cached images; a rotating sprite has one for each angle bucket
 
 
 class Masks(Layer):
-    """Masks in blue with a light edge; pixels that two masks share in yellow.
+    """Masks in blue with a light edge; pixels in which two masks overlap in yellow.
 
-    With response, the outline of a mask is drawn too: in white, with orange seams between its parts.
+    With collision response, the outline of each mask is drawn in white, with orange seams between its convex parts.
     """
 
     name, title, key, color = "masks", "Masks, outlines", "5", BLUE
@@ -43,12 +44,12 @@ class Masks(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget of parts evenly."""
+        """Start a picture in which this number of views share the budget of outline parts evenly."""
         self.drawn = self.total = self.lit = self.parts = self.parts_in_all = 0
         self.room = PART_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the outlines of one world's masks through one lens."""
+        """Draw the mask outlines of a world through a lens."""
         rows = np.flatnonzero(world.shapes["role"] == PART)
         self.parts_in_all += len(rows)
         if not len(rows):
@@ -60,7 +61,9 @@ class Masks(Layer):
         draw_lines(frame.surface, lens, edges.outer, WHITE, max(1, frame.scale - 1))
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw one world on the canvas. A zoomed view is skipped: its pixels are not those of the mask."""
+        """Draw the masks of a world on the canvas. A zoomed view is skipped, because its pixels are not those of the
+        mask.
+        """
         if camera.zoom != 1.0:
             return
         left, top = camera.view()
@@ -94,7 +97,9 @@ class Masks(Layer):
         del pixels  # unlocks the surface
 
     def _images(self, solid, place, view, palette):
-        """Yield (image, place) pairs of a mask at a place of the canvas. A large mask gives its visible blocks."""
+        """Yield the (image, place) pairs that show a mask at a place on the canvas; for a large mask, one pair per
+        visible block.
+        """
         (height, width), (x, y) = solid.shape, place
         if height <= BLOCK and width <= BLOCK:
             yield self._tinted(solid, palette), (x, y)
@@ -106,8 +111,8 @@ class Masks(Layer):
                     yield image, (x + left, y + top)
 
     def _block(self, solid, left, top, palette):
-        """Return the image of a block of a large mask, cached by place and pixels, since carving changes few blocks.
-        None if it is empty.
+        """Return the image of a block of a large mask; None if the block is empty. Images are cached by place and
+        pixels, since carving changes few blocks.
         """
         # With a margin of one pixel, so that no edge is drawn at the border of the block.
         part = solid[max(top - 1, 0) : top + BLOCK + 1, max(left - 1, 0) : left + BLOCK + 1]
@@ -122,8 +127,8 @@ class Masks(Layer):
         return image
 
     def _tinted(self, solid, palette):
-        """Return the cached image of a mask. Masks return the same array for the same angle; the cache keeps it, so its
-        id stays valid.
+        """Return the image of a mask, cached by the id of its array. The cache keeps the array, so that the id stays
+        valid.
         """
         kept, image = self.tinted.get((id(solid), palette), (None, None))
         if kept is not solid:
@@ -148,7 +153,7 @@ class Masks(Layer):
 
 
 def mask_image(solid: np.ndarray, palette: str = "standard") -> pygame.Surface:
-    """Return a translucent image of a (h, w) bool mask with light edge pixels."""
+    """Return a translucent image of a mask, an (h, w) bool array, with light edge pixels."""
     fill = (*toned(BLUE, palette), FILL)
     padded = np.pad(solid, 1)
     inner = padded[:-2, 1:-1] & padded[2:, 1:-1] & padded[1:-1, :-2] & padded[1:-1, 2:]

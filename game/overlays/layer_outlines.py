@@ -1,4 +1,4 @@
-"""Outlines: the exact collision shapes, independent of the sprites. The pixels of masks have their own layer."""
+"""Outlines of the collision shapes, independent of the sprites. Pixels of masks have a layer of their own."""
 
 from collections.abc import Iterator
 from typing import Any
@@ -17,24 +17,25 @@ from physics.tables.shape import CHAIN, MASK, PART
 OUTLINE_BUDGET = 900  # shapes per picture; the note says how many there are
 STATIC, KINEMATIC, DYNAMIC = faded(FOG, 0.15), SKY, GREEN
 
-Edge = tuple[tuple[float, float], tuple[float, float], bool]  # start, end, open from below
+Edge = tuple[tuple[float, float], tuple[float, float], bool]  # start, end, whether it is one-way
 
 
 class Outlines(Layer):
-    """Outline of every shape: green dynamic, blue kinematic, grey static (chains hatched where solid), pink sensor.
+    """The outline of every shape: green dynamic, blue kinematic, grey static (chains hatched on the solid side), pink
+    sensor.
 
-    A mask is drawn as its outline, with the seams between its parts dark.
+    A mask is drawn as the outline used for collision, with darker seams between its convex parts.
     """
 
     name, title, key, color = "outlines", "Shapes", "l", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = 0
         self.room = OUTLINE_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the outlines of a world's shapes through a lens."""
         boxes = debug.bounds(world)
         self.total += len(boxes)
         if len(boxes) == 0:
@@ -63,14 +64,14 @@ class Outlines(Layer):
                 draw_outline(frame.surface, lens, outline, color, width, frame.scale)
 
     def _draw_parts(self, frame, lens, world, rows, color, width):
-        """Draw the parts of mask outlines that share a colour."""
+        """Draw the convex parts of mask outlines, rows of world.shapes, in one colour."""
         if len(rows):
             edges = mask_edges(world, rows, lens.scale)
             draw_lines(frame.surface, lens, edges.inner, faded(color, 0.6))
             draw_lines(frame.surface, lens, edges.outer, color, width)
 
     def _draw_tiles(self, frame, lens, world, shape_id, color, width):
-        """Draw the edge of a grid's solid cells, and in orange the tops of one-way cells."""
+        """Draw the edges of a tile grid's solid cells, and in orange the tops of its one-way cells."""
         row = world.shapes[np.searchsorted(world.shapes["id"], shape_id)]
         body = world.body(int(row["body"]))
         number = int(np.count_nonzero(world.shapes["id"][world.shapes["body"] == row["body"]] < shape_id))
@@ -89,7 +90,9 @@ class Outlines(Layer):
 
 
 def edges_of(grid: Any, lens: Lens, x: float, y: float) -> Iterator[Edge]:
-    """Yield frame lines around the visible cells of a TileGrid at (x, y): (start, end, one way) each."""
+    """Yield the edges of the visible cells of a TileGrid whose body is at (x, y): (start, end, whether it is one-way),
+    in frame coordinates.
+    """
     size, (rows, columns) = grid.tile_size, grid.solid.shape
     clip = lens.clip
     left, top = (clip.left - lens.dx) / lens.scale - x, (clip.top - lens.dy) / lens.scale - y

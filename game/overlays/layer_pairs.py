@@ -1,4 +1,4 @@
-"""Candidate pairs: the pairs that the broad phase and the filter pass to the narrow phase."""
+"""Candidate pairs: the pairs of shapes that the broad phase and the filter pass on to the narrow phase."""
 
 import numpy as np
 import pygame
@@ -13,17 +13,17 @@ MISS = (150, 140, 190)
 
 
 class Pairs(Layer):
-    """Line per candidate pair: red if the narrow phase found a hit, else grey."""
+    """A line between the shapes of each candidate pair: red if the narrow phase found a hit, otherwise grey."""
 
     name, title, key, color = "pairs", "Candidate pairs", "4", RED
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budget evenly."""
         self.drawn = self.total = self.hits = 0
         self.room = PAIR_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the candidate pairs of a world through a lens."""
         rows = debug.pairs(world)
         self.total += len(rows)
         if len(rows) == 0:

@@ -1,4 +1,6 @@
-"""Data structure of the broad phase: cells of the hash, boxes of the tree by depth, intervals of the sweep."""
+"""Data structure of the broad phase: cells of the hash grid, boxes of the tree coloured by depth, or intervals of the
+sweep.
+"""
 
 from collections.abc import Iterable
 
@@ -17,18 +19,18 @@ DEPTHS = tuple(faded(color, amount) for color in (PINK, YELLOW, GREEN, SKY, BLUE
 
 
 class Structure(Layer):
-    """Data structure of each strategy. Brute force has none; the legend says so."""
+    """The data structure of the world's broad phase. Brute force has none, which the legend says."""
 
     name, title, key, color = "structure", "Structure", "3", YELLOW
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture of `views` views, which share the budget evenly."""
+        """Start a picture in which this number of views share the budgets evenly."""
         self.drawn = self.total = 0
         self.views = views
         self.kinds = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw one world through one lens."""
+        """Draw the broad phase's structure of a world through a lens."""
         found = debug.structure(world)
         self.kinds.append(found.kind)
         self._rects(frame, lens, found)
@@ -47,7 +49,7 @@ class Structure(Layer):
         draw_boxes(frame, lens, rows[seen], DEPTHS, found.depth[seen] % len(DEPTHS))
 
     def _intervals(self, frame, lens, rows):
-        """Draw bars along the top (x axis) and the left (y axis) of the view."""
+        """Draw the sweep's intervals as bars along the top of the view (x axis) and its left side (y axis)."""
         self.total += len(rows)
         if len(rows) == 0:
             return
@@ -81,9 +83,11 @@ class Structure(Layer):
 def covered(
     low: np.ndarray, high: np.ndarray, lanes: np.ndarray, count: int, length: int
 ) -> Iterable[tuple[int, int, int]]:
-    """Return (lane, first, last) of the union of each lane's intervals: overlapping bars become one bar.
+    """Return (lane, first, last) bars that cover the same places as the intervals, with overlapping intervals of a lane
+    merged.
 
-    low, high: whole numbers 0..length; lanes: whole numbers below count.
+    low, high: ends of each interval, whole numbers 0..length; lanes: row in which each interval is drawn, below
+    `count`.
     """
     edges = np.zeros((count, length + 1), int)
     np.add.at(edges, (lanes, low), 1)
@@ -94,7 +98,7 @@ def covered(
 
 
 def thinned(rows: np.ndarray, room: int) -> np.ndarray:
-    """Return at most `room` of the rows, evenly spread."""
+    """Return at most `room` of the rows, chosen at even distances."""
     if len(rows) <= room:
         return rows
     return rows[np.linspace(0, len(rows) - 1, room).astype(int)]

@@ -1,4 +1,4 @@
-"""Stage times as a scrolling stacked graph, with the counters of the last step beside it."""
+"""Times of the stages of a step, as a scrolling stacked graph, with the counters of the last step beside it."""
 
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
@@ -34,18 +34,20 @@ LEAST_TOP = 0.5  # [ms] least top of the graph
 FRAME_BUDGET = 1000 / 60  # [ms] a frame at 60 Hz
 LINE, GAP, MARGIN = 7, 5, 3  # [text px] of a line of a table, between two tables, and inside the frame
 GRAPH = (70, 40)  # [text px] least size of the graph, including three lines of text above the bars
-PLOT_LEAST = 10  # [text px] least height of the bars under them
+PLOT_LEAST = 10  # [text px] least height of the bars under the text
 
 
 class Table(NamedTuple):
-    """Table of a heading and (colour, name, value) lines."""
+    """A table: a heading and (colour, name, value) lines."""
 
     head: str
     rows: Sequence[tuple[Color, str, str]]
 
 
 class Times(Layer):
-    """Stage times. Call note(scene) once per step; draw_graph() draws graph and tables into a rect."""
+    """Stage times of a scene. Call note(scene) once per step; draw_graph() draws the graph and the tables into a
+    rect.
+    """
 
     name, title, key, color = "times", "Stage times", "8", GOLD
 
@@ -53,9 +55,9 @@ class Times(Layer):
         self.clear()
 
     def clear(self) -> None:
-        """Clear the history (another scene)."""
+        """Clear the history, because the scene changed."""
         self.steps = []  # per step: {stage: ms}
-        self.totals = []  # [ms] of the same steps
+        self.totals = []  # [ms] sum over the stages of each of these steps
         self.total = Typical()  # [ms]
         self.rect: pygame.Rect | None = None  # [frame px] the graph's place in the picture, None if it is not drawn
         self.stages: dict[str, Typical] = {}  # stages of the last step [ms]
@@ -64,7 +66,7 @@ class Times(Layer):
         self.sheet, self.sheet_for = pygame.Surface((0, 0)), None
 
     def note(self, scene: Scene) -> None:
-        """Record the times and counters of the last step."""
+        """Record the stage times and counters of the last step of all worlds."""
         step, counters = {}, {}
         for world in scene.worlds:
             for name, seconds in world.profile.stages.items():
@@ -82,7 +84,9 @@ class Times(Layer):
             self.stages[name].note(spent)
 
     def sizes(self, frame: Frame) -> Iterator[tuple[int, int]]:
-        """Yield useful sizes (width, height) [frame px] of the graph, the largest first. All show every stage."""
+        """Yield useful sizes (width, height) [frame px] of the graph with its tables, the largest first. All sizes show
+        every stage.
+        """
         stages, counters = self._tables()
         wide = [_column_width(frame, table, 1) + GAP for table in (stages, counters)]
         high = [LINE * (len(table.rows) + 1) for table in (stages, counters)]
@@ -95,9 +99,9 @@ class Times(Layer):
             yield (width + 2 * MARGIN) * scale, (height + 2 * MARGIN) * scale
 
     def draw_graph(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw into a frame rect: graph on the left, stages in the middle, counters on the right.
+        """Draw into a frame rect: the graph at the left, the table of stages in the middle, the counters at the right.
 
-        Without room for both tables the counters are left out; in a narrow rect the stages are below the graph.
+        If not both tables fit, the counters are left out; in a narrow rect the stages are drawn below the graph.
         """
         scale, self.rect = frame.text_scale, pygame.Rect(rect)
         frame.surface.fill(faded(NIGHT, 0.3), rect)
@@ -137,7 +141,7 @@ class Times(Layer):
         return SERIES[names.index(name) % len(SERIES)] if name in self.stages else FOG
 
     def _graph(self, frame, rect, scale):
-        """Draw three lines of text, and the bars below them."""
+        """Draw up to three lines of text, and below them the bars."""
         totals = sorted(self.totals) or [0.0]
         # A single slow step (compilation, garbage collection) must not flatten the others: it is cut, with a white cap.
         top = round_up(max(LEAST_TOP, totals[int(len(totals) * SCALED_TO)] * 1.1))
@@ -156,7 +160,9 @@ class Times(Layer):
             pygame.draw.line(frame.surface, SLATE, (plot.left, y), (plot.right - 1, y))
 
     def _scroll(self, size, top, palette):
-        """Update the graph's sheet: only the new columns are painted unless its size or scale changed."""
+        """Update the image of the bars (`sheet`): scroll it and paint the new steps; paint all if its size or scale
+        changed.
+        """
         column = max(1, size[0] // HISTORY)
         new = self.noted - self.painted
         if self.sheet_for != (size, top, palette) or new >= len(self.steps):
@@ -185,13 +191,13 @@ class Times(Layer):
 
 
 def _split(table, lines):
-    """Return a table as several of at most `lines` lines, each with the heading."""
+    """Return a table split into tables of at most `lines` lines, each with the heading."""
     rows = max(1, lines - 1)
     return [Table(table.head, table.rows[first : first + rows]) for first in range(0, max(len(table.rows), 1), rows)]
 
 
 def _cut(table, lines):
-    """Return a table cut to `lines` lines; its last line counts the rest."""
+    """Return a table cut to `lines` lines, of which the last one says how many are left out."""
     if len(table.rows) < lines:
         return table
     kept = table.rows[: max(lines - 2, 0)]
@@ -208,7 +214,9 @@ def _draw_table(frame, table, x, y, width, scale):
 
 
 def round_up(value: float) -> float:
-    """Return the next of 0.1, 0.2, 0.5, 1, 2, 5, 10, ... at or above a value, for a readable, stable scale."""
+    """Return the smallest of 0.1, 0.2, 0.5, 1, 2, 5, 10, ... that is not below a value, so that the scale is readable
+    and changes seldom.
+    """
     power = 0.1
     while True:
         for digit in (1, 2, 5):
@@ -218,7 +226,7 @@ def round_up(value: float) -> float:
 
 
 def _column_width(frame, table, scale):
-    """Return the width for the longest name and the longest expected number."""
+    """Return the width [px at this scale] of a table with its longest name and the longest expected number."""
     longest = max((frame.measure(plain_name(name), SMALL, scale)[0] for _, name, _ in table.rows), default=0)
     digits = " 999999" if table.head.startswith("stage") else " 9999999"
     return longest + frame.measure(digits, SMALL, scale)[0] + 6 * scale

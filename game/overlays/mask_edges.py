@@ -1,4 +1,6 @@
-"""Outlines of masks as lines: the edge used for collision, and the inner seams between its parts, which are not."""
+"""Outlines of masks as lines: the outer edges, which collide, and the inner seams between the convex parts, which do
+not.
+"""
 
 from math import ceil, pi
 from typing import NamedTuple
@@ -11,17 +13,17 @@ from physics.tables.shape import PART, POLYGON
 
 
 class MaskEdges(NamedTuple):
-    """Lines in world coordinates, (n, 4) [px]: ax ay bx by."""
+    """Lines in world coordinates, two (n, 4) arrays [px] with columns ax, ay, bx, by."""
 
-    outer: np.ndarray  # edges used by contacts, casts and characters
+    outer: np.ndarray  # edges that contacts, casts and characters use
     inner: np.ndarray  # edges between two parts of one mask
 
 
 def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
-    """Return the lines of the parts of mask outlines among these rows of world.shapes.
+    """Return the lines of mask outlines. rows: rows of world.shapes; those that are no part of an outline are ignored.
 
-    A rounded part is drawn round: its edges lie `radius` outside the polygon, with arcs about the corners. scale [frame
-    px per px] sets the fineness of the arcs.
+    The edges of a rounded part lie `radius` outside its polygon, with arcs around the corners. scale: [frame px per
+    px], sets the fineness of the arcs.
     """
     edges = debug.part_edges(world, rows)
     outer, inner = [], []
@@ -45,7 +47,9 @@ def mask_edges(world: World, rows: np.ndarray, scale: float = 1.0) -> MaskEdges:
 
 
 def _arcs(edges, facing, scale):
-    """Yield (lines, whether they lie inside) of the arc about each corner of a rounded part."""
+    """Yield (lines, whether they lie inside the outline) for the arc around each corner of a rounded part. facing: (n,)
+    angle of each edge's outward normal [rad].
+    """
     rounded = np.flatnonzero(edges["radius"] > 0.0)
     if not len(rounded):
         return

@@ -1,4 +1,6 @@
-"""Thin lines around shapes of every kind, from the outlines of physics.debug; used by overlays and labs."""
+"""Drawing of thin lines around shapes of every kind, from the outlines that physics.debug returns; used by overlays and
+labs.
+"""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -14,15 +16,14 @@ from game.drawing.presenter import Lens
 Point = tuple[float, float]
 Pose = tuple[float, float, float]
 
-ARC_STEP = 2.5  # [frame px] length of an arc per line segment
+ARC_STEP = 2.5  # [frame px] length of a line segment of an arc
 TICK_GAP, TICK_LENGTH = 7.0, 4.0  # [canvas px] hatching on the solid side of a chain
-TICK_BUDGET = 400  # ticks of one chain
+TICK_BUDGET = 400  # most ticks drawn for one chain
 
 
 def ring(points: Sequence[Sequence[float]], radius: float, scale: float) -> list[Point]:
-    """Return the corners of the outline of a convex shape rounded by `radius`; points (k, 2) clockwise on the screen.
-
-    scale [frame px per px] sets the fineness of the arcs.
+    """Return the outline of a convex shape rounded by `radius`, as a list of corners. points: (k, 2) corners, clockwise
+    on the screen; scale: [frame px per px], sets the fineness of the arcs.
     """
     count = len(points)
     if count == 1:
@@ -52,7 +53,7 @@ def _steps(turn, radius, scale):
 
 
 def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] | None:
-    """Return world corners of an outline and whether they close: ([(x, y), ...], closed). None for masks and tiles."""
+    """Return (corners [(x, y), ...] in world coordinates, whether the outline is closed); None for masks and tiles."""
     kind = outline[0]
     if kind == "circle":
         return ring([outline[1:3]], outline[3], scale), True
@@ -69,7 +70,7 @@ def corners_of(outline: tuple, scale: float = 1.0) -> tuple[list[Point], bool] |
 
 
 def clockwise(points: ArrayLike) -> list[list[float]]:
-    """Return the corners as a list, clockwise on the screen."""
+    """Return the corners of a polygon as a list, reversed if they are not clockwise on the screen."""
     points = np.asarray(points, float)
     x, y = points[:, 0], points[:, 1]
     area = float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
@@ -77,7 +78,9 @@ def clockwise(points: ArrayLike) -> list[list[float]]:
 
 
 def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
-    """Return the outline after its body moves from pose to pose (x, y, angle); also of ("lines", (2n, 2))."""
+    """Return an outline, or ("lines", (2n, 2) points), as it is after its body has moved from pose `start` to pose
+    `end`; a pose is (x, y, angle).
+    """
     turn = end[2] - start[2]
     cosine, sine = cos(turn), sin(turn)
 
@@ -99,7 +102,7 @@ def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
 def draw_outline(
     surface: pygame.Surface, lens: Lens, outline: tuple, color: Color, width: int = 1, scale: int = 1
 ) -> None:
-    """Draw one outline through a lens; a chain with ticks on its solid side. scale: frame px per canvas px."""
+    """Draw an outline through a lens; a chain gets hatching on its solid side. scale: frame px per canvas px."""
     kind = outline[0]
     if kind == "lines":
         draw_lines(surface, lens, np.asarray(outline[1]).reshape(-1, 4), color, width)
@@ -120,7 +123,7 @@ def draw_outline(
 
 
 def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Color, width: int = 1) -> None:
-    """Draw single lines (n, 4) of the world: ax ay bx by."""
+    """Draw (n, 4) separate lines, given in world coordinates with columns ax, ay, bx, by."""
     ax, ay = lens.points(lines[:, 0], lines[:, 1])
     bx, by = lens.points(lines[:, 2], lines[:, 3])
     draw = pygame.draw.line
@@ -129,7 +132,9 @@ def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Co
 
 
 def _draw_ticks(surface, clip, points, color, scale):
-    """Draw hatching below a chain: its solid side is opposite to its normal."""
+    """Draw hatching on the solid side of a chain, which is opposite to its normals. points: the chain's corners [frame
+    px].
+    """
     room = clip.inflate(8 * scale, 8 * scale)
     left = TICK_BUDGET
     for (ax, ay), (bx, by) in pairwise(points):

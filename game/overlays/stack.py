@@ -1,4 +1,4 @@
-"""Stack of overlay layers over one scene: the active layers, their drawing and their legend."""
+"""The stack of overlay layers over a scene: which layers are on, their drawing, and their legend."""
 
 from collections.abc import Iterable, Sequence
 from typing import TypeVar
@@ -28,7 +28,7 @@ from game.overlays.layer_structure import Structure
 from game.overlays.layer_times import Times
 from game.scene import Scene
 
-# A new layer is one line here. The order is the panel's: keys 1 to 9, then letters.
+# A new layer is added here. The panel has the same order.
 LAYERS: list[type[Layer]] = [
     Bounds,
     Motion,
@@ -49,16 +49,16 @@ LAYERS: list[type[Layer]] = [
     Disagreement,
 ]  # fmt: skip
 Kind = TypeVar("Kind", bound=Layer)
-SHORTER = (24, 16, 10, 5)  # line counts of a legend that does not fit in full
+SHORTER = (24, 16, 10, 5)  # numbers of lines to try if the whole legend does not fit
 
 
 def layer_names() -> tuple[str, ...]:
-    """Return the valid names of --overlay, in the order of the panel."""
+    """Return the names of all layers, which --overlay accepts, in the order of the panel."""
     return tuple(each.name for each in LAYERS)
 
 
 class Overlays:
-    """Overlay layers of a scene. `on` is the set of names of the active layers."""
+    """The overlay layers of a scene. `on`: the set of names of the layers that are on."""
 
     def __init__(self, on: Iterable[str] = ()) -> None:
         self.layers: tuple[Layer, ...] = tuple(each() for each in LAYERS)
@@ -69,7 +69,7 @@ class Overlays:
         self.on = set(on)
 
     def _only(self, kind: type[Kind]) -> Kind:
-        """Return the layer of a class."""
+        """Return the layer of this class."""
         return next(each for each in self.layers if isinstance(each, kind))
 
     def toggle(self, name: str) -> None:
@@ -81,7 +81,9 @@ class Overlays:
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
     def note(self, scene: Scene) -> None:
-        """Record a step; call it every step. Monitoring of the invariants starts one step after they are shown."""
+        """Record a step; call it after every step. Monitoring of the invariants starts one step after they are
+        shown.
+        """
         self.times.note(scene)
         self.invariants.note(scene.monitor)
         if "disagreement" in self.on:
@@ -89,7 +91,9 @@ class Overlays:
         self.watch(scene)
 
     def watch(self, scene: Scene) -> None:
-        """Monitor the invariants of a scene while they are shown or the run is strict."""
+        """Start monitoring the invariants of the scene if they are shown; stop it if they are not and the run is not
+        strict.
+        """
         shown = "invariants" in self.on
         if shown and scene.monitor is None:
             scene.watch_invariants()
@@ -97,18 +101,20 @@ class Overlays:
             scene.watch_invariants(False)
 
     def shows_geometry(self) -> bool:
-        """Return whether any active layer lies on the world. Sprites are then drawn at exact poses."""
+        """Return whether a layer that draws on the world is on. Sprites must then be drawn at the shapes' exact
+        poses.
+        """
         return bool(self.on - {"times", "invariants"})
 
     def draw_on_canvas(self, canvas: Canvas, scene: Scene) -> None:
-        """Draw the layers that are exact to the canvas pixel, before the canvas is scaled."""
+        """Draw the layers that must match canvas pixels exactly, before the canvas is scaled."""
         for layer in self._active("on_canvas"):
             layer.begin(len(scene.views()))
             for world, camera in scene.views():
                 layer.draw_on_canvas(canvas, camera, world)
 
     def draw_on_frame(self, frame: Frame, scene: Scene) -> None:
-        """Draw the layers at window resolution, each view clipped to its part of the picture."""
+        """Draw the layers at the window's resolution. Each view is clipped to its part of the picture."""
         surface = frame.surface
         self.filters.names = scene.filter_names
         self.invariants.monitor = scene.monitor or InvariantMonitor()
@@ -122,16 +128,18 @@ class Overlays:
             surface.set_clip(None)
 
     def draw_labels(self, frame: Frame) -> None:
-        """Write labels that follow objects. They are drawn last and take only free places."""
+        """Write the labels of drawn objects. Call it last, because labels take only free places."""
         for layer in self._active("on_frame"):
             layer.draw_labels(frame)
 
     def legend(self) -> list[LegendLine]:
-        """Return (color, text) lines of all active layers, in the order of their keys."""
+        """Return the (color, text) legend lines of all layers that are on, in the order of the panel."""
         return [line for layer in self.layers if layer.name in self.on for line in layer.notes()]
 
     def draw_floating(self, frame: Frame, legend_at: tuple[int, int] | None = None) -> None:
-        """Draw legend and graph over the full-size game, in places without text; `legend_at` is tried first."""
+        """Draw the legend, the stage times and the invariants over the game, at places without text. legend_at: place
+        for the legend to try first [canvas px].
+        """
         area = frame.area.clip(frame.rect)
         scale = frame.text_scale
         if "invariants" in self.on:
@@ -147,7 +155,9 @@ class Overlays:
         self._draw_legend(frame, area, legend_at, scale)
 
     def _draw_invariants(self, frame, area, scale):
-        """Draw the strip of invariants in the middle, as close to the bottom or top as possible, in few rows."""
+        """Draw the strip of invariants, centred, as close to the bottom or top as is free, and in as few rows as
+        fit.
+        """
         for size in self.invariants.sizes(frame):
             margin = 4 * scale
             top, bottom = area.top + margin, area.bottom - size[1] - margin
@@ -159,13 +169,15 @@ class Overlays:
                 return
 
     def put_invariants(self, frame: Frame, rect: pygame.Rect) -> None:
-        """Draw the strip of invariants into a rect and keep other text out of it."""
+        """Draw the strip of invariants into a rect, and reserve the rect so that no other text is placed there."""
         there = pygame.display.get_init() and pygame.mouse.get_focused()
         self.invariants.draw_strip(frame, rect, pygame.mouse.get_pos() if there else (-1, -1))
         frame.reserve(rect)
 
     def _draw_legend(self, frame, area, legend_at, scale):
-        """Draw the legend where it fits. If it does not, its last line counts the lines left out."""
+        """Draw the legend at a free place. If it does not fit, shorten it; its last line then counts the lines left
+        out.
+        """
         lines = self.legend()
         for room in (len(lines), *(count for count in SHORTER if count < len(lines))):
             if not lines:
@@ -186,13 +198,15 @@ class Overlays:
                 return
 
     def _active(self, where):
-        """Return the layers to draw there, "on_canvas" or "on_frame", those that fill areas first."""
+        """Return the layers that are on and that are drawn there, in drawing order: layers that fill areas first.
+        where: "on_canvas" or "on_frame".
+        """
         active = [layer for layer in self.layers if layer.name in self.on and getattr(layer, where)]
         return sorted(active, key=lambda layer: not layer.under)
 
 
 def legend_size(frame: Frame, lines: Sequence[LegendLine], scale: int) -> tuple[int, int]:
-    """Return width and height [frame px] of the legend with its margin."""
+    """Return (width, height) [frame px] of a legend with its margin."""
     widest = max(frame.measure(text, SMALL, scale)[0] for _, text in lines)
     return widest + 12 * scale, len(lines) * 7 * scale + 5 * scale
 
@@ -200,7 +214,9 @@ def legend_size(frame: Frame, lines: Sequence[LegendLine], scale: int) -> tuple[
 def legend_columns(
     frame: Frame, lines: list[LegendLine], width: int, height: int, scale: int
 ) -> list[list[LegendLine]]:
-    """Return the lines in columns that fit into width x height; the last line counts those left out."""
+    """Return the legend's lines in columns that fit into width x height [frame px]; an empty list if none fits. If
+    lines are left out, the last line counts them.
+    """
     rows = max(1, (height - 5 * scale) // (7 * scale))
     for shown in range(len(lines), 0, -1):
         kept = lines if shown == len(lines) else [*lines[:shown], (FOG, f"and {len(lines) - shown} more lines")]
@@ -211,7 +227,7 @@ def legend_columns(
 
 
 def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale: int) -> None:
-    """Draw a swatch and a text per line, from the top left (x, y)."""
+    """Draw the legend, a coloured square and a text for each line, with its top left at (x, y)."""
     for index, (color, text) in enumerate(lines):
         top = y + 3 * scale + index * 7 * scale
         frame.surface.fill(frame.tone(color), (x + 3 * scale, top, 3 * scale, 5 * scale))
@@ -219,7 +235,9 @@ def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale
 
 
 def _corners(area, size, margin):
-    """Return places to try: corners, middles of the sides, then positions down the left and right edges."""
+    """Return the places to try for a box in an area: corners, middles of the sides, then down the left and right
+    edges.
+    """
     left, right = area.left + margin, area.right - size[0] - margin
     top, bottom = area.top + margin, area.bottom - size[1] - margin
     middle_x, middle_y = (left + right) // 2, (top + bottom) // 2

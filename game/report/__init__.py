@@ -1,1 +1,3 @@
-"""`--report DIR`: accuracy against time, measured job by job and written as one page."""
+"""`--report DIR`: measure accuracy against time, and write one page of charts. Each measurement is a job, stored at
+once.
+"""

@@ -1,4 +1,4 @@
-"""A chart of the report: its jobs, its panels and its claims."""
+"""A chart of the report: the jobs that measure it, its plots, and the claims that it tests."""
 
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
@@ -8,14 +8,15 @@ from game.report.claim import Claim
 from game.report.job import Job, ReportScope, Row
 
 Interval = tuple[float, float, float]  # low, middle, high
-Reading = Callable[[Row], Interval | None]  # None: the row has nothing to show there
+Reading = Callable[[Row], Interval | None]  # reads a figure of a row; None: the row does not have it
 
 SECOND = {"ns": 1e9, "us": 1e6, "ms": 1e3, "s": 1.0}
 
 
 class Axis(NamedTuple):
-    """One axis. label: with its unit; log: if values span a decade; mark: position of a line, such as the limit of what
-    a player sees; decades: greatest span of a logarithmic axis.
+    """One axis of a plot. label: name and unit; read: reads the figure of a row; log: logarithmic if the values span a
+    decade; mark: position of a line, such as the smallest error that a player sees; decades: greatest span of a
+    logarithmic axis.
     """
 
     label: str
@@ -26,15 +27,16 @@ class Axis(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A line over x that belongs to no row, such as a limit of arithmetic."""
+    """A line that is no measurement, such as the limit of floating-point arithmetic: y = at(x)."""
 
     label: str
     at: Callable[[float], float]
 
 
 class Panel(NamedTuple):
-    """One plot. line: "front" joins the dots that no other dot beats, "medians" the series whose medians none beats,
-    "series" the dots of each in the order of x; "" no line. series: the series of a row's dot.
+    """One plot of a chart; each row is a dot. line: "front" joins the Pareto front of the dots, "medians" the Pareto
+    front of the series' medians, "series" the dots of each series in the order of x; "" none. shows(row): whether
+    the row is shown; series(row): name of its series.
     """
 
     title: str
@@ -47,8 +49,8 @@ class Panel(NamedTuple):
 
 
 class Chart(NamedTuple):
-    """One chart. Its rows have "series" and "label"; key: the first part of its jobs' names; truth: the reference of
-    its errors.
+    """One chart. Its rows have the keys "series" and "label". key: first part of the names of its jobs; truth: sentence
+    on the reference that errors are measured against.
     """
 
     number: int
@@ -56,14 +58,14 @@ class Chart(NamedTuple):
     title: str
     question: str
     truth: str
-    panels: tuple[Panel, ...] | Callable[[Sequence[Row]], list[Panel]]  # of the existing rows
+    panels: tuple[Panel, ...] | Callable[[Sequence[Row]], list[Panel]]  # panels, or a function of the rows
     jobs: Callable[[ReportScope], list[Job]]
     claims: Callable[[Sequence[Row]], list[Claim]] = lambda rows: []
-    of: str = ""  # key of the chart whose rows it shows; "" its own
+    of: str = ""  # key of another chart whose rows this one shows; "": it has its own rows
 
 
 def time(key: str, unit: str = "us") -> Reading:
-    """Return a reading of the least, the median and the upper quartile of a cost."""
+    """Return a function that reads a cost from a row as (least, median, upper quartile) in `unit`."""
 
     def read(row):
         cost = row.get(key)
@@ -76,7 +78,7 @@ def time(key: str, unit: str = "us") -> Reading:
 
 
 def value(key: str, scale: float = 1.0) -> Reading:
-    """Return a reading of a number, or of three: low, middle, high."""
+    """Return a function that reads a number from a row as (low, middle, high); a single number is all three."""
 
     def read(row):
         found = row.get(key)
@@ -89,7 +91,9 @@ def value(key: str, scale: float = 1.0) -> Reading:
 
 
 def percent(key: str) -> Reading:
-    """Return a reading of a rate, kept as [count, total], in percent, with the interval of the true rate (Wilson)."""
+    """Return a function that reads a rate, stored as [count, total], as (low, middle, high) in percent; low and high
+    are the confidence interval (Wilson).
+    """
 
     def read(row):
         if row.get(key) is None:
@@ -102,5 +106,5 @@ def percent(key: str) -> Reading:
 
 
 def panel_is(name: str) -> Callable[[Row], bool]:
-    """Return a filter of the rows of the panel with that name."""
+    """Return a function of a row: whether the row belongs to the panel with that name."""
     return lambda row: row.get("panel") == name

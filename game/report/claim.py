@@ -1,4 +1,4 @@
-"""A sentence that the measurements confirm, contradict, or leave open."""
+"""A claim: a sentence that the measurements confirm, contradict, or leave open."""
 
 from collections.abc import Mapping
 from typing import NamedTuple
@@ -9,21 +9,25 @@ HOLDS, FAILS, TIE = "holds", "does not hold", "a tie"
 
 
 class Claim(NamedTuple):
-    """One claim. text: the sentence; figure: the measured value; verdict: HOLDS, FAILS or TIE; source: its author."""
+    """One claim. text: the sentence; figure: the measured value; verdict: HOLDS, FAILS or TIE; source: paper or manual
+    that claims it, "" for none.
+    """
 
     text: str
     figure: str
     verdict: str
     source: str = ""
-    order: tuple[str, ...] = ()  # of an ordering: the cheapest; all candidates if it is a tie
-    about: str = ""  # of an ordering: its subject, without the winner's name
+    order: tuple[str, ...] = ()  # from ordering(): the cheapest name; all that may be the cheapest if it is a tie
+    about: str = ""  # from ordering(): the subject of the claim, without the cheapest name
 
 
 def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 1e6, word: str = "us") -> Claim:
-    """Return a claim of the cheapest of several works: a winner if it is certain, else a tie of all candidates.
+    """Return the claim that one of several methods is the cheapest: HOLDS if that is certain, otherwise TIE with all
+    that may be.
 
-    costs: {name: (least, median) seconds}; a tie if intervals overlap or costs differ by less than 10 %. Raises
-    ValueError for fewer than two.
+    what: subject of the sentence. costs: {name: (least, median) seconds}. Two costs tie if their intervals overlap or
+    they differ by less than 10 %. unit, word: factor and name of the printed unit. Raises ValueError for fewer than two
+    costs.
     """
     if len(costs) < 2:
         raise ValueError(f"an ordering needs two costs at least (got {len(costs)})")
@@ -37,8 +41,8 @@ def ordering(what: str, costs: Mapping[str, tuple[float, float]], unit: float = 
 
 
 def at_least(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
-    """Return the claim that a figure (low, middle, high) is above a limit: HOLDS or FAILS if that is certain, else
-    TIE.
+    """Return the claim that a measured ratio (low, middle, high) is at least `limit`: HOLDS or FAILS if the whole
+    interval agrees, otherwise TIE.
     """
     low, middle, high = ratio
     verdict = HOLDS if low >= limit else FAILS if high < limit else TIE
@@ -46,18 +50,20 @@ def at_least(text: str, ratio: tuple[float, float, float], limit: float, source:
 
 
 def at_most(text: str, ratio: tuple[float, float, float], limit: float, source: str = "", unit: str = "x") -> Claim:
-    """Return the claim that a figure (low, middle, high) is below a limit."""
+    """Return the claim that a measured ratio (low, middle, high) is at most `limit`: HOLDS or FAILS if the whole
+    interval agrees, otherwise TIE.
+    """
     low, middle, high = ratio
     verdict = HOLDS if high <= limit else FAILS if low > limit else TIE
     return Claim(text, f"{middle:.3g} {unit} ({low:.3g} to {high:.3g})", verdict, source)
 
 
 def ratio_of(a: Mapping, b: Mapping) -> tuple[float, float, float]:
-    """Return the ratio of two costs, as rows hold them: low, middle, high, from least, median and upper."""
+    """Return the ratio a / b of two costs stored by spread(), as (low, middle, high)."""
     first, second = a["seconds"], b["seconds"]
     return first[0] / second[2], first[1] / second[1], first[2] / second[0]
 
 
 def pair(cost: Mapping) -> tuple[float, float]:
-    """Return (least, median) of a cost, as a row holds it."""
+    """Return (least, median) [s] of a cost stored by spread()."""
     return cost["seconds"][0], cost["seconds"][1]

@@ -1,7 +1,7 @@
-"""A job of the report: a function by name and its arguments, so that any process can run it.
+"""A job of the report: the name of a function and its arguments, so that any process can run it.
 
-It returns rows: dicts of JSON values. A value whose key ends in "cost" is a time (see `spread`). All other values are
-facts, which are equal in every run.
+A job returns rows: dicts of JSON values. A value whose key ends in "cost" is a time (see `spread`). All other values
+are equal in every run.
 """
 
 from collections.abc import Iterable, Mapping
@@ -14,11 +14,11 @@ from game.measure.timing import Cost
 from physics.jit.kernels import measured as compiling
 
 Row = dict[str, Any]
-COST = "cost"  # suffix of the keys of times
+COST = "cost"  # the keys of times end in it
 
 
 class ReportScope(NamedTuple):
-    """The extent of the measurements. scenes: {name: "module:Class"} of all scenes."""
+    """Extent of the report. quick: fewer and smaller measurements; scenes: {name: "module:Class"} of all scenes."""
 
     quick: bool
     scenes: Mapping[str, str]
@@ -34,9 +34,9 @@ class Job(NamedTuple):
 
 
 def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
-    """Return {name, rows, spent, compiled [s]}, or {name, failed, spent, compiled} with the text of any error.
+    """Run a job. Return {name, rows, spent, compiled}, or {name, failed, spent} with the text of the error.
 
-    compiled: the part of `spent` that went into compiling; it is in no cost.
+    spent: duration [s]; compiled: the part of it that went into compiling kernels, which no cost includes.
     """
     started = perf_counter()
     found: Row = {"name": name}
@@ -51,12 +51,14 @@ def run_job(name: str, work: str, params: Mapping[str, Any]) -> Row:
 
 
 def spread(cost: Cost) -> Row:
-    """Return a Cost as a row holds it: seconds per piece, number of runs, pieces per run."""
+    """Return a Cost as it is stored in a row: [least, median, upper quartile] seconds per piece of work, number of
+    runs, pieces per run.
+    """
     return {"seconds": [cost.least, cost.median, cost.upper], "runs": cost.runs, "pieces": cost.pieces}
 
 
 def counted(rate: Rate) -> list[int]:
-    """Return a Rate as a row holds it: [count, total]."""
+    """Return a Rate as it is stored in a row: [count, total]."""
     return [rate.count, rate.total]
 
 

@@ -1,4 +1,4 @@
-"""The report as one self-contained HTML page: plots with the data of each dot, tables, raw data."""
+"""The report as one self-contained HTML page: plots with data for each dot, tables, and the raw data."""
 
 import csv
 import io
@@ -22,16 +22,20 @@ PAGE = Path(__file__).with_name("page.html")
 
 
 class Measured(NamedTuple):
-    """A chart with the results of its jobs. failed: {job: reason}; left: number of jobs that are not done."""
+    """A chart with the results of its jobs. failed: {name of a job: reason}; left: number of jobs that have not run
+    yet.
+    """
 
     chart: Chart
-    rows: list[Row]  # each with "job"
+    rows: list[Row]  # each with the name of its job under "job"
     failed: Mapping[str, str]
     left: int
 
 
 def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder: str, spent: float) -> str:
-    """Return the page's text. folder: as given on the command line, for the commands that measure a dot again."""
+    """Return the text of the page. folder: the report's folder as on the command line, for the commands that measure a
+    dot again; spent: duration of all jobs [s].
+    """
     reported: dict[str, Any] = {}
     charts = "\n".join(_chart(each, reported, folder, bool(manifest["quick"])) for each in measured)
     rows = {each.chart.key: each.rows for each in measured}
@@ -56,7 +60,7 @@ def write_page(measured: Sequence[Measured], manifest: Mapping[str, Any], folder
 
 
 def _script(value):
-    """Return JSON that cannot close the element around it."""
+    """Return a value as JSON that cannot end the HTML element which contains it."""
     return json.dumps(value).replace("</", "<\\/")
 
 
@@ -84,13 +88,13 @@ def _chart(measured, reported, folder, quick):
 
 
 def command(row: Row, folder: str, quick: bool) -> str:
-    """Return the shell command that measures a row again."""
+    """Return the shell command that repeats the job of a row."""
     report = [f"--report={folder}"] if folder.startswith("-") else ["--report", folder]
     return quoted([*START, *report, *(["--quick"] if quick else []), "--only", row["job"]])
 
 
 def quoted(arguments: Sequence[str]) -> str:
-    """Return the arguments as one line that the system's shell splits into the same arguments."""
+    """Return the arguments as one line of text that the system's shell splits into the same arguments."""
     return subprocess.list2cmdline(arguments) if sys.platform == "win32" else shlex.join(arguments)
 
 
@@ -136,7 +140,7 @@ def columns(rows: Iterable[Row]) -> list[str]:
 
 
 def cell(value: Any) -> str:
-    """Return a value of a row as text."""
+    """Return a value of a row as text for a table."""
     if value is None:
         return ""
     if isinstance(value, dict) and "seconds" in value:
@@ -147,7 +151,7 @@ def cell(value: Any) -> str:
 
 
 def as_csv(rows: Sequence[Row]) -> str:
-    """Return the rows as CSV; times are three columns of seconds: least, median, upper quartile."""
+    """Return the rows as CSV. Each time takes three columns [s]: least, median and upper quartile."""
     flat = []
     for row in rows:
         line: Row = {}

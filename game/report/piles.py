@@ -1,4 +1,4 @@
-"""Piles whose rest is known in closed form: their height, and no overlap."""
+"""Piles of bodies whose correct behaviour is known: they stay at rest, at their height, without overlap."""
 
 from collections.abc import Callable, Sequence
 from math import atan2, cos, radians, sin
@@ -10,12 +10,14 @@ from physics import Capsule, Circle, Effects, Material, Polygon, World
 
 BOX, GRAVITY, FRICTION = 32.0, 320.0, 0.6  # [px], [px/s2], -
 EFFECTS = Effects(response=True, gravity=True, rotation=True, friction=True, restitution=True, stacking=True)
-SHARED = 0.25  # of a box: overlap between neighbours in the piles that start with overlaps
+SHARED = 0.25  # overlap of neighbours in a pile that starts with overlaps, as a share of a box
 CARD, THICK, LEAN, PLANK = 48.0, 2.0, radians(25.0), 4.0  # [px] between a card's ends, their radius; [px] of a plank
 
 
 class Pile(NamedTuple):
-    """A pile: positions, densities, shapes and angles [rad] of its bodies. rests: the bodies may stay in place."""
+    """A pile: positions [px], densities, shapes and angles [rad] of its bodies. rests: whether the bodies should stay
+    where they are.
+    """
 
     places: list[tuple[float, float]]
     density: list[float]
@@ -25,23 +27,25 @@ class Pile(NamedTuple):
 
     @property
     def height(self) -> float:
-        """Height of the highest body's centre over the ground [px]."""
+        """Height of the highest body's position over the ground [px]."""
         return -min(y for _, y in self.places)
 
 
 def boxes(places: list[tuple[float, float]], density: Sequence[float] = (), size: float = BOX) -> Pile:
-    """Return a pile of upright boxes of one size [px] with the given densities, or all of density 1."""
+    """Return a pile of upright boxes of one size [px]. density: one for each box; empty: all of density 1."""
     count = len(places)
     return Pile(places, list(density) or [1.0] * count, [Polygon.box(size, size)] * count, [0.0] * count)
 
 
 def stack(count: int, size: float = BOX) -> Pile:
-    """Return a column of boxes."""
+    """Return a column of `count` boxes."""
     return boxes([(0.0, -size / 2 - size * k) for k in range(count)], size=size)
 
 
 def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
-    """Return rows of decreasing length; across, up: distance from box to box, in boxes."""
+    """Return a pyramid of boxes, with a box less in each row. across, up: distance between the centres of neighbours,
+    in box sizes.
+    """
     return boxes(
         [
             ((column - (rows - row - 1) / 2) * across * BOX, -BOX / 2 - up * BOX * row)
@@ -52,18 +56,20 @@ def pyramid(rows: int, across: float = 1.1, up: float = 1.0) -> Pile:
 
 
 def heavy(ratio: float) -> Pile:
-    """Return a box of so many times the density on a light one."""
+    """Return a light box with a box on it of `ratio` times its density."""
     return boxes(stack(2).places, [1.0, ratio])
 
 
 def crooked(count: int, seed: int = 1, aside: float = 0.64) -> Pile:
-    """Return a stack whose boxes are offset from the middle by up to aside [px]: 2 cm."""
+    """Return a column of boxes, each shifted sideways at random by at most `aside` [px]; the default is 2 cm."""
     shifts = np.random.default_rng(seed).uniform(-aside, aside, count)
     return boxes([(float(shifts[k]), -BOX / 2 - BOX * k) for k in range(count)])
 
 
 def card_house(storeys: int) -> Pile:
-    """Return pairs of cards that lean on each other, planks on them, and so on; lab/card_house is built alike."""
+    """Return a card house: pairs of cards that lean on each other, with planks on them, in `storeys` storeys; as in
+    lab/card_house.
+    """
     reach, rise = CARD * sin(LEAN), CARD * cos(LEAN)
     apart, storey = 2.0 * (reach + 2.0 * THICK) + 1.0, rise + 2.0 * THICK + PLANK
     card, plank = Capsule((-CARD / 2, 0), (CARD / 2, 0), THICK), Polygon.box(apart - 0.5, PLANK)
@@ -94,7 +100,7 @@ PILES: dict[str, Callable[[], Pile]] = {
 
 
 def world_of(pile: Pile, solver: str, substeps: int | str, effects: Effects = EFFECTS, away: float = 0.0) -> World:
-    """Return the pile on a wide ground. away: how far from the origin, both ways [px]."""
+    """Return a world with the pile on wide ground. away: distance of the pile from the origin, in x and in y [px]."""
     world = World(effects, solver=solver, gravity=(0.0, GRAVITY), substeps=substeps)
     places = np.array(pile.places) + away
     width = float(np.ptp(places[:, 0])) + 40.0 * BOX
@@ -119,12 +125,12 @@ def overlap(world: World) -> float:
 
 
 def sunk(world: World, pile: Pile) -> float:
-    """Return the distance by which the highest centre is below its start [px]."""
+    """Return how far the highest centre of mass is below the pile's initial height [px]."""
     return pile.height + float(world.bodies["center_y"][1:].min())
 
 
 def energy(world: World) -> float:
-    """Return the kinetic and potential energy of all bodies, over the ground [mass px2/s2]."""
+    """Return the kinetic and potential energy of all bodies, relative to the ground [mass px2/s2]."""
     rows = world.bodies[1:]
     moving = rows["mass"] * (rows["vx"] ** 2 + rows["vy"] ** 2) + rows["inertia"] * rows["angular_velocity"] ** 2
     return float((0.5 * moving - rows["mass"] * GRAVITY * rows["center_y"]).sum())

@@ -1,4 +1,5 @@
-"""Panels drawn as SVG by matplotlib: light or dark by the page's colours, with a hoverable element per dot.
+"""Panels of the report, drawn as SVG by matplotlib, in the page's light or dark colours; the page can show the data of
+each dot.
 
 Raises UsageError if matplotlib is not installed.
 """
@@ -19,7 +20,7 @@ from game.report.chart import Axis, Interval, Panel
 from game.report.job import Row
 
 SIZE = (6.4, 4.0)  # [inch]
-# Inks that no drawing uses otherwise, and their variables in the page.
+# Placeholder colours that no plot uses otherwise -> CSS variables of the page that replace them.
 INKS = {"#010203": "var(--ink)", "#040506": "var(--paper)", "#070809": "var(--faint)"}
 INK, PAPER, FAINT = INKS
 # Okabe and Ito's colours, distinguishable under most kinds of colour blindness, dark enough for both grounds.
@@ -29,7 +30,7 @@ CURVES = (":", "-.")
 
 
 class Dot(NamedTuple):
-    """A row in a panel."""
+    """A dot of a panel: a row, with x and y as (low, middle, high)."""
 
     row: Row
     x: Interval
@@ -38,7 +39,9 @@ class Dot(NamedTuple):
 
 @cache
 def library() -> Any:
-    """Return matplotlib's figures, without a window."""
+    """Return matplotlib's Figure class, which draws without a window. Raises UsageError if matplotlib is not
+    installed.
+    """
     try:
         import matplotlib
         from matplotlib.figure import Figure
@@ -49,7 +52,7 @@ def library() -> Any:
 
 
 def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
-    """Return the dots of a panel: the rows with both figures, if these are finite."""
+    """Return the dots of a panel: the rows that it shows and that have finite figures for x and y."""
     found = []
     for row in rows:
         if not panel.shows(row):
@@ -61,7 +64,9 @@ def dots_of(panel: Panel, rows: Sequence[Row]) -> list[Dot]:
 
 
 def draw(panel: Panel, rows: Sequence[Row], name: str) -> tuple[str, list[Dot]]:
-    """Return (the SVG of a panel, its dots); dot k has the id NAME-k. "" if there is nothing to show."""
+    """Return (SVG text of a panel, its dots). Dot number k has the id "{name}-{k}" in the SVG. The text is "" if there
+    is nothing to show.
+    """
     figure = library()(figsize=SIZE, layout="constrained")
     dots = dots_of(panel, rows)
     if not dots:
@@ -118,15 +123,17 @@ def _bars(axes, dot, color):
 
 
 def _curves(axes, panel, dots):
-    """Draw the curves, dotted, over the measured values of x; values below the axis are cut."""
+    """Draw the panel's curves as dotted lines over the measured range of x. Values below the axis are cut off."""
     at = sorted({dot.x[1] for dot in dots if dot.x[1] > 0.0})
     for curve, style in zip(panel.curves, CURVES, strict=False):
         axes.plot(at, [curve.at(x) for x in at], linestyle=style, color=INK, linewidth=1.0, label=curve.label)
 
 
 def _scale(axes, which, axis: Axis, values: Sequence[Interval]):
-    """Make an axis logarithmic if that is asked for and values span a decade: with less, its ticks overlap. Values more
-    than the given decades below the largest lie at the foot, with zero. Call it after all is drawn.
+    """Make an axis logarithmic if it asks for that and the values span a decade; with less, tick labels would overlap.
+
+    Values more than axis.decades below the largest one are drawn at the lower end, together with zero. Call it after
+    all dots are drawn.
     """
     positive = [high for _, _, high in values if high > 0.0]
     if not axis.log or not positive or max(positive) < 10.0 * min(low for low, _, _ in values):
@@ -182,7 +189,9 @@ def _page_colors(figure) -> str:
 
 
 def shown(dot: Dot, panel: Panel) -> Mapping[str, str]:
-    """Return the texts of a dot under the pointer: both figures with their intervals, then the row's other values."""
+    """Return {label: text} of the box that appears when the pointer is over a dot: both figures with their intervals,
+    failures, and ignored effects.
+    """
     reported = {
         "": f"{dot.row['series']}: {dot.row['label']}" if dot.row["label"] != dot.row["series"] else dot.row["label"]
     }

@@ -1,5 +1,5 @@
-"""The report's piles of boxes in pymunk, a peer installed by pip. ModuleNotFoundError names the extra that contains
-it.
+"""The report's piles of boxes in pymunk, for comparison. Without pymunk a ModuleNotFoundError names the pip extra that
+installs it.
 """
 
 from typing import Any
@@ -8,11 +8,11 @@ from game import startup
 from game.report.piles import BOX, FRICTION, GRAVITY, Pile
 
 SLOP = 0.1  # [px] pymunk's default overlap of bodies
-ITERATIONS = 10  # its default
+ITERATIONS = 10  # pymunk's default
 
 
 def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
-    """Return a space of boxes of equal density on a wide ground."""
+    """Return a pymunk space with the pile's boxes, of equal density, on wide ground."""
     try:
         import pymunk
     except ModuleNotFoundError as error:
@@ -33,7 +33,7 @@ def space_of(pile: Pile, iterations: int = ITERATIONS) -> Any:
 
 
 def overlap_in(space: Any) -> float:
-    """Return the deepest overlap by its own contact points, at the current poses [px]."""
+    """Return the depth of the deepest contact point that pymunk reports at the current poses [px]."""
     found = 0.0
     for shape in space.shapes:
         if shape.body is not space.static_body:

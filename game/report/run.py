@@ -1,6 +1,6 @@
-"""`--report DIR`: run the jobs that are not done, store each, and write the page.
+"""`--report DIR`: run the jobs that are not done yet, store the result of each, and write the page.
 
-An interrupted report resumes where it stopped; only the job that was running is lost.
+An interrupted report resumes where it stopped; only the job that was running is repeated.
 """
 
 import json
@@ -28,7 +28,9 @@ from physics.background import compile_jobs
 
 
 def run_report(options: Options, registry: Registry) -> int:
-    """Measure and write. Return the exit code: 1 if a job failed. Raises UsageError if the report cannot begin."""
+    """Run the jobs and write the page. Return the exit code: 1 if a job failed. Raises UsageError if the report cannot
+    begin.
+    """
     assert options.report is not None
     library()  # matplotlib is required before anything is measured
     start_dummy_display()
@@ -63,8 +65,8 @@ def run_report(options: Options, registry: Registry) -> int:
 
 
 def compile_kernels() -> None:
-    """Compile the kernels of most jobs with all cores, so that none waits for the compiler; others compile at the first
-    call.
+    """Compile the kernels that most jobs need, with all cores, before the first job. Other kernels compile at their
+    first call.
     """
     worlds = [(effects, solver) for effects in (Effects.rigid_bodies(), Effects.detection()) for solver in SOLVERS]
     kernels = [
@@ -78,13 +80,13 @@ def compile_kernels() -> None:
 
 
 def all_jobs(scope: ReportScope) -> list[Job]:
-    """Return the jobs of all charts, in their order."""
+    """Return the jobs of all charts, in the order of the charts."""
     return [job for chart in CHARTS for job in chart.jobs(scope)]
 
 
 def chosen_jobs(jobs: Sequence[Job], only: str | None) -> list[Job]:
-    """Return the jobs whose name matches the pattern or begins with it: `broadphases` selects all of that chart. Raises
-    UsageError for none.
+    """Return the jobs whose name matches the pattern `only`, or whose chart has that name; None: all jobs. Raises
+    UsageError if no job matches.
     """
     if only is None:
         return list(jobs)
@@ -103,7 +105,7 @@ def _is_done(store, job):
 
 
 def gather(store: Store, jobs: Sequence[Job]) -> list[Measured]:
-    """Return the stored results, by chart."""
+    """Return the stored results of the jobs, grouped by chart."""
     found = []
     for chart in CHARTS:
         rows, failed, left = [], {}, 0
@@ -122,7 +124,7 @@ def gather(store: Store, jobs: Sequence[Job]) -> list[Measured]:
 
 
 def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
-    """Write the page, and the rows beside it. Raises OSError."""
+    """Write the page, and the rows of each chart as JSON and CSV beside it. Raises OSError."""
     measured = gather(store, jobs)
     spent = sum(found["spent"] for job in jobs if (found := store.result(job.name)) is not None)
     page = write_page(measured, store.manifest, str(options.report), spent)
@@ -133,7 +135,7 @@ def write(store: Store, jobs: Sequence[Job], options: Options) -> None:
 
 
 class Progress:
-    """A line on standard error for each job: the number of jobs done, and the time that the others will take."""
+    """Progress on standard error, a line after each job: number of finished jobs, and estimated time for the others."""
 
     def __init__(self, jobs: Sequence[Job]) -> None:
         self.weights = {job.name: job.seconds for job in jobs}

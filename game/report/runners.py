@@ -1,5 +1,5 @@
-"""Three ways to run the jobs of a report: in this process, in worker processes, on a Dask cluster, with the same
-results.
+"""Three ways to run the jobs of a report, with the same results: in this process, in worker processes, on a Dask
+cluster.
 
 A job whose process dies is run once more, and then reported as failed.
 """
@@ -21,13 +21,15 @@ DIED = "the process that did it ended, twice"
 
 
 def run_here(jobs: Sequence[Job]) -> Iterator[Row]:
-    """Run the jobs one after the other, in this process."""
+    """Run the jobs one after the other in this process, and yield their results."""
     for job in jobs:
         yield run_job(*job[:3])
 
 
 def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
-    """Yield results as they finish, from so many processes, which share the machine's cores and caches."""
+    """Run the jobs in this number of worker processes, and yield results as they finish. The processes share the
+    machine's cores and caches, which affects times.
+    """
     waiting: queue.SimpleQueue[tuple[Job, int]] = queue.SimpleQueue()
     found: queue.SimpleQueue[Row | Exception] = queue.SimpleQueue()
     for job in jobs:
@@ -54,7 +56,9 @@ def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
 
 
 def _serve(waiting, found, running, stopped):
-    """Run jobs in a process of its own, and start a new one after each that died."""
+    """Run jobs of the queue `waiting` in a worker process, and put results into `found`. A process that dies is
+    replaced.
+    """
     process: Any = None
     while not stopped.is_set():
         try:
@@ -86,8 +90,8 @@ def _serve(waiting, found, running, stopped):
 
 
 def connect(address: str) -> Any:
-    """Return a client of the Dask cluster at an address. Raises UsageError without Dask, for an invalid address, or if
-    no scheduler answers there.
+    """Return a client of the Dask cluster at an address. Raises UsageError if Dask is missing, the address is invalid,
+    or no scheduler answers.
     """
     try:
         from dask.distributed import Client  # pyright: ignore[reportMissingImports]
@@ -105,8 +109,8 @@ def connect(address: str) -> Any:
 
 
 def run_on_dask(jobs: Sequence[Job], client: Any) -> Iterator[Row]:
-    """Yield results as they finish, from the workers of a cluster that has this program. The client is closed at the
-    end.
+    """Run the jobs on a Dask cluster whose workers have this program installed, and yield results as they finish. Close
+    the client at the end.
     """
     from dask.distributed import as_completed  # pyright: ignore[reportMissingImports]
 

@@ -19,5 +19,5 @@ FEW = (SPRITES[1], SPRITES[2], SPRITES[5])
 
 
 def mask_of(atlas: str, name: str) -> PixelMask:
-    """Return a sprite's pixels."""
+    """Return the pixel mask of a sprite."""
     return load_atlas(atlas).mask(name)

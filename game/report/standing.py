@@ -1,4 +1,4 @@
-"""Accuracy of a standing pile: checked after every step, reported at the end."""
+"""Accuracy of a standing pile: measured after every step, reported at the end."""
 
 from collections import deque
 
@@ -6,13 +6,13 @@ from game.report.job import Row
 from game.report.piles import BOX, Pile, energy, overlap, sunk
 from physics import World
 
-SETTLE, LAST = 120, 30  # steps before the measurement, of which the worst of the last counts
+SETTLE, LAST = 120, 30  # steps to simulate; the worst of the LAST steps counts
 VISIBLE = 1.0  # [px]
 FALLEN = 0.5 * BOX  # [px] sag of the highest body that counts as a fall
 
 
 class Watch:
-    """Measurements of one world: the worst values so far, and the time of its fall [s]."""
+    """Measurements of one pile over its steps: the worst values so far, and the time at which it fell [s]."""
 
     settle = SETTLE
 
@@ -23,7 +23,7 @@ class Watch:
         self.sunk: deque[float] = deque(maxlen=LAST)
 
     def look(self) -> None:
-        """Measure after a step."""
+        """Measure the pile. Call it after each step."""
         self.overlaps.append(overlap(self.world))
         self.sunk.append(sunk(self.world, self.pile))
         self.deepest = max(self.deepest, self.overlaps[-1])
@@ -32,9 +32,12 @@ class Watch:
             self.fell = self.world.time - self.began
 
     def found(self) -> Row:
-        """Return the row: overlap, and off, the distance of the highest body from its start, up or down: both the worst
-        of the LAST steps. error: the greater of the two; deepest [px]; won: energy gain, as a share of the pile's
-        potential energy; stands_s: time of the fall, None without one. A pile that must rise to rest has no off.
+        """Return the measurements as part of a row.
+
+        overlap: deepest contact [px]; off: distance of the highest body from its start, up or down [px]; each the worst
+        of the last LAST steps. error: the greater of the two. deepest: deepest contact of all steps [px]. won: energy
+        gained, as a share of the pile's initial energy. stands_s: time of the fall [s], None if it stands. A pile that
+        is not to stay in place has off None.
         """
         deep, off = max(self.overlaps), max(map(abs, self.sunk)) if self.pile.rests else None
         return {

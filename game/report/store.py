@@ -1,6 +1,6 @@
-"""The folder of a report: each result is stored there at once, a file per job, so that nothing is lost.
+"""The folder of a report. The result of each job is written to its own file at once, so that no result is lost.
 
-manifest.json describes the report: another version, or another choice of jobs, is not continued in it.
+manifest.json describes the report; a report of another version or of another extent (--quick) is not continued.
 """
 
 import json
@@ -16,11 +16,11 @@ from game.files.leftovers import remove_leftovers
 from game.measure.machine import machine
 
 MANIFEST, RESULTS, DATA = "manifest.json", "results", "data"
-FORMAT = 2  # of the rows: incremented whenever a chart changes its rows
+FORMAT = 2  # version of the rows: incremented whenever a chart changes its rows
 
 
 class Store:
-    """The stored results by job name. Raises UsageError for an unusable folder, with the reason."""
+    """The stored results of a report's jobs. Raises UsageError, with the reason, if the folder cannot be used."""
 
     def __init__(self, folder: Path, quick: bool) -> None:
         self.folder, self.quick = folder, quick
@@ -72,7 +72,7 @@ class Store:
         return self.folder / RESULTS / f"{name.replace('/', '--')}.json"
 
     def result(self, name: str) -> dict[str, Any] | None:
-        """Return the stored result of a job. Return None if it is not done or its file is damaged: the job then runs
+        """Return the stored result of a job; None if the job has not run or its file is damaged, so that it runs
         again.
         """
         try:

@@ -1,7 +1,7 @@
-"""`python -m game.report.worker`: run jobs of a report, one after the other.
+"""`python -m game.report.worker`: worker process that runs jobs of a report, one after the other.
 
-Each line of JSON on standard input is a job; each line on standard output is its result. The process ends with its
-input.
+Each line of standard input is a job as JSON; each line of standard output is its result. The process ends when standard
+input ends.
 """
 
 import json
@@ -12,7 +12,7 @@ from game.report.job import run_job
 
 
 def main() -> None:
-    """Run jobs until standard input ends."""
+    """Run jobs from standard input until it ends."""
     startup.prepare_environment()
     results, sys.stdout = sys.stdout, sys.stderr  # prints of a job must not mix with the results
     for line in sys.stdin:

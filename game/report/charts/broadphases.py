@@ -1,7 +1,7 @@
-"""Chart 8: cost of the broad phases over the number of bodies, and the number of pairs they leave.
+"""Chart 8: cost of the broad phases over the number of bodies, and number of candidate pairs that they report.
 
-Layouts and shares of movers are those of Broadmark (Serpa and Rodrigues 2020). `every pair` is the naive baseline, all
-n (n - 1) / 2 pairs in every step; the strategies are compared with it only.
+Layouts and shares of moving bodies are those of Broadmark (Serpa and Rodrigues 2020). `every pair` is the naive
+baseline: all n (n - 1) / 2 pairs in every step. Each broad phase is compared with it.
 """
 
 import math
@@ -21,8 +21,8 @@ from physics import BROADPHASES, Bounds, BruteForce, Circle, Effects, SweepAndPr
 SPACING, RADIUS, SPEED = 22.0, 6.0, 60.0  # [px], [px], [px/s]
 STEPS, RUNS = 60, 5  # 300 steps in all
 SIZES = (10, 100, 300, 1000, 10_000)
-FROM = 100  # bodies: below, the call costs more than the work
-NAIVE_LIMIT = 1000  # above, `every pair` takes seconds in all
+FROM = 100  # bodies: with fewer, the call costs more than the work
+NAIVE_LIMIT = 1000  # bodies: with more, `every pair` takes seconds
 WAYS: dict[str, Callable[[], Any]] = {
     **BROADPHASES,
     "every pair": lambda: BruteForce(incremental=False),
@@ -38,25 +38,27 @@ def even(rng: np.random.Generator, n: int) -> Places:
 
 
 def line(rng: np.random.Generator, n: int) -> Places:
-    """Return discs clustered along the ground: long and low."""
+    """Return discs spread along the ground, in a long and low strip."""
     return np.column_stack([rng.uniform(0, 0.5 * SPACING * n, n), rng.exponential(20.0, n)]), np.full(n, RADIUS)
 
 
 def clusters(rng: np.random.Generator, n: int) -> Places:
-    """Return clusters, n / 100 of them, each 60 px around its middle."""
+    """Return discs in n / 100 clusters; each cluster has a standard deviation of 60 px."""
     middles = rng.uniform(0, SPACING * math.sqrt(n), (max(1, n // 100), 2))
     return middles[rng.integers(0, len(middles), n)] + rng.normal(0, 60.0, (n, 2)), np.full(n, RADIUS)
 
 
 def mixed(rng: np.random.Generator, n: int) -> Places:
-    """Return sizes from 1 to 100 times the least, small ones more often, at the density of `even`."""
-    radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # few enough to be distinguished
+    """Return discs whose radii span 1 to 100 px, small ones more often, covering the same share of the area as
+    `even`.
+    """
+    radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # rounded, so that few different shapes are needed
     side = math.sqrt(float((math.pi * radii**2).sum()) * SPACING**2 / (math.pi * RADIUS**2))
     return rng.uniform(0, side, (n, 2)), radii
 
 
 def point(rng: np.random.Generator, n: int) -> Places:
-    """Return all discs at one point: every pair overlaps."""
+    """Return discs at nearly the same point, so that every pair overlaps."""
     return rng.normal(0, 0.1, (n, 2)), np.full(n, RADIUS)
 
 
@@ -71,7 +73,9 @@ LAYOUTS = {"even": even, "line": line, "clusters": clusters, "mixed sizes": mixe
 
 
 def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -> World:
-    """Return a world of discs as boxes, of which a share moves, each at the same speed in a random direction."""
+    """Return a world of discs, represented by their boxes. moving: share 0..1 of the discs that move, all at the same
+    speed in random directions; the others are static.
+    """
     rng = np.random.default_rng(seed)
     places, radii = LAYOUTS[layout](rng, n)
     world = World(Effects(narrowphase=False), strategy)
@@ -89,7 +93,9 @@ def world_of(strategy: Any, layout: str, n: int, moving: float, seed: int = 5) -
 
 
 def measure(layout: str, n: int, moving: str) -> list[Row]:
-    """Return a row per strategy: the cost of the broad phase in a step, its pairs, and the pairs that truly touch."""
+    """Return a row for each broad phase: its cost in a step, its number of candidate pairs, and the number of pairs
+    whose boxes overlap.
+    """
     makes = {name: make for name, make in WAYS.items() if n <= NAIVE_LIMIT or name in BROADPHASES or "tree" in name}
     if n > NAIVE_LIMIT:
         makes.pop("brute", None)
@@ -145,8 +151,8 @@ def _jobs(scope: ReportScope) -> list[Job]:
 
 
 def growth(rows: Sequence[Row], series: str, panel: str) -> tuple[float, float] | None:
-    """Return (power of n by which a cost grows, its standard error), from FROM bodies on. Return None for fewer than
-    three sizes, which give no standard error.
+    """Return (exponent p of the cost's growth with n^p, its standard error), fitted from FROM bodies on; None for fewer
+    than three sizes, which give no standard error.
     """
     mine = [row for row in rows if row["series"] == series and row["panel"] == panel and row["n"] >= FROM]
     points = [(row["n"], row["cost"]["seconds"][1]) for row in mine]
@@ -165,7 +171,9 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _of_papers(rows) -> Iterator[Claim]:
-    """Yield claims about the strategies, at the largest size at which the naive one runs, too."""
+    """Yield the claims of papers about broad phases, tested at NAIVE_LIMIT bodies, the largest size with the naive
+    baseline.
+    """
     known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
 
     def beside(first, second):

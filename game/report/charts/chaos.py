@@ -1,6 +1,8 @@
-"""Chart 11: predictability of a run. A bullet strikes a pyramid, each time from a place about 1e-9 px aside.
+"""Chart 11: predictability of a run. A bullet strikes a pyramid; from run to run, its start is shifted by multiples of
+1e-9 px.
 
-There is no reference: the result is when runs diverge, and how far (Chung and Pollard 2016 call it predictability).
+No reference exists: measured are the time at which runs diverge, and their distance (Chung and Pollard 2016 call it
+predictability).
 """
 
 from collections.abc import Sequence
@@ -14,7 +16,7 @@ from game.report.job import Job, ReportScope, Row, spread
 from game.report.piles import BOX, EFFECTS, pyramid, world_of
 from physics import Circle
 
-NUDGE = 1e-9  # [px] between the bullets of two runs
+NUDGE = 1e-9  # [px] shift of the bullet's start from run to run
 WITH_CHILD, STEPS = 1.0, 180  # [px] distance that a player can see; steps of a run
 WAYS = (("sequential_impulse", 4), ("soft_step", 2), ("soft_step", 4), ("soft_step", 8), ("soft_step", "auto"))
 SPEED = 40.0 * BOX  # [px/s]
@@ -30,7 +32,9 @@ def _world(solver, substeps, aside):
 
 
 def measure(seeds: int) -> list[Row]:
-    """Return a row per setting: the time at which runs differ by a pixel, and their distance at the end."""
+    """Return a row for each setting: the time at which shifted runs differ from the unshifted one by a pixel (RMS), and
+    their distance at the end.
+    """
     rows, steps = {}, {}
     for solver, substeps in WAYS:
         ways = np.array([_way(_world(solver, substeps, NUDGE * seed)) for seed in range(seeds + 1)])
@@ -51,7 +55,7 @@ def measure(seeds: int) -> list[Row]:
 
 
 def _way(world):
-    """Return (STEPS, bodies, 2) centres."""
+    """Return the centres of mass of all bodies after each step, (STEPS, bodies, 2) [px]."""
     found = []
     for _ in range(STEPS):
         world.step()

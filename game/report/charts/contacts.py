@@ -1,7 +1,7 @@
-"""Chart 2: cost of a contact, and the errors of its normal and its depth.
+"""Chart 2: cost of a contact, and the errors of its normal and depth, for each tier of collision shape.
 
-The truth is analytic: a disc against discs and upright squares, from whose pixels the tiers are made. The outline of
-pixels cannot be the truth of a normal, because it has four directions.
+The truth is analytic: a disc against a disc or an upright square. The tiers are fitted to pixel masks of them. The
+outline of the pixels cannot serve as truth, because its normals have four directions only.
 """
 
 from collections.abc import Callable, Sequence
@@ -18,7 +18,7 @@ from physics import TIERS, Circle, PixelMask, Polygon, fit
 
 RADIUS = 12.0  # [px] of the disc, half the width of the square
 POSES, POSES_QUICK = 4000, 1200
-DEEPEST = 0.2  # of the least extent: deeper overlaps have no unique direction of separation
+DEEPEST = 0.2  # of the diameter: deeper overlaps have no unique direction of separation
 REPEATS = 10  # tests of a batch in a run: 40,000 pairs, 200,000 in all
 
 
@@ -30,19 +30,21 @@ def disc_mask() -> PixelMask:
 
 
 def square_mask() -> PixelMask:
-    """Return a mask without clear pixels."""
+    """Return the mask of the square, which is solid throughout."""
     side = int(2 * RADIUS)
     return PixelMask(np.ones((side, side), bool), origin=(RADIUS, RADIUS))
 
 
 def of_disc(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return (normals (n, 2) from a disc to another at offset, depths (n,))."""
+    """Return (normals (n, 2), depths (n,) [px]) of a disc at the origin against equal discs at `offset` (n, 2)."""
     length = np.hypot(*offset.T)
     return offset / length[:, None], 2.0 * RADIUS - length
 
 
 def of_square(offset: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return (normals from an upright square to a disc at offset, depths); the disc's centre is outside the square."""
+    """Return (normals (n, 2), depths (n,) [px]) of an upright square at the origin against discs at `offset` (n, 2),
+    whose centres are outside the square.
+    """
     nearest = np.clip(offset, -RADIUS, RADIUS)
     away = offset - nearest
     length = np.hypot(*away.T)
@@ -56,7 +58,7 @@ BODIES = {
 
 
 def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count: int) -> np.ndarray:
-    """Return (count, 2) offsets of shallow true contacts, uniform in area."""
+    """Return (count, 2) random offsets [px] of touching pairs that overlap by less than DEEPEST, uniform in area."""
     chance, found = np.random.default_rng(4), np.zeros((0, 2))
     while len(found) < count:
         tried = chance.uniform(-2.0 * RADIUS, 2.0 * RADIUS, (4 * count, 2))
@@ -67,7 +69,7 @@ def offsets(truth: Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]], count:
 
 
 def measure(body: str, count: int) -> list[Row]:
-    """Return a row per tier of both sprites, and one of the exact shapes."""
+    """Return a row for each tier, used for both sprites, and one for the exact shapes."""
     make, shape, truth, turned = BODIES[body]
     first, second = make(), disc_mask()
     offset = offsets(truth, count)
@@ -88,7 +90,7 @@ def measure(body: str, count: int) -> list[Row]:
 
 
 def _row(body, name, batch, normals, depths):
-    """Return the errors of the deepest manifold of each pair."""
+    """Return a row with the errors of the contacts found by a batch; of each pair, the deepest manifold counts."""
     batch.test()
     pairs = batch.pair_of[batch.found["candidate"]]
     order = np.lexsort((batch.found["separation_1"], pairs))

@@ -1,7 +1,8 @@
-"""Charts 6 and 7: fast discs against a thin plate: the share that tunnels, the delay of the others, and the cost.
+"""Charts 6 and 7: fast discs that fly at a thin plate: share of discs that tunnel, delay of the contact of the others,
+and cost.
 
-The truth is a line: a disc on a straight path meets an upright plate when its centre comes within a radius of it. A
-discrete test between steps misses max(0, 1 - (w + 2r) / (v dt)) of the discs that fly at the plate's face.
+The truth is analytic: a disc on a straight path first touches an upright plate when its centre comes within its radius.
+A discrete test between steps misses max(0, 1 - (w + 2r) / (v dt)) of the discs that fly at the plate's face.
 """
 
 from collections.abc import Sequence
@@ -16,7 +17,7 @@ from game.report.job import Job, ReportScope, Row, counted, spread
 from physics import Circle, Effects, Polygon, World
 
 RADIUS, WIDTH, HALF = 5.0, 1.0, 11.0  # [px] of the disc, the plate's width, half its height
-APART = 80.0  # [px] between two lanes
+APART = 80.0  # [px] between two lanes; each has a disc and a plate
 RUN_UP, STEPS, RUNS = 2, 60, 5  # steps before the plate; 300 timed steps
 RATIOS = (0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0)  # disc diameters per step
 WAYS = (("off", 1), ("ray", 1), ("swept", 1), ("toi", 1), ("auto", 1), *(("off", k) for k in (2, 4, 8, 16, 32)))
@@ -26,13 +27,15 @@ EFFECTS = Effects(response=True, continuous=True)
 
 
 def name_of(way: str, divided: int) -> str:
-    """Return the name of a method with its division of the step."""
+    """Return the name of a method in the chart: the kind of continuous collision, or the number of steps that a step is
+    divided into.
+    """
     return way if divided == 1 else f"{divided} steps in one"
 
 
 def starts(lanes: int, step: float) -> np.ndarray:
-    """Return the (lanes, 2) starts of discs: anywhere within the path of a step, at the plate's face, its ends or past
-    it.
+    """Return (lanes, 2) start positions [px] of the discs: at all phases of a step, and aimed at the plate's face, at
+    its ends or past it.
     """
     chance = np.random.default_rng(8)
     x = -RUN_UP * step - RADIUS - WIDTH - step * (np.arange(lanes) + 0.5) / lanes
@@ -41,8 +44,8 @@ def starts(lanes: int, step: float) -> np.ndarray:
 
 
 def first_touch(aside: np.ndarray) -> np.ndarray:
-    """Return x [px] of a disc's centre at its first contact with the plate, for centres at these offsets; nan if it
-    never touches.
+    """Return x [px] of a disc's centre at its first contact with the plate, NaN if it never touches. aside: (n,)
+    distances [px] of the disc's path from the plate's middle.
     """
     beyond = np.maximum(np.abs(aside) - HALF, 0.0)
     reach = np.full(len(aside), np.nan)
@@ -52,7 +55,9 @@ def first_touch(aside: np.ndarray) -> np.ndarray:
 
 
 def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = True) -> World:
-    """Return a world of lanes with a disc and a plate each."""
+    """Return a world of lanes, each with a disc and a plate. way: kind of continuous collision; divided: number of
+    steps that a step of 1/60 s is divided into; ratio: disc diameters per step.
+    """
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
     if plates:
@@ -63,7 +68,9 @@ def world_of(way: str, divided: int, lanes: int, ratio: float, plates: bool = Tr
 
 
 def measure(ratio: float, lanes: int) -> list[Row]:
-    """Return a row per method: misses, false hits, and the delay of the reported contact."""
+    """Return a row for each method: missed hits, false hits, and the distance of the reported contact from the first
+    touch. ratio: disc diameters per step.
+    """
     step = ratio * 2.0 * RADIUS
     begin = starts(lanes, step)
     touch = first_touch(begin[:, 1] - APART * np.arange(lanes))
@@ -105,10 +112,10 @@ def measure(ratio: float, lanes: int) -> list[Row]:
 
 
 def measure_times(count: int) -> list[Row]:
-    """Return a row per method: the time of a step of 1/60 s with so many discs, one in ten near a plate, at ten sizes a
-    step.
+    """Return a row for each method: the time of 1/60 s of simulation with `count` discs that move ten diameters in it;
+    there is a plate for one in ten.
     """
-    ratio, spent = 10.0, {}  # sizes a step
+    ratio, spent = 10.0, {}  # diameters per step
     rates = {row["series"]: row for row in measure(ratio, 200)}
     with undisturbed():
         for turn in range(RUNS + 1):
@@ -135,7 +142,7 @@ def measure_times(count: int) -> list[Row]:
 
 
 def _traffic(way, divided, count, ratio):
-    """Return a world of discs that fly on over a field of plates, most of them without a hit."""
+    """Return a world of discs that fly through a field of plates; most of them hit no plate."""
     step = ratio * 2.0 * RADIUS
     world = World(EFFECTS, dt=1.0 / 60.0 / divided)
     chance = np.random.default_rng(9)
@@ -200,7 +207,7 @@ def _time_claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _expected(ratio):
-    """Return the expected share missed by a discrete test, over all offsets: the contact interval is a chord long."""
+    """Return the expected share of hits that a discrete test misses, averaged over all paths that meet the plate."""
     step = ratio * 2.0 * RADIUS
     aside = np.abs(np.linspace(0.0, HALF + RADIUS, 20_001))[:-1]
     beyond = np.maximum(aside - HALF, 0.0)

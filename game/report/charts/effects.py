@@ -1,4 +1,4 @@
-"""Chart 10: the ledger: changes that each effect of a scene makes in its bot's run, and its time per step."""
+"""Chart 10: benefit and cost of each effect: how a scene's run changes without the effect, and its time per step."""
 
 from collections.abc import Sequence
 
@@ -17,7 +17,9 @@ MICRO = 1e6
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return a row per effect. Its time is the median difference of steps made side by side."""
+    """Return a row for each effect of a scene. Its time is the median difference of steps with and without it, made
+    alternately.
+    """
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)

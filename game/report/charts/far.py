@@ -1,4 +1,4 @@
-"""Chart 9: the greatest distance from the origin at which a pile behaves as at the origin."""
+"""Chart 9: how far from the origin a pile still behaves as it does at the origin."""
 
 from collections import Counter
 from collections.abc import Sequence
@@ -14,7 +14,7 @@ from game.report.piles import overlap, stack, world_of
 from physics import World
 
 METER = 32.0  # [px]
-DISTANCES = (0.0, 1e3, 1e4, 1e5, 5000.0 * METER, 1e6, 1e7, 1e8, 1e9)  # [px], both ways
+DISTANCES = (0.0, 1e3, 1e4, 1e5, 5000.0 * METER, 1e6, 1e7, 1e8, 1e9)  # [px] in x and in y
 SOLVERS = ("sequential_impulse", "soft_step")
 STEPS, BOXES = 120, 10
 SIZE = 30.3  # [px] of a box: round numbers would be exact on the grid of a coarse float
@@ -23,16 +23,17 @@ ROUNDED = ("x", "y", "angle")
 
 
 def round_poses(world: World) -> None:
-    """Round the poses to float32, as if they were stored in it; all else stays float64."""
+    """Round the poses of all bodies to float32, as if stored so; everything else stays float64."""
     for name in ROUNDED:
         world.bodies[name] = world.bodies[name].astype(np.float32)
     world.touch(world.bodies["id"])
 
 
 def measure(solver: str) -> list[Row]:
-    """Return two rows per distance: error of the boxes' positions against the run at the origin, and their overlap,
-    with poses as they are and rounded after every step. There is no solver in float32, so only the first row has a
-    time.
+    """Return two rows for each distance, with poses in float64 and with poses rounded to float32 after every step:
+    greatest distance of a box from its place in the run at the origin, and overlap.
+
+    Only float64 rows have a time, because no solver works in float32.
     """
     steps, rows, near = {}, {}, None
     for single in (False, True):

@@ -1,7 +1,7 @@
-"""Chart 5: cost of a second of motion, and its error against the closed form, over the length of a step.
+"""Chart 5: cost of a second of motion, and its error against the closed form, for several lengths of the step.
 
-Slopes are level ground under tilted gravity. The setting is the length of the step: errors of first order halve with
-it, those of second order fall to a quarter.
+A slope is level ground under tilted gravity. A first-order error halves with the length of the step; a second-order
+error falls to a quarter.
 """
 
 from collections.abc import Callable, Sequence
@@ -20,21 +20,19 @@ from physics import Circle, Effects, Material, Polygon, Vec2, World
 G, SECONDS, RUNS = 320.0, 1.0, 5
 RATES = (30, 60, 120, 240, 480)  # steps a second
 SLOPE, FRICTION, SIZE = radians(30.0), 0.3, 16.0
-COPIES = 32  # side by side: with one body, the call would be most of the cost
+COPIES = 32  # bodies side by side: with a single one, the call would be most of the cost
 SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
 class Case(NamedTuple):
-    """The start of a body, and its pose after SECONDS in closed form. ends: (position, velocity) of a copy that started
-    at 0, to the error [px].
-    """
+    """A motion with known result. error(position, velocity): error [px] of a body after SECONDS, if it started at 0."""
 
     effects: Effects
     solvers: tuple[str, ...]
     slope: float
     shape: Polygon | Circle
     material: Material
-    above: float  # [px] over the ground
+    above: float  # [px] height of the start over the ground
     error: Callable[[Vec2, Vec2], float]
 
 
@@ -54,9 +52,7 @@ DROP = 40.0  # [px]
 
 
 def _bounce(position, velocity):
-    """Return the error of a ball with restitution 1, whose potential and kinetic energy stay those of its start
-    [px].
-    """
+    """Return the error [px] of a ball with restitution 1: the height that its energy has gained or lost."""
     return abs(position.y - 0.5 * velocity.y**2 / G)
 
 
@@ -72,7 +68,9 @@ CASES = {
 
 
 def world_of(case: Case, solver: str, rate: int) -> World:
-    """Return a world of COPIES bodies in a row, too far apart to meet, on the ground or far above it."""
+    """Return a world of COPIES equal bodies, too far apart to meet, at the case's height over the ground. rate: steps
+    per second.
+    """
     gravity = (G * sin(case.slope), G * cos(case.slope))
     world = World(case.effects, solver=solver, gravity=gravity, dt=1.0 / rate, substeps=4)
     far = 40.0 * SIZE
@@ -83,7 +81,7 @@ def world_of(case: Case, solver: str, rate: int) -> World:
 
 
 def measure(case: str) -> list[Row]:
-    """Return a row per solver and step."""
+    """Return a row for each solver and each length of the step."""
     made, rows, spent = CASES[case], {}, {}
     ways = [(solver, rate) for solver in made.solvers for rate in RATES]
     for solver, rate in ways:
@@ -111,8 +109,8 @@ def measure(case: str) -> list[Row]:
 
 
 def order_of(rows: Sequence[Row]) -> tuple[float, float] | None:
-    """Return (power of dt by which an error grows, its standard error) by least squares on logarithms. Return None for
-    an error of rounding only, or for fewer than three steps.
+    """Return (order of the error p in dt^p, its standard error) by a least-squares fit of logarithms; None for fewer
+    than three lengths with more than a rounding error.
     """
     points = [(row["dt"], row["error"]) for row in rows if row["error"] > 1e-9 * G]
     return fit_power_law(points)[:2] if len(points) >= 3 else None

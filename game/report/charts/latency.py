@@ -1,6 +1,6 @@
-"""Chart 12: the time of the steps of every scene under its bot, including the slowest, and their memory.
+"""Chart 12: the time of the steps of every scene, played by its bot, up to the slowest step, and the memory they need.
 
-A step is that of the whole scene: bot, rules and physics, as `--headless` runs it, without drawing.
+A step is that of the whole scene, as `--headless` runs it without drawing: bot, rules and physics.
 """
 
 import tracemalloc
@@ -21,7 +21,7 @@ from game.run.warmup import warm_up_scene
 from game.scene import Scene
 
 BUDGET, HALF_BUDGET = 1000.0 / 60.0, 1000.0 / 120.0  # [ms] of a frame at 60 and 120 Hz
-RUNS, TRACED = 3, 30  # runs of which each step's least time counts; steps whose memory is traced
+RUNS, TRACED = 3, 30  # runs, of which each step's least time counts; steps whose memory is measured
 
 
 def scene_class(where: str) -> type[Scene]:
@@ -30,7 +30,9 @@ def scene_class(where: str) -> type[Scene]:
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return one row: percentiles of the step times. A step is the same in every run; its least time counts."""
+    """Return one row: percentiles of the scene's step times. All runs make the same steps; the least time of each step
+    counts.
+    """
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)
@@ -61,7 +63,7 @@ def measure(scene: str, where: str, frames: int) -> list[Row]:
 
 
 def _peaks(made, frames):
-    """Return (frames,) bytes: the peak of each step over its start."""
+    """Return, for each step, the greatest memory that it held in addition to that at its start, (frames,) [bytes]."""
     session, found = Session(made(0), BotSource()), []
     for _ in range(5):
         session.step()

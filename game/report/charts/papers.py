@@ -1,4 +1,6 @@
-"""Chart 15: claims of papers and manuals that no other chart measures: corners, iterations, persisting events."""
+"""Chart 15: claims of papers and manuals that no other chart tests: number of corners, GJK iterations, persist
+events.
+"""
 
 from collections.abc import Sequence
 from math import pi
@@ -19,7 +21,9 @@ SETTLE = 120
 
 
 def measure_corners() -> list[Row]:
-    """Return a row per number of corners, for pairs that touch and pairs of which only the boxes touch."""
+    """Return the cost of a pair of polygons: a row for each number of corners, for touching pairs ("hit") and for pairs
+    whose boxes alone overlap ("miss").
+    """
     chance = np.random.default_rng(10)
     works, pieces = {}, {}
     for corners in CORNERS:
@@ -49,7 +53,9 @@ def measure_corners() -> list[Row]:
 
 
 def measure_iterations() -> list[Row]:
-    """Return a row per shape: the GJK iterations of a time of impact, for discs and boxes that rotate in flight."""
+    """Return the mean number of GJK iterations per time of impact: a row for each number of corners of polygons that
+    rotate in flight.
+    """
     rows = []
     for corners in (4, 8, 16):
         angles = 2.0 * pi * np.arange(corners) / corners
@@ -81,7 +87,7 @@ def measure_iterations() -> list[Row]:
 
 
 def measure_events() -> list[Row]:
-    """Return a row each for a pyramid with and without reports of persisting contacts."""
+    """Return two rows with the cost of a step of a pyramid: with and without events for persisting contacts."""
     worlds = {}
     for name, effects in (("without", EFFECTS), ("with", EFFECTS.with_(persist=True))):
         world = world_of(pyramid(20), "soft_step", 4, effects)

@@ -1,7 +1,7 @@
-"""Chart 14: the same work in common libraries: pygame's rectangles and masks, pymunk's solver.
+"""Chart 14: the same work done by common libraries: pygame's rectangles and masks, pymunk's solver.
 
-pygame compares whole pixels, so positions are integers here; the truth is the set of masks with a common pixel, found
-for every pair.
+Sprites have integer positions, because pygame compares whole pixels. The truth is the set of pairs of masks that share
+a pixel; all pairs are tested for it.
 """
 
 from collections.abc import Callable, Sequence
@@ -22,7 +22,7 @@ from game.report.pymunk_piles import overlap_in, space_of
 from physics import DynamicTree, Effects, PixelMask, SpatialHashGrid, World
 
 SPRITES = ("player", "saucer_0", "gunship_0")
-SPACING = 30.0  # [px] per sprite: about one overlap each
+SPACING = 30.0  # [px] mean distance of sprites: about one overlap each
 RUNS = 5
 ITERATIONS = (2, 5, 10, 20, 40)  # of pymunk's solver
 SUBSTEPS = (1, 2, 4, 8, "auto")
@@ -45,12 +45,14 @@ class Traffic:
         self.group = pygame.sprite.Group(*(_sprite(*each) for each in zip(self.masks, self.rects, strict=True)))
 
     def rects_only(self) -> set[tuple[int, int]]:
-        """Return the pairs that overlap as rectangles, the usual first version of a game."""
+        """Return the pairs whose rectangles overlap: the usual first version of a game."""
         rects = self.rects
         return {(k, j) for k, rect in enumerate(rects) for j in rect.collidelistall(rects) if j > k}
 
     def masks_after_rects(self) -> set[tuple[int, int]]:
-        """Return the pairs of masks after a rectangle test: the fastest exact way in pygame alone."""
+        """Return the pairs whose masks overlap, tested only if the rectangles do: the fastest exact way in pygame
+        alone.
+        """
         rects, masks, found = self.rects, self.masks, set()
         for k, rect in enumerate(rects):
             for j in rect.collidelistall(rects):
@@ -65,7 +67,7 @@ class Traffic:
         return set(pygame.sprite.groupcollide(self.group, self.group, False, False, collide))  # pyright: ignore
 
     def all_pairs(self) -> set[tuple[int, int]]:
-        """Return all pairs of masks that overlap, without a rectangle test: slow, but certain."""
+        """Return all pairs of masks that overlap, without a rectangle test: slow, and used as the truth."""
         return {
             (k, j)
             for k in range(len(self.masks))
@@ -74,7 +76,7 @@ class Traffic:
         }
 
     def world(self, strategy: Any, tier: str) -> World:
-        """Return a world of all sprites, at rest."""
+        """Return a world of this project with all sprites. strategy: broad phase; tier: kind of collision shape."""
         world = World(Effects(), strategy)
         for k, (x, y) in zip(self.which, self.corners, strict=True):
             world.add_body(self.kinds[k], position=(x, y), kind="kinematic", tier=tier)
@@ -96,7 +98,7 @@ def _sprite(mask, rect):
 
 
 def measure_sprites(count: int) -> list[Row]:
-    """Return a row per method: the time to find all hits once, false hits and misses."""
+    """Return a row for each method: the time to find all hits once, and its false and missed hits."""
     traffic = Traffic(count)
     truth = traffic.all_pairs()
     ways: dict[str, Callable[[], set]] = {
@@ -149,8 +151,8 @@ def _step(world, speeds):
 
 
 def measure_piles(rows: int) -> list[Row]:
-    """Return a row per engine and effort: a pyramid that has stood for two seconds. Raises ModuleNotFoundError without
-    pymunk.
+    """Return a row for each engine and setting: overlap and step time of a pyramid after two seconds. Raises
+    ModuleNotFoundError if pymunk is missing.
     """
     made, found, steps = pyramid(rows), {}, {}
     for substeps in SUBSTEPS:

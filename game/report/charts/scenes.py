@@ -1,4 +1,6 @@
-"""Chart 13: every setting of a scene, at a moment of its bot's run, as in the game's live plot."""
+"""Chart 13: cost and error of every setting of each scene, measured at one state of the bot's run, as in the game's
+live plot.
+"""
 
 from collections.abc import Sequence
 
@@ -16,13 +18,13 @@ from game.run.sources import BotSource
 from game.run.warmup import warm_up_scene
 from physics.step import ignored_effects
 
-FRAME = 300  # of the moment: five seconds into the bot's run
+FRAME = 300  # frame whose state is measured: five seconds into the bot's run
 VISIBLE = 1.0  # [px]
 FEW = ("shooter", "lab/pyramid")
 
 
 def measure(scene: str, where: str) -> list[Row]:
-    """Return a row per setting and kind of error."""
+    """Return a row for each setting and each kind of error of a scene."""
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)

@@ -1,8 +1,8 @@
-"""Chart 4, parts of a solver: substeps times iterations, warm starting, the relaxing pass.
+"""Chart 4, the parts of a solver: substeps and iterations, warm starting, the relaxation pass.
 
-Settings of equal work, substeps times iterations, are joined by a line, which shows whether many substeps or many
+A line joins the settings of equal work (substeps times iterations), so that it shows whether many substeps or many
 iterations are better (Macklin et al., Small Steps in Physics Simulation, SCA 2019). Sequential impulses have no
-substeps: the whole step is divided, and contacts are found again in each part.
+substeps: the step is divided into shorter steps instead, each with its own collision detection.
 """
 
 from collections import Counter
@@ -23,12 +23,12 @@ from physics import World
 
 SOFT, SEQUENTIAL = "soft_step", "sequential_impulse"
 FEW, MANY = (1, 2, 4, 8), (1, 2, 4, 8, 16, 32)
-WORK = 8  # substeps times iterations, of the claims
+WORK = 8  # substeps times iterations of the settings that the claims compare
 LEAST = 0.01  # [px] smaller errors are rounding errors, whose ratio has no meaning
 
 
 class Parts(NamedTuple):
-    """The parts of a solver."""
+    """One combination of the parts of a solver. warm: with warm starting; relaxed: with the relaxation pass."""
 
     solver: str
     substeps: int
@@ -38,7 +38,7 @@ class Parts(NamedTuple):
 
     @property
     def series(self) -> str:
-        """Text of the parts, without numbers."""
+        """Name of the combination without its numbers."""
         words = [self.solver, *(() if self.warm else ("cold",)), *(() if self.relaxed else ("not relaxed",))]
         return ", ".join(words)
 
@@ -53,7 +53,7 @@ WAYS = (
 
 
 class Studied:
-    """A world with a solver of other parts."""
+    """A world that is stepped with one combination of solver parts instead of its own solver."""
 
     def __init__(self, parts: Parts, world: World) -> None:
         self.world, self.divided, stage = world, 1, studied.soft_step(parts.iterations, parts.warm, parts.relaxed)
@@ -63,7 +63,7 @@ class Studied:
         self.failures: Counter[str] | None = None  # counted only if the caller asks for it
 
     def step(self) -> None:
-        """Step the world with this solver."""
+        """Make one step of the world with these solver parts."""
         for _ in range(self.divided):
             advance(self.world, self.stages, self.world.dt / self.divided)
             if self.failures is not None:
@@ -71,7 +71,7 @@ class Studied:
 
 
 def measure(pile: str) -> list[Row]:
-    """Return a row per combination."""
+    """Return a row for each combination of parts in WAYS, for one pile."""
     made = PILES[pile]()
     steps, rows = {}, {}
     for parts in WAYS:
@@ -109,7 +109,7 @@ def jobs(scope: ReportScope) -> list[Job]:
 
 
 def panels(pile: str) -> list[Panel]:
-    """Return the panels: all combinations over their time; and each solver's lines of equal work."""
+    """Return the panels of a pile: all combinations over their time; and for each solver, lines of equal work."""
     error = Axis("off or overlapping by at most [px]", value("error"), mark=VISIBLE)
     mine = f"{pile}: parts"
     return [
@@ -129,7 +129,7 @@ def panels(pile: str) -> list[Panel]:
 
 
 def claims(rows: Sequence[Row]) -> Iterator[Claim]:
-    """Yield the claims of papers about substeps and warm starting, pile by pile."""
+    """Yield the claims of papers about substeps and warm starting, for each pile."""
     for pile in PILES:
         known = {Parts(*(row[name] for name in Parts._fields)): row for row in rows if row["panel"] == f"{pile}: parts"}
         if not known:
@@ -142,8 +142,8 @@ def claims(rows: Sequence[Row]) -> Iterator[Claim]:
 
 
 def beside(text: str, better: Row, worse: Row, source: str) -> Claim:
-    """Return the claim that one combination errs less than another, by more than a tenth; errors are facts, equal in
-    every run.
+    """Return the claim that the row `better` has an error at least a tenth below that of `worse`. Errors are the same
+    in every run, so that no interval is needed.
     """
     a, b = better["error"], worse["error"]
     figure = ", ".join(f"{row['error']:.3g} px in {1e6 * row['cost']['seconds'][1]:.3g} us" for row in (better, worse))

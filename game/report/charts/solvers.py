@@ -1,7 +1,8 @@
-"""Chart 4: cost of a pile per step, and its accuracy, by solver and substeps, and by the parts of a solver.
+"""Chart 4: cost of a step of a pile, and the pile's accuracy, for each solver, number of substeps, and combination of
+solver parts.
 
-The truth is rest: stacked boxes stay in place, so any rise or sag of the highest box, and any overlap, is an error. The
-question comes from Small Steps (Macklin et al. 2019).
+The truth is rest: stacked boxes stay in place, so that any rise or sag of the highest box, and any overlap, is an
+error. The question comes from Small Steps (Macklin et al. 2019).
 """
 
 from collections import Counter
@@ -24,7 +25,9 @@ WAYS = [
 
 
 def measure(pile: str, quick: bool) -> list[Row]:
-    """Return a row per setting of a world: two seconds of simulation, then the cost of the pile, standing or fallen."""
+    """Return a row for each setting: the pile's accuracy over two seconds, then the cost of a step, whether the pile
+    stands or has fallen.
+    """
     made = PILES[pile]()
     ways = [way for way in WAYS if not quick or way[1] not in (2, 16)]
     steps, rows = {}, {}

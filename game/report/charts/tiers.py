@@ -1,8 +1,7 @@
-"""Charts 1 and 3: cost per pair, error rate, memory and fit of each tier of a sprite.
+"""Charts 1 and 3: cost per pair, error rate, memory and fit of each tier (kind of collision shape) of a sprite.
 
-Poses come in three sets, because the share of hits and their depth decide every rate. These are: evenly around each
-other, half of them hits; within two pixels of touching, where tiers differ; and the shooter's own traffic
-(charts/traffic.py).
+Two sets of poses are measured, because the share of hits and their depth decide every rate: poses all around each
+other, about half of them hits; and poses within two pixels of touching, where tiers differ.
 """
 
 from collections.abc import Sequence
@@ -19,13 +18,15 @@ from physics import PixelMask, distance, fit
 
 BAND = 2.0  # [px] apart or deep: where tiers differ
 VISIBLE = 1.0  # [px]
-TRIED, TRIED_QUICK = 2000, 500  # poses whose distance is measured, of which some lie within the band
-LEAST_EACH = 20  # hits, and misses, that a set needs
+TRIED, TRIED_QUICK = 2000, 500  # random poses, of which those within the band are used
+LEAST_EACH = 20  # least number of hits, and of misses, in a set of poses
 AROUND, NEAR = "poses all around", "within 2 px of touching"
 
 
 def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
-    """Return poses whose exact distance is less than BAND. Raises ValueError for too few of either kind."""
+    """Return those of `tried` random poses at which the exact distance of the sprites is less than BAND. Raises
+    ValueError for fewer than LEAST_EACH hits or misses.
+    """
     poses = poses_around(first, second, tried, seed=1)
     a, b = fit(first, "mask")[0], fit(second, "mask")[0]
     gaps = np.array(
@@ -40,7 +41,7 @@ def poses_near(first: PixelMask, second: PixelMask, tried: int) -> Poses:
 
 
 def measure(atlas: str, name: str, tried: int) -> list[Row]:
-    """Return two rows per tier, one per set of poses, of a sprite against itself."""
+    """Return two rows for each tier of a sprite against itself, one for each set of poses."""
     mask, rows = mask_of(atlas, name), []
     for panel, poses in ((AROUND, poses_around(mask, mask)), (NEAR, poses_near(mask, mask, tried))):
         measure_at(mask, mask, poses, lambda figures, panel=panel: rows.append(_row(name, panel, figures)))
@@ -105,7 +106,9 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _fit_claims(rows: Sequence[Row]) -> list[Claim]:
-    """Return claims: the tiers that fit within a pixel (a fact); of those the smallest, and the fastest to build."""
+    """Return claims about the tiers that fit every sprite within a pixel: which needs the least memory, and which is
+    the fastest to build.
+    """
     rows = [row for row in rows if row["panel"] == AROUND]
     fits = {}
     for row in rows:
