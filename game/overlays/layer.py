@@ -10,9 +10,7 @@ LegendLine = tuple[Color, str]
 
 
 class Layer:
-    """Overlay layer. `key`: the key that switches the layer; `color`: colour of its check box and its first legend
-    line.
-    """
+    """Overlay layer. `key`: the key that switches it; `color`: colour of its check box and first legend line."""
 
     name: str
     title: str
@@ -28,9 +26,7 @@ class Layer:
         """
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw a world at the window's resolution; lens: maps world to frame coordinates. Called if `on_frame` is
-        True.
-        """
+        """Draw a world at the window's resolution; lens: maps world to frame coordinates. Called for `on_frame`."""
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
         """Draw a world on the canvas, as the camera shows it. Called if `on_canvas` is True."""

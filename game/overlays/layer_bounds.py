@@ -56,7 +56,7 @@ def outline(color: Color, width: int, height: int) -> pygame.Surface:
 
 
 class Bounds(Layer):
-    """The tight AABB of every shape: green if alone, orange in a candidate pair, red in contact, grey static, pink
+    """The tight AABB of every shape: green alone, orange in candidate pairs, red in contact, grey static, pink
     sensor.
     """
 

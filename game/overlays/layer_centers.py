@@ -1,6 +1,4 @@
-"""Centres of mass: for each body the point that it rotates about, its velocity, and its origin if that lies
-elsewhere.
-"""
+"""Centres of mass: for each body the point that it rotates about, its velocity, and its origin if elsewhere."""
 
 import numpy as np
 import pygame

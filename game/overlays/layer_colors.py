@@ -1,6 +1,4 @@
-"""Graph colouring of the contacts: contacts of one colour share no dynamic body, so that they can be solved in
-parallel.
-"""
+"""Graph colouring: contacts of one colour share no dynamic body, so they can be solved in parallel."""
 
 import numpy as np
 import pygame

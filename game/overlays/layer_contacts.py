@@ -19,7 +19,7 @@ COLORS = (FOG, GREEN, SKY, PINK, SLATE)
 
 
 class Contacts(Layer):
-    """A dot for each contact point, in the colour of its state, with the normal from shape A to shape B and the depth
+    """A dot for each contact point, in the colour of its state, with its normal from shape A to B and its depth
     [px].
     """
 

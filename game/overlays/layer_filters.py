@@ -1,6 +1,4 @@
-"""Collision filters: shapes with the same filter (membership and mask) have the same colour; the legend says which may
-collide.
-"""
+"""Collision filters: shapes with equal membership and mask have the same colour; the legend says which may collide."""
 
 import numpy as np
 

@@ -1,6 +1,4 @@
-"""Times of impact: the poses at which fast bodies hit during a step, and the poses that they would have reached
-otherwise.
-"""
+"""Times of impact: the poses at which fast bodies hit during a step, and the poses they would have reached."""
 
 import numpy as np
 import pygame
@@ -72,9 +70,7 @@ class Ghosts(Layer):
         return kept
 
     def _fresh(self, world):
-        """Return the impacts of the last step: each with its body's outlines at the impact and at the pose without
-        it.
-        """
+        """Return the impacts of the last step: the body's outlines at the impact and at the pose without it."""
         ghosts = debug.impact_ghosts(world)[:GHOST_BUDGET]
         bodies, shapes = world.bodies, world.shapes
         ids = np.ascontiguousarray(bodies["id"])

@@ -1,6 +1,4 @@
-"""Invariants of the simulation: eleven indicators, U1 to U11, green (holds), red (broken) or grey (off), and a
-message.
-"""
+"""Invariants of the simulation: eleven indicators, U1 to U11: green (holds), red (broken), grey (off)."""
 
 from collections.abc import Iterator
 

@@ -1,6 +1,4 @@
-"""Islands: groups of bodies connected by contacts, which are solved together and fall asleep together when all are at
-rest.
-"""
+"""Islands: groups of bodies connected by contacts, which are solved together and sleep when all are at rest."""
 
 from collections.abc import Sequence
 from math import ceil, floor
@@ -61,9 +59,7 @@ class Islands(Layer):
             self.labels.append(("z", x, y - 2 * frame.text_scale, FOG))
 
     def _draw_hulls(self, frame, lens, boxes, islands, asleep):
-        """Draw the translucent hulls, each on a surface of the hull's size; one of the picture's size would cost 2
-        ms.
-        """
+        """Draw the translucent hulls, each on its own small surface; one of the picture's size costs 2 ms."""
         members = np.flatnonzero(islands >= 0)
         if len(members) == 0:
             return
@@ -92,9 +88,7 @@ class Islands(Layer):
 
 
 def hull_of(points: np.ndarray) -> list[list[float]]:
-    """Return approximate corners of the convex hull of (n, 2) points: the farthest point in each of DIRECTIONS
-    directions.
-    """
+    """Return corners of the approximate hull of (n, 2) points: the farthest one in each of DIRECTIONS directions."""
     angles = np.arange(DIRECTIONS) * (2 * np.pi / DIRECTIONS)
     ways = np.column_stack((np.cos(angles), np.sin(angles)))
     return points[np.argmax(points @ ways.T, axis=0)].tolist()

@@ -61,9 +61,7 @@ class Masks(Layer):
         draw_lines(frame.surface, lens, edges.outer, WHITE, max(1, frame.scale - 1))
 
     def draw_on_canvas(self, canvas: Canvas, camera: Camera, world: World) -> None:
-        """Draw the masks of a world on the canvas. A zoomed view is skipped, because its pixels are not those of the
-        mask.
-        """
+        """Draw the masks of a world on the canvas. A zoomed view is skipped: its pixels are not mask pixels."""
         if camera.zoom != 1.0:
             return
         left, top = camera.view()
@@ -127,7 +125,7 @@ class Masks(Layer):
         return image
 
     def _tinted(self, solid, palette):
-        """Return the image of a mask, cached by the id of its array. The cache keeps the array, so that the id stays
+        """Return the image of a mask, cached by the id of its array, which the cache keeps so that the id stays
         valid.
         """
         kept, image = self.tinted.get((id(solid), palette), (None, None))

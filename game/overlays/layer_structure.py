@@ -1,6 +1,4 @@
-"""Data structure of the broad phase: cells of the hash grid, boxes of the tree coloured by depth, or intervals of the
-sweep.
-"""
+"""Structure of the broad phase: cells of the grid, boxes of the tree coloured by depth, or intervals of the sweep."""
 
 from collections.abc import Iterable
 

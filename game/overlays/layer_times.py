@@ -45,9 +45,7 @@ class Table(NamedTuple):
 
 
 class Times(Layer):
-    """Stage times of a scene. Call note(scene) once per step; draw_graph() draws the graph and the tables into a
-    rect.
-    """
+    """Stage times of a scene. Call note(scene) once per step; draw_graph() draws graph and tables into a rect."""
 
     name, title, key, color = "times", "Stage times", "8", GOLD
 
@@ -160,7 +158,7 @@ class Times(Layer):
             pygame.draw.line(frame.surface, SLATE, (plot.left, y), (plot.right - 1, y))
 
     def _scroll(self, size, top, palette):
-        """Update the image of the bars (`sheet`): scroll it and paint the new steps; paint all if its size or scale
+        """Update the image of the bars: scroll it and paint the new steps, or paint all if its size or scale
         changed.
         """
         column = max(1, size[0] // HISTORY)

@@ -1,6 +1,4 @@
-"""Outlines of masks as lines: the outer edges, which collide, and the inner seams between the convex parts, which do
-not.
-"""
+"""Outlines of masks as lines: the outer edges, which collide, and the seams between convex parts, which do not."""
 
 from math import ceil, pi
 from typing import NamedTuple

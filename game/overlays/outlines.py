@@ -1,6 +1,4 @@
-"""Drawing of thin lines around shapes of every kind, from the outlines that physics.debug returns; used by overlays and
-labs.
-"""
+"""Thin lines around shapes of every kind, from the outlines that physics.debug returns; used by overlays and labs."""
 
 from collections.abc import Sequence
 from itertools import pairwise
@@ -132,9 +130,7 @@ def draw_lines(surface: pygame.Surface, lens: Lens, lines: np.ndarray, color: Co
 
 
 def _draw_ticks(surface, clip, points, color, scale):
-    """Draw hatching on the solid side of a chain, which is opposite to its normals. points: the chain's corners [frame
-    px].
-    """
+    """Draw hatching on the solid side of a chain, which is opposite to its normals. points: its corners [frame px]."""
     room = clip.inflate(8 * scale, 8 * scale)
     left = TICK_BUDGET
     for (ax, ay), (bx, by) in pairwise(points):

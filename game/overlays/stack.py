@@ -81,9 +81,7 @@ class Overlays:
         self.on = set() if self.on else {layer.name for layer in self.layers}
 
     def note(self, scene: Scene) -> None:
-        """Record a step; call it after every step. Monitoring of the invariants starts one step after they are
-        shown.
-        """
+        """Record a step; call it after every step. Invariants are monitored from one step after they are shown."""
         self.times.note(scene)
         self.invariants.note(scene.monitor)
         if "disagreement" in self.on:
@@ -91,9 +89,7 @@ class Overlays:
         self.watch(scene)
 
     def watch(self, scene: Scene) -> None:
-        """Start monitoring the invariants of the scene if they are shown; stop it if they are not and the run is not
-        strict.
-        """
+        """Start monitoring the invariants of the scene if they are shown; stop it if not, unless the run is strict."""
         shown = "invariants" in self.on
         if shown and scene.monitor is None:
             scene.watch_invariants()
@@ -101,9 +97,7 @@ class Overlays:
             scene.watch_invariants(False)
 
     def shows_geometry(self) -> bool:
-        """Return whether a layer that draws on the world is on. Sprites must then be drawn at the shapes' exact
-        poses.
-        """
+        """Return whether a layer that draws on the world is on. Sprites are then drawn at exact poses."""
         return bool(self.on - {"times", "invariants"})
 
     def draw_on_canvas(self, canvas: Canvas, scene: Scene) -> None:
@@ -155,9 +149,7 @@ class Overlays:
         self._draw_legend(frame, area, legend_at, scale)
 
     def _draw_invariants(self, frame, area, scale):
-        """Draw the strip of invariants, centred, as close to the bottom or top as is free, and in as few rows as
-        fit.
-        """
+        """Draw the strip of invariants, centred, close to the bottom or top, in as few rows as fit."""
         for size in self.invariants.sizes(frame):
             margin = 4 * scale
             top, bottom = area.top + margin, area.bottom - size[1] - margin
@@ -175,9 +167,7 @@ class Overlays:
         frame.reserve(rect)
 
     def _draw_legend(self, frame, area, legend_at, scale):
-        """Draw the legend at a free place. If it does not fit, shorten it; its last line then counts the lines left
-        out.
-        """
+        """Draw the legend at a free place. If shortened to fit, its last line counts the lines left out."""
         lines = self.legend()
         for room in (len(lines), *(count for count in SHORTER if count < len(lines))):
             if not lines:
@@ -235,9 +225,7 @@ def draw_legend(frame: Frame, lines: Sequence[LegendLine], x: int, y: int, scale
 
 
 def _corners(area, size, margin):
-    """Return the places to try for a box in an area: corners, middles of the sides, then down the left and right
-    edges.
-    """
+    """Return the places to try for a box in an area: corners, middles of sides, then down the left and right edges."""
     left, right = area.left + margin, area.right - size[0] - margin
     top, bottom = area.top + margin, area.bottom - size[1] - margin
     middle_x, middle_y = (left + right) // 2, (top + bottom) // 2

@@ -1,3 +1,1 @@
-"""`--report DIR`: measure accuracy against time, and write one page of charts. Each measurement is a job, stored at
-once.
-"""
+"""`--report DIR`: measure accuracy against time in jobs, whose results are kept, and write one page of charts."""

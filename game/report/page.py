@@ -22,9 +22,7 @@ PAGE = Path(__file__).with_name("page.html")
 
 
 class Measured(NamedTuple):
-    """A chart with the results of its jobs. failed: {name of a job: reason}; left: number of jobs that have not run
-    yet.
-    """
+    """A chart with the results of its jobs. failed: {name of a job: reason}; left: number of jobs not yet run."""
 
     chart: Chart
     rows: list[Row]  # each with the name of its job under "job"

@@ -67,9 +67,7 @@ def crooked(count: int, seed: int = 1, aside: float = 0.64) -> Pile:
 
 
 def card_house(storeys: int) -> Pile:
-    """Return a card house: pairs of cards that lean on each other, with planks on them, in `storeys` storeys; as in
-    lab/card_house.
-    """
+    """Return a card house: pairs of cards that lean on each other, with planks on them, as in lab/card_house."""
     reach, rise = CARD * sin(LEAN), CARD * cos(LEAN)
     apart, storey = 2.0 * (reach + 2.0 * THICK) + 1.0, rise + 2.0 * THICK + PLANK
     card, plank = Capsule((-CARD / 2, 0), (CARD / 2, 0), THICK), Polygon.box(apart - 0.5, PLANK)

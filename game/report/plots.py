@@ -39,9 +39,7 @@ class Dot(NamedTuple):
 
 @cache
 def library() -> Any:
-    """Return matplotlib's Figure class, which draws without a window. Raises UsageError if matplotlib is not
-    installed.
-    """
+    """Return matplotlib's Figure class, which draws without a window. Raises UsageError without matplotlib."""
     try:
         import matplotlib
         from matplotlib.figure import Figure

@@ -28,9 +28,7 @@ from physics.background import compile_jobs
 
 
 def run_report(options: Options, registry: Registry) -> int:
-    """Run the jobs and write the page. Return the exit code: 1 if a job failed. Raises UsageError if the report cannot
-    begin.
-    """
+    """Run the jobs; write the page. Return the exit code: 1 if a job failed. Raises UsageError if it cannot begin."""
     assert options.report is not None
     library()  # matplotlib is required before anything is measured
     start_dummy_display()

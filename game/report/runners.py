@@ -56,9 +56,7 @@ def run_in_processes(jobs: Sequence[Job], workers: int) -> Iterator[Row]:
 
 
 def _serve(waiting, found, running, stopped):
-    """Run jobs of the queue `waiting` in a worker process, and put results into `found`. A process that dies is
-    replaced.
-    """
+    """Run jobs of the queue `waiting` in a worker process; put results into `found`. A dead process is replaced."""
     process: Any = None
     while not stopped.is_set():
         try:

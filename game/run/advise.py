@@ -24,9 +24,7 @@ EVERY = 2.0  # [s] between two lines of progress
 
 
 def run_advice(options: Options, registry: Registry) -> int:
-    """Measure the settings, and print the advice. Return the exit code: 1 if no setting has an error within the allowed
-    one.
-    """
+    """Measure the settings, and print the advice. Return the exit code: 1 if no setting is within the allowed error."""
     start_dummy_display()
     warm_up_scene(scene_class_of(options, registry), options.broadphase, options.solver)
     error = VISIBLE if options.error is None else options.error

@@ -26,17 +26,13 @@ class Beside:
         self.background: Background | None = None
 
     def _all_scenes(self, registry) -> Iterator[type[Scene]]:
-        """Yield the scene classes one by one. Each is imported only when it is asked for; scenes with errors are
-        skipped.
-        """
+        """Yield the scene classes one by one. Each is imported when it is due; scenes with errors are skipped."""
         for name in registry.names:
             with contextlib.suppress(UsageError):
                 yield registry.scene_class(name)
 
     def start(self, plays: bool = False) -> None:
-        """Start compilation in the background, if it has not begun. plays: a scene is running, so leave one core to
-        it.
-        """
+        """Start compilation in the background, if it has not begun. plays: leave one core to the running scene."""
         if self.background is None and physics.JIT:
             self.background = physics.compile_in_background(self.cores)
         if self.background is not None:

@@ -1,6 +1,4 @@
-"""Digest (hash) of the complete state of a scene: all worlds in build order, the scene's own state, and its random
-generator.
-"""
+"""Digest (hash) of a scene's complete state: all worlds in build order, its own state, and its random generator."""
 
 import struct
 from hashlib import blake2b

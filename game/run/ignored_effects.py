@@ -75,9 +75,7 @@ def _size(frame, rows, scale):
 
 
 def _places(area, size, scale):
-    """Yield (x, y) places for a box from the bottom of an area to its top, first at the left edge, then at the right
-    edge.
-    """
+    """Yield (x, y) places for a box, from the bottom of an area up, first at the left edge, then at the right edge."""
     step, edge = LINE * scale, EDGE * scale
     for x in (area.left + edge, area.right - size[0] - edge):
         for y in range(area.bottom - size[1] - edge, area.top - 1, -step):

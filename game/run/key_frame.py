@@ -65,9 +65,7 @@ def bytes_held(frames: Iterable[KeyFrame]) -> int:
 
 
 def table_of(rows: np.ndarray, capacity: int) -> Table:
-    """Return a table of this capacity with these rows. It is called on unpickling: a pickle holds only the rows in
-    use.
-    """
+    """Return a table of this capacity with these rows. Called on unpickling: a pickle holds the used rows only."""
     table = Table(rows.dtype, capacity)
     table.append(len(rows)).view(np.uint8)[:] = rows.view(np.uint8)
     return table

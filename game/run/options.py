@@ -12,9 +12,7 @@ DEFAULT_FRAMES = 600  # of a headless run without --frames: ten seconds
 
 @dataclass
 class Options:
-    """Checked options: a field for each flag of the command line. `recording` is the content of the file that --replay
-    names.
-    """
+    """Checked options, a field for each command-line flag. `recording`: content of the file that --replay names."""
 
     list: bool = False
     scene: str | None = None
@@ -51,9 +49,7 @@ class Options:
 
     @property
     def played_by_bot(self) -> bool:
-        """True if the scene's bot plays, or played the recording that is replayed. Only then are the scene's goals
-        checked.
-        """
+        """True if the scene's bot plays, or played the recording that is replayed. Only then are its goals checked."""
         return self.bot or bool(self.recording and self.recording.bot)
 
     @property

@@ -133,7 +133,7 @@ def judge(scene: Scene, frames: int, extra: Iterable[str] = ()) -> Check:
 
 
 def not_judged(scene: Scene, extra: Iterable[str] = ()) -> Check:
-    """Return {ok, failures, pending} of a run that no bot played: all goals are pending; extra: failures found by
+    """Return {ok, failures, pending} of a run that no bot played. All goals are pending; extra: failures of
     --strict.
     """
     return {"ok": not extra, "failures": list(extra), "pending": [goal.name for goal in scene.check()]}

@@ -88,9 +88,7 @@ def keep(path: Path) -> Path:
 
 
 def read_shelf_entry(path: Path, registry: Registry) -> tuple[Replay | None, str]:
-    """Read a replay. Return (replay, ""), or (None, reason in one line) if the file is damaged or no scene can play
-    it.
-    """
+    """Read a replay. Return (replay, ""), or (None, reason) if the file is damaged or no scene can play it."""
     try:
         return load_replay_for(path, registry)[0], ""
     except FileError as error:

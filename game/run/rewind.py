@@ -111,9 +111,7 @@ class Rewind:
         return 0 if self.session.scene.result is None else self.position - self.ended_at + 1
 
     def note(self) -> None:
-        """Record a step of the session. Raises ValueError if the step was made after a seek into the past without
-        drop_future().
-        """
+        """Record a step of the session. Raises ValueError after a seek into the past without drop_future()."""
         if not self.live:
             raise ValueError(f"step {self.position} of {self.end} is not the last: drop_future() before it is made")
         session, last = self.session, self.stretches[-1]
@@ -218,8 +216,6 @@ class Rewind:
 
 
 def _weight(scene):
-    """Return the size of the scene's largest tables plus FIXED [bytes]; the cost of a key frame is proportional to
-    it.
-    """
+    """Return the size of the scene's largest tables plus FIXED [bytes]; a key frame costs time in proportion."""
     tables = ((world.bodies, world.shapes, world.contact_rows) for world in scene.worlds)
     return FIXED + sum(table.nbytes for each in tables for table in each)

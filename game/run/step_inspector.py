@@ -95,9 +95,7 @@ class StepInspector:
             self.world.stepped_by = None
 
     def _make(self, world, dt):
-        """Make a step of the world, aborted after stage number `stop`; the scene calls this instead of the normal
-        step.
-        """
+        """Make a step of the world up to stage number `stop`. The scene calls this instead of the normal step."""
         with closing(staged_step(world, dt)) as steps:
             for stage in steps:
                 if stage is None:

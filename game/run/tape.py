@@ -57,9 +57,7 @@ class Tape:
         return self.position >= self.length
 
     def step(self) -> None:
-        """Play one frame; after the last frame do nothing. A difference from the recording is noted, and playback
-        continues.
-        """
+        """Play one frame, if any is left. A difference from the recording is noted, and playback continues."""
         if self.ended:
             return
         try:

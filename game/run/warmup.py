@@ -79,9 +79,7 @@ def pieces_of(scene_class: type[Scene]) -> tuple[str, ...] | None:
 
 
 def warm_up_all(registry: Registry, out: TextIO | None = None) -> int:
-    """Run --warmup: compile the kernels of every scene under every broad phase, with all cores. Return the exit
-    code.
-    """
+    """Run --warmup: compile the kernels of all scenes and broad phases, with all cores. Return the exit code."""
     stream: TextIO = sys.stdout if out is None else out
     started = perf_counter()
     classes = registry.all_classes()

@@ -282,9 +282,7 @@ class Play(SceneScreen):
         self.clock.request_step()
 
     def toggle_step_inspector(self) -> None:
-        """Freeze the game and inspect its next step stage by stage; if a step is being inspected, end the
-        inspection.
-        """
+        """Freeze the game and inspect its next step stage by stage; if one is inspected, end the inspection."""
         if self.step_inspector.open:
             self.step_inspector.leave()
         else:

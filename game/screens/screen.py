@@ -87,9 +87,7 @@ class CanvasScreen(Screen, ABC):
         """Draw the screen. alpha: interpolation between the last two steps, 0..1."""
 
     def turn(self, now: float, steps: Iterable[InputState], picture: Picture) -> Frame | None:
-        """Make the due steps, each with its input, until the screen is left; then draw the screen. Called once per
-        picture.
-        """
+        """Make the due steps, each with its input; then draw the screen. Stop early if the screen is left."""
         for inputs in steps:
             self.step(inputs, STEP_SECONDS)
             if self.outcome is not None:

@@ -226,9 +226,7 @@ class Screens:
         self.played = play
 
     def _bring_best(self, play):
-        """Pass the best run so far to the scene: its points and, in scenes ranked by time, its recorded path as a
-        ghost.
-        """
+        """Pass the best run so far to the scene: its points and, in scenes ranked by time, its path as a ghost."""
         scene = play.scene
         best = self.arcade.records.best(play.table)
         if best is not None:

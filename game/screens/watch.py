@@ -136,9 +136,7 @@ class Watch(SceneScreen):
 
     @property
     def shows_controls(self) -> bool:
-        """True while the controls are visible. They hide during undisturbed playback, so that they cover no part of the
-        game.
-        """
+        """True while the controls are visible. They hide during undisturbed playback, not to cover the game."""
         return self.clock.paused or self.alone < HIDE_SECONDS or self.tape.goal is not None or self.dragging
 
     def feed(self, event: pygame.event.Event) -> bool:

@@ -49,9 +49,7 @@ def clusters(rng: np.random.Generator, n: int) -> Places:
 
 
 def mixed(rng: np.random.Generator, n: int) -> Places:
-    """Return discs whose radii span 1 to 100 px, small ones more often, covering the same share of the area as
-    `even`.
-    """
+    """Return discs whose radii span 1 to 100 px, small ones more often, at the area density of `even`."""
     radii = np.round(100.0 ** (rng.random(n) ** 3), 1)  # rounded, so that few different shapes are needed
     side = math.sqrt(float((math.pi * radii**2).sum()) * SPACING**2 / (math.pi * RADIUS**2))
     return rng.uniform(0, side, (n, 2)), radii
@@ -171,9 +169,7 @@ def _claims(rows: Sequence[Row]) -> list[Claim]:
 
 
 def _of_papers(rows) -> Iterator[Claim]:
-    """Yield the claims of papers about broad phases, tested at NAIVE_LIMIT bodies, the largest size with the naive
-    baseline.
-    """
+    """Yield papers' claims about broad phases, at NAIVE_LIMIT bodies, the largest size with the naive baseline."""
     known = {(row["series"], row["layout"], row["moving"], row["n"]): row for row in rows}
 
     def beside(first, second):

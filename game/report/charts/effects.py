@@ -17,9 +17,7 @@ MICRO = 1e6
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return a row for each effect of a scene. Its time is the median difference of steps with and without it, made
-    alternately.
-    """
+    """Return a row for each effect of a scene. Its time is the median difference of steps with and without it."""
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)

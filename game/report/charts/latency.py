@@ -30,9 +30,7 @@ def scene_class(where: str) -> type[Scene]:
 
 
 def measure(scene: str, where: str, frames: int) -> list[Row]:
-    """Return one row: percentiles of the scene's step times. All runs make the same steps; the least time of each step
-    counts.
-    """
+    """Return one row: percentiles of the scene's step times. Runs make equal steps; each step's least time counts."""
     start_dummy_display()
     made = scene_class(where)
     warm_up_scene(made, None, None)

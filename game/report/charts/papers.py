@@ -1,6 +1,4 @@
-"""Chart 15: claims of papers and manuals that no other chart tests: number of corners, GJK iterations, persist
-events.
-"""
+"""Chart 15: claims of papers that no other chart tests: number of corners, GJK iterations, persist events."""
 
 from collections.abc import Sequence
 from math import pi

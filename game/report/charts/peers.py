@@ -50,9 +50,7 @@ class Traffic:
         return {(k, j) for k, rect in enumerate(rects) for j in rect.collidelistall(rects) if j > k}
 
     def masks_after_rects(self) -> set[tuple[int, int]]:
-        """Return the pairs whose masks overlap, tested only if the rectangles do: the fastest exact way in pygame
-        alone.
-        """
+        """Return the pairs whose masks overlap, tested after the rectangles: the fastest exact way in pygame."""
         rects, masks, found = self.rects, self.masks, set()
         for k, rect in enumerate(rects):
             for j in rect.collidelistall(rects):

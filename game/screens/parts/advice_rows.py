@@ -29,8 +29,8 @@ class AdviceRows:
         return self.tuner.on, len(self.tuner.decisions)
 
     def key(self, key: int) -> bool:
-        """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether the key was one of
-        these.
+        """Process a key: Page Up applies the advice, Page Down switches the tuner. Return whether it was one of
+        them.
         """
         if key == TAKE:
             self.take()

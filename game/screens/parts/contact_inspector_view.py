@@ -1,6 +1,4 @@
-"""Contact inspector: a click on a contact of the frozen scene opens a card on how each stage of the step treated that
-pair.
-"""
+"""Contact inspector: a click on a contact of the frozen scene opens a card on that pair in each stage of the step."""
 
 import pygame
 

@@ -1,6 +1,4 @@
-"""Panel that plots accuracy against cost in the running scene: each setting is a dot of its error over its time per
-step.
-"""
+"""Panel that plots accuracy against cost in the running scene: each setting is a dot of its error over its time."""
 
 from collections.abc import Callable
 
@@ -302,9 +300,7 @@ def kind_of(setting: Setting, base: Setting) -> str:
 
 
 def look_of(setting: Setting, base: Setting) -> tuple[Color, str]:
-    """Return (colour, form) of a setting's dot; a white circle for `base`, the setting in which the measured state was
-    taken.
-    """
+    """Return (colour, form) of a setting's dot; a white circle for `base`, the setting of the measured state."""
     return (PAPER, "circle") if setting == base else LOOKS[kind_of(setting, base)][1:]
 
 

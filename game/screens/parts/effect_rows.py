@@ -43,9 +43,7 @@ def kernels_text(known: EffectCost, busy: bool) -> str:
 
 
 def hint_of(known: EffectCost) -> str:
-    """Return a short description of the effect: whether the scene declares it, and its measured time with the
-    scatter.
-    """
+    """Return a short text about the effect: whether the scene declares it, and its measured time with the scatter."""
     price, noise = known.price, known.noise
     if price is None:
         return "declared" if known.declared else "absent"
@@ -54,7 +52,5 @@ def hint_of(known: EffectCost) -> str:
 
 
 def digits(seconds: float) -> int:
-    """Return the number of decimals to show for a time given in seconds and shown in microseconds: none from 10 us
-    on.
-    """
+    """Return the number of decimals for a time [s] that is shown in microseconds: none from 10 us on."""
     return 0 if abs(seconds) >= 1e-5 else 1

@@ -14,9 +14,7 @@ GAP = 8
 
 
 class Initials:
-    """Three letters. `done`: the player accepted them. `at`: the selected letter 0..2, or 3 for the OK button beside
-    them.
-    """
+    """Three letters. `done`: the player accepted them. `at`: the selected letter 0..2, or 3 for the OK button."""
 
     def __init__(self, text: str, x: int, y: int, cues: list[str]) -> None:
         self.letters = list(text)

@@ -86,9 +86,7 @@ class LabCard:
         frame.fix(self.rect)
 
     def _lines(self, width, scale, room):
-        """Return the card's lines from top to bottom. width: of a line [frame px]; room: height for all lines [text
-        px].
-        """
+        """Return the card's lines from top to bottom. width: of a line [frame px]; room: their height [text px]."""
         lines = [Line(text, GOLD, TEXT) for text in wrap(self.text.question, width, TEXT, scale)]
         for section, words, ink in zip(SECTIONS, self.text[1:], INKS, strict=True):
             words = words if section == SECTIONS[0] else f"{section}: {words}"
@@ -159,9 +157,7 @@ def height_of(lines: Iterable[Line]) -> int:
 
 
 def least_covering(frame: Frame, area: pygame.Rect, size: tuple[int, int]) -> pygame.Rect:
-    """Return the place of a rect of this size in an area, chosen from a grid of places, where it covers the least
-    text.
-    """
+    """Return the rect of this size in an area, out of a grid of places, that covers the least text."""
     spare = area.width - size[0], area.height - size[1]
     places = [
         pygame.Rect(area.x + spare[0] * column // GRID, area.y + spare[1] * row // GRID, *size)

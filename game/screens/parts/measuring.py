@@ -1,6 +1,4 @@
-"""Measurements of a scene while it is played: starts them in background processes, and applies the settings they
-recommend.
-"""
+"""Measurements of a scene while it is played, made in background processes, and changes of its setting."""
 
 from collections.abc import Hashable, Sequence
 from operator import is_
@@ -123,9 +121,7 @@ class Measuring:
         self.surveyor.measure(self.world.snapshot(), self.world.broadphase.name)
 
     def close(self) -> None:
-        """Stop measuring settings, unless the tuner is on. Results are kept, and extended when the panel is opened
-        again.
-        """
+        """Stop measuring settings, unless the tuner is on. Results are kept, and extended when the panel reopens."""
         if self.tuner.on:
             return
         self.surveyor.stop()
@@ -139,9 +135,7 @@ class Measuring:
         self.ledger.stop()
 
     def apply(self, setting: Setting) -> str:
-        """Apply a setting to the scene as input of the next step, so that a recording contains it. Return a line to
-        show.
-        """
+        """Apply a setting as input of the next step, so that recordings contain it. Return a line to show."""
         now, changes = self.now(), self._changes(setting)
         if isinstance(changes, str):
             return changes
@@ -166,25 +160,19 @@ class Measuring:
         self.race = self.split = None
 
     def toggle_split(self) -> str:
-        """Change between a split screen and the rival drawn over the scene. Return "", or a line to show if there is no
-        race.
-        """
+        """Change between split screen and rival drawn over the scene. Return "", or a line to show without a race."""
         if self.race is None:
             return "no race: the panel starts one, or Shift and a click in the plot of costs"
         self.split = None if self.split is not None else SplitScreen(self.race)
         return ""
 
     def rivals(self) -> list[Setting]:
-        """Return the settings that differ from the current one in one part and that the scene can run under in a
-        race.
-        """
+        """Return the settings that differ from the current one in one part and that the scene can be raced under."""
         found = settings_around(self.now(), self.world.effects)[1:]
         return [setting for setting in found if not isinstance(self._changes(setting), str)]
 
     def _changes(self, setting):
-        """Return the (name, value) changes that bring the scene to a setting, or a sentence that says why that is
-        impossible.
-        """
+        """Return the (name, value) changes that bring the scene to a setting, or a sentence on why it is impossible."""
         changes = []
         for name in setting.differs(self.now()):
             change = self._change(self.scene, name, getattr(setting, name))

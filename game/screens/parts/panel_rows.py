@@ -15,9 +15,7 @@ LEAP = 60  # steps that a press of the row "Rewind" goes back
 
 
 def play_rows(play: Played) -> list[Row]:
-    """Return the rows for a Play screen. Rows that belong to this scene come first, so that they are visible in any
-    window.
-    """
+    """Return the rows for a Play screen. Rows of this scene come first, so that they are visible in any window."""
     scene = play.scene
     return [
         Row(HEAD, scene.title),
@@ -117,9 +115,7 @@ def _switches(play, scene):
 
 
 def _solver_hint(scene):
-    """Return the hint of the solver row: the declared effects that the solver ignores, or else the purpose of a
-    solver.
-    """
+    """Return the hint of the solver row: the effects that the solver ignores, or else its purpose."""
     ignored = ignored_effects(scene)
     return f"ignores {', '.join(map(plain_name, ignored))}" if ignored else "how overlaps are resolved"
 

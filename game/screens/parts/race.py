@@ -1,6 +1,4 @@
-"""The race: the played scene and a rival, which is the same scene under another setting, with the same seed and
-input.
-"""
+"""The race: the played scene and a rival, which is the same scene under another setting, with equal seed and input."""
 
 from collections import deque
 from dataclasses import replace
@@ -78,9 +76,7 @@ class Race:
         self.seen = np.union1d(self.seen, np.union1d(ours["id"], theirs["id"]))
 
     def gaps(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the positions of the bodies that both scenes have, [px]: an (n, 2) array in the scene, and one in the
-        rival.
-        """
+        """Return the positions of the bodies that both scenes have [px]: (n, 2) in the scene, (n, 2) in the rival."""
         ours, theirs = self.scene.world.bodies, self.rival.world.bodies
         mine, other = (np.flatnonzero(np.isin(rows["id"], self.same)) for rows in (ours, theirs))
         mine, other = mine[np.argsort(ours["id"][mine])], other[np.argsort(theirs["id"][other])]
@@ -92,9 +88,7 @@ class Race:
         return np.hypot(*(ours - theirs).T)
 
     def report_lines(self) -> list[str]:
-        """Return three lines: setting and time of the scene, setting and time of the rival, and the distance between
-        them.
-        """
+        """Return three lines: setting and time of the scene, the same of the rival, and their distance."""
         now, other = (here_of(each.world, each.tier) for each in (self.scene, self.rival))
         apart = self.distances()
         rms = self.apart[-1] if self.apart else 0.0
@@ -108,9 +102,7 @@ class Race:
         ]
 
     def draw(self, frame: Frame) -> None:
-        """Draw the rival's outlines over the scene, a line from each displaced body to its counterpart, and the
-        figures.
-        """
+        """Draw the rival's outlines, a line from each displaced body to its counterpart, and the figures."""
         world, camera = self.scene.views()[0]
         lens = frame.lens(camera)
         frame.surface.set_clip(lens.clip)

@@ -80,9 +80,7 @@ class StepInspectorView:
         return list({id(world): world for world, _ in self.session.scene.views()}.values())
 
     def enter(self, world: int = 0) -> str:
-        """Start to inspect the next step of a world (an index in worlds()). Return "", or the reason if that is
-        impossible.
-        """
+        """Start to inspect the next step of a world (an index in worlds()). Return "", or why that is impossible."""
         self.leave()
         if self.rewind is None:
             return "a recording is only watched"
@@ -104,7 +102,7 @@ class StepInspectorView:
             self.overlays.watch(self.session.scene)
 
     def feed(self, event: pygame.event.Event, button: str | None) -> bool:
-        """Process an event; return whether it was used. A key that neither the inspector nor the overlays use ends the
+        """Process an event; return whether it was used. A key without function here or in the overlays ends the
         inspection.
         """
         step = self.step
@@ -130,9 +128,7 @@ class StepInspectorView:
         return True
 
     def _turn_world(self, way):
-        """Inspect the step of the next visible world (`way` 1; -1: the previous one) that makes a step in this
-        frame.
-        """
+        """Inspect the next visible world (`way` 1; -1: the previous one) that makes a step in this frame."""
         here, count = self.world, len(self.worlds())
         for number in range(1, count + 1):
             if not self.enter(here + way * number):
@@ -140,9 +136,7 @@ class StepInspectorView:
 
     @contextmanager
     def showing(self) -> Iterator[None]:
-        """Turn on, within the context, the overlays that show the results of the last stage, besides those that are
-        on.
-        """
+        """Turn on, within the context, the overlays that show the results of the last stage."""
         overlays, chosen = self.overlays, self.overlays.on
         if self.step is not None and self.step.done is not None:
             overlays.on = chosen | set(SHOWN.get(self.step.done.stage.stage, ()))
@@ -228,9 +222,7 @@ class StepInspectorView:
         frame.fix(rect)
 
     def _place(self, frame, area, size):
-        """Return the card's place: a top corner, chosen once per step as the one where the card covers the least
-        text.
-        """
+        """Return the card's place: a top corner, chosen once per step, where it covers the least text."""
         corners = area.left, area.right - size[0]
         if self.corner is None:
             narrow = pygame.Rect(area.x, area.y, area.width, min(area.height, size[1]))
@@ -267,9 +259,7 @@ class StepInspectorView:
 
 
 def described(done: Done) -> list[tuple[str, str]]:
-    """Return (heading, text) pairs about a stage: what it changed and counted, and which fields it declares to read and
-    write.
-    """
+    """Return (heading, text) pairs about a stage: what it changed and counted, and its declared fields."""
     changes = [f"{name} {new}, were {old}" for name, old, new in done.rows]
     for name, rows, columns in done.changed:
         of = f" ({' '.join(columns)}) of" if columns else ""

@@ -15,9 +15,7 @@ LARGEST = (220, 84)  # [canvas px] greatest size of an example; a taller one lea
 
 
 def subject_of(scene: Scene, layer: str) -> pygame.Rect | None:
-    """Return the best example of a layer as a canvas rect that is completely visible; None if this step has no
-    example.
-    """
+    """Return the best example of a layer as a completely visible canvas rect; None if this step has none."""
     for world, camera in scene.views():
         for rect in _on_canvas(SUBJECTS[layer](world), camera):
             return rect
@@ -72,9 +70,7 @@ def moving(world: World) -> np.ndarray:
 
 
 def kept(world: World) -> np.ndarray:
-    """Return (n, 4) cells or boxes of the broad phase's structure that hold a shape, those with the most shapes
-    first.
-    """
+    """Return (n, 4) cells or boxes of the broad phase's structure that hold shapes, the fullest first."""
     rows, boxes = debug.structure(world).rects, debug.bounds(world)
     x, y = (boxes[:, 0] + boxes[:, 2]) / 2, (boxes[:, 1] + boxes[:, 3]) / 2
     inside = (rows[:, :1] <= x) & (x <= rows[:, 2:3]) & (rows[:, 1:2] <= y) & (y <= rows[:, 3:])
@@ -91,9 +87,7 @@ def shared_pixels(world: World) -> np.ndarray:
 
 
 def piled_up(world: World) -> np.ndarray:
-    """Return (n, 4) boxes, each around all bodies of an island of at least two, the island with the most bodies
-    first.
-    """
+    """Return (n, 4) boxes, each around an island of at least two bodies, the largest island first."""
     islands, boxes = debug.islands(world)[world.shapes["body_row"]], debug.bounds(world)
     names, counts = np.unique(islands[islands >= 0], return_counts=True)
     several = names[np.argsort(-counts, kind="stable")][: int((counts > 1).sum())]

@@ -75,7 +75,5 @@ class Switches:
 
 
 def following(names: Sequence[Any], name: Any, way: int) -> Any:
-    """Return the element `way` places after `name` in `names`, cyclically; the first element if `name` is not among
-    them.
-    """
+    """Return the element `way` places after `name` in `names`, cyclically; the first one if `name` is not there."""
     return names[(names.index(name) + way) % len(names)] if name in names else names[0]

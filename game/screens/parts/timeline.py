@@ -24,9 +24,7 @@ PAD_RUNS = {"left shoulder": -1, "right shoulder": 1}
 
 
 class Timeline:
-    """Control of a Rewind: feed() takes events, turn() moves the scene to the chosen step. went(): called after each
-    move.
-    """
+    """Control of a Rewind: feed() takes events, turn() goes to the chosen step. went(): called after each move."""
 
     def __init__(self, rewind: Rewind, went: Callable[[], None] = lambda: None) -> None:
         self.rewind, self.went = rewind, went
