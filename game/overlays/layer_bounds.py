@@ -63,12 +63,12 @@ class Bounds(Layer):
     name, title, key, color = "bounds", "Bounding boxes", "1", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the AABBs of a world through a lens."""
+        """Draw the AABBs of a world; lens: maps world to frame coordinates."""
         rows = debug.bounds(world)
         self.total += len(rows)
         seen = np.flatnonzero(lens.seen(rows))[: self.room] if len(rows) else []
@@ -102,12 +102,12 @@ class Motion(Layer):
     name, title, key, color = "motion", "Motion rectangles", "2", SKY
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the swept AABBs of a world through a lens."""
+        """Draw the swept AABBs of a world; lens: maps world to frame coordinates."""
         rows = debug.motion(world)
         self.total += len(rows)
         if len(rows) == 0:

@@ -24,12 +24,12 @@ class Centers(Layer):
     name, title, key, color = "centers", "Centres of mass", "c", GOLD
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = CENTER_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the centres of mass of a world through a lens."""
+        """Draw the centres of mass of a world; lens: maps world to frame coordinates."""
         bodies = world.bodies
         bodies = bodies[(bodies["kind"] == DYNAMIC) & ~bodies["quarantined"]]
         self.total += len(bodies)

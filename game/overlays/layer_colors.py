@@ -17,14 +17,14 @@ LISTED = 8  # colours with their own line in the legend
 
 
 class Colors(Layer):
-    """Lines from each contact to the centres of its dynamic bodies, in the colour of its group. White: contacts without
-    a colour, which are solved first.
+    """Lines from each contact to the centres of its dynamic bodies, in the contact's graph colour. White: contacts
+    without a colour, which are solved first.
     """
 
     name, title, key, color = "colors", "Graph colours", "g", PINK
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.counts = np.zeros(0, int)
         self.overflow = 0
@@ -32,7 +32,7 @@ class Colors(Layer):
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the coloured contacts of a world through a lens."""
+        """Draw the coloured contacts of a world; lens: maps world to frame coordinates."""
         rows = debug.contact_points(world)
         rows = rows[(rows["state"] == 1) | (rows["state"] == 2)]
         self.total += len(rows)

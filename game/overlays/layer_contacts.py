@@ -26,14 +26,14 @@ class Contacts(Layer):
     name, title, key, color = "contacts", "Contacts and normals", "6", ORANGE
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.states = np.zeros(len(STATES), int)
         self.room = CONTACT_BUDGET // views
         self.labels = []  # (text, x, y, align, colour), drawn after all fixed text is placed
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the contact points of a world through a lens."""
+        """Draw the contact points of a world; lens: maps world to frame coordinates."""
         rows = debug.contact_points(world)
         self.total += len(rows)
         if len(rows) == 0:

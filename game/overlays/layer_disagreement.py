@@ -95,13 +95,13 @@ class Disagreement(Layer):
         self.inside = now
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = LIE_BUDGET // views
         self.labels: list[tuple[int, float, float]] = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the boxes of false hits in a world, and the marks, through a lens."""
+        """Draw the boxes of false hits in a world, and the marks; lens: maps world to frame coordinates."""
         _, lies = false_hits(world)
         self.total += len(lies)
         boxes = debug.bounds(world)

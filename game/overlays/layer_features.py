@@ -19,13 +19,13 @@ class Features(Layer):
     name, title, key, color = "features", "Feature ids", "f", PAPER
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = FEATURE_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the contact points of a world through a lens."""
+        """Draw the contact points of a world; lens: maps world to frame coordinates."""
         rows = debug.contact_points(world)
         self.total += len(rows)
         if len(rows) == 0:

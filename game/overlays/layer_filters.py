@@ -25,13 +25,13 @@ class Filters(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.kinds = {}  # (membership, mask) -> [colour, count]
         self.drawn = self.total = self.filtered = 0
         self.room = BOX_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the shapes' boxes of a world through a lens."""
+        """Draw the shapes' boxes of a world; lens: maps world to frame coordinates."""
         rows, shapes = debug.bounds(world), debug.shape_rows(world)
         self.total += len(rows)
         self.filtered += int(world.profile.counters["filtered"])

@@ -29,13 +29,13 @@ class Ghosts(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = GHOST_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the recent impacts of a world through a lens."""
+        """Draw the recent impacts of a world; lens: maps world to frame coordinates."""
         kept = self._note(world)
         self.total += sum(1 for ghost in kept if ghost[0] == 0)
         width = max(1, frame.scale - 1)

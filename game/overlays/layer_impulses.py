@@ -30,14 +30,14 @@ class Impulses(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = IMPULSE_BUDGET // views
         self.unit = step_of(self.level)
         self.level *= FADE
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the impulses of a world through a lens."""
+        """Draw the impulses of a world; lens: maps world to frame coordinates."""
         rows = debug.contact_points(world)
         rows = rows[(rows["normal_impulse"] != 0.0) | (rows["tangent_impulse"] != 0.0)]
         self.total += len(rows)

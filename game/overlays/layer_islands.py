@@ -26,14 +26,14 @@ class Islands(Layer):
     under = True  # drawn before the other layers, since it fills areas
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budgets evenly."""
+        """Start a picture whose `views` views share the budgets of drawn objects evenly."""
         self.drawn = self.total = self.asleep = self.islands = 0
         self.found = False  # whether any world has the effect sleeping
         self.room, self.hulls = BODY_BUDGET // views, ISLAND_BUDGET // views
         self.labels = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the islands of a world through a lens."""
+        """Draw the islands of a world; lens: maps world to frame coordinates."""
         self.found |= world.effects.sleeping
         islands, bodies = debug.islands(world), world.bodies
         moving = bodies["kind"] == 2

@@ -44,12 +44,12 @@ class Masks(Layer):
         self.begin()
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget of outline parts evenly."""
+        """Start a picture whose `views` views share the budget of outline parts evenly."""
         self.drawn = self.total = self.lit = self.parts = self.parts_in_all = 0
         self.room = PART_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the mask outlines of a world through a lens."""
+        """Draw the mask outlines of a world; lens: maps world to frame coordinates."""
         rows = np.flatnonzero(world.shapes["role"] == PART)
         self.parts_in_all += len(rows)
         if not len(rows):

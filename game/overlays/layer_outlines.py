@@ -30,12 +30,12 @@ class Outlines(Layer):
     name, title, key, color = "outlines", "Shapes", "l", GREEN
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = 0
         self.room = OUTLINE_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the outlines of a world's shapes through a lens."""
+        """Draw the outlines of a world's shapes; lens: maps world to frame coordinates."""
         boxes = debug.bounds(world)
         self.total += len(boxes)
         if len(boxes) == 0:

@@ -18,12 +18,12 @@ class Pairs(Layer):
     name, title, key, color = "pairs", "Candidate pairs", "4", RED
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budget evenly."""
+        """Start a picture whose `views` views share the budget of drawn objects evenly."""
         self.drawn = self.total = self.hits = 0
         self.room = PAIR_BUDGET // views
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the candidate pairs of a world through a lens."""
+        """Draw the candidate pairs of a world; lens: maps world to frame coordinates."""
         rows = debug.pairs(world)
         self.total += len(rows)
         if len(rows) == 0:

@@ -22,13 +22,13 @@ class Structure(Layer):
     name, title, key, color = "structure", "Structure", "3", YELLOW
 
     def begin(self, views: int = 1) -> None:
-        """Start a picture in which this number of views share the budgets evenly."""
+        """Start a picture whose `views` views share the budgets of drawn objects evenly."""
         self.drawn = self.total = 0
         self.views = views
         self.kinds = []
 
     def draw(self, frame: Frame, lens: Lens, world: World) -> None:
-        """Draw the broad phase's structure of a world through a lens."""
+        """Draw the broad phase's structure of a world; lens: maps world to frame coordinates."""
         found = debug.structure(world)
         self.kinds.append(found.kind)
         self._rects(frame, lens, found)

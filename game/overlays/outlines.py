@@ -100,7 +100,9 @@ def moved(outline: tuple, start: Pose, end: Pose) -> tuple:
 def draw_outline(
     surface: pygame.Surface, lens: Lens, outline: tuple, color: Color, width: int = 1, scale: int = 1
 ) -> None:
-    """Draw an outline through a lens; a chain gets hatching on its solid side. scale: frame px per canvas px."""
+    """Draw an outline from physics.debug; a chain gets hatching on its solid side. lens: maps world to frame
+    coordinates; scale: frame px per canvas px.
+    """
     kind = outline[0]
     if kind == "lines":
         draw_lines(surface, lens, np.asarray(outline[1]).reshape(-1, 4), color, width)

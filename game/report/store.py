@@ -72,7 +72,9 @@ class Store:
         return self.folder / RESULTS / f"{name.replace('/', '--')}.json"
 
     def result(self, name: str) -> dict[str, Any] | None:
-        """Return the stored result of a job; None if the job has not run or its file is damaged: it runs again."""
+        """Return the stored result of a job. None: the job has not run, or its file is damaged and it must run
+        again.
+        """
         try:
             found = read_json(self._path(name))
         except FileError:

@@ -104,8 +104,8 @@ class RunReport:
 
 
 def solver_name(scene: Scene) -> str | None:
-    """Return the name of the solver in use, also where the scene leaves the choice to World; None for a scene without
-    worlds and choice.
+    """Return the name of the solver in use, also if the scene leaves the choice to World; None if it is not yet
+    known.
     """
     return scene.worlds[0].solver if scene.worlds else scene.solver
 

@@ -165,7 +165,7 @@ class Rewind:
             del self.stretches[0]
 
     def seek(self, step: int) -> None:
-        """Restore the state after a step, clamped to `start` .. `end`."""
+        """Restore the scene's state after step number `step`, which is clamped to `start` .. `end`."""
         step = max(self.start, min(self.end, step))
         self.steps_made = 0
         if step == self.position:

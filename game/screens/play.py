@@ -269,7 +269,7 @@ class Play(SceneScreen):
 
     @property
     def news(self) -> str:
-        """Line of text about the last switch, "" once it is old."""
+        """Line of text about the setting switched last, "" once it is old."""
         return self.switches.news
 
     def toggle_pause(self) -> None:

@@ -130,8 +130,8 @@ class CardText(NamedTuple):
 
 
 class Line(NamedTuple):
-    """A line of the card. gap: space above it [text px]. mark: colour of the square before it; FOLLOWS: the space of a
-    square without one, for wrapped lines; None: neither.
+    """A line of the card. gap: space above it [text px]. mark: colour of a square before the text; None: no square;
+    FOLLOWS: no square, but its space, for the rest of wrapped text.
     """
 
     text: str

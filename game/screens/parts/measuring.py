@@ -21,7 +21,7 @@ EVERY = 8.0  # [s] between two moments (measured states of the world), if the la
 
 
 class Measuring:
-    """The measurements of one played scene. They run between open() and close()."""
+    """The measurements of one played scene. beside() and turn() run them; close() and leave() end them."""
 
     def __init__(self, scene: Scene, devices: DeviceSource) -> None:
         self.scene, self.devices = scene, devices

@@ -45,7 +45,7 @@ class Played(Protocol):
 
     @property
     def news(self) -> str:
-        """Line of text about the last switch, "" if there is none."""
+        """Line of text about the setting switched last, "" if there is none."""
         ...
 
     def toggle_pause(self) -> None:

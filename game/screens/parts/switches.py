@@ -70,7 +70,7 @@ class Switches:
 
     @property
     def news(self) -> str:
-        """Line of text about the last switch; "" once REPORT_SECONDS are over."""
+        """Line of text about the setting switched last; "" once REPORT_SECONDS are over."""
         return self.reported[0] if self.now < self.reported[1] else ""
 
 
