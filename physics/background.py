@@ -1,4 +1,4 @@
-"""Compilation beside the program, or ahead of it, in worker processes."""
+"""Compilation of kernels in worker processes: while the program runs, or before it needs them."""
 
 import json
 import threading
@@ -19,23 +19,24 @@ from physics.jit.tiers import code_of, parts_of, spec_of
 from physics.jit.workers import Task, Workers, short_turns, unhurried_imports
 
 WORKER = f"{__package__}.compile_worker"
-FIRST_STEPS = 0.2  # [s] of first steps, which show the kernels that take the time
-ALONE = 0.8  # [s] after which the compiler is imported here: no worker has compiled a kernel before that
+FIRST_STEPS = 0.2  # [s] of first steps to wait for: they show which kernels take the most time
+ALONE = 0.8  # [s] after which numba is imported here: no worker has compiled a kernel earlier
 LINK = 500  # bytes of code that cost as much as the fixed cost of compiling a kernel
-FEW = 2  # kernels that are compiled here: a worker takes about as long to start
+FEW = 2  # up to this number, kernels are compiled here: a worker takes about as long to start
 Progress = Callable[[int, int, str], Any]  # done, total, name of what comes next
 
 _running: "list[Background]" = []
 
 
 def compile_in_background(workers: int | None = None) -> "Background":
-    """Run kernels as plain Python from now on, while worker processes compile them.
+    """Run kernels as plain Python until worker processes have compiled them.
 
-    Compiled forms take over between two steps. Both forms give the same bits, so only the speed changes. Kernels with
-    the largest share of the time for their length are compiled first. workers: number of processes, None: the number of
-    cores less one, at least one. The workers start when a kernel is needed, as `python -m`, so a script needs no guard.
-    A frozen program has no workers and compiles in a thread. Without numba the call has no effect. Call it before the
-    first step; another call returns the same object. Raises ValueError for a negative number of workers.
+    A kernel changes to its compiled form between two steps. Both forms give the same bits, so only the speed changes.
+    The kernels that take the most time per byte of code are compiled first. workers: number of processes; None: the
+    number of cores less one, but at least one. The processes start when a kernel is first called, as `python -m`, so a
+    script needs no `if __name__ == "__main__"`. A frozen program has no workers and compiles in a thread. Without numba
+    the call has no effect. Call it before the first step; another call returns the same object. Raises ValueError for a
+    negative number of workers.
     """
     if workers is not None and (not isinstance(workers, int) or isinstance(workers, bool) or workers < 0):
         raise ValueError(f"workers must be None or a whole number, at least 0 (got {workers!r})")
@@ -45,7 +46,7 @@ def compile_in_background(workers: int | None = None) -> "Background":
 
 
 class Background:
-    """The compilation of this program's kernels. Made by compile_in_background()."""
+    """The background compilation of this program's kernels: its progress and end. Made by compile_in_background()."""
 
     def __init__(self, workers: int | None = None) -> None:
         self.workers = Workers(WORKER, workers)
@@ -72,18 +73,21 @@ class Background:
 
     @property
     def idle(self) -> bool:
-        """Whether no kernel is needed, expected or being compiled."""
+        """Whether no kernel waits for compilation or is being compiled."""
         return not tiers.wanted and not self._expected and not self.workers.left
 
     def expect(self, jobs: Iterable[Mapping[str, Any]]) -> None:
-        """Compile the kernels of physics.warmup(**job) once no kernel is needed at once, the first job first."""
+        """Announce that the kernels of physics.warmup(**job) will be called, for each job.
+
+        They are compiled, the first job first, whenever no kernel that has already been called waits for compilation.
+        """
         for job in jobs:
             self._expected.append((self._jobs, dict(job)))
             self._jobs += 1
         self._wake.set()
 
     def stop(self) -> None:
-        """End the worker processes; compiled kernels stay. From now on a kernel compiles at its first call."""
+        """End the worker processes. Compiled kernels stay; every other kernel is compiled at its next call."""
         self._stopped = True
         self._wake.set()
         self.workers.stop()
@@ -92,7 +96,7 @@ class Background:
             tiers.stop()
 
     def _work(self):
-        """Load and order needed kernels until stopped, in a thread."""
+        """Load called kernels from the store and have workers compile missing ones, until stop(). Runs in a thread."""
         if store().empty and self.workers.alive:  # an empty store: the compiler is not needed here yet
             self._wake.wait()
             if tiers.wanted:
@@ -123,7 +127,7 @@ class Background:
                     self._list(*self._expected.popleft())
 
     def _import(self):
-        """Import and start the compiler. Return whether there is one."""
+        """Import numba and start LLVM in this process. Return whether numba can be imported."""
         with short_turns():
             if compiler() is None:
                 return False
@@ -134,7 +138,9 @@ class Background:
         return True
 
     def _order_early(self, kernel, keys):
-        """Order a kernel before its file name is known, which needs the compiler."""
+        """Have a worker compile a kernel before numba is imported here, so that its file name in the store is not known
+        yet.
+        """
         each = kernel, keys
         self._seen.add(each)
 
@@ -152,13 +158,13 @@ class Background:
         self.workers.add([Task(("compile", spec_of(kernel), keys), lambda: self._urgency([each]), done)])
 
     def _take_in(self):
-        """Load the kernels that arrived before the compiler was imported."""
+        """Load the kernels that workers compiled before numba was imported here."""
         with suppress(IndexError):  # another thread took the last one
             while self._came:
                 self._load([self._came.popleft()])
 
     def _find(self, kernel, keys):
-        """Load a needed kernel, or order it."""
+        """Load a called kernel from the store, or have a worker compile it."""
         from physics.jit import compiling
 
         if (kernel, keys) in self._seen:
@@ -177,10 +183,10 @@ class Background:
                 self._take(*each, form)
 
     def _order(self, name, spec, keys, index):
-        """Order a kernel: at once if it is needed, otherwise in its turn.
+        """Have a worker compile a kernel: called kernels first, then the announced ones in the order of their jobs.
 
-        Of the needed kernels, the one with the largest time spent per time to compile goes first (Smith's rule, which
-        minimises the sum of the waiting times: Smith 1956).
+        Of the called kernels, the one with the most run time per byte of code to compile goes first (Smith's rule,
+        which minimises the sum of the waiting times: Smith 1956). index: number of the job.
         """
         if name in self._ordered:
             return
@@ -202,7 +208,9 @@ class Background:
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
     def _urgency(self, waiting):
-        """Return the time spent in kernels of one code over the amount to compile: their own, and new parts."""
+        """Return the priority of kernels that share one file: 1 plus their seconds as plain Python per byte of code
+        that is still to be compiled.
+        """
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
 
@@ -229,7 +237,7 @@ class Background:
         tiers.arrived.append((kernel, keys, form))
 
     def _list(self, index, job):
-        """Order the kernels of a job, unless an earlier start found all of them compiled."""
+        """Have the kernels of a job compiled, unless an earlier start of the program found all of them compiled."""
         mark = _mark(json.dumps(job, sort_keys=True))
         if store().has(mark) or not self.workers.alive:
             return
@@ -244,7 +252,9 @@ class Background:
 
 
 def _mark(job):
-    """Return the name of the file that marks all kernels of a job as compiled from these sources."""
+    """Return the name of a file in the store: its presence says that all kernels of a job are compiled from these
+    sources.
+    """
     from physics.jit.content import environment
 
     digest = blake2b(f"{_sources()}{environment()}{job}".encode(), digest_size=20).hexdigest()
@@ -260,10 +270,11 @@ def _sources():
 
 
 def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | None = None) -> None:
-    """Compile kernels with all cores and load them.
+    """Compile kernels in worker processes on all cores, and load them.
 
-    found: (kernel, types), as tiers.collecting() gives them. progress(done, total, name) is called before each kernel
-    is ready. A kernel that no process can compile is compiled here.
+    found: pairs (kernel, types of its arguments), as tiers.collecting() gives them. progress(done, total, name) is
+    called once for each kernel, with the number of kernels done before it. A kernel that no worker can compile is
+    compiled in this process.
     """
     order = _spread(dict.fromkeys(found))
     if not order:
@@ -296,10 +307,11 @@ def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | Non
 def compile_jobs(
     jobs: Iterable[Mapping[str, Any]], progress: Progress | None = None, processes: int | None = None
 ) -> None:
-    """Compile the kernels of physics.warmup(**job) for many jobs, with all cores, without loading them.
+    """Compile the kernels of physics.warmup(**job) for many jobs into the store, without loading them.
 
-    progress(done, total, name) counts kernels; `total` grows while jobs are listed. A job that an earlier call
-    completed is not listed again. Raises RuntimeError naming the kernels that could not be compiled.
+    progress(done, total, name) counts kernels; `total` grows as workers find the kernels of each job. A job whose
+    kernels an earlier call compiled is skipped. processes: number of workers; None: one for each core. Raises
+    RuntimeError naming the kernels that could not be compiled.
     """
     if not JIT or compiler() is None:
         return
@@ -347,10 +359,10 @@ def compile_jobs(
 
 
 def _spread(found):
-    """Return kernels in the order in which each adds the most new code.
+    """Return kernels in an order in which each adds the most code that no kernel before it contains.
 
-    Processes that share the work then compile different parts of the physics and seldom wait for one another: 1 % of
-    their time against 14 % with the longest code first (the platformer, two cores).
+    Workers that take kernels in this order compile different parts of the physics and seldom wait for one another: for
+    1 % of their time, against 14 % with the longest code first (the platformer, two cores).
     """
     left, order, covered = list(found), [], set()
     while left:

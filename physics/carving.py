@@ -19,7 +19,7 @@ from physics.world_state import WorldState
 
 
 class Carved(NamedTuple):
-    """The result of a carve."""
+    """The result of Body.carve."""
 
     removed: int  # pixels that the shape removed
     fragments: tuple  # Bodies of the pieces that came loose, in the order of their first pixels
@@ -27,9 +27,10 @@ class Carved(NamedTuple):
 
 
 def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: object) -> Carved:
-    """Remove the pixels of a body's masks whose centres lie inside a shape at a world pose, its boundary included.
+    """Remove the pixels of a body's masks whose centres lie inside a shape at a world pose, or on the boundary of the
+    shape.
 
-    See Body.carve; here bodies are named by their ids. Raises TypeError, ValueError.
+    identity: id of the body. See Body.carve for the other arguments. Raises TypeError, ValueError.
     """
     world._unlocked()
     world._needs("carving", "carve", True)
@@ -65,7 +66,11 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
 
 
 def _tool_in(mask, frame, shape, pose):
-    """Return (the function that finds the pixels of a tile inside the tool, its box [px] in the mask's raster)."""
+    """Return (function that finds the pixels of a mask tile inside a shape, AABB of the shape [px] in the mask's
+    raster).
+
+    frame: pose of the mask's body. pose: pose of the shape.
+    """
     corners = shape.points if shape._is_convex else rectangle(*(shape.bounds or (0.0, 0.0, 0.0, 0.0)))
     radius = shape.radius if shape._is_convex else 0.0
     x, y, angle = pose
@@ -80,13 +85,15 @@ def _tool_in(mask, frame, shape, pose):
 
 
 def _in_raster(mask, frame, x, y):
-    """Return a world point in the raster of a body's mask [px]."""
+    """Return a world point in pixels of a mask's raster. frame: pose of the mask's body."""
     u, v = rotate(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
     return u + mask.origin[0], v + mask.origin[1]
 
 
 def _mask_tool(mask, frame, shape, pose) -> Tool:
-    """Return the function that finds the pixels in the squares of another mask at a pose."""
+    """Return the function that finds the pixels of `mask` whose centres lie in solid pixels of the mask `shape` at a
+    pose.
+    """
     turn = frame[2] - pose[2]
     cosine, sine = math.cos(turn), math.sin(turn)
     # The mask's raster corner in the world, and from there in the tool's raster.
@@ -104,7 +111,10 @@ def _mask_tool(mask, frame, shape, pose) -> Tool:
 
 
 def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Given") -> None:
-    """Replace the masks of a body by what is left. Empty masks are removed, and so is a body without mass."""
+    """Replace the carved masks of a body by their remaining pixels.
+
+    Empty masks are removed. The body is removed if it has no shape left, or if it is dynamic and has no mass left.
+    """
     shapes, ids = world._shapes_of[identity], edit.shape_ids(world, identity)
     empty = [at for at, each in cuts.items() if not len(each.tiles.nodes)]
     rest = [shape for at, shape in enumerate(shapes) if at not in empty]
@@ -146,7 +156,7 @@ def _motion_and_weight(world, identity) -> _Given:
 
 
 def _values_of(world, identity) -> edit.BodyDef:
-    """Return the values of a fragment's body, except its mass."""
+    """Return the definition of a fragment's body with all that it inherits from the carved body, except its mass."""
     row, given = world._body_row(identity), world._definitions.rows[world._row_number(identity)]
     return edit.BodyDef(
         angular_velocity=row["angular_velocity"].item(),
@@ -162,7 +172,7 @@ def _values_of(world, identity) -> edit.BodyDef:
 
 
 def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.BodyDef) -> int:
-    """Add a body of the pixels of a piece, at their place and with their velocity, and return its id."""
+    """Add a body for a loose piece of a mask, whose pixels keep their places and velocity. Return the body's id."""
     # The origin lies on the mask's grid, near the middle of the piece: its pixels stay on whole pixels.
     height, width = loose.solid.shape
     shift_x = loose.left + width // 2 - math.floor(mask.origin[0])

@@ -16,14 +16,17 @@ Pair = Sequence[float] | np.ndarray  # (x, y)
 Pose = Sequence[float] | np.ndarray  # (x, y, angle), or (x, y) at angle 0
 Points = Sequence[Pair] | np.ndarray  # (n, 2)
 
-NEAR_NAME = 0.7  # similarity of names that may be a slip, as difflib measures it
+NEAR_NAME = 0.7  # difflib similarity from which a name counts as a misspelling of another
 LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 
 
 def number(
     name: str, value: Any, low: float | None = None, above: float | None = None, high: float | None = None
 ) -> float:
-    """Return a finite float; low and high are allowed, above is not. Raises TypeError or ValueError."""
+    """Return a value as a finite float that is >= low, > above and <= high, as far as these limits are given.
+
+    name: name of the argument, for messages. Raises TypeError or ValueError.
+    """
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number (got {shown(value)})")
     try:
@@ -48,9 +51,9 @@ def number(
 
 
 def known_attribute(thing: Any, name: str, strict: bool) -> None:
-    """Raise AttributeError for an attribute that does not exist, naming the nearest one that does.
+    """Raise AttributeError for a missing attribute if its name resembles an existing one, which the message names.
 
-    strict: also where no name is near.
+    strict: raise the error also if no existing name is similar.
     """
     public = [each for each in {*dir(type(thing)), *getattr(thing, "__dict__", ())} if not each.startswith("_")]
     near = difflib.get_close_matches(name, sorted(public), 1, NEAR_NAME)
@@ -60,20 +63,20 @@ def known_attribute(thing: Any, name: str, strict: bool) -> None:
 
 
 class NoSuchId(KeyError, ValueError):
-    """An id that no body or shape has: both a KeyError and a ValueError."""
+    """Error for an id that no body or shape has; both a KeyError and a ValueError."""
 
     def __str__(self) -> str:
         return str(self.args[0])  # a KeyError would show the quotes of its message
 
 
 def shown(value: Any) -> str:
-    """Return a value as a message shows it: a short one whole, the beginning of a long one."""
+    """Return a value as text for an error message: whole if it is short, otherwise its beginning and its length."""
     text = repr(value)
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}… ({len(text)} characters)"
 
 
 def vector(name: str, value: Any) -> Vec2:
-    """Return two finite floats from a pair. Raises TypeError or ValueError."""
+    """Return a pair of numbers as a Vec2 of finite floats. Raises TypeError or ValueError."""
     x = y = None
     if not isinstance(value, NO_PAIRS):
         try:
@@ -86,7 +89,11 @@ def vector(name: str, value: Any) -> Vec2:
 
 
 def position(name: str, value: Any) -> Vec2:
-    """Return two floats at which a double still resolves a pixel. Raises TypeError or ValueError."""
+    """Return a pair of numbers as a Vec2 whose coordinates are within POSITION_LIMIT: a double still resolves a pixel
+    there.
+
+    Raises TypeError or ValueError.
+    """
     x, y = vector(name, value)
     if max(abs(x), abs(y)) >= POSITION_LIMIT:
         raise ValueError(f"{name} must lie within {POSITION_LIMIT:g} px of the origin (got {shown(value)})")
@@ -94,7 +101,9 @@ def position(name: str, value: Any) -> Vec2:
 
 
 def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
-    """Return a flat int64 array of ids, each once unless repeats are allowed. Raises TypeError or ValueError."""
+    """Return ids as a flat int64 array. Raises TypeError or ValueError, also for a repeated id unless `repeats` is
+    True.
+    """
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be whole numbers (got {shown(value)})")
@@ -105,7 +114,7 @@ def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
 
 
 def whole(name: str, value: Any, low: int, high: int) -> int:
-    """Return an int within bounds. Raises TypeError or ValueError."""
+    """Return a value as an int from low to high, both allowed. Raises TypeError or ValueError."""
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} must be a whole number (got {shown(value)})")
     value = int(value)
@@ -115,14 +124,16 @@ def whole(name: str, value: Any, low: int, high: int) -> int:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Return a bool. Raises TypeError."""
+    """Return True or False as a bool. Raises TypeError for any other value."""
     if not isinstance(value, (bool, np.bool_)):
         raise TypeError(f"{name} must be True or False (got {shown(value)})")
     return bool(value)
 
 
 def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
-    """Return one of the allowed strings. Raises ValueError, and TypeError for a value that is not a string."""
+    """Return the value if it is one of the allowed strings. Raises ValueError, and TypeError for a value that is no
+    string.
+    """
     if not isinstance(value, str):
         raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {shown(value)})")
     if value not in allowed:
@@ -131,7 +142,10 @@ def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
 
 
 def columns(name: str, value: Any, count: int | None = None, width: int = 2) -> np.ndarray:
-    """Return a finite float64 array (n, width), or (n,), as a C-ordered copy. Raises TypeError or ValueError."""
+    """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All must be finite.
+
+    count: required n, None: any. Raises TypeError or ValueError.
+    """
     try:
         array = np.array(value)
     except ValueError:

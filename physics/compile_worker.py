@@ -1,8 +1,9 @@
-"""`python -m physics.compile_worker`: compiles kernels for another process, which sends one order per line.
+"""Worker process `python -m physics.compile_worker`: compiles kernels for another process.
 
-("compile", spec, keys) compiles one kernel and stores it (physics/jit/store.py); the answer is its name. ("list",
-arguments of physics.warmup) runs that warm-up plain; the answer is (name, spec, keys) of each of its kernels that is
-not stored. The answer is None if a task fails. The process ends with its standard input.
+Each line on standard input is an order, each line on standard output the answer to one. ("compile", spec, keys)
+compiles one kernel and stores it (physics/jit/store.py); the answer is its name in the store. ("list", arguments of
+physics.warmup) runs that warm-up as plain Python; the answer is (name, spec, keys) of each kernel it called that is not
+in the store. The answer is None if an order fails. The process ends when its standard input ends.
 """
 
 import contextlib
@@ -17,7 +18,7 @@ NICE = 10  # of the system's 0 to 19: the program goes first
 
 
 def answer(order: tuple) -> Any:
-    """Run one task and return its result."""
+    """Run one order and return its answer, as the module describes."""
     from physics.effects import Effects
     from physics.jit import compiling, tiers
     from physics.warmup import run_warmup
@@ -50,7 +51,7 @@ def main() -> None:
         order = decoded(orders.get())
         try:
             found = answer(order)
-        except Exception:  # told by None: the program goes on plain, and the next task may be sound
+        except Exception:  # answered by None: the program runs this kernel plain, and the next order may succeed
             traceback.print_exc()
             found = None
         answers.write(encoded(found) + "\n")

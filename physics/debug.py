@@ -1,4 +1,4 @@
-"""The state under a scene as arrays in world pixels, for drawing. Functions only read."""
+"""The inner state of a World as arrays in world pixels, for debug drawing. Functions only read."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -29,12 +29,12 @@ LINES = (POLYGON, CAPSULE, SEGMENT, CHAIN)
 
 
 class Structure(NamedTuple):
-    """The data structure of a broad phase: cells or node boxes with depth, or intervals (axis, low, high, id)."""
+    """The data structure of a broad phase, for drawing: boxes of grid cells or tree nodes, or intervals on two axes."""
 
     kind: str  # brute, sweep, hash, tree
     rects: np.ndarray  # (m, 4) min_x min_y max_x max_y
-    depth: np.ndarray  # (m,) level of a cell, depth of a node
-    intervals: np.ndarray  # (k, 4)
+    depth: np.ndarray  # (m,) level of a grid cell, or depth of a tree node
+    intervals: np.ndarray  # (k, 4) axis, low, high, shape id
 
 
 EDGE = np.dtype(
@@ -59,7 +59,7 @@ def bounds(world: World) -> np.ndarray:
 
 
 def shape_rows(world: World) -> np.ndarray:
-    """Return a ROW of each shape: id, body id, kind of body, filter, sensor, awake."""
+    """Return one ROW per shape, in the order of shape ids: shape id, body id, kind of body, filter, sensor, awake."""
     shapes = world.shapes
     rows = np.zeros(len(shapes), ROW)
     rows["shape"], rows["body"] = shapes["id"], shapes["body"]
@@ -69,7 +69,7 @@ def shape_rows(world: World) -> np.ndarray:
 
 
 def motion(world: World) -> np.ndarray:
-    """Return (n, 4) swept AABBs of the last step, of the shapes that can move."""
+    """Return the swept AABBs (n, 4) of the last step, for shapes of bodies that are not static."""
     proxies = world.pairs.proxies
     rows = proxies[(proxies["row"] >= 0) & ~proxies["still"]]
     return np.stack([rows[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1)
@@ -103,7 +103,7 @@ def structure(world: World) -> Structure:
 
 
 def pairs(world: World) -> np.ndarray:
-    """Return (m, 5) x0 y0 x1 y1 hit of every candidate pair: the centres of both AABBs, and 1 for a contact."""
+    """Return (m, 5) x0 y0 x1 y1 hit of every candidate pair: the centres of both AABBs; hit is 1 for a contact or 0."""
     boxes = bounds(world)
     rows = _candidate_rows(world)
     centers = (boxes[:, :2] + boxes[:, 2:]) / 2.0
@@ -115,7 +115,7 @@ def pairs(world: World) -> np.ndarray:
 
 
 def _candidate_rows(world):
-    """Return the shape rows of the last step's candidates whose shapes still exist."""
+    """Return the shape rows (m, 2) of the last step's candidate pairs, without pairs of which a shape was removed."""
     ids = world.pairs.ids(world.shapes)
     known = np.ascontiguousarray(world.shapes["id"])
     if not len(ids) or not len(known):
@@ -125,10 +125,11 @@ def _candidate_rows(world):
 
 
 def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> list:
-    """Return one entry per shape, or per shape row of `rows`.
+    """Return one tuple for each shape that describes its outline in world pixels. rows: shape rows, None: all shapes.
 
-    ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r), ("capsule", ax, ay, bx, by, r), ("segment", (2,
-    2)), ("chain", (k, 2)), closed if it is a loop, ("mask", shape id) or ("tiles", shape id).
+    By kind, with corners as arrays: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r), ("capsule", ax,
+    ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)) whose last corner repeats the first in a loop, ("mask", shape
+    id) or ("tiles", shape id).
     """
     shapes = world.shapes if rows is None else world.shapes[rows]
     bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
@@ -159,7 +160,7 @@ def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> li
 
 
 def _line(shape, kind, points):
-    """Return the outline of a polygon, capsule, segment or chain whose points are in world space."""
+    """Return the entry of outlines() for a polygon, capsule, segment or chain with these points in world space."""
     if kind == CHAIN:
         return "chain", np.concatenate([points, points[:1]]) if shape.loop else points
     if kind == CAPSULE:
@@ -170,9 +171,9 @@ def _line(shape, kind, points):
 
 
 def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
-    """Return EDGE rows of the polygons among the parts of masks' outlines. rows: of world.shapes, None: all.
+    """Return EDGE rows: the edges of the polygons that the outlines of masks consist of.
 
-    Parts that are circles or capsules have no edges; see outlines().
+    rows: rows of world.shapes, None: all. Parts of outlines that are circles or capsules have no edges; see outlines().
     """
     shapes = world.shapes
     if rows is None:
@@ -203,7 +204,7 @@ class Drawn(NamedTuple):
     """Masks at their poses; equal rasters share their pixels."""
 
     solids: list  # of bool arrays [row, col]
-    which: np.ndarray  # (n,) each mask's number in solids
+    which: np.ndarray  # (n,) index of each mask's pixels in solids
     left: np.ndarray  # (n,) [px]
     top: np.ndarray  # (n,) [px]
 
@@ -219,13 +220,15 @@ def masks(world: World) -> list:
 
 
 def drawn_masks(world: World) -> Drawn:
-    """Return the masks as columns. The cost hardly grows with their number."""
+    """Return all masks as they are drawn, as arrays instead of a list. The cost hardly grows with their number."""
     world.queries.refresh(world)
     return _drawn(world, np.flatnonzero(world.shapes["kind"] == MASK))
 
 
 def _drawn(world, rows):
-    """Return the masks at these shape rows, whose rasters exist, except those that are drawn on demand."""
+    """Return the masks in these shape rows as they are drawn. Pictures of masks that a step does not draw are made
+    here.
+    """
     draw_pictures(world.library, rows, world.bodies, world.shapes)
     shapes, library = world.shapes[rows], world.library
     raster_of = library.raster_of[: len(library.masks)].ravel()
@@ -240,7 +243,9 @@ def _drawn(world, rows):
 
 
 def mask_hits(world: World) -> list:
-    """Return (left, top, shared[row, col]) of every candidate pair of masks that share pixels now."""
+    """Return (left, top, shared[row, col]) for every candidate pair of masks that overlap now. shared: the common
+    pixels.
+    """
     found = []
     rows = _candidate_rows(world)
     world.queries.refresh(world)
@@ -275,7 +280,8 @@ SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 def contact_points(world: World) -> np.ndarray:
     """Return POINT rows of all contacts of the last step, speculative and sleeping ones included.
 
-    state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP. color: of the graph colouring, -1 without one.
+    state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP. color: colour of the contact in the solver's graph colouring, -1:
+    none.
     """
     found, sensed = world.contact_rows, world.sensed
     if sensed is None:
@@ -289,7 +295,7 @@ def contact_points(world: World) -> np.ndarray:
 
 
 def _points(world, contacts, state):
-    """Return POINT rows of CONTACT rows. state: one for all of them, None: of each its own."""
+    """Return POINT rows of CONTACT rows. state: state of all the points; None: find it for each point."""
     reported = contacts_of(contacts)
     points = np.zeros(len(reported), POINT)
     for name in set(reported.dtype.fields or ()) & set(POINT.fields or ()):
@@ -306,7 +312,7 @@ def _points(world, contacts, state):
     persisted = np.where(second, contacts["persisted_2"][of], contacts["persisted_1"][of])
     points["state"] = np.where(persisted, PERSISTED, np.where(acting, NEW, SPECULATIVE))
     points["state"][~acting & (points["separation"] > world.tolerances.slop)] = SPECULATIVE
-    if not world.stacks:  # no contact remembers the step before: the events do
+    if not world.stacks:  # contacts do not know the step before, but the begin events tell which pairs are new
         begun = world.events.begin
         old = ~np.isin(points["shape_a"] << 32 | points["shape_b"], begun["shape_a"] << 32 | begun["shape_b"])
         points["state"][old & (points["state"] == NEW)] = PERSISTED
@@ -314,7 +320,9 @@ def _points(world, contacts, state):
 
 
 def islands(world: World) -> np.ndarray:
-    """Return the island of every body, by row: the lowest body id of the island, -1 for none."""
+    """Return the island of every body (n,), which is named by the lowest body id in it; -1 for a body without an
+    island.
+    """
     bodies = world.bodies
     return np.where(
         (bodies["kind"] == DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1
@@ -327,7 +335,10 @@ GHOST = np.dtype(
 
 
 def impact_ghosts(world: World) -> np.ndarray:
-    """Return GHOST rows of the bodies that the sweep stopped in the last step: the unswept pose, and the fraction."""
+    """Return GHOST rows of the bodies that continuous collision stopped in the last step.
+
+    A row holds the pose that the body would have reached, and the fraction of its motion at which it was stopped.
+    """
     rows = world.ghosts
     if rows is None or not len(rows):
         return np.zeros(0, GHOST)

@@ -1,4 +1,4 @@
-"""Effects: the effects that a scene declares. Stages that no declared effect needs do not exist in its world."""
+"""Effects: the features of the physics that a scene declares. A step runs only the stages that they need."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
@@ -11,9 +11,10 @@ NEEDS = {name: ("response",) for name in NEEDS_RESPONSE} | {"sleeping": ("respon
 
 @dataclass(frozen=True)
 class Effects:
-    """The effects that a scene declares. All are off but `narrowphase`; without it the collision test stops at AABBs.
+    """The features of the physics that a scene declares. All are off by default except `narrowphase`.
 
-    Raises TypeError for a value that is not a bool, ValueError for an effect without the effect that it needs.
+    Without `narrowphase` the collision test stops at AABBs. Raises TypeError for a value that is not a bool, ValueError
+    for an effect that is on while an effect that it needs is off.
     """
 
     narrowphase: bool = True
@@ -66,14 +67,15 @@ class Effects:
 
     @classmethod
     def named(cls, names: Iterable[str]) -> "Effects":
-        """Return exactly the effects that names() lists; narrowphase, too, only if it is named.
+        """Return the Effects in which exactly the named effects are on. It reverses names(): an unnamed narrowphase is
+        off.
 
         Raises TypeError for an unknown effect, ValueError for an effect without the effect that it needs.
         """
         return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
 
     def with_(self, **changes: bool) -> "Effects":
-        """Return a copy with some effects changed."""
+        """Return a copy with the given effects changed: with_(gravity=True). Raises TypeError for an unknown effect."""
         unknown = set(changes) - {field.name for field in fields(self)}
         if unknown:
             raise TypeError(
@@ -82,11 +84,13 @@ class Effects:
         return replace(self, **changes)
 
     def without(self, name: str) -> "Effects":
-        """Return a copy without an effect and the effects that need it. Raises TypeError for an unknown effect."""
+        """Return a copy with an effect off, and with it all effects that need it. Raises TypeError for an unknown
+        effect.
+        """
         return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
 
     def and_needed(self, name: str) -> "Effects":
-        """Return a copy with all effects that an effect needs; the effect itself is unchanged."""
+        """Return a copy in which all effects that the named one needs are on. The named effect itself is unchanged."""
         return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 
     def names(self) -> list[str]:

@@ -1,4 +1,6 @@
-"""Events: pairs that began, continued and ended to touch, impacts and sensors, as arrays valid until the next step."""
+"""Events: pairs that begin, continue or cease to touch, hits, and overlaps of sensors, as arrays valid until the next
+step.
+"""
 
 import math
 from typing import NamedTuple
@@ -21,7 +23,9 @@ UNBROKEN, NO_ROWS = np.zeros(0, QUARANTINE), np.zeros(0, np.int64)
 
 @subkernel
 def write_event(contact, second, at, events_out):
-    """Write the event of the first or second point of a contact."""
+    """Write ids, point and normal of a contact to row `at` of events_out (EVENT). second: its second point, else its
+    first.
+    """
     e = events_out[at]
     e.body_a, e.body_b = contact.body_a, contact.body_b
     e.shape_a, e.shape_b = contact.shape_a, contact.shape_b
@@ -31,7 +35,7 @@ def write_event(contact, second, at, events_out):
 
 
 class Comparison(NamedTuple):
-    """The output of a comparison of two steps."""
+    """The output arrays of compare_pairs: how the touching pairs of a step differ from those of the step before."""
 
     now: np.ndarray  # EVENT: the pairs that touch
     begin: np.ndarray
@@ -44,17 +48,19 @@ class Comparison(NamedTuple):
 
 
 def new_comparison(room: int) -> Comparison:
-    """Return output with room for that many pairs."""
+    """Return a Comparison with room for `room` pairs."""
     events = (np.zeros(room, EVENT) for _ in range(5))
     return Comparison._make((*events, np.zeros(room, HIT), np.zeros(room, np.bool_), np.zeros(7, np.int64)))
 
 
 @subkernel
 def look_at_pair(contacts, first, last, slop):
-    """Return the state of a pair from its contacts first … last - 1.
+    """Return how a pair of shapes touches, from its CONTACT rows first … last - 1. slop [px]: separation that still
+    touches.
 
-    (touches, has impulses, contact of the deepest point, whether it is the second point, contact of the fastest
-    point, whether it is the second point, its approach speed [px/s], sum of the impulses).
+    (touches, has impulses, row of the deepest point, whether that is the second point of its row, row of the point with
+    the fastest approach, whether that is the second point of its row, its approach speed [px/s], sum of the normal
+    impulses).
     """
     active = False
     pushed = False
@@ -88,14 +94,14 @@ def look_at_pair(contacts, first, last, slop):
 
 @kernel
 def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_speed, comparison_inout):
-    """Compare the pairs that touched in the step before with the contacts of this step, both in the order of shape
-    ids.
+    """Compare the pairs that touched in the step before with the contacts of this step, and write the changes.
 
-    before: EVENT rows. contacts: CONTACT rows. parked: CONTACT rows of pairs that fell asleep; they continue to
-    touch, report nothing, and move to the sleeping set. sensors: 1 to read contacts of sensors only, 0 to read the
-    others only. persisting: 1 to report pairs that continue to touch. slop [px]: a pair that touched counts as touching
-    up to this separation. hit_speed [px/s]. Returns whether the comparison is complete; it is not where a child shape
-    touches, because its parent shape is to be reported. O(both).
+    before: EVENT rows; contacts: CONTACT rows; both in the order of shape ids. fell_asleep: CONTACT rows of pairs whose
+    island fell asleep: they still touch and report nothing, but move to the sleeping set. sensors: 1 to read contacts
+    of sensors only, 0 to read the others only. persisting: 1 to report pairs that continue to touch. slop [px]: a pair
+    that touched before counts as touching up to this separation. hit_speed [px/s]: approach speed above which a hit is
+    reported. comparison_inout: Comparison. Return False if the comparison stopped at a contact of a child shape, which
+    the caller must name by its parent shape first; otherwise True. O(before + contacts).
     """
     counts = comparison_inout.counts
     now = comparison_inout.now
@@ -180,7 +186,7 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
 
 
 class Changes:
-    """The result of a comparison: arrays that are valid until the next comparison."""
+    """The changes of the touching pairs in one step: arrays that are valid until the next Pairs.compare()."""
 
     __slots__ = ("aside", "begin", "end", "hits", "keep", "persist", "points")
 
@@ -190,7 +196,7 @@ class Changes:
     aside: np.ndarray  # EVENT: pairs that touched and fell asleep
     hits: np.ndarray  # HIT
     keep: np.ndarray  # bool: contacts of pairs that touch
-    points: int  # of pairs that touch
+    points: int  # number of contact points of pairs that touch
 
 
 class Pairs:
@@ -201,7 +207,9 @@ class Pairs:
         self.count = 0
 
     def _make_room(self, room):
-        """Grow the output of the next comparison, and swap the rows of the last two steps."""
+        """Allocate the arrays for the last comparison and the next one, with room for `room` pairs. Old contents are
+        dropped.
+        """
         compared = new_comparison(room)
         self.compared, self.last, self.changes = compared, compared._replace(now=np.zeros(room, EVENT)), Changes()
 
@@ -226,7 +234,10 @@ class Pairs:
         slop: float,
         hit_speed: float,
     ) -> Changes | None:
-        """Return the changes by the contacts of a step; None, without any change, where a child shape touches."""
+        """Update the touching pairs from the contacts of a step, and return the changes. Arguments: see compare_pairs.
+
+        Return None, and change nothing, if a contact belongs to a child shape.
+        """
         if self.count + len(contacts) > len(self.compared.keep):
             self._grow(2 * (self.count + len(contacts)))
         compared, changes = self.compared, self.changes
@@ -250,13 +261,13 @@ class Pairs:
         self.last.now[: len(before)] = before
 
     def give_back(self, rows: np.ndarray) -> None:
-        """Add pairs that were in the sleeping set."""
+        """Add touching pairs (EVENT rows) that were kept in the sleeping set."""
         if len(rows):
             both = joined([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
     def take_resting(self, bodies: np.ndarray) -> np.ndarray:
-        """Remove and return the pairs of which neither side is among the awake rows."""
+        """Remove and return the pairs (EVENT rows) of which neither body is visited by a step, for the sleeping set."""
         rows = self.rows
         if not len(rows):
             return rows.copy()
@@ -270,7 +281,7 @@ class Pairs:
         return taken
 
     def restore(self, touching: np.ndarray) -> None:
-        """Replace the pairs that touch."""
+        """Replace the touching pairs by these EVENT rows."""
         if len(touching) > len(self.compared.keep):
             self._make_room(2 * len(touching))
         self.count = len(touching)
@@ -283,7 +294,7 @@ class Pairs:
 
 @kernel
 def is_any_sensor(pairs, shapes):
-    """Return whether a side of any of the pairs of shape rows is a sensor. O(pairs)."""
+    """Return whether any pair (n, 2) of shape rows has a sensor. O(pairs)."""
     for i in range(len(pairs)):
         if shapes[pairs[i, 0]].sensor or shapes[pairs[i, 1]].sensor:
             return True
@@ -306,7 +317,7 @@ def is_any_sensor(pairs, shapes):
     writes=("sensed", "swept_sensors", "pairs", "broadphase", "work", "workspace", "library", *PLACED),
 )
 def sense(state: StepState) -> None:
-    """Detect sensor overlaps at the final poses, and add those of the sweeps."""
+    """Detect sensor overlaps at the final poses of the step, and add those that swept bodies met on their way."""
     bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
     # Without sensors the loops are empty. The kernels are those of every step, so none is compiled when the first
     # sensor is added.
@@ -347,7 +358,7 @@ class Events:
     writes=("touching", "sensing", "sleeping_set", "events", "reported", "work"),
 )  # fmt: skip
 def report_events(state: StepState) -> None:
-    """Compare the pairs that touch with those of the step before, and report the changes."""
+    """Compare the touching pairs with those of the step before, and write the changes to the world's Events."""
     contacts, events, tolerances, effects = state.contact_rows, state.events, state.tolerances, state.effects
     fell_asleep, keys = state.fell_asleep or (NOTHING, None)
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed

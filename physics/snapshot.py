@@ -1,4 +1,4 @@
-"""Snapshots of a world, in memory and as `.npz` files without pickle, and its digest."""
+"""Snapshots of a world, in memory and as `.npz` files without pickle, and digests (hashes) of its state."""
 
 import contextlib
 import hashlib
@@ -42,7 +42,7 @@ from physics.world_state import WorldState, checked_substeps
 
 
 def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Return shapes as (arrays, facts that JSON can hold)."""
+    """Return shapes in a form for files: (arrays by name, other values as a dict for JSON)."""
     arrays = {}
     for number, shape in enumerate(geometry.outlines):
         arrays[f"hull_{number}"] = np.array(shape.points)
@@ -66,7 +66,7 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
 
 
 def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
-    """Return shapes from arrays and facts. Raises KeyError, TypeError, ValueError."""
+    """Return the shapes from the result of pack_geometry. Raises KeyError, TypeError, ValueError."""
     outlines, masks = [], []
     types = {each.__name__: each for each in SHAPES if issubclass(each, Convex)}
     for number, (name, given) in enumerate(facts["hulls"]):
@@ -91,8 +91,17 @@ def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geo
 
 VERSION = 15
 ABANDONED = 3600.0  # [s] without a write after which a file counts as abandoned
-SETTINGS = ("solver", "dt", "substeps", "accuracy", "restitution_speed", "gravity", "drag", "wind")  # it restores these
-FIELDS = ("gravity", "drag", "wind")  # they stay, and are inert, in a world whose effects were replaced
+SETTINGS = (
+    "solver",
+    "dt",
+    "substeps",
+    "accuracy",
+    "restitution_speed",
+    "gravity",
+    "drag",
+    "wind",
+)  # restore() sets these
+FIELDS = ("gravity", "drag", "wind")  # set even if their effect is off: they stay, inert, when effects are replaced
 DAMAGE = (
     ValueError, TypeError, KeyError, IndexError, EOFError,
     OSError,  # of data that is marked as bzip2 and is not
@@ -116,7 +125,10 @@ TABLES = {
 
 
 def _as_laid_out(name, rows, dtype) -> np.ndarray:
-    """Return the rows of a file in the layout of this program: the same columns in any order. Raises ValueError."""
+    """Return the rows of a stored table in this program's dtype. The columns must be the same, in any order.
+
+    Raises ValueError.
+    """
     columns = rows.dtype.fields or {}
     if {each: columns[each][0] for each in columns} != {each: dtype.fields[each][0] for each in dtype.names}:
         raise ValueError(f"it has other columns in {name} than this program")
@@ -144,9 +156,10 @@ class Snapshot:
         self.geometry = geometry
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write a versioned .npz by atomic replace. Raises OSError; an existing file is then unchanged.
+        """Write the snapshot to a versioned .npz file by atomic replace. Raises OSError; an existing file is then
+        unchanged.
 
-        The data is written to <path>.<process>.part first. Such a file that a killed program left over an hour ago is
+        The data is first written to <path>.<process id>.part. Such files that killed programs left over an hour ago are
         removed.
         """
         arrays, facts = pack_geometry(self.geometry)
@@ -167,7 +180,9 @@ class Snapshot:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> "Snapshot":
-        """Read a file. Raises ValueError with the path and the reason why it is refused."""
+        """Read a snapshot file. Raises ValueError with the path and the reason if the file is damaged or of another
+        version.
+        """
         with open(path, "rb") as file:
             content = io.BytesIO(file.read())
         try:
@@ -197,7 +212,7 @@ def _remove_abandoned(path: str) -> None:
 
 
 def take(world: WorldState) -> Snapshot:
-    """Return a copy of the state of a world."""
+    """Return a Snapshot: a copy of the state of a world."""
     library = world.library
     arrays = {
         "bodies": world.bodies.copy(),
@@ -232,7 +247,10 @@ def take(world: WorldState) -> Snapshot:
 
 
 def restore(world: WorldState, taken: Snapshot) -> None:
-    """Restore a snapshot of a world with the same effects. Raises TypeError, ValueError."""
+    """Set a world to the state in a snapshot. Both must have the same effects and pixels_per_meter.
+
+    Raises TypeError, ValueError; the world is then unchanged.
+    """
     if not isinstance(taken, Snapshot):
         raise TypeError(f"snapshot must be a Snapshot (got {checks.shown(taken)})")
     facts, arrays = taken.facts, taken.arrays
@@ -283,7 +301,9 @@ def restore(world: WorldState, taken: Snapshot) -> None:
 
 
 def _islands_apart(islands) -> dict:
-    """Return the sleeping islands as flat arrays, each with the key of the island of every row."""
+    """Return the sleeping islands as arrays by name: keys of islands, rows of all islands joined, and numbers of rows
+    of each.
+    """
     keys = sorted(islands)
     apart: dict[str, np.ndarray] = {"island_keys": np.array(keys, np.int64)}
     for name, empty in (
@@ -298,7 +318,7 @@ def _islands_apart(islands) -> dict:
 
 
 def _sleepers(arrays) -> SleepingSet:
-    """Return the sleeping islands from flat arrays."""
+    """Return the SleepingSet from the arrays that _islands_apart made."""
     sleeping_set, fields = SleepingSet(), ("bodies", "contacts", "touching")
     parts = {
         name: np.split(arrays["island_" + name], np.cumsum(arrays[f"island_{name}_counts"])[:-1]) for name in fields
@@ -310,7 +330,11 @@ def _sleepers(arrays) -> SleepingSet:
 
 
 def _unpack(arrays, facts, geometry):
-    """Return (library, shapes of each body, sources of tiers, random generator) of a snapshot. Raises one of DAMAGE."""
+    """Check a snapshot, and return (library, shapes of each body, source masks of bodies with a tier, random
+    generator).
+
+    Raises one of DAMAGE.
+    """
     library = Library.of(geometry)
     shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}
     rows = arrays["shapes"]["body_row"]
@@ -339,14 +363,14 @@ def _unpack(arrays, facts, geometry):
 
 
 def _with_own_values(shape, row) -> Shape:
-    """Return a shape with the own values of its SHAPE row."""
+    """Return a shape with the material, filter and sensor flag of its SHAPE row, where these are not the body's."""
     material = Material(*(row[name].item() for name in MATERIAL)) if row["own_material"] else None
     filter = Filter(row["membership"].item(), row["mask"].item()) if row["own_filter"] else None
     return shape.with_(material, filter, row["sensor"].item() if row["own_sensor"] else None)
 
 
 def _targets(arrays) -> dict:
-    """Return {body id: (x, y, angle)} from flat arrays."""
+    """Return the targets of kinematic bodies in a snapshot: {body id: (x, y, angle)}."""
     ids, poses = checks.ids("aimed", arrays["aimed"]), checks.columns("targets", arrays["targets"], width=3)
     return dict(zip(ids.tolist(), map(tuple, poses.tolist()), strict=True))
 
@@ -404,7 +428,7 @@ def digest(world: WorldState) -> str:
             found.update(b"carved" + mask.fingerprint)
     if world.stacks and world.span not in (0.0, world.dt):
         found.update(b"span" + np.float64(world.span).tobytes())
-    # State that only the next step reads; an empty one adds nothing.
+    # State that only the next step reads. If it is empty, nothing is hashed.
     speed = world.tolerances.restitution_speed
     if speed != tolerances(world.tolerances.pixels_per_meter).restitution_speed:
         found.update(b"restitution_speed" + np.float64(speed + 0.0).tobytes())

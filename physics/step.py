@@ -50,8 +50,9 @@ from physics.world_state import WorldState
 
 
 def set_target(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
-    """Set the pose (position [px], angle [rad], None: unchanged) that a kinematic body reaches at the end of the next
-    step. Raises TypeError, ValueError.
+    """Set the pose that a kinematic body reaches at the end of the next step.
+
+    position [px]; angle [rad], None: unchanged. Raises TypeError, ValueError.
     """
     world._unlocked()
     row = world._body_row(identity)
@@ -73,7 +74,10 @@ def set_target(world: WorldState, identity: int, position: Pair, angle: float | 
 
 
 def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarray:
-    """Return (n, 3) velocities of centre and angular velocities that move BODY rows to poses (n, 3) in dt [s]."""
+    """Return the velocities (n, 3) with which BODY rows reach poses (n, 3) in dt [s].
+
+    A row is vx, vy [px/s] of the centre of mass and the angular velocity [rad/s].
+    """
     cosine, sine = np.cos(targets[:, 2]), np.sin(targets[:, 2])
     x, y = bodies["local_center_x"], bodies["local_center_y"]
     return np.stack(
@@ -87,12 +91,12 @@ def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarra
 
 
 def _rows(world) -> tuple[np.ndarray, np.ndarray]:
-    """Return the body rows that have a target, and the targets."""
+    """Return (body rows with a target, their target poses (n, 3))."""
     return rows_of(world.bodies, np.array([*world._targets], np.int64)), np.array([*world._targets.values()])
 
 
 def aim(world: WorldState, dt: float) -> None:
-    """Set the velocities that move the bodies with a target there in dt [s]; in a step of length 0, zero."""
+    """Give the bodies with a target the velocities that reach it in dt [s]. Do nothing in a step of length 0."""
     if not world._targets or dt == 0.0:
         return
     rows, targets = _rows(world)
@@ -102,7 +106,10 @@ def aim(world: WorldState, dt: float) -> None:
 
 
 def arrive(world: WorldState, dt: float) -> None:
-    """Place the bodies with a target exactly there, at rest. A body quarantined in the step stays where it is."""
+    """Place the bodies with a target exactly at their target poses, at rest, and clear the targets.
+
+    A body that was quarantined in the step stays where it is. Do nothing in a step of length 0.
+    """
     if not world._targets or dt == 0.0:
         return
     rows, targets = _rows(world)
@@ -138,14 +145,14 @@ IGNORED = {"blocking": IGNORED_BY_BLOCKING, "projection": IGNORED_BY_PROJECTION}
     writes=(*quarantine.writes, *motion_rectangles.writes),
 )
 def swept_aabbs_of_finite_bodies(state: StepState) -> None:
-    """Write the swept AABBs of the bodies that are still finite."""
+    """Quarantine the bodies that are not finite, and write the swept AABBs of the others."""
     quarantine(state)
     motion_rectangles(state)
 
 
 @stage("rest", reads=rest.reads, writes=rest.writes)
 def evaluate_contacts_before_sleep(state: StepState) -> None:
-    """Evaluate the contacts of an island before it sleeps at the final poses, so that they are valid when it wakes."""
+    """Put islands at rest to sleep. Their contacts are evaluated at the final poses and are then valid on waking."""
     rest(state)
     if state.fell_asleep is not None:
         for key in np.unique(state.fell_asleep[1]).tolist():
@@ -156,7 +163,7 @@ def evaluate_contacts_before_sleep(state: StepState) -> None:
 def ignored_effects(effects: Effects, solver: str) -> tuple[str, ...]:
     """Return the names of the declared effects that a solver does not honour, in the order of Effects.names().
 
-    Without the effect response no solver runs, and none is ignored.
+    Without the effect response no solver runs, and the result is empty.
     """
     ignored = IGNORED.get(solver, ()) if effects.response else ()
     return tuple(name for name in effects.names() if name in ignored)
@@ -170,7 +177,7 @@ class Plan(NamedTuple):
 
 
 def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
-    """Return the stages that these effects need, in order. characters: whether the world has any."""
+    """Return the stages that these effects need, in order. characters: whether the world has a Character."""
     e = effects
     forces = e.gravity or e.drag or e.wind or e.response
     if solver in STACKING:
@@ -193,7 +200,10 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
         )
     else:
         stages = (
-            (apply_character_weight, e.stacking and characters),  # under another solver for the moment
+            (
+                apply_character_weight,
+                e.stacking and characters,
+            ),  # stacking is declared, but the present solver does not stack
             (integrate_velocities, forces),
             (swept_aabbs_of_finite_bodies, True),
             (broad_phase, True),
@@ -210,12 +220,12 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
 
 
 def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
-    """Return the stages of a world without a character, and with one."""
+    """Return two Plans of the step: for a world without a Character, and for one with a Character."""
     return plan(effects, solver, characters=False), plan(effects, solver)
 
 
 class Workspace:
-    """Arrays that the stages of one world grow and reuse. Their contents never outlive a stage."""
+    """Scratch arrays that the stages of one world grow and reuse. Their contents never outlive a stage."""
 
     def __init__(self, effects: Effects, solver: str) -> None:
         self.stacks = stacks = solver in STACKING
@@ -233,17 +243,17 @@ class Workspace:
         self._rows, self.broken = np.zeros(16, np.int64), np.zeros((16, 2), np.int64)  # see quarantine
 
     def rows_for(self, count: int) -> np.ndarray:
-        """Return room for that many row numbers."""
+        """Return a scratch array (int64) of at least `count` row numbers."""
         if len(self._rows) < count:
             self._rows = np.zeros(2 * count, np.int64)
         return self._rows
 
 
 def next_span(span: float, dt: float, usual: float) -> float:
-    """Return the averaging window [s] of the cached contact forces after a step of dt [s].
+    """Return the averaging window [s] of the cached contact forces after a step of dt [s]. span: the window before.
 
-    It is dt. After longer steps a short one counts by its length, and a stall counts for no more than a few of them, or
-    of the usual steps.
+    After a step at least as long as `span` it is dt, limited to STALL times the larger of `span` and the usual step. A
+    shorter step moves it from `span` towards dt by the share dt / span.
     """
     if dt >= span:
         return min(dt, STALL * max(span, usual))
@@ -251,13 +261,15 @@ def next_span(span: float, dt: float, usual: float) -> float:
 
 
 def step_length(world: WorldState, dt: float | None) -> float:
-    """Return the length [s] of a step: world.dt for None, 0 if too short to be computed. Raises ValueError."""
+    """Return the length [s] of a step: world.dt for None, and 0 for less than SHORTEST_STEP. Raises ValueError."""
     dt = world.dt if dt is None else checks.number("dt", dt, low=0.0)
     return 0.0 if dt < SHORTEST_STEP else dt
 
 
 def begin(world: WorldState, dt: float) -> StepState:
-    """Return the StepState of the first stage: settings, tables, and the cache of the last step."""
+    """Return the StepState with which a step begins: the settings and tables of the world, and the contacts of the last
+    step.
+    """
     world.refresh_character_rows()
     aim(world, dt)
     state = StepState()
@@ -286,7 +298,7 @@ def begin(world: WorldState, dt: float) -> StepState:
 
 
 def finish(world: WorldState, state: StepState) -> None:
-    """Store in the world what later steps need."""
+    """Store the results of a step in the world, place bodies at their targets, and advance the time."""
     world.contact_rows, world.sensed = state.contact_rows, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     world.report_contacts(*state.reported)
@@ -309,12 +321,13 @@ def finish(world: WorldState, state: StepState) -> None:
 
 
 def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
-    """Make the step of World.step(dt), and yield None before the first stage and each stage after it has run.
+    """Run the step of World.step(dt) stage by stage: yield None before the first stage, and each stage after it has
+    run.
 
-    Meanwhile the world shows the intermediate results: bodies, candidates, contacts and events of half a
-    step, seconds and counters in `profile`. It cannot be changed. The state is not valid for further steps: a caller
-    that stops in the middle, or that lets debug or a query read it, restores a snapshot afterwards. Raises ValueError
-    as World.step.
+    Between stages the world shows intermediate results: bodies, candidates, contacts and events so far, seconds and
+    counters in `profile`. It cannot be changed, and its state is not valid for further steps. A caller that stops
+    before the end, or lets debug or a query read the world between stages, restores a snapshot afterwards. Raises
+    ValueError as World.step.
     """
     world._unlocked()
     dt = step_length(world, dt)
@@ -336,7 +349,9 @@ def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage |
 
 
 def _show(world: WorldState, state: StepState) -> None:
-    """Show in the world the results of the stages so far; before contacts are reported, the manifolds that touch."""
+    """Show the results of the stages so far in the world. Before events are reported, its contacts are those that
+    touch.
+    """
     world.contact_rows, world.sensed = state.contact_rows, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     _, keep = state.reported
@@ -344,9 +359,10 @@ def _show(world: WorldState, state: StepState) -> None:
 
 
 def _touching(state: StepState) -> np.ndarray:
-    """Return which manifolds touch, sensors excluded, as `events` will report.
+    """Return a bool per CONTACT row: whether it touches and has no sensor, by the same rule as the later stage
+    `events`.
 
-    A manifold touches if it overlaps, has an impulse, was hit by the sweep, or touched before and is within the slop.
+    A contact touches if it overlaps, has an impulse, was hit by the sweep, or touched before and is within the slop.
     """
     rows, before = state.contact_rows, state.touching.rows
     second = rows["count"] > 1

@@ -48,10 +48,10 @@ def warmup(
 ) -> None:
     """Compile, or load from the cache, the kernels of a world with these effects, with all cores.
 
-    broadphase: brute, sweep, hash, tree or "all". pieces: those of PIECES that the world will meet, None: all.
-    progress(done, total, name) is called before each piece, with each compiled kernel, and at the end; `total` grows
-    when the number of kernels is known. Kernels of other pieces compile at their first call. Without numba the pieces
-    run the same. Raises KeyError for an unknown broad phase or piece.
+    broadphase: brute, sweep, hash, tree or "all". pieces: names in PIECES of the shapes and queries that the world will
+    use, None: all. Kernels of other pieces compile at their first call. progress(done, total, name) is called before
+    each piece, with each compiled kernel, and at the end; `total` grows when the number of kernels is known. Without
+    numba the small worlds are run all the same. Raises KeyError for an unknown broad phase or piece.
     """
     runs = _runs(effects, broadphase, solver, pieces)
 
@@ -139,12 +139,12 @@ def _runs(effects, broadphase, solver, pieces):
 
 
 def _kind_of(shape):
-    """Return dynamic, or kinematic for a shape that cannot be dynamic."""
+    """Return the kind of body for a shape: kinematic if it cannot be dynamic, otherwise dynamic."""
     return "kinematic" if shape._is_ground or shape is OPEN else "dynamic"
 
 
 def _seams(effects, solver):
-    """Step a box that passes from one flush piece of ground to the next."""
+    """Run a box that slides across the seam of two flush ground boxes."""
     world, box = World(effects, solver=solver), Polygon.box(8, 8)
     for x in (-4, 4):
         world.add_body(box, kind="static", position=(x, 0))
@@ -158,7 +158,7 @@ def _small_world(effects, solver, strategy, pair):
     first = world.add_body(pair[0], kind=_kind_of(pair[0]), position=(0, 0))
     second = world.add_body(pair[1], position=(3, 2), velocity=(-900.0, 0.0))
     world.step()
-    world.query_aabb((0, 0), (1, 1))  # what the strategy answers to a query
+    world.query_aabb((0, 0), (1, 1))  # runs the query of the broad phase
     world.rows(world.bodies["id"])
     rows_of(world.shapes, world.shapes["id"])
     world.reported_rows()
@@ -171,7 +171,7 @@ def _small_world(effects, solver, strategy, pair):
 
 
 def _together(effects, solver, pairs):
-    """Run a world in which pairs of several kinds meet in one step, so that their order is restored."""
+    """Run a step in which pairs of several kinds collide, so that their contacts are sorted into one order."""
     world = World(effects, solver=solver)
     for number, pair in enumerate(pairs):
         for shape in pair:
@@ -180,7 +180,7 @@ def _together(effects, solver, pairs):
 
 
 def _ground(effects, solver, tiles):
-    """Run a body that slides on tiles, for two steps."""
+    """Run three steps of a box that slides on `tiles`."""
     world = World(effects, solver=solver)
     world.add_body(tiles, kind="static")
     world.add_body(BOX, position=(8.0, -4.0), velocity=(120.0, 0.0))
@@ -189,7 +189,9 @@ def _ground(effects, solver, tiles):
 
 
 def _rest(effects, solver):
-    """Run contacts matched in place, a new one beside them, sleep and waking, with substeps by load and number."""
+    """Run touching circles, so that contacts are kept, added, put to sleep and woken, with adaptive and with fixed
+    substeps.
+    """
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3), (-7.95, 0.0)):  # as near as is found; nearer
         world.add_body(Circle(4), position=place)
@@ -206,7 +208,7 @@ def _rest(effects, solver):
 
 
 def _carve(effects, solver):
-    """Carve a small mask and a large one, on which a body rests, with each kind of tool."""
+    """Carve a large and a small mask, each with a body on top, by a circle, a polygon and a mask."""
     world = World(effects, solver=solver)
     solid = np.ones((20, LARGE_MASK + MASK_TILE), bool)
     solid[0, 0] = False
@@ -220,7 +222,7 @@ def _carve(effects, solver):
 
 
 def _sensor(effects, solver):
-    """Run a sensor that overlaps a body, and one that does not."""
+    """Run a sensor while a body overlaps it, and after the body has left it."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     body = world.add_body(BOX, position=(1, 0))
@@ -230,14 +232,14 @@ def _sensor(effects, solver):
 
 
 def _crowd(effects):
-    """Add so many bodies that the tree is rebuilt."""
+    """Run a world with so many bodies that its dynamic tree is rebuilt."""
     world = World(effects, DynamicTree())
     world.add_bodies(Circle(1), np.array([(40.0 * number, 0.0) for number in range(2 * REBUILD_FROM)]))
     world.step()
 
 
 def _impacts(effects, solver):
-    """Run each kind of continuous collision against a static body and against another swept one."""
+    """Run each mode of continuous collision: fast bodies that hit a static body and each other."""
     for way in ("ray", "swept", "toi"):
         world = World(effects, solver=solver)
         world.add_body(BOX, kind="static")
@@ -249,7 +251,9 @@ def _impacts(effects, solver):
 
 
 def _amid(effects, solver):
-    """Run a body in the middle of a mask, where each part of the outline leaves it to the others, and one beside it."""
+    """Run a box in the middle of a cross-shaped mask, where no single part of the outline can push it out, and one
+    beside it.
+    """
     arm = abs(np.arange(12) - 5.5) < 2.0
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     world.add_body(PixelMask(arm[:, None] | arm), kind="static")
@@ -260,14 +264,14 @@ def _amid(effects, solver):
 
 
 def _fit():
-    """Fit the outline of a mask with a hole and a notch, which is not in the shipped file."""
+    """Fit the outline of a mask with a hole and a notch, which is not among the outlines shipped as a file."""
     solid = np.ones((23, 29), bool)
     solid[8:13, 9:17] = solid[:5, 20:] = False
     outline_of(PixelMask(solid))
 
 
 def _zone(effects, solver):
-    """Run a mask sensor in a world whose bodies respond by outlines."""
+    """Run masks that overlap a sensor, one of them at high speed, in a world whose bodies respond by outlines."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     world.add_body(MASK, position=(1, 0))
@@ -276,7 +280,7 @@ def _zone(effects, solver):
 
 
 def _queries(effects):
-    """Run queries of all kinds of pairs, which a world without narrow phase tests nowhere else."""
+    """Run queries with circles and boxes. Without narrow phase, no other code calls their kernels."""
     world = World(effects)
     world.add_body(Circle(4), kind="static")
     world.ray_cast((-20, 0), (40, 0))
@@ -286,7 +290,7 @@ def _queries(effects):
 
 
 def _pixels(effects):
-    """Run queries of masks, also where the bodies respond by outlines."""
+    """Run overlap and point queries against the pixels of a mask."""
     world = World(effects)
     world.add_body(MASK, kind="static")
     for shape in (Circle(2), BOX, MASK):
@@ -295,7 +299,7 @@ def _pixels(effects):
 
 
 def _casts_at_pixels(effects):
-    """Run casts against the outlines of masks, one of which has more than one convex part to its ring."""
+    """Run casts against the outlines of a solid mask and of a ring, which consists of several convex parts."""
     world = World(effects)
     ring = np.ones((12, 12), bool)
     ring[4:8, 4:8] = False
@@ -323,7 +327,7 @@ def _character(effects, solver):
 
 
 def _contacts(effects):
-    """Read the contacts of masks, which a step without response only counts."""
+    """Read the contacts of overlapping masks. Their shared areas are measured only when contacts are read."""
     for mask in (MASK, EXACT):
         world = World(effects)
         for x in (0.0, 2.0):

@@ -37,14 +37,16 @@ class Profile:
         self.begin(names)
 
     def begin(self, names: Sequence[str]) -> list[float]:
-        """Start a step with the stages of these names. Return the list to which their seconds are appended."""
+        """Reset the profile for a step with the named stages. Return the list to which the caller adds the seconds of
+        each.
+        """
         self.work.fill(0)
         self._names, self._spent = names, []
         return self._spent
 
     @property
     def stages(self) -> dict[str, float]:
-        """{name: seconds} of the last step, in order; 0.0 for a stage that has not run."""
+        """Seconds of each stage of the last step, {name: seconds} in order; 0.0 for a stage that has not run."""
         told = dict.fromkeys(self._names, 0.0)
         for name, seconds in zip(self._names, self._spent, strict=False):
             told[name] += seconds
@@ -52,7 +54,7 @@ class Profile:
 
     @property
     def counters(self) -> dict[str, int]:
-        """{name: int} of the last step; every name is always present."""
+        """Work counters of the last step, {name: int}; every name of COUNTERS is present."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
 
@@ -61,14 +63,14 @@ class Profile:
 
 
 def checked_substeps(value: Any) -> int | str:
-    """Return a number of substeps, or "auto". Raises TypeError, ValueError."""
+    """Return the value if it is a number of substeps, 1 to 1000, or "auto" (adaptive). Raises TypeError, ValueError."""
     if isinstance(value, str):
         return checks.choice("substeps", value, ("auto",))
     return checks.whole("substeps", value, 1, 1000)
 
 
 def checked_accuracy(value: Any) -> float | None:
-    """Return a length [px], or None. Raises TypeError, ValueError."""
+    """Return the value if it is a positive length [px] or None. Raises TypeError, ValueError."""
     return None if value is None else checks.number("accuracy", value, above=0.0)
 
 
@@ -141,7 +143,7 @@ class WorldState:
     _plans: tuple[Any, Any]  # Plans of step.py, without characters, and with
     _stepping: bool
     _bodies: Table
-    _definitions: Table  # GIVEN, beside the bodies
+    _definitions: Table  # BODY_DEF rows, one beside each body
     _shapes: Table
     _next_body: int
     _next_shape: int
@@ -169,7 +171,9 @@ class WorldState:
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT_POINT rows of the pairs that touched or met in the last step, in order of shape ids."""
+        """CONTACT_POINT rows of the pairs that touched in the last step, or that its sweep hit, in the order of shape
+        ids.
+        """
         if self._contacts is None:
             self._contacts = contacts_of(with_areas(self, self.reported_rows()))
         return self._contacts
@@ -181,20 +185,20 @@ class WorldState:
 
     @property
     def sleeping_contacts(self) -> np.ndarray:
-        """CONTACT_POINT rows of the pairs that sleep, as they were when they fell asleep."""
+        """CONTACT_POINT rows of the pairs of sleeping bodies, as they were when the bodies fell asleep."""
         return contacts_of(with_areas(self, self.sleeping_set.contacts()))
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
-        """Store the CONTACT rows that `contacts` reports, and which of them count; points are listed on demand."""
+        """Store the CONTACT rows that `contacts` lists. keep: bool per row, whether it is listed; None: all are."""
         self._reported, self._contacts = (rows, keep), None
 
     @property
     def candidates(self) -> np.ndarray:
-        """(n, 2) int32 pairs of shape ids out of broad phase and filter in the last step: a < b, sorted."""
+        """Pairs of shape ids that passed broad phase and filters in the last step: (n, 2) int32, a < b, sorted."""
         return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids: Any) -> np.ndarray:
-        """Return the row numbers in `world.bodies` of bodies, given as Bodies or ids. Raises KeyError."""
+        """Return the row numbers in `world.bodies` of Bodies or ids, in the shape of the argument. Raises KeyError."""
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
         ids = np.asarray(ids, np.int64)
@@ -204,13 +208,13 @@ class WorldState:
         return rows.reshape(ids.shape)
 
     def refresh_character_rows(self) -> None:
-        """Refresh the body rows of the characters."""
+        """Update the body row of every character, as rows change when bodies are removed."""
         if self.characters.count:
             characters = self.characters.rows
             characters["body_row"] = rows_of(self.bodies, characters["body"])
 
     def rebuild_proxies(self) -> None:
-        """Add the proxies of all shapes to a new broad phase, after the tables were replaced."""
+        """Replace the broad phase by an empty one and add the proxies of all shapes, after the tables were replaced."""
         self.pairs = PairList(self.sleeps)
         self.awake.start_over()
         self._broadphase = self._broadphase.fresh()
@@ -256,7 +260,10 @@ class WorldState:
         return row
 
     def _identity(self, name: str, value: Any) -> int:
-        """Return the id of a Body of this world, or a valid id as it is. Raises TypeError, ValueError."""
+        """Return the id of a Body of this world; a valid id is returned as it is. name: of the argument, for messages.
+
+        Raises TypeError, ValueError.
+        """
         if isinstance(value, Handle):
             if value.world is not self:
                 raise ValueError(f"{name} must be of this world (got {checks.shown(value)} of another one)")
@@ -268,7 +275,10 @@ class WorldState:
         return int(value)
 
     def _identities(self, name: str, value: Any, repeats: bool = False) -> np.ndarray:
-        """Return the ids of one body or many, each once unless repeats are allowed. Raises TypeError, ValueError."""
+        """Return the ids of one or many Bodies or ids (int64). No id may repeat unless `repeats` is True.
+
+        Raises TypeError, ValueError.
+        """
         if isinstance(value, (Handle, int, np.integer)):
             value = [value]
         if isinstance(value, np.ndarray) and value.dtype != np.object_:
@@ -279,7 +289,7 @@ class WorldState:
         return checks.ids(name, np.array(each, np.int64), repeats)
 
     def _tidy_library(self) -> None:
-        """Drop unused geometry once it may be half of all."""
+        """Drop the geometry that no shape uses, once it may be half of the library."""
         if self.library.may_be_half_unused(self._shapes.count):
             self.library = self.library.without_unused(self.shapes)
 
