@@ -1,4 +1,4 @@
-"""Distance of convex hulls by GJK, penetration depth by EPA, and the nearest two of many parts."""
+"""Distance of convex hulls by GJK, penetration depth by EPA, and the nearest two parts of concave shapes."""
 
 import math
 from typing import NamedTuple
@@ -26,7 +26,7 @@ SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range
 
 
 class GapWorkspace(NamedTuple):
-    """Scratch memory for one pair in flight."""
+    """Scratch memory for the measurement of one pair of hulls. Corners are stored as indices."""
 
     state: np.ndarray  # (5,) corners kept, direction of the search, rounds, times the cap was hit
     simplex: np.ndarray  # (3, 4) corner of A, corner of B, their difference [px]
@@ -53,13 +53,16 @@ def support(corners, count, x, y):
 
 @subkernel
 def difference_edge(a, b, i, j, k, m):
-    """Return the edge from corner a[i] - b[j] of the difference to a[k] - b[m] [px]; exact where one side stays."""
+    """Return the vector [px] from corner a[i] - b[j] of the Minkowski difference to corner a[k] - b[m].
+
+    It is rounded only once if i == k or j == m.
+    """
     return (a[k, 0] - a[i, 0]) - (b[m, 0] - b[j, 0]), (a[k, 1] - a[i, 1]) - (b[m, 1] - b[j, 1])
 
 
 @subkernel
 def write_corner(a, b, i, j, k, simplex_out):
-    """Write corner a[i] - b[j] of the difference to place k of the simplex."""
+    """Write corner a[i] - b[j] of the Minkowski difference to row k of the simplex."""
     simplex_out[k, 0] = float(i)
     simplex_out[k, 1] = float(j)
     simplex_out[k, 2] = a[i, 0] - b[j, 0]
@@ -68,22 +71,23 @@ def write_corner(a, b, i, j, k, simplex_out):
 
 @subkernel
 def copy_corner(source, target, simplex_inout):
-    """Copy a corner of the simplex from one place to another."""
+    """Copy the corner in row `source` of the simplex to row `target`."""
     for k in range(4):
         simplex_inout[target, k] = simplex_inout[source, k]
 
 
 @subkernel
 def edge_of(a, b, p, q, simplex):
-    """Return the edge between two places of the simplex [px]."""
+    """Return the vector [px] from the corner in row p of the simplex to the corner in row q."""
     return difference_edge(a, b, int(simplex[p, 0]), int(simplex[p, 1]), int(simplex[q, 0]), int(simplex[q, 1]))
 
 
 @subkernel
 def region_of(x, y, ex, ey):
-    """Return the region of the origin along an edge (ex, ey) that starts at (x, y): -1 before, 0 beside, 1 beyond it.
+    """Return where the origin projects onto an edge (ex, ey) that starts at (x, y): -1 before it, 0 on it, 1 beyond it.
 
-    Past an end by no more than rounding counts as beside: parallel faces with flush ends get the face normal.
+    A projection past an end by no more than rounding counts as on the edge: parallel faces with flush ends get the face
+    normal.
     """
     along = -(x * ex + y * ey)
     length2 = ex * ex + ey * ey
@@ -96,7 +100,7 @@ def region_of(x, y, ex, ey):
 
 @subkernel
 def edge_distance(a, b, p, q, simplex):
-    """Return the distance [px] of the origin from an edge of the simplex."""
+    """Return the distance [px] of the origin from the edge between rows p and q of the simplex."""
     ex, ey = edge_of(a, b, p, q, simplex)
     x = simplex[p, 2]
     y = simplex[p, 3]
@@ -111,9 +115,10 @@ def edge_distance(a, b, p, q, simplex):
 
 @subkernel
 def drop_corner(a, b, simplex_inout):
-    """Reduce a triangle, whose last corner is the newest, to the edge at that corner nearest to the origin.
+    """Reduce a triangle to one of the two edges at its newest corner (row 2): the one nearest to the origin.
 
-    Return False when the origin lies in the triangle. The search came across the third edge, so it is not tested.
+    Return False when the origin lies in the triangle, else True. The third edge is not tested: the search came across
+    it.
     """
     ex, ey = edge_of(a, b, 0, 1, simplex_inout)
     fx, fy = edge_of(a, b, 0, 2, simplex_inout)
@@ -135,9 +140,10 @@ def drop_corner(a, b, simplex_inout):
 
 @subkernel
 def reduce_simplex(a, b, state_inout, simplex_inout):
-    """Reduce the simplex to the feature nearest to the origin, and write the search direction from it to the origin.
+    """Reduce the simplex to its corner or edge nearest to the origin, and write the direction from there to the origin.
 
-    Return SEARCHING, or TOUCHING when the origin is not outside.
+    Return TOUCHING when the origin lies in or on the simplex, else SEARCHING. state_inout, simplex_inout: of a
+    GapWorkspace.
     """
     count = int(state_inout[COUNT])
     if count == 3:
@@ -172,7 +178,9 @@ def reduce_simplex(a, b, state_inout, simplex_inout):
 
 @subkernel
 def start_walk(a, b, i, j, state_out, simplex_out):
-    """Write the first corner a[i] - b[j] of a search. Any corner will do; one near the last result saves rounds."""
+    """Start a search at corner a[i] - b[j] of the difference. Any corner will do; one near the last result saves
+    rounds.
+    """
     write_corner(a, b, i, j, 0, simplex_out)
     state_out[COUNT] = 1.0
     state_out[NORMAL_X] = 1.0
@@ -183,9 +191,11 @@ def start_walk(a, b, i, j, state_out, simplex_out):
 
 @subkernel
 def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
-    """Run one round of GJK: the nearest feature of the simplex, then the support point towards the origin. O(corners).
+    """Run one round of GJK: reduce the simplex to the feature nearest to the origin, and add the support point beyond
+    it.
 
-    Return SEARCHING; APART when the support point is no further, so that the feature is the nearest; or TOUCHING.
+    Return SEARCHING when a support point was added; APART when none is nearer to the origin, so that the feature is the
+    nearest; TOUCHING when the origin lies in the simplex. O(corners).
     """
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
@@ -206,9 +216,10 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 
 @subkernel
 def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
-    """Write separation, normal and nearest points for the edge of the difference between two places.
+    """Write separation, normal and nearest points for an edge of the difference, from row p to row q of `places`.
 
-    places: the simplex or the polytope, whose rows begin with a corner of A and one of B.
+    places: the simplex or the polytope, whose rows begin with the indices of a corner of A and one of B. (nx, ny): unit
+    normal. gap_out: see GapWorkspace.
     """
     i = int(places[p, 0])
     j = int(places[p, 1])
@@ -234,7 +245,7 @@ def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
 
 @subkernel
 def write_nearest(a, b, state, simplex, gap_out):
-    """Write separation, normal (of the edge, or between two corners) and nearest points of the final simplex."""
+    """Write separation, normal and nearest points of the final simplex, which is an edge or a single corner."""
     q = 1 if state[COUNT] == 2.0 else 0
     write_edge_gap(a, b, simplex, 0, q, state[NORMAL_X], state[NORMAL_Y], gap_out)
     if q == 0:
@@ -243,10 +254,10 @@ def write_nearest(a, b, state, simplex, gap_out):
 
 @subkernel
 def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
-    """Run GJK until A and B are APART, with workspace.gap written, or TOUCHING. At most GJK_CAP rounds.
+    """Run GJK: return APART and write workspace.gap, or return TOUCHING without. At most GJK_CAP rounds.
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: first corners. When the cap is hit, the result so far is
-    returned and workspace.state[CAPPED] is increased.
+    a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: indices of the corners of A and B at which the search
+    starts. When the cap is hit, the result so far is returned and workspace.state[CAPPED] is increased.
     """
     start_walk(a, b, i, j, workspace.state, workspace.simplex)
     status = SEARCHING
@@ -276,14 +287,18 @@ EPA_CAP = 60  # rounds; less than the capacity of the polytope
 
 @subkernel
 def write_polytope_corner(i, j, k, polytope_out):
-    """Write corner a[i] - b[j] to place k of the polytope."""
+    """Write the indices of corner a[i] - b[j] to row k of the polytope."""
     polytope_out[k, 0] = float(i)
     polytope_out[k, 1] = float(j)
 
 
 @subkernel
 def measure_edge(a, b, k, count, polytope_inout):
-    """Write the outward normal of the edge that starts at place k, and the depth of the origin behind it [px]."""
+    """Write the outward normal of the polytope edge that starts in row k, and the depth [px] of the origin behind the
+    edge.
+
+    count: number of corners of the polytope.
+    """
     n = k + 1 if k + 1 < count else 0
     i = int(polytope_inout[k, 0])
     j = int(polytope_inout[k, 1])
@@ -296,10 +311,9 @@ def measure_edge(a, b, k, count, polytope_inout):
 
 @subkernel
 def start_polytope(a, a_count, b, b_count, polytope_out):
-    """Write the two corners of the difference furthest apart along x, or along y if it has no width. Return their
-    number.
+    """Start the polytope with the two corners of the difference furthest apart along x, or along y if it has no width.
 
-    The number is 1 if the difference is a point.
+    Return the number of corners: 2, or 1 if the difference is a point.
     """
     for axis in range(2):
         x, y = 1.0 - axis, float(axis)
@@ -318,7 +332,7 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
 
 @subkernel
 def shallowest_edge(polytope, count):
-    """Return the edge nearest to the origin, the first of equal ones."""
+    """Return the row in which the polytope edge nearest to the origin starts, the first of equal ones."""
     best = 0
     for k in range(1, count):
         if polytope[k, 4] < polytope[best, 4]:
@@ -328,7 +342,8 @@ def shallowest_edge(polytope, count):
 
 @subkernel
 def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
-    """Expand the nearest edge to the support point beyond it. Return the new number of corners.
+    """Replace the edge nearest to the origin by two edges, by way of the support point beyond it. Return the number of
+    corners.
 
     The number is unchanged if no corner lies beyond: then the edge belongs to the difference. O(corners).
     """
@@ -356,7 +371,10 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
 
 @subkernel
 def write_depth(a, b, count, polytope, gap_out):
-    """Write separation (minus the depth), normal and points of the nearest edge. For a single point: normal (1, 0)."""
+    """Write separation (minus the depth), normal and points of the polytope edge nearest to the origin.
+
+    For a polytope of a single point the normal is (1, 0).
+    """
     if count < 2:
         write_edge_gap(a, b, polytope, 0, 0, 1.0, 0.0, gap_out)
         return
@@ -367,7 +385,8 @@ def write_depth(a, b, count, polytope, gap_out):
 
 @subkernel
 def measure_depth(a, a_count, b, b_count, workspace):
-    """Write to workspace.gap the move of B, with its normal, that brings it to touch A (EPA). O(corners squared).
+    """Write to workspace.gap by how much, and along which normal, B must move to only touch A (EPA). O(corners
+    squared).
 
     The rounds are added to workspace.state[ROUNDS], and 1 to workspace.state[CAPPED] if they reach EPA_CAP.
     """
@@ -387,16 +406,17 @@ def measure_depth(a, a_count, b, b_count, workspace):
 
 
 # ---- separation ------------------------------------------------------------------------------------------------------
-# Signed distance of rounded hulls: GJK for cores that are apart, EPA for cores that overlap; then the radii.
+# Signed distance of rounded hulls. A core is the hull without its radius: GJK for cores that are apart,
+# EPA for cores that overlap; then the radii are subtracted.
 
 
 @subkernel
 def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspace):
     """Write separation, unit normal from A to B and nearest points to workspace.gap. Return the separation [px].
 
-    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; first: corners of both to begin at. If the hulls
-    overlap, the separation is minus the move of B along the normal that ends the overlap. workspace.state has the
-    rounds and the caps hit.
+    a, b: world corners (n, 2) [px], 1 to 16 of them; radii [px]; first: indices of the corners of A and B at which the
+    search starts. If the hulls overlap, the separation is minus the distance that B must move along the normal to end
+    the overlap. workspace.state holds the number of rounds and of caps hit.
     """
     if walk_to_nearest(a, a_count, b, b_count, first[0], first[1], workspace) == TOUCHING:
         measure_depth(a, a_count, b, b_count, workspace)
@@ -431,11 +451,12 @@ def copy_part(corners, part, count, corners_out):
 
 @kernel
 def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
-    """Write separation, normal and points of the nearest two parts to workspace.gap. Return the separation [px].
+    """Write separation, normal and points of the nearest two convex parts of A and B to workspace.gap. Return the
+    separation.
 
-    a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch; totals_out (2,): rounds of GJK and EPA, caps hit. Parts
-    whose boxes are further apart than the nearest so far are skipped. Infinite when one side has no parts. O(parts of A
-    · parts of B).
+    The separation [px] is infinite if A or B has no parts. a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch;
+    totals_out (2,): rounds of GJK and EPA, number of caps hit. Parts whose boxes are further apart than the nearest two
+    so far are skipped. O(parts of A · parts of B).
     """
     best = math.inf
     best_i, best_j = -1, -1

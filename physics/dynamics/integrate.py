@@ -25,14 +25,18 @@ BOTH = (False, True)
 
 
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
-    """Return the velocity pass over the dynamic bodies for a world with these effects.
+    """Return the kernel that integrates the velocities of dynamic bodies in a world with these effects.
 
     Wind adds an acceleration drag_rate · wind; with drag too, bodies approach the velocity of the wind.
     """
 
     @kernel
     def integrate_velocities(rows, gravity_x, gravity_y, drag_rate, wind_x, wind_y, dt, bodies_inout):
-        """Add gravity [px/s2], collected forces and drag [1/s] towards the wind [px/s] to the velocities. O(rows)."""
+        """Add gravity [px/s2], accumulated forces, and drag [1/s] towards the wind [px/s] over dt [s] to the
+        velocities.
+
+        rows: body rows. The accumulated forces are cleared. O(rows).
+        """
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
             if b.kind != DYNAMIC or b.quarantined:
@@ -59,11 +63,15 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
 
 
 def make_position_pass(rotation: bool) -> Callable:
-    """Return the position pass over the moving bodies; with rotation they rotate about their centres of mass."""
+    """Return the kernel that integrates poses of moving bodies. rotation: bodies turn about their centres of mass."""
 
     @kernel
     def integrate_positions(rows, dt, bodies_inout, work_inout):
-        """Move bodies by the free fraction of their motion in dt [s], and keep their previous poses. O(rows)."""
+        """Move bodies by their velocities over dt [s], up to their first impact, and store their poses before as
+        previous ones.
+
+        rows: body rows. The field `fraction` of a body is the share of its motion before the impact. O(rows).
+        """
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
             b.previous_x, b.previous_y = b.x, b.y
@@ -87,7 +95,9 @@ def make_position_pass(rotation: bool) -> Callable:
 
 @subkernel
 def put_center(u, v, body_inout):
-    """Write the world centre of mass [px] of a BODY row, offset u, v from its origin, and its last finite pose."""
+    """Write the world centre of mass of a BODY row, at offset (u, v) [px] from its origin. Store a finite pose as
+    settled.
+    """
     b = body_inout
     b.center_x, b.center_y = b.x + u, b.y + v
     b.has_current_contacts = False
@@ -110,7 +120,7 @@ def refresh_center(body_inout):
 
 @kernel
 def refresh_centers(rows, bodies_inout):
-    """Write the world centres of mass [px] at the present poses. O(rows)."""
+    """Write the world centres of mass [px] of the body rows in `rows` at their present poses. O(rows)."""
     for k in range(len(rows)):
         refresh_center(bodies_inout[rows[k]])
 
@@ -147,7 +157,7 @@ def integrate_velocities(state: StepState) -> None:
     ),
 )  # fmt: skip
 def integrate_positions(state: StepState) -> None:
-    """Integrate poses from velocities, up to the free fraction; update boxes and rasters."""
+    """Integrate poses from velocities, up to the first impact of each body; update AABBs, and rasters of masks."""
     rows, bodies = state.awake.bodies, state.bodies
     POSITIONS[state.effects.rotation](rows, state.dt, bodies, state.work)
     refresh_centers(rows, bodies)
@@ -155,7 +165,7 @@ def integrate_positions(state: StepState) -> None:
 
 
 def place_shapes(state: StepState) -> None:
-    """Update boxes, and rasters of masks, to the present poses of awake bodies."""
+    """Update the AABBs, and rasters of masks, of awake bodies to their present poses."""
     # A body that was stopped by a sweep, or rotated by the solver, may be at an angle without a raster.
     add_missing_rasters(state.library, state.awake.shapes, state.bodies, state.shapes, 0.0)
     refresh_aabbs(state.awake.shapes, state.library.tables, state.bodies, state.shapes)
@@ -211,16 +221,15 @@ def disable_body(body_inout):
 
 @subkernel
 def is_within_limits(body):
-    """Return whether the pose of a body is one that a double resolves."""
+    """Return whether position and angle of a body are within POSITION_LIMIT, where a double resolves them."""
     return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
 
 
 @subkernel
 def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
-    """Return whether a step of dt [s] can use a body.
+    """Return whether all numbers that a step of dt [s] reads of a body are finite and in range, also after its motion.
 
-    All numbers read must be finite, and a double must resolve the pose at the end of its motion; otherwise the fault
-    would spread to neighbours. gravity [px/s2], speed_limit [px/s].
+    Otherwise the fault would spread to neighbours. gravity [px/s2], speed_limit [px/s].
     """
     b = body
     vx = b.vx + dt * (b.inverse_mass * b.force_x + b.gravity_scale * gravity_x)
@@ -268,7 +277,7 @@ class Course(NamedTuple):
 
 @subkernel
 def take_body(row, reason, found, bodies_inout, broken_out):
-    """Quarantine a body, and list its row and the reason. Return the new count."""
+    """Quarantine a body, and write its row and the reason to row `found` of broken_out. Return found + 1."""
     disable_body(bodies_inout[row])
     broken_out[found, 0] = row
     broken_out[found, 1] = reason
@@ -277,7 +286,12 @@ def take_body(row, reason, found, bodies_inout, broken_out):
 
 @subkernel
 def take_broken_bodies(rows, course, bodies_inout, broken_out):
-    """List the bodies that a step cannot use, and quarantine them at their last finite pose. Return their number."""
+    """Quarantine the bodies whose numbers are not finite or out of range, and list them in broken_out. Return their
+    number.
+
+    A body whose pose is out of range returns to its last finite pose. rows: body rows. broken_out (bodies, 2): row,
+    reason.
+    """
     found = 0
     for k in range(len(rows)):
         b = bodies_inout[rows[k]]
@@ -294,7 +308,7 @@ def take_broken_bodies(rows, course, bodies_inout, broken_out):
 
 @subkernel
 def is_finite_shape(shape):
-    """Return whether a step can use the numbers of a shape."""
+    """Return whether the numbers of a shape are finite and in range."""
     s = shape
     place = abs(s.local_x) + abs(s.local_y) + s.radius
     surface = s.friction + abs(s.restitution) + abs(s.rolling_resistance) + abs(s.surface_speed)
@@ -303,10 +317,10 @@ def is_finite_shape(shape):
 
 @kernel
 def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_inout, broken_out):
-    """List the bodies that a step cannot use, and quarantine them. Return their number. O(rows + shape_rows).
+    """Quarantine bodies for numbers out of range: their own, their shapes' or their characters'. Return how many.
 
-    grid_rows: shape rows that may be grids, which only a direct write to the table can rotate; broken_out (bodies, 2):
-    row and reason, each body once.
+    rows: body rows; shape_rows: shape rows; grid_rows: shape rows that may be grids, which only a direct write to the
+    table can rotate. broken_out (bodies, 2): row and reason (index of REASONS), each body once. O(rows + shape_rows).
     """
     found = take_broken_bodies(rows, course, bodies_inout, broken_out)
     for k in range(len(shape_rows)):
@@ -328,13 +342,13 @@ def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_
 
 @kernel
 def take_broken_by_solver(rows, course, bodies_inout, broken_out):
-    """List and quarantine bodies as take_broken does, by their body rows alone: used after a solver."""
+    """Quarantine the bodies that a solver left with numbers out of range, like take_broken but by body rows alone."""
     return take_broken_bodies(rows, course, bodies_inout, broken_out)
 
 
 @stage("quarantine", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
 def quarantine(state: StepState) -> None:
-    """Disable the bodies that a step cannot use, and report them; their neighbours go on as after a removal."""
+    """Disable and report bodies whose numbers are not finite or out of range. Neighbours go on as after a removal."""
     awake, bodies, workspace = state.awake, state.bodies, state.workspace
     gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
     course = Course(*gravity, state.tolerances.speed_limit, state.dt)
@@ -350,7 +364,7 @@ def quarantine(state: StepState) -> None:
 
 @stage("quarantine_solved", reads=(*READS, "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
-    """Disable the bodies that a solver did not keep finite, with their contacts, before sweeps and reports."""
+    """Disable the bodies that a solver did not keep finite, and drop their contacts, before sweeps and reports."""
     if not state.non_finite_count:
         return
     broken, course = np.zeros((len(state.bodies), 2), np.int64), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
@@ -360,7 +374,10 @@ def quarantine_solved(state: StepState) -> None:
 
 
 def _take_out(state, broken):
-    """Remove bodies from the broad phase and from the awake rows; broken (n, 2): row and reason. Return their ids."""
+    """Remove quarantined bodies from the broad phase and the awake rows, and report them. Return their ids.
+
+    broken (n, 2): body row and reason (index of REASONS).
+    """
     bodies, shapes = state.bodies, state.shapes
     rows, reasons = broken[np.argsort(broken[:, 0])].T
     ids = bodies["id"][rows]

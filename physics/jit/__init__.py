@@ -27,7 +27,7 @@ DECORATORS = ("generic", "inlined", "kernel", "noalias", "subkernel")  # by name
 
 
 def subkernel(function: Callable) -> Any:
-    """Return a function for kernels to call: a Part, or without numba the function itself."""
+    """Return a function for kernels to call: a Part, or without numba the function itself. Used as a decorator."""
     return Part(function) if JIT else function
 
 

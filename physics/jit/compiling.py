@@ -1,6 +1,6 @@
 """Compiled forms of kernels and of the parts that they call: loaded from the store, or compiled and stored.
 
-Imported only where numba is.
+The module needs numba and imports it.
 """
 
 import hashlib
@@ -40,7 +40,9 @@ from physics.jit.store import store
 
 
 class PartLibrary(codegen.JITCodeLibrary):
-    """Code that is linked into other code: its calls are resolved, but it is neither optimised nor executable."""
+    """The code of a part, to be linked into its callers: calls are resolved, but it is neither optimised nor
+    executable.
+    """
 
     def _optimize_final_module(self):
         pass
@@ -64,12 +66,12 @@ class PartLibrary(codegen.JITCodeLibrary):
 
 @register_pass(mutates_CFG=True, analysis_only=False)
 class PartLowering(typed_passes.NativeLowering):
-    """Numba's lowering pass, into a PartLibrary."""
+    """Numba's lowering pass, with its output in a PartLibrary."""
 
     _name = "part_lowering"
 
     def run_pass(self, state: Any) -> bool:
-        """Lower the function as numba does, without the address of machine code."""
+        """Lower the function as numba does, but generate no machine code, so that it has no address."""
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         state.flags.noalias = getattr(state.func_id.func, "noalias", False)
@@ -83,10 +85,10 @@ class PartLowering(typed_passes.NativeLowering):
 
 
 class PartCompiler(CompilerBase):
-    """Numba's pipeline for compiled functions, except for its last pass."""
+    """Numba's compiler pipeline, with PartLowering as its last pass."""
 
     def define_pipelines(self) -> list:
-        """Return one pipeline."""
+        """Return a list of one pipeline: numba's own, with the last pass replaced."""
         manager = DefaultPassBuilder.define_nopython_pipeline(self.state)
         manager.add_pass_after(PartLowering, typed_passes.NativeLowering)
         manager.passes = [each for each in manager.passes if each[0] is not typed_passes.NativeLowering]
@@ -95,20 +97,22 @@ class PartCompiler(CompilerBase):
 
 
 def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
-    """Return the object by which numba identifies a compiled function, without an address."""
+    """Return the function object by which numba identifies a compiled part. It has no address, because it is never
+    called.
+    """
     name = descriptor.qualname.split(".")[-1]
     return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
 
 
 def reduce(result: Any) -> tuple:
-    """Return the stored data of a CompileResult."""
+    """Return what the store keeps of a part's CompileResult, as a tuple that can be pickled."""
     descriptor = result.fndesc
     descriptor.typemap = descriptor.calltypes = None  # may not be pickled
     return result.library.name, result.library.bitcode(), descriptor, result.environment, result.signature
 
 
 def rebuild(target_context: Any, kept: tuple) -> Any:
-    """Return a CompileResult from the data of reduce()."""
+    """Return a part's CompileResult from the tuple of reduce()."""
     name, code, descriptor, environment, signature = kept
     library = PartLibrary.from_bitcode(target_context.codegen(), name, code)
     return compile_result(
@@ -142,18 +146,18 @@ READABLE = 48  # characters of a kernel's name in the name of its file
 
 
 def file_name(kernel: Kernel, types_text: str) -> str:
-    """Return the name under which a form is kept: readable, then the kernel's fingerprint, then its types."""
+    """Return the name of a compiled form in the store: readable name, fingerprint of the kernel, hash of its types."""
     readable = f"{kernel.__module__.partition('.')[2]}.{kernel.__name__}"[-READABLE:]
     return f"{readable}.{fingerprint(kernel)}.{hashlib.blake2b(types_text.encode(), digest_size=8).hexdigest()}"
 
 
 def name_of(kernel: Kernel, keys: Keys) -> str:
-    """Return the name under which a stage's kernel is kept for arguments of these types."""
+    """Return the name in the store of a stage's kernel, compiled for arguments of these types."""
     return file_name(kernel, ",".join(map(text_of, keys)))
 
 
 def load(kernel: Kernel, keys: Keys) -> Form | None:
-    """Return the compiled form of a kernel from the store; None where it is not there."""
+    """Return the compiled form of a kernel from the store; None if the store does not have it."""
     content = store().read(name_of(kernel, keys))
     if content is None:
         return None
@@ -165,7 +169,7 @@ def load(kernel: Kernel, keys: Keys) -> Form | None:
 
 
 def load_or_compile(kernel: Kernel, keys: Keys) -> Form:
-    """Return the compiled form of a kernel, compiled and kept where it was not in the store yet."""
+    """Return the compiled form of a kernel from the store; if the store does not have it, compile and store it."""
     form = load(kernel, keys)
     if form is None:
         with store().claim(name_of(kernel, keys)):
@@ -184,7 +188,7 @@ def _compile(kernel, keys):
 
 
 def _kept(result):
-    """Return the stored data of a kernel of a stage: names, constants of its entry, machine code."""
+    """Return what the store keeps of a stage's kernel: names, constants of its entry, machine code."""
     descriptor = result.fndesc
     constants = [
         (each.env_name, each.globals["__name__"], list(each.consts)) for each in result._find_referenced_environments()
@@ -213,7 +217,7 @@ def _generator() -> Any:
 
 
 def _link(kept):
-    """Return the function that the machine code holds, linked into numba's engine."""
+    """Return the function whose stored machine code is linked into numba's engine here. kept: the result of _kept()."""
     modname, qualname, symbol, env_name, constants, code = kept
     with global_compiler_lock:
         generator = _generator()
@@ -260,7 +264,7 @@ _UNDER_WAY = object()
 
 
 def dispatcher_of(kernel: Kernel) -> Any:
-    """Return numba's dispatcher of a kernel, whose function names the dispatchers of all that it calls."""
+    """Return numba's dispatcher for a copy of a kernel in which all kernels it calls are replaced by dispatchers."""
     if kernel.dispatcher is _UNDER_WAY:
         raise TypeError(f"{kernel.name} calls itself, which kernels do not")
     if kernel.dispatcher is None:
@@ -290,7 +294,8 @@ def _compiled_form_of(value):
 
 
 def _take_literals_as_values(dispatcher):
-    """Compile one version for all calls of the same types; numba compiles another one for every literal argument.
+    """Make a dispatcher compile one version for all calls of the same types. Numba compiles one for every literal
+    argument.
 
     The kernels of the platformer compile in 80 s of processor time instead of 136 s.
     """
@@ -309,7 +314,7 @@ _claimed: dict[str, ExitStack] = {}  # file name -> release of the claim, of all
 
 @contextmanager
 def _claims():
-    """Release all claims that an error has left."""
+    """Release at the end of the context all claims on parts that an error has left held."""
     try:
         yield
     finally:
@@ -319,18 +324,20 @@ def _claims():
 
 
 class PartCache(caching._Cache):
-    """The store, as numba's dispatcher of a part calls it."""
+    """Numba's cache interface to the store, for the dispatcher of a part."""
 
     def __init__(self, kernel: Kernel) -> None:
         self.kernel = kernel
 
     @property
     def cache_path(self) -> str:
-        """The path of the folder."""
+        """The path of the store's folder."""
         return str(store().folder)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return a stored part. Claim it if it is absent, so that other processes wait for it."""
+        """Return a part from the store. If it is absent, claim it and return None: other processes then wait for this
+        one.
+        """
         name = self._name(sig)
         content = store().read(name)
         if content is None and name not in _claimed:
@@ -346,7 +353,7 @@ class PartCache(caching._Cache):
         return rebuild(target_context, pickle.loads(zlib.decompress(content)))
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Store a part."""
+        """Store a compiled part, and release the claim on it."""
         name = self._name(sig)
         store().write(name, zlib.compress(pickle.dumps(reduce(data)), 1))
         if name in _claimed:
@@ -400,7 +407,7 @@ def stable_symbols() -> Iterator[None]:
 
 
 def _symbol(function):
-    """Return text that differs for different functions in every process: a hash of the content, or a random one."""
+    """Return a name for a function's symbol that no other function has: the hash of its content, or a random one."""
     content = getattr(function, "content", None)
     if content is not None:
         return content

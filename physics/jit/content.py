@@ -1,4 +1,4 @@
-"""Fingerprints of kernels: hashes of everything that their machine code follows from, equal in every process.
+"""Fingerprints of kernels: hashes of everything that their machine code depends on, equal in every process.
 
 They cover the code of the kernel and of all functions that it calls or closes over, at any depth; closed-over values
 and module globals that it reads; flags; the name of its module; the sources of this folder; the versions of Python,
@@ -28,7 +28,7 @@ _describing = threading.RLock()
 
 
 class NotHashable(TypeError):
-    """A value without a fingerprint that is equal in another process."""
+    """Error for a value whose fingerprint would differ between processes."""
 
 
 def fingerprint(kernel: Kernel) -> str:
@@ -59,9 +59,10 @@ def _digest(*parts):
 
 
 def content_of_library(function: FunctionType) -> str:
-    """Return the hash of a function of numba that is compiled into kernels: its code and its closure.
+    """Return the hash of one of numba's own functions that is compiled into kernels: its code and its closure.
 
-    The globals of its module are those of the version of numba. Raises NotHashable for a function of another package.
+    The globals of its module are left out, as numba's version identifies them. Raises NotHashable for a function of
+    another package.
     """
     return _digest(*_describe_library(function, ()))
 
@@ -106,7 +107,7 @@ def _describe_code(code):
 
 
 def _describe(value, names=()):
-    """Yield texts that distinguish this value from others. names: attributes read of a module of this package."""
+    """Yield texts that distinguish a value from others. names: attributes that are described if it is a module."""
     kind = type(value)
     if value is None or kind in (bool, int, float, complex, str, bytes):
         yield f"{kind.__name__} {value!r}"
@@ -165,7 +166,9 @@ def _described_type(value):
 
 @cache
 def environment() -> str:
-    """Return everything besides the kernel that its machine code follows from, as text. Imports numba."""
+    """Return, as text, all that machine code depends on besides the kernel: sources, versions, processor. Imports
+    numba.
+    """
     import llvmlite.binding as llvm
 
     numba = compiler()

@@ -1,4 +1,4 @@
-"""Kernels as objects, and the types of their arguments; numba is not imported for them."""
+"""Kernels as objects, and the types of their arguments. This module does not import numba."""
 
 import math
 import os
@@ -17,7 +17,7 @@ from physics.jit.plain import Builtin, plain_math, rebound, view_of
 # ---- totals ----------------------------------------------------------------------------------------------------------
 # Compiled and loaded kernels of this process, and the time they took, which belongs to no other measurement.
 
-compiled = 0  # stages' kernels
+compiled = 0  # number of kernels of stages
 loaded = 0
 parts_loaded = 0
 seconds = 0.0  # [s] of compiling
@@ -27,7 +27,7 @@ _depth = 0
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Count the time of the context as compiling; nested contexts count once."""
+    """Add the time of the context to the seconds of compiling; nested contexts count once."""
     global compiled, seconds, _depth
     started = perf_counter()
     _depth += 1
@@ -42,7 +42,7 @@ def compiling() -> Iterator[None]:
 
 @contextmanager
 def measured() -> Iterator[Callable[[], float]]:
-    """Yield a function that returns the seconds of compiling and loading so far in the context."""
+    """Yield a function that returns the seconds of compiling and loading since the context was entered."""
     before = seconds + loading
     yield lambda: seconds + loading - before
 
@@ -60,7 +60,9 @@ SCALARS = {bool: ("scalar", "bool"), int: ("scalar", "int64"), float: ("scalar",
 
 
 def key_of(value: Any) -> Key:
-    """Return the key of one argument. Raises TypeError for a kind that kernels do not take."""
+    """Return the key of one argument: a tuple that names its type. Raises TypeError for a type that kernels do not
+    take.
+    """
     kind = type(value)
     if kind is np.ndarray:
         flags = value.flags
@@ -112,7 +114,7 @@ def type_of(key: Key) -> Any:
 
 
 def is_whole(key: Key) -> bool:
-    """Return whether the argument is a whole number or a bool, for which a fraction is refused."""
+    """Return whether a key names an int or a bool. A float is refused as such an argument."""
     return key[0] == "scalar" and not key[1].startswith("float")
 
 
@@ -126,7 +128,7 @@ registry: "list[Kernel]" = []  # every kernel, in the order of definition; empty
 
 
 class Kernel:
-    """A function over tables that can be compiled. Calling it calls `run`, its present form."""
+    """A function over tables that can be compiled. A call of it calls `run`: a compiled form, or its plain twin."""
 
     is_part = False
     __call__: Any = property(attrgetter("run"))
@@ -155,17 +157,17 @@ class Kernel:
 
     @property
     def flags_text(self) -> str:
-        """The flags that its machine code depends on."""
+        """Text of the flags on which the machine code depends."""
         return f"part={self.is_part} inlined={self.is_inlined} noalias={self.noalias}"
 
     @property
     def signatures(self) -> list[Keys]:
-        """The types of its compiled forms."""
+        """The argument types of each compiled form."""
         return list(self.forms)
 
     @property
     def plain(self) -> Form:
-        """The plain twin: the same function, with the plain twins of all that it calls."""
+        """The plain twin: the same function as plain Python, which calls the plain twins of other kernels."""
         if self._plain is None:
             rebound(self.py_func, plain_form_of, self._note_plain)
         assert self._plain is not None
@@ -178,7 +180,7 @@ class Kernel:
         return f"<kernel {self.name}>"
 
     def reset(self) -> None:
-        """Reset the form that runs."""
+        """Set the form that runs back to the first one."""
         self.run = self.call_plain
 
     def call_plain(self, *arguments: Any) -> Any:
@@ -191,13 +193,15 @@ class Kernel:
 
 
 class Part(Kernel):
-    """A kernel that kernels call. It has no entry from Python, where its plain twin runs, with the same result."""
+    """A kernel that other kernels call. Only they call its compiled form; Python calls its plain twin, with the same
+    result.
+    """
 
     is_part = True
 
 
 def plain_form_of(value: Any) -> Any:
-    """Return the value of a global or closed-over name in a plain twin."""
+    """Return the replacement of a global or closed-over value in a plain twin: of a kernel, its plain twin."""
     if value is math:
         return plain_math
     return value.plain if isinstance(value, (Kernel, Builtin)) else value

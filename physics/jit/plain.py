@@ -50,7 +50,10 @@ _kept: dict[int, tuple[ref, "TableView"]] = {}  # id of an array -> the array, a
 
 
 class TableView:
-    """A structured array as rows; `view[i].x = 1.0` writes it. Raises TypeError for a row that C cannot hold."""
+    """A structured array as plain kernels read it; `view[i].x = 1.0` writes to row i of the array.
+
+    Raises TypeError for a row that C cannot hold.
+    """
 
     __slots__ = ("rows",)
 
@@ -95,7 +98,7 @@ def _row_class(dtype):
 
 
 def view_of(argument: Any) -> Any:
-    """Return the argument as a kernel takes it: rows of a table, a memoryview of an array, Python numbers."""
+    """Return an argument as a plain kernel reads it: a TableView, a memoryview of another array, Python numbers."""
     kind = type(argument)
     if kind is float or kind is int or kind is bool:
         return argument
@@ -116,9 +119,9 @@ WORD_MASK = 0xFFFFFFFFFFFFFFFF
 
 
 class Builtin:
-    """A function that kernels call, with its own form for the compiler.
+    """A function that kernels call and that has separate forms for plain and compiled kernels.
 
-    plain: the Python function. make: returns the function as numba takes it. sources: functions that it is made of.
+    plain: the Python function. make: returns the form for numba. sources: functions whose code identifies the form.
     """
 
     def __init__(self, plain: Callable, make: Callable[[], Any], *sources: Callable) -> None:
@@ -130,7 +133,7 @@ class Builtin:
 
     @property
     def compiled(self) -> Any:
-        """The function as numba takes it, made at its first use."""
+        """The form for numba, made at its first use."""
         if self.made is None:
             self.made = self.make()
         return self.made
@@ -145,7 +148,7 @@ def _masked(value):
 
 
 def _count_bits(typing_context, word):
-    """Type and generate the number of set bits of a uint64 (numba.extending.intrinsic)."""
+    """Return type and code generator of the number of set bits of a uint64, as numba.extending.intrinsic needs them."""
 
     def generate(context, builder, signature, args):
         narrow = signature.args[0].bitwidth < 64
@@ -162,7 +165,7 @@ def _as_word(value):
 
 
 def _total(function):
-    """Return a function of one number that gives NaN where math raises: at infinity, as the compiled form does."""
+    """Return a function of one number that gives NaN at infinity, as compiled code does where `math` raises errors."""
 
     def total(x):
         return function(x) if abs(x) < math.inf else math.nan
@@ -181,7 +184,7 @@ def _make_popcount():
 
 
 def put_in(function: Callable) -> Callable[[], Any]:
-    """Return the function that numba inlines at every call."""
+    """Return a maker of the form of a function for numba, which inlines it at every call; for Builtin."""
     return lambda: compiler().njit(inline="always")(function)
 
 
@@ -198,7 +201,7 @@ def _copy_head(source, row_out, size):
 
 
 def _row_copy(typing_context, source, row_out):
-    """Type and generate the copy of a row to another one of the same type (numba.extending.intrinsic)."""
+    """Return type and code generator of the copy of a row to another one, as numba.extending.intrinsic needs them."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils
@@ -211,7 +214,7 @@ def _row_copy(typing_context, source, row_out):
 
 
 def _head_copy(typing_context, source, row_out, size):
-    """Type and generate the copy of the first bytes of a row (numba.extending.intrinsic)."""
+    """Return type and code generator of the copy of a row's first bytes, as numba.extending.intrinsic needs them."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils
@@ -250,7 +253,7 @@ Replace = Callable[[Any], Any]
 
 
 def names_in(code: CodeType) -> tuple[str, ...]:
-    """Return the names that code reads from its globals or as attributes, those of nested code too."""
+    """Return the names that a code object, and code nested in it, reads as globals or attributes."""
     names = set(code.co_names)
     for each in code.co_consts:
         if isinstance(each, CodeType):
@@ -268,7 +271,7 @@ def globals_of(function: FunctionType) -> Iterator[tuple[str, Any]]:
 def rebound(function: FunctionType, replace: Replace, made: Callable[[FunctionType], Any] = lambda twin: None) -> Any:
     """Return a copy of a function in which every global and closed-over value is replaced by replace(value).
 
-    made(copy) is called before that, so that a function that refers to itself finds its own copy.
+    made(copy) is called before values are replaced, so that a function that refers to itself finds its own copy.
     """
     names = {"__builtins__": __builtins__, "__name__": function.__module__}
     cells = tuple(CellType() for _ in function.__closure__ or ())

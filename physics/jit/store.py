@@ -52,7 +52,7 @@ def cache_home() -> Path:
 
 
 def make_private(folder: Path) -> str:
-    """Make a folder that only this user can read and write. Return "" or the reason why it is not one.
+    """Make a folder that only this user can read and write. Return "" or, if that fails, the reason.
 
     An existing folder is unchanged, except that read permission of others is removed if it holds only kernels.
     """
@@ -93,7 +93,8 @@ def _exposed(folder):
 
 
 def store() -> "Store":
-    """Return the store of this process: the user's folder, one beside it, or a temporary one for this run.
+    """Return the store of this process: in the user's cache folder, in one beside it, or in a temporary one for this
+    run.
 
     The second and third are used if the first is not private or not writable, and are reported.
     """
@@ -135,9 +136,9 @@ def _remove_at_exit(folder):
 
 
 def _locked(path, wait):
-    """Return an open file with an exclusive lock, which ends with the process; None if another process has it.
+    """Return a file opened with an exclusive lock, held until the process ends; None if another process holds the lock.
 
-    On a system without such locks every process gets one: at worst work is done twice.
+    On a system without such locks every process gets the file: at worst work is done twice.
     """
     file = open(path, "ab")  # noqa: SIM115, closed by the owner of the lock
     if fcntl is None:
@@ -153,7 +154,7 @@ def _locked(path, wait):
 
 
 class Store:
-    """The files in one private folder."""
+    """Compiled kernels as files in one private folder."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder
@@ -235,7 +236,10 @@ class Store:
 
     @contextlib.contextmanager
     def claim(self, name: str) -> Iterator[None]:
-        """Hold the right to make a file: while one process compiles a kernel, others wait for it, up to PATIENCE."""
+        """Hold a lock on a name while the context is open, for up to one process at a time to compile a kernel.
+
+        Another process waits for the lock on entry, but no longer than PATIENCE [s].
+        """
         path, lock, until = self.folder / (name + CLAIMED), None, time.monotonic() + PATIENCE
         with contextlib.suppress(OSError):
             while (lock := _locked(path, wait=False)) is None and time.monotonic() < until:
@@ -250,7 +254,7 @@ class Store:
 
 
 def checksum(name: str, content: bytes) -> bytes:
-    """Return the checksum at the start of a file; it depends on the name, too."""
+    """Return the checksum of a file's name and contents, with which the file begins."""
     return hashlib.blake2b(content, digest_size=CHECKSUM, key=hashlib.blake2b(name.encode()).digest()).digest()
 
 

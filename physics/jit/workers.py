@@ -1,4 +1,4 @@
-"""Worker processes that compile kernels, their order of work, and how their threads share the interpreter."""
+"""Worker processes that compile kernels, the order of their tasks, and how background threads share the interpreter."""
 
 import atexit
 import base64
@@ -41,7 +41,10 @@ def short_turns() -> Iterator[None]:
 
 
 class _Pauses:
-    """A module finder that finds no module. It sleeps before each import of its thread while kernels run plain."""
+    """An import hook that slows the imports of one thread: while kernels run plain, it sleeps before each import.
+
+    It is a module finder that finds no module.
+    """
 
     def __init__(self):
         self.thread, self.since = threading.get_ident(), thread_time()
@@ -54,7 +57,8 @@ class _Pauses:
 
 @contextmanager
 def unhurried_imports() -> Iterator[None]:
-    """Let imports take SHARE of the time of this thread while the context is open, so that a plain game goes on.
+    """Let imports take only SHARE of this thread's time while the context is open, so that a game with plain kernels
+    goes on.
 
     Importing the compiler takes 0.7 s of processor time; without pauses a game showed 20 frames in that second.
     """
@@ -96,14 +100,17 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 
 
 def search_path() -> dict[str, str]:
-    """Return PYTHONPATH for a process that imports this program from the same place; {} if it does so by itself."""
+    """Return {"PYTHONPATH": …} for a child process that is to import this package from the same folder.
+
+    The dict is empty if the child does so anyway.
+    """
     if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
         return {}  # named again, site-packages would come before the standard library
     return {"PYTHONPATH": os.pathsep.join(filter(None, (str(IMPORTED_FROM), os.environ.get("PYTHONPATH"))))}
 
 
 def end_all(processes: Iterable["subprocess.Popen[str]"]) -> None:
-    """Kill the processes, all of them before the first is waited for."""
+    """Kill all processes, then wait for each of them to end."""
     processes = list(processes)
     for process in processes:
         process.kill()
@@ -136,17 +143,22 @@ def cores_here() -> int:
 
 
 def encoded(value: Any) -> str:
-    """Return a value as one line of text."""
+    """Return a value as one line of text, for a pipe between processes."""
     return MARK + base64.b64encode(pickle.dumps(value)).decode()
 
 
 def decoded(line: str) -> Any:
-    """Return the value of such a line. Only for lines of our own processes."""
+    """Return the value of a line from encoded(). Only for lines from this program's own processes, because it
+    unpickles.
+    """
     return pickle.loads(base64.b64decode(line.removeprefix(MARK)))
 
 
 class Task:
-    """Work for one process: the largest urgency() first; done(answer), or done(None), runs in its thread."""
+    """An order for a worker process. Tasks with the largest urgency() go first.
+
+    done(answer) is called in the thread of the worker process, with None if the task fails.
+    """
 
     def __init__(self, order: Any, urgency: Callable[[], float], done: Callable[[Any], object]) -> None:
         self.order, self.urgency, self.done = order, urgency, done
@@ -154,7 +166,7 @@ class Task:
 
 
 class Workers:
-    """A pool of processes of one module. `limit`: number of them that may work now."""
+    """A pool of worker processes that run one module. `limit`: number of them that may take tasks now."""
 
     def __init__(self, module: str, count: int | None = None) -> None:
         self.module = module
@@ -171,7 +183,7 @@ class Workers:
 
     @property
     def limit(self) -> int:
-        """The number of processes that may work now; a process with a task finishes it."""
+        """The number of processes that may take tasks now. A process that is busy finishes its task."""
         return self._limit
 
     @limit.setter
@@ -182,16 +194,16 @@ class Workers:
 
     @property
     def left(self) -> int:
-        """The number of tasks that wait or run."""
+        """The number of tasks that wait or are under way."""
         return len(self._tasks) + self._under_way
 
     @property
     def alive(self) -> bool:
-        """True if there are processes, or they can be started."""
+        """True if worker processes run or can be started."""
         return self.count > 0 and not self._stopped and self._deaths < DEATHS
 
     def add(self, tasks: list[Task]) -> None:
-        """Add tasks. The first ones start the processes."""
+        """Add tasks, and start more processes if there are fewer than tasks, up to `count`."""
         with self._changed:
             self._tasks += tasks
             while len(self._threads) < min(self.count, len(self._tasks) + self._under_way):
@@ -201,12 +213,12 @@ class Workers:
             self._changed.notify_all()
 
     def wait(self, seconds: float | None = None) -> bool:
-        """Wait until all tasks are done. Return whether they are."""
+        """Wait until all tasks are done, at most `seconds` (None: no limit). Return whether all are done."""
         with self._changed:
             return self._changed.wait_for(lambda: not self.left or self._stopped, seconds) and not self.left
 
     def stop(self) -> None:
-        """End all processes. Compiled kernels stay."""
+        """End all processes. Kernels that they have stored stay."""
         with self._changed:
             self._stopped = True
             processes = list(self._processes.values())
@@ -215,7 +227,7 @@ class Workers:
         atexit.unregister(self.stop)
 
     def _serve(self, number):
-        """Pass one task after the other to process `number`, in its own thread."""
+        """Pass tasks one by one to process `number` until stop(). Runs in a thread for each process."""
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._stopped or (self._tasks and number < self._limit))
@@ -242,7 +254,10 @@ class Workers:
                 self._changed.notify_all()
 
     def _ask(self, number, order):
-        """Return (whether it answered, its answer). A dead or hanging process is replaced at the next task."""
+        """Send an order to process `number`. Return (whether it answered, its answer).
+
+        A process that has died or hangs is replaced when the next order is sent.
+        """
         process = self._processes.get(number)
         if process is None or process.poll() is not None:
             process = start_module(self.module, HITBOX_CACHE_DIR=str(store().folder))

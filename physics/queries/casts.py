@@ -79,7 +79,10 @@ def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
 
 
 def query_rect(world: AskedWorld, rect: Any) -> list:
-    """Return query_aabb of (x, y, width, height) or ((x, y), (width, height)). Raises TypeError, ValueError."""
+    """Return the bodies with a shape whose AABB meets a rectangle [px]. Raises TypeError, ValueError.
+
+    rect: (x, y, width, height) or ((x, y), (width, height)).
+    """
     try:
         parts = tuple(rect)
         x, y, width, height = (*parts[0], *parts[1]) if len(parts) == 2 else parts
@@ -101,7 +104,7 @@ def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, 
 
 
 def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
-    """Return the shape rows without empty masks and empty grids."""
+    """Return those of the shape rows that are neither empty masks nor empty grids."""
     shapes, library = world.shapes[rows], world.library
     kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
     keep = np.ones(len(rows), bool)
@@ -120,7 +123,7 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 
 @subkernel
 def write_hit(row, fraction, nx, ny, found, hits_out):
-    """Write (row, fraction, normal) of a hit, and return the new count."""
+    """Write (row, fraction, normal) of a hit to row `found` of hits_out, and return found + 1."""
     hits_out[found, 0] = float(row)
     hits_out[found, 1] = fraction
     hits_out[found, 2] = nx
@@ -132,7 +135,7 @@ def write_hit(row, fraction, nx, ny, found, hits_out):
 def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_out, work_inout):
     """Write (row, fraction, normal) of every listed shape that a ray (x, y, dx, dy) [px] hits. Return their number.
 
-    rows: SHAPE rows. corners_inout (16, 2): scratch. hits_out (rows, 4).
+    rows: numbers of SHAPE rows. corners_inout (16, 2): scratch. hits_out (rows, 4).
     """
     found = 0
     for k in range(len(rows)):
@@ -167,10 +170,11 @@ def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
 
 @kernel
 def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out, work_inout):
-    """Write (row, fraction, normal to the hull) of every listed shape that a moving hull hits. Return their number.
+    """Write (row, fraction, normal) of every listed shape that a moving hull hits. Return their number.
 
-    rows: SHAPE rows without masks. hull: a Hull, from its centre of rotation. workspace: RotationalWorkspace, with the
-    hull's motion. hits_out (rows, 4). Touching at the start is a hit at 0 if the hull approaches.
+    The normal points from the shape to the hull. rows: numbers of SHAPE rows, without masks. hull: a Hull, its corners
+    relative to its centre of rotation. workspace: RotationalWorkspace that holds the hull's motion. hits_out (rows, 4).
+    Touching at the start is a hit at 0 if the hull approaches.
     """
     r = workspace.advance
     corners, count, radius, _ = hull
@@ -210,10 +214,11 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
 @kernel
 def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, work_inout):
-    """Write (distance, x, y) [px] of the place on the listed hulls nearest to a point. Return its row, -1 without any.
+    """Write (distance, x, y) [px] of the nearest place to a point on the listed hulls. Return the row of its shape, or
+    -1.
 
-    rows: SHAPE rows in order; tiles, masks and chains are left out. Inside a hull the result is 0 and the point itself.
-    workspace: AdvanceWorkspace.
+    The result is -1 if no hull is listed. rows: numbers of SHAPE rows in order; tiles, masks and chains are left out.
+    If the point lies in a hull, the distance is 0 and the place is the point itself. workspace: AdvanceWorkspace.
     """
     x, y = point
     own, corners = workspace.local_a, workspace.local_b
@@ -252,7 +257,7 @@ PIECE = 8.0  # [m] … of about this width
 class RayHit:
     """A hit of a ray: the body, the id of the shape, point [px], unit normal, fraction of the translation."""
 
-    body: Any  # a Body, which stands further right in the import order
+    body: Any  # a Body, whose module imports this one
     shape: int
     point: Vec2
     normal: Vec2
@@ -262,7 +267,7 @@ class RayHit:
 def ray_cast_all(
     world: AskedWorld, origin: Pair, translation: Pair, filter: Filter, sensors: bool, first: bool = False
 ) -> list[RayHit]:
-    """Return all hits of a ray, nearest first, ties by shape id; with `first` at least the nearest.
+    """Return all hits of a ray, nearest first, ties by shape id; with `first` the nearest one only.
 
     A ray that starts inside a shape hits at fraction 0, with the normal against its direction. A ray of zero length is
     a point query with normals (0, -1). Raises TypeError, ValueError.
@@ -303,7 +308,7 @@ def ray_cast_all(
 
 
 def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
-    """Return the SHAPE rows whose boxes, grown by `beyond` [px], the line of a ray crosses."""
+    """Return those of the SHAPE rows whose AABBs, grown by `beyond` [px], cross the infinite line through a ray."""
     if not len(rows):
         return rows
     left, top, right, bottom = (world.shapes[name][rows] for name in ("min_x", "min_y", "max_x", "max_y"))
@@ -326,7 +331,8 @@ def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
 
 
 def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter) -> RayHit | None:
-    """Return the first shape that a shape at a pose touches on a translation, ties by shape id.
+    """Return the first hit of a shape that moves from a pose by a translation [px], ties by shape id; None without a
+    hit.
 
     Sensors are left out. The normal points from the shape that is hit to the cast shape, and the point lies midway
     between them. Touching or overlapping at the start is a hit at fraction 0 if the shape approaches; otherwise the
@@ -369,7 +375,12 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
 
 
 def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
-    """Return (row, fraction, normal to the probe) of the hits of a probe; of a mask its first row."""
+    """Return (row, fraction, normal towards the cast shape) of each shape that a cast shape hits; for a mask its first
+    row.
+
+    probe: Parts of the cast shape; rows: SHAPE rows to test; motion: start x, y and translation [px]; feet: y [px] of
+    the lowest point of the cast shape at its start.
+    """
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
     r, s = workspace.advance, world.shapes[rows]
@@ -399,7 +410,11 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
 
 
 def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
-    """Return the parts, seen from (x, y), of the rows of one shape that a probe may hit on its way [px]."""
+    """Return the convex parts of one shape, relative to (x, y) [px], that a cast shape may hit on its way.
+
+    rows: SHAPE rows of the one shape; probe: Parts of the cast shape; way: its translation [px]; feet: y [px] of its
+    lowest point.
+    """
     every = [_swept_parts(world, row, x, y, feet) for row in rows.tolist()]
     parts = Parts(*(np.concatenate(columns) for columns in zip(*every, strict=True)))
     if not len(probe.counts):
@@ -410,7 +425,9 @@ def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
 
 
 def _swept_parts(world, row, x, y, feet) -> Parts:
-    """Return the parts of a SHAPE row for casts, seen from (x, y) [px]."""
+    """Return the convex parts of a SHAPE row for casts, relative to (x, y) [px]. feet: lowest point of the cast shape
+    [px].
+    """
     placed = Placed(world.library.tables, world.bodies, world.shapes, row, x, y, feet, True)
     return world.library.shape_of(world.shapes[row])._parts_at(placed)
 
@@ -418,8 +435,8 @@ def _swept_parts(world, row, x, y, feet) -> Parts:
 def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, float] | None:
     """Return (body, point, distance) [px] of the nearest point of any shape, ties by shape id; None in an empty world.
 
-    Inside a shape the result is the point itself, and 0. Sensors are left out. A Chain has both sides, a one-way tile
-    its upper one. Raises TypeError, ValueError.
+    If `point` lies inside a shape, the nearest point is itself and the distance 0. Sensors are left out. A Chain has
+    both sides, a one-way tile its upper one. Raises TypeError, ValueError.
     """
     x, y = checks.position("point", point)
     filter, index = _checked(filter), world.queries
@@ -443,7 +460,7 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
 
 
 def _nearest(world, rows, x, y):
-    """Return (row, distance, point) of the nearest point of the shapes in these rows, or None."""
+    """Return (row, distance, point) of the point nearest to (x, y) on the shapes in these rows; None without shapes."""
     nearest, workspace, work = np.zeros(3), new_advance_workspace(), world.queries.work
     best = nearest_hull(world.library.tables, world.bodies, world.shapes, rows, (x, y), workspace, nearest, work)
     found = [(float(nearest[0]), best, (float(nearest[1]), float(nearest[2])))] if best >= 0 else []
@@ -482,7 +499,10 @@ def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list
 
 
 def _contacts(world, bodies, shapes, rows):
-    """Return the manifolds of a probe, as B, with the shapes in these rows, whose index is in `candidate`."""
+    """Return CONTACT rows of a query shape, as B, with the shapes in `rows`. `candidate` is an index into `rows`.
+
+    bodies, shapes: the BODY and SHAPE row of the query shape.
+    """
     others, owners = np.unique(world.shapes["body_row"][rows], return_inverse=True)
     all_bodies = joined([world.bodies[others], bodies])
     all_shapes = joined([world.shapes[rows], shapes])
@@ -508,7 +528,9 @@ def _first_contact(world, bodies, shapes, rows):
 
 
 def _probe(world, shape, pose):
-    """Return the BODY and SHAPE rows of a shape at a pose. It stays in the library only while the context is open."""
+    """Return the BODY and SHAPE rows of a query shape at a pose. Its geometry is dropped at the end of
+    library.visited().
+    """
     bodies, shapes = np.zeros(1, BODY), np.zeros(1, SHAPE)
     place(world.library, shape, bodies, shapes, 0, pose)
     refresh_aabbs(np.arange(1), world.library.tables, bodies, shapes)
@@ -522,9 +544,9 @@ def _checked(filter):
 
 
 def _allowed(world, rows, filter, sensors, leave=PIXELS):
-    """Return the rows whose filter agrees with the query's, without sensors unless included.
+    """Return those of the SHAPE rows that pass the filter of a query, with sensors only if `sensors` is True.
 
-    leave: the role of mask rows to leave out, PIXELS for queries of outlines, PART for queries of pixels.
+    leave: role of the mask rows to leave out: PIXELS for queries of outlines, PART for queries of pixels.
     """
     s = world.shapes
     rows = rows[s["role"][rows] != leave]

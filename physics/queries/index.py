@@ -1,4 +1,6 @@
-"""Which shapes may meet a box between steps, asked of the broad phase, and the boxes that a query visited."""
+"""Index of shapes for queries between steps: which shapes may meet a box, by the broad phase, and which boxes were
+visited.
+"""
 
 from math import floor
 from typing import Any, NamedTuple, Protocol
@@ -34,10 +36,10 @@ def is_found(body):
 
 @kernel
 def find_moved(rows, bodies, poses_inout, moved_out):
-    """List the body rows whose pose differs from the last one read, and store the new poses. Return their number.
-    O(rows).
+    """List in moved_out the body rows whose pose differs from the one last read, and store the new poses. Return how
+    many.
 
-    poses_inout (bodies, 3).
+    rows: body rows to compare; poses_inout (bodies, 3): poses last read. O(rows).
     """
     found = 0
     for n in range(len(rows)):
@@ -56,11 +58,11 @@ def find_moved(rows, bodies, poses_inout, moved_out):
 
 @kernel
 def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_out):
-    """List the shape rows that the broad phase may not find, and the row of each slot (-1: none). Return their number.
-    O(rows).
+    """List in loose_out the shape rows that a search of the broad phase may miss. Return their number.
 
-    A shape is found if its AABB lies within the box of its proxy. known: 0 if the broad phase has no data yet. Rows of
-    bodies that queries cannot find are in neither list.
+    The broad phase finds a shape if its AABB lies within the box of its proxy. row_of_slot_inout gets the row of such a
+    shape at the slot of its proxy, otherwise -1. rows: shape rows to look at. known: 0 if the broad phase has no data
+    yet. Rows of bodies that queries cannot find are in neither list. O(rows).
     """
     found = 0
     for n in range(len(rows)):
@@ -91,7 +93,10 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
 
 @kernel
 def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
-    """List the rows of the slots, and the loose rows, whose AABB meets a closed box [px]. Return their number."""
+    """List in rows_out the shape rows whose AABB meets a closed box [px] (lower x, y, upper x, y). Return their number.
+
+    slots: slots that the broad phase found; row_of_slot: their shape rows, -1: none; loose: further shape rows to test.
+    """
     lower_x, lower_y, upper_x, upper_y = box
     found = 0
     for k in range(len(slots) + len(loose)):
@@ -110,14 +115,14 @@ def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
 
 
 def is_same(now: tuple, before: tuple) -> bool:
-    """Return whether two tuples hold the same objects, and equal ints."""
+    """Return whether two tuples hold the same objects. Ints need only be equal."""
     return len(now) == len(before) and all(
         a is b or (type(a) is int and a == b) for a, b in zip(now, before, strict=True)
     )
 
 
 class IndexedWorld(WorldTables, Protocol):
-    """A world, or the StepState of its step, with a shape index."""
+    """A world, or the StepState of its step, with a QueryIndex."""
 
     queries: "QueryIndex"
     steps: int
@@ -129,7 +134,7 @@ class IndexedWorld(WorldTables, Protocol):
 
 
 class AskedWorld(IndexedWorld, Protocol):
-    """The fields of a world that queries read. Any stands for types that stand further right in the import order."""
+    """The fields of a world that queries read. Any stands for a type of a module that imports this one."""
 
     def body(self, identity: int) -> Any:
         """Return the Body of an id."""
@@ -137,7 +142,7 @@ class AskedWorld(IndexedWorld, Protocol):
 
 
 class QueryIndex:
-    """The shape index of one world. Queries count their work in `work`, not in the counters of the last step.
+    """The index of one world's shapes. Queries count their work in `work`, not in the counters of the last step.
 
     asked: the boxes (lower x, y, upper x, y) [px] that the last query searched, in order.
     """
@@ -147,7 +152,7 @@ class QueryIndex:
         self.asked: list[Box] = []
         self.seen = ()  # the tables that were read: other tables make the index stale
         self.step = -1  # the step after which it was last refreshed
-        self.awake = np.zeros(0, np.int64)  # body rows that were awake then
+        self.awake = np.zeros(0, np.int64)  # body rows that were awake at the last refresh
         self.lists, self.watched = (), np.zeros(0, np.int64)
         self.poses = np.zeros((0, 3))
         self.moved = np.zeros(0, np.int64)
@@ -165,24 +170,26 @@ class QueryIndex:
 
     @property
     def counters(self) -> dict[str, int]:
-        """The work of the last query: {name: int}, every name of profile.COUNTERS present."""
+        """The work of the last query: {name: int}; every name of COUNTERS is present."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
     def begin(self, world: IndexedWorld) -> None:
-        """Start a query: reset the counters, and refresh AABBs and loose rows."""
+        """Start a query: reset the counters, and refresh the index to the present poses."""
         self.work[:] = 0
         self.asked.clear()
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Return whether a query searches the broad phase, which holds some shape."""
+        """Return whether a query searches the broad phase: it has data, and at least one shape is found by it."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:
-        """Refresh AABBs and loose rows. world: a World, or the StepState of its step.
+        """Refresh the AABBs of shapes at the present poses, and the list of loose shapes, which the broad phase may
+        miss.
 
-        After a step of a world with sleeping, only bodies that were awake before or after it, moved or were touched are
-        read; otherwise all bodies are. If no body moved since the last call, nothing else is done.
+        world: a World, or the StepState of its step. After a step of a world with sleeping, only bodies are read that
+        were awake before or after it, moved or were edited; otherwise all bodies are. If no body moved since the last
+        call, nothing else is done.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
@@ -226,7 +233,7 @@ class QueryIndex:
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
     def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Return the shape rows, in order, whose AABB meets a closed box [px], without quarantined bodies."""
+        """Return the shape rows, in order, whose AABB meets a closed box [px]. Quarantined bodies are left out."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         self.asked.append(box)
@@ -241,7 +248,7 @@ class QueryIndex:
 # ---- visited ---------------------------------------------------------------------------------------------------------
 # The boxes of the last query in the data structure of the broad phase, for drawing. Functions only read.
 #
-# The structure is walked once more, as the `near` of the strategies does, with each box that the query searched.
+# The structure is walked once more, as `query_box` of the strategies does, with each box that the query searched.
 
 CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
@@ -256,7 +263,7 @@ class Visited(NamedTuple):
 
 
 def visited(world: IndexedWorld) -> Visited:
-    """Return the boxes that the last query of a world visited. They are valid until the world is changed."""
+    """Return the boxes that the last query of a world visited. Call it before the world is changed."""
     strategy, asked = world.broadphase, np.array(world.queries.asked).reshape(-1, 4)
     boxes = asked.tolist() if world.queries.asks_broadphase(world) else []
     found = [_rects(strategy, world.pairs.proxies, tuple(box)) for box in boxes]
@@ -285,7 +292,7 @@ def _boxes(rows):
 
 
 def _nodes(tree, box):
-    """Return the nodes from the roots down, as deep as they meet the box."""
+    """Return the boxes of the tree nodes that a search visits: roots, and the children of nodes that meet the box."""
     boxes, children, height = _boxes(tree.nodes), tree.nodes[["child_a", "child_b"]], tree.nodes["height"]
     found, level = [], tree.state[ROOT_MOVING:]
     level = level[level >= 0]
@@ -297,7 +304,7 @@ def _nodes(tree, box):
 
 
 def _cells(grid, proxies, box):
-    """Return the cells that the box covers, per level, or those of the level's bodies where these are fewer."""
+    """Return, for each level, the cells that the box covers, or the AABBs of the level's proxies if these are fewer."""
     found, (x0, y0, x1, y1) = [np.zeros((0, 4))], box
     for level in np.flatnonzero(grid.lists.level_counts).tolist():
         size = grid.base * 2.0**level
@@ -317,7 +324,7 @@ def _cells(grid, proxies, box):
 
 
 def _stretch(sweep, proxies, box):
-    """Return the boxes along the sorted axis that may overlap the interval of the box."""
+    """Return the AABBs of the proxies whose intervals on the sorted axis may overlap the interval of the box."""
     axis = sweep.sorted[0]
     lows, highest = axis.boxes[: len(axis.order), 0], np.maximum.accumulate(axis.boxes[: len(axis.order), 1])
     first = int(np.searchsorted(highest, box[axis.axis]))

@@ -46,16 +46,19 @@ class PairRows(NamedTuple):
 
 
 class HullRow(NamedTuple):
-    """The cached rows of a hull as bytes, which join at a tenth of the cost of structured arrays."""
+    """The table rows of a hull, cached as bytes: two of them are joined at a tenth of the cost of structured arrays."""
 
     first: bytes  # its SHAPE row as the first of a pair
     second: bytes
-    corners: bytes  # CORNER rows; none of a circle
-    count: int  # of them
+    corners: bytes  # CORNER rows; empty for a circle
+    count: int  # number of corners
 
 
 def kept_with_shape(make: Callable[[Shape], Kept]) -> Callable[[Shape], Kept]:
-    """Return a function of a shape whose result is cached with the shape, one for all that differ in own values."""
+    """Return a function of a shape that caches its result with the shape. Used as a decorator.
+
+    All shapes that differ only in material, filter or sensor flag share one result.
+    """
 
     def find(shape: Shape) -> Kept:
         kept = vars(shape.bare)
@@ -68,7 +71,7 @@ def kept_with_shape(make: Callable[[Shape], Kept]) -> Callable[[Shape], Kept]:
 
 @kept_with_shape
 def hull_row(shape: Shape) -> HullRow | None:
-    """Return the row of a convex shape without its pose; None for a mask, tiles, a chain, and a Bounds."""
+    """Return the HullRow of a convex shape; None for a mask, tiles, a chain, and a Bounds."""
     if not shape._is_convex or shape._kind == BOUNDS:
         return None
     rows = np.zeros(2, SHAPE)
@@ -82,14 +85,14 @@ def hull_row(shape: Shape) -> HullRow | None:
 
 @kept_with_shape
 def order_of(shape: Shape) -> tuple:
-    """Return a sort key of a shape. The order of two shapes then changes only the signs of a result."""
+    """Return a sort key of a shape. Pairs are measured in sorted order: a swap of the shapes changes only signs."""
     inside = () if shape._inner is shape else (rank_of(shape._inner),)
     return (rank_of(shape), *inside, *shape._inner._key)
 
 
 @kept_with_shape
 def name_of(shape: Shape) -> tuple:
-    """Return another sort key, from the constructor of a shape."""
+    """Return a second sort key of a shape, made from its constructor call, which collide() uses."""
     return rank_of(shape), repr(shape), order_of(shape)
 
 
@@ -102,7 +105,7 @@ FIRST_POSE = int(BODIES["x"].__array_interface__["data"][0] - BODIES.__array_int
 
 
 def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
-    """Return the rows of two hulls at two poses; their boxes are not written."""
+    """Return the rows of two hulls at two poses. Their AABBs are not written."""
     spans = np.frombuffer(bytearray(SPANS.pack(0, a.count, a.count, b.count)), SPAN)
     corners = np.frombuffer(bytearray(a.corners + b.corners), CORNER) if a.count + b.count else NOTHING.corners
     shapes = np.frombuffer(bytearray(a.first + b.second), SHAPE)
@@ -158,8 +161,8 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
     [px] apart.
 
     In the other order of shapes the points and separations are the same, and the normal is reversed. Against a TileGrid
-    or a Chain the points of all tiles or links are listed, with the normal of the deepest one; two of these never
-    collide. Raises TypeError, ValueError.
+    or a Chain the points of all tiles or links are listed, with the normal of the deepest one. A TileGrid or Chain
+    never collides with another one. Raises TypeError, ValueError.
     """
     poses = [checked_pose("shape_a", shape_a, "pose_a", pose_a), checked_pose("shape_b", shape_b, "pose_b", pose_b)]
     margin = checks.number("margin", margin, low=0.0)
@@ -172,7 +175,9 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
 
 
 def _collide_hulls(rows, margin, swapped) -> Manifold:
-    """Return the contact of two convex shapes, by the one pass of their kinds: at most one manifold."""
+    """Return the Manifold of two convex shapes. swapped: they are tested in the other order, and the normal is
+    reversed.
+    """
     low, high = sorted(rows.shapes["kind"].tolist())
     kind = kind_of_pair(low, high)
     batch = Batch(rows.geometry, rows.bodies, rows.shapes, PAIRS[swapped], KINDS[kind], 1, margin, 0.0)
@@ -230,10 +235,10 @@ NEXT_TO_NOTHING = math.ulp(
 
 @dataclass(frozen=True)
 class Distance:
-    """A distance [px], negative for an overlap: nearest points, unit normal from A to B, rounds of GJK and EPA.
+    """A distance [px], negative for an overlap, with nearest points and the unit normal from A to B.
 
     point_b = point_a + distance · normal. For overlapping shapes the distance is minus the shortest translation of B
-    along the normal that ends the overlap, and the points lie on the two surfaces.
+    along the normal that ends the overlap, and the points lie on the two surfaces. iterations: rounds of GJK and EPA.
     """
 
     distance: float
@@ -244,14 +249,14 @@ class Distance:
 
 
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
-    """Return the distance of two shapes at poses (x, y) or (x, y, angle). It is <= 0 where `collide` finds a contact, <
-    0 for masks.
+    """Return the distance of two shapes at poses (x, y) or (x, y, angle).
 
-    Convex shapes: exact to rounding. Concave shapes: the distance of the nearest parts, and the depth of `collide` for
-    an overlap. A shape that touches a mask without shared area has distance 0 and no contact. Where other shapes touch
-    or cross without a contact (a Chain from behind, tiles on tiles) it is the smallest positive number. A mask is
-    measured by its pixels, a snapped one as it is drawn on the pixel grid. To an empty shape the distance is infinite,
-    with the normal (1, 0). Raises TypeError, ValueError.
+    It is <= 0 where `collide` finds a contact, < 0 for masks. Convex shapes: exact to rounding. Concave shapes: the
+    distance of the nearest parts, or minus the depth of `collide` for an overlap. A shape that touches a mask without
+    shared area has distance 0 and no contact. Other shapes may touch or cross without a contact (a Chain from behind,
+    tiles on tiles): their distance is then the smallest positive number. A mask is measured by its pixels, a snapped
+    one as it is drawn on the pixel grid. To an empty shape the distance is infinite, with the normal (1, 0). Raises
+    TypeError, ValueError.
     """
     pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
     pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
@@ -302,7 +307,7 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
 
 @kernel
 def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out, workspace):
-    """Write separation, normal and points, seen from (x, y) [px], of the hulls in rows 0 and 1 to workspace.gap.
+    """Write separation, normal and points of the hulls in rows 0 and 1 to workspace.gap, relative to (x, y) [px].
 
     corners_a_out, corners_b_out (16, 2): scratch. Return (separation [px], greater size of the two [px], rounds of GJK
     and EPA).
@@ -331,7 +336,7 @@ def size_of(corners, count, radius):
 
 
 def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
-    """Return the results of separate_hulls for any two shapes; infinite if one has no parts."""
+    """Return (separation, size, rounds) as separate_hulls, for any two shapes; infinite if a shape is empty."""
     parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     totals = np.zeros(2)
     found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
@@ -342,7 +347,7 @@ def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
 
 
 def parts_of_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At, x: float, y: float) -> tuple[Parts, ...]:
-    """Return the convex parts of both shapes, seen from (x, y)."""
+    """Return the convex parts of both shapes, relative to (x, y) [px]."""
     geometry, bodies, shapes = any_pair(shape_a, pose_a, shape_b, pose_b)[1]
     return tuple(
         shape._parts_at(Placed(geometry, bodies, shapes, row, x, y, float(shapes[1 - row]["max_y"])))
@@ -353,13 +358,17 @@ def parts_of_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At, x: flo
 # ---- pair impact -----------------------------------------------------------------------------------------------------
 # time_of_impact: the first contact of two moving shapes.
 
-BOX_STOPS = 4000  # steps of a rotating box, whose speed is only bounded: each ends before the impact
-LOOKS = 1024  # steps of shapes that touch and do not approach
+BOX_STOPS = 4000  # limit of the steps for a rotating Bounds, each of which ends before the impact
+LOOKS = 1024  # parts of a motion in which shapes that touch are tested until they approach
 
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """The first impact: hit, fraction 0..1 at which they touch, point [px], unit normal from A to B."""
+    """The first impact of two moving shapes: hit, fraction 0..1 at which they touch, point [px], unit normal from A to
+    B.
+
+    Without an impact hit is False, fraction 1, and point and normal are None.
+    """
 
     hit: bool
     fraction: float
@@ -375,12 +384,12 @@ def time_of_impact(
 ) -> TimeOfImpact:
     """Return the first fraction at which two shapes touch while their poses move linearly from start to end.
 
-    Poses are (x, y) or (x, y, angle), angles unwrapped. Two discs are solved in closed form, convex shapes to 1e-13 of
-    their size and motion. Touching or overlapping at the start is fraction 0 if they approach; otherwise the search
-    goes on until they approach. A Chain is hit from its front, a one-way tile from above. Seams of ground are not hit,
-    and neither are grazing contacts with tiles, links and PixelMasks, which are their outlines at the exact pose. A
-    Bounds whose shape rotates changes its size on the way, and is solved to 1e-12 of it. Tiles and chains do not
-    collide with each other. Raises TypeError, ValueError.
+    Poses are (x, y) or (x, y, angle), angles unwrapped. Two discs are solved in closed form, other convex shapes to
+    1e-13 of their size and motion. Touching or overlapping at the start is fraction 0 if they approach; otherwise the
+    search goes on until they approach. A Chain is hit from its front, a one-way tile from above. Seams between tiles or
+    links are not hit. Grazing contacts with tiles, links and PixelMasks are no impacts; a PixelMask moves as its
+    outline at the exact pose. A Bounds whose shape rotates changes its size on the way; its impact is found to 1e-12 of
+    size and motion. Tiles and chains do not collide with each other. Raises TypeError, ValueError.
     """
     moves = [
         [checked_pose(f"shape_{side}", shape, f"{when}_{side}", at) for when, at in (("start", start), ("end", end))]
@@ -442,7 +451,7 @@ def _motion(move):
 
 
 def _local(shape, move) -> tuple[Parts, np.ndarray]:
-    """Return the parts in body space and their motion; a Bounds that does not rotate is its box at that angle."""
+    """Return (parts in body space, motion) of a shape. A Bounds that does not rotate is the box at its angle."""
     motion = _motion(move)
     if shape._kind != BOUNDS:
         return shape._parts, motion
@@ -451,7 +460,7 @@ def _local(shape, move) -> tuple[Parts, np.ndarray]:
 
 
 def _placed(parts, pose, x=0.0, y=0.0) -> Parts:
-    """Return parts at a pose, seen from (x, y)."""
+    """Return parts at a pose, relative to (x, y) [px]."""
     return turned_parts(parts, pose[0] - x, pose[1] - y, math.cos(pose[2]), math.sin(pose[2]))
 
 
@@ -467,7 +476,7 @@ def _parts_at(shape, move, fraction, x, y) -> Parts:
 
 
 def _point(a, move_a, b, move_b, fraction):
-    """Return the point midway between the nearest points at a fraction [px]."""
+    """Return the point midway between the nearest points of two moving shapes at a fraction of their motion [px]."""
     x, y = move_a[0][:2]
     gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
     return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))
@@ -480,7 +489,10 @@ def _gap_at(parts_a, parts_b):
 
 
 def _advance_boxes(a, move_a, b, move_b):
-    """Return the impact of boxes whose size changes with rotation, by conservative advancement with bounded speed."""
+    """Return (fraction or MISS, normal) of the impact of Bounds whose size changes with rotation.
+
+    Method: conservative advancement with a bound of the speed.
+    """
     x, y = move_a[0][:2]
     parts = [each._inner._pixel_parts if each._kind == BOUNDS else each._parts for each in (a, b)]
     if not all(len(each.counts) for each in parts):

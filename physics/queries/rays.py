@@ -20,8 +20,8 @@ from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
     """Return the fraction at which a ray from (x, y) by (dx, dy) [px] hits the closed line from a to b, or MISS.
 
-    It follows from the sides of the ray on which the ends lie, so no ray passes between two lines that share an end. A
-    ray along the line hits its nearer end; a start on the line is hit at 0.
+    The test compares on which side of the ray each end lies, so no ray passes between two lines that share an end. A
+    ray along the line hits the nearer end; a start on the line is a hit at 0.
     """
     side_a, side_b = dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)
     if (side_a > 0.0 and side_b > 0.0) or (side_a < 0.0 and side_b < 0.0):
@@ -43,7 +43,7 @@ def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
 
 @subkernel
 def cast_on_segment(corners, x, y, dx, dy):
-    """Return (fraction or MISS, normal against the ray) of a ray and a two-sided segment [px]."""
+    """Return (fraction or MISS, normal against the ray) of a ray at a two-sided segment [px]."""
     back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
     if distance_to_edge(corners[0, 0], corners[0, 1], corners[1, 0], corners[1, 1], x, y) == 0.0:
         return 0.0, back_x, back_y
@@ -57,7 +57,10 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal) of a ray, seen from the centre of a closed disc [px]; 0 from inside."""
+    """Return (fraction or MISS, normal) of a ray at a closed disc. (x, y) [px] is relative to the centre of the disc.
+
+    A start inside is a hit at 0, with the normal against the ray.
+    """
     if x * x + y * y <= radius * radius:
         back_x, back_y = unit(-dx, -dy, 0.0, -1.0)
         return 0.0, back_x, back_y
@@ -66,7 +69,7 @@ def cast_on_disc(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_hull(corners, count, radius, x, y, dx, dy):
-    """Return (fraction or MISS, normal) of a ray and a closed hull of two or more corners with a rounding radius [px].
+    """Return (fraction or MISS, normal) of a ray at a closed hull of two or more corners with a rounding radius [px].
 
     A start inside gives 0 and the normal against the ray. A ray of zero length tests its point.
     """
@@ -128,7 +131,8 @@ def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
 
 @subkernel
 def cast_on_chain(geometry, chain, body, ray):
-    """Return (fraction or MISS, normal) of a ray and the links of a body's chain, hit from their front.
+    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] at the links of a body's chain, hit from their
+    front.
 
     A ray of zero length tests whether its point is on the line. O(blocks + links near the ray).
     """
@@ -168,7 +172,9 @@ def cast_on_chain(geometry, chain, body, ray):
 
 @subkernel
 def enter_box(x, y, dx, dy, width, height):
-    """Return the fractions at which a ray enters and leaves the box 0..width, 0..height; enter > leave for a miss."""
+    """Return the fractions at which a ray enters and leaves the box from (0, 0) to (width, height); enter > leave: a
+    miss.
+    """
     enter = 0.0
     leave = 1.0
     for axis in range(2):
@@ -188,7 +194,7 @@ def enter_box(x, y, dx, dy, width, height):
 
 @subkernel
 def next_border(position, step, cell, size):
-    """Return the fraction at which a ray leaves a cell along one axis; infinite for a ray along the other axis."""
+    """Return the fraction of a ray at which it leaves a cell along one axis; infinite for a ray along the other."""
     if step > 0.0:
         return ((cell + 1) * size - position) / step
     if step < 0.0:
@@ -198,7 +204,10 @@ def next_border(position, step, cell, size):
 
 @subkernel
 def start_cell(position, step, size, count):
-    """Return the cell in which a ray starts, or which it enters first; on a border, the cell that it moves into."""
+    """Return the index, along one axis, of the cell in which a ray starts or which it enters first.
+
+    On a border that is the cell into which the ray moves.
+    """
     at = position / size
     cell = math.floor(at)
     if step < 0.0 and cell == at:
@@ -208,7 +217,10 @@ def start_cell(position, step, size, count):
 
 @subkernel
 def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray, seen from the grid's origin [px], and a cell. One-way from above."""
+    """Return (fraction or MISS, normal) of a ray at one cell of a grid. A one-way cell is hit only from above.
+
+    ray: (x, y, dx, dy) [px] relative to the grid's origin. corners_inout (16, 2): scratch.
+    """
     x, y, dx, dy = ray
     g = geometry.grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
@@ -222,10 +234,10 @@ def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
 
 @subkernel
 def cast_on_tiles(geometry, grid, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray, seen from the grid's origin [px], and its closed tiles.
+    """Return (fraction or MISS, normal) of a ray at the closed tiles of a grid. O(cells on the way).
 
-    A ray along a border hits the tiles on both sides, one through a corner all four, so the cells around each crossing
-    are tested, too. O(cells on the way).
+    A ray along a border hits the tiles on both sides, and a ray through a corner all four tiles, so the neighbours of
+    each cell are tested, too. ray: (x, y, dx, dy) [px] relative to the grid's origin. corners_inout (16, 2): scratch.
     """
     x, y, dx, dy = ray
     g = geometry.grids[grid]
@@ -261,7 +273,11 @@ def cast_on_tiles(geometry, grid, ray, corners_inout):
 
 @subkernel
 def is_solid_at(rasters, words, mask, x, y):
-    """Return whether a point, seen from the raster's corner [px], lies in a solid pixel: [i, i + 1) x [j, j + 1)."""
+    """Return whether a point [px] relative to a raster's corner lies in a solid pixel, which spans [i, i + 1) x [j, j +
+    1).
+
+    mask: row of the raster.
+    """
     r = rasters[mask]
     if not (0.0 <= x < r.width and 0.0 <= y < r.height):
         return False
@@ -270,7 +286,7 @@ def is_solid_at(rasters, words, mask, x, y):
 
 @subkernel
 def is_in_mask(geometry, shape, body, x, y):
-    """Return whether a point [px] lies in a solid pixel of a mask, as drawn if it is snapped."""
+    """Return whether a point [px] lies in a solid pixel of a mask: as drawn if it snaps, else at its exact pose."""
     if not shape.snap:
         mask = raster_of_shape(geometry, shape)
         cosine, sine = cosine_and_sine(body.angle, body.angle)
@@ -285,7 +301,7 @@ def is_in_mask(geometry, shape, body, x, y):
 
 @subkernel
 def inside_polygon(corners, count, x, y):
-    """Return whether a point lies in a closed convex polygon, clockwise on the screen."""
+    """Return whether a point lies in a closed convex polygon, whose corners run clockwise on the screen."""
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
         ex = corners[n, 0] - corners[k, 0]
@@ -297,7 +313,7 @@ def inside_polygon(corners, count, x, y):
 
 @subkernel
 def point_in_tiles(geometry, grid, x, y, corners_inout):
-    """Return whether a point, seen from the grid's origin [px], lies in a closed solid tile or slope."""
+    """Return whether a point [px] relative to the grid's origin lies in a closed solid tile or slope."""
     g = geometry.grids[grid]
     column, row = math.floor(x / g.tile_size), math.floor(y / g.tile_size)
     # On a border the tile before it contains the point, too.
@@ -317,9 +333,10 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 
 @subkernel
 def cast_on_shape(geometry, bodies, shapes, row, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] and a shape; of zero length it tests its point.
+    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] at the shape in SHAPE row `row`.
 
-    Only points are tested against the pixels of a mask; rays are cast at its outline.
+    A ray of zero length tests its point. Of a mask only that point is tested, against its pixels; longer rays are cast
+    at the mask's outline elsewhere.
     """
     x, y, dx, dy = ray
     s = shapes[row]

@@ -1,7 +1,7 @@
-"""Row types of bodies: BODY, one row per body, and GIVEN, the default values of its shapes.
+"""Row types of bodies: BODY, one row per body, and BODY_DEF, the default values for the shapes of the body.
 
-Rows are kept in the order of ids, which is the canonical order of every pass. A row number changes when an earlier row
-is removed. An id never changes and is never reused.
+Rows are kept in the order of ids, in which every pass visits them. A row number changes when an earlier row is removed.
+An id never changes and is never reused.
 """
 
 import numpy as np
@@ -36,8 +36,11 @@ BODY = in_lines(
         ("inverse_mass", np.float64),  # 0: infinite mass
         ("inverse_inertia", np.float64),  # 0: infinite inertia
         ("extent", np.float64),  # [px] distance from the centre of mass to the furthest point of its shapes
-        ("min_half_extent", np.float64),  # [px] inradius: from the middle of a shape to its surface, the least of all
-        ("inradius", np.float64),  # [px] the same of its thinnest part; the measure of a fast body
+        ("min_half_extent", np.float64),  # [px] from the middle of a shape to its surface, the least of all shapes
+        (
+            "inradius",
+            np.float64,
+        ),  # [px] the same, of the thinnest part of a shape; a faster body than this per step is swept
         ("previous_x", np.float64),  # [px] pose before the step, for interpolated drawing and for rollback
         ("previous_y", np.float64),
         ("previous_angle", np.float64),
@@ -57,13 +60,13 @@ BODY = in_lines(
         ("still_x", np.float64),  # [px] reference pose of the sleep test
         ("still_y", np.float64),
         ("still_angle", np.float64),
-        ("sleep_time", np.float64),  # [s] time spent near that pose
+        ("sleep_time", np.float64),  # [s] time spent near the reference pose
         ("rocking_x", np.float64),  # [px] reference pose of the test for bodies that rock in place
         ("rocking_y", np.float64),
         ("rocking_angle", np.float64),
-        ("rocking_time", np.float64),  # [s] time spent around that pose
+        ("rocking_time", np.float64),  # [s] time spent around that reference pose
         ("island", np.int64),  # lowest body id of its island; -1: none
-        ("reserve", np.float64),  # energy that its contacts have taken of late
+        ("reserve", np.float64),  # energy that its contacts have taken lately; see solver/energy.py
         ("cooldown", np.float64),  # [s] > 0 while fewer substeps would do, < 0 while the most were too few
         ("substeps", np.int64),  # adaptive substeps of its island in the next step; 0: not known yet
     ]

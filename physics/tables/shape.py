@@ -1,4 +1,4 @@
-"""Row types of shapes: SHAPE, one row per shape of a body, and PROXY, its box in the broad phase."""
+"""Row types of shapes: SHAPE, one row per shape of a body, and PROXY, the AABB of a shape in the broad phase."""
 
 import math
 

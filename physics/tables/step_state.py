@@ -27,15 +27,16 @@ COUNTERS = (
 
 
 class WorldTables(Protocol):
-    """Interface for operations that run both between steps and within one: sleeping, waking, new swept AABBs.
+    """The fields that a World and the StepState of its step have in common.
 
-    Any stands for a type that is defined in a package that imports this one.
+    Operations that run both between steps and within one use it: sleeping, waking, new swept AABBs. Any stands for a
+    type of a package that imports this one.
     """
 
     contact_rows: np.ndarray  # CONTACT rows in the order of shape ids
     awake: Any  # islands.awake.Awake
-    sleeping_set: Any  # islands.sleep.Sleepers
-    pairs: Any  # broadphase.pair_list.PairList
+    sleeping_set: Any  # islands.sleep.SleepingSet
+    pairs: Any  # broadphase.proxies.PairList
     touching: Any  # events.Pairs
     sensing: Any
     library: Any  # shapes.library.Library
@@ -125,8 +126,9 @@ STAGE_FIELDS = (
 
 
 class StepState:
-    """The fields of STAGE_FIELDS for one step. Any stands for a type that is defined in a package that imports this
-    one.
+    """The data that the stages of one step hand on to each other; STAGE_FIELDS describes the fields.
+
+    Any stands for a type of a package that imports this one.
     """
 
     __slots__ = STAGE_FIELDS
@@ -149,9 +151,9 @@ class StepState:
     characters: np.ndarray
     library: Any  # shapes.library.Library
     awake: Any  # islands.awake.Awake
-    sleeping_set: Any  # islands.sleep.Sleepers
+    sleeping_set: Any  # islands.sleep.SleepingSet
     queries: Any  # queries.index.QueryIndex
-    pairs: Any  # broadphase.pair_list.PairList
+    pairs: Any  # broadphase.proxies.PairList
     changed_count: int
     impacts: np.ndarray
     contact_rows: np.ndarray

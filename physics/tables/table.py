@@ -1,4 +1,4 @@
-"""Structured arrays that grow, aligned to cache lines, the search for rows by id, and union-find over rows."""
+"""Structured arrays that grow and are aligned to cache lines, search for rows by id, and union-find over rows."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -17,7 +17,7 @@ LINE = 64  # [bytes]
 
 
 def in_lines(fields: Sequence[tuple[str, Any]]) -> np.dtype:
-    """Return the dtype of rows of these fields, in C's alignment, padded to whole cache lines."""
+    """Return the structured dtype of (name, type) fields, aligned as in C, with a size of whole cache lines."""
     packed = np.dtype(list(fields), align=True)
     placed: Any = packed.fields
     return np.dtype(
@@ -32,7 +32,7 @@ def in_lines(fields: Sequence[tuple[str, Any]]) -> np.dtype:
 
 
 def zeros_in_lines(count: int, dtype: Any) -> np.ndarray:
-    """Return `count` zeros of a dtype, the first of which begins a cache line."""
+    """Return an array of `count` zeros of a dtype, whose memory begins on a cache line."""
     dtype = np.dtype(dtype)
     bytes_ = np.zeros(count * dtype.itemsize + LINE, np.uint8)
     first = -bytes_.ctypes.data % LINE
@@ -43,7 +43,7 @@ def zeros_in_lines(count: int, dtype: Any) -> np.ndarray:
 
 
 class Table:
-    """Structured array that grows by doubling. `rows` is the used part. The data begins a cache line."""
+    """Structured array that grows by doubling. `rows` is the used part. The data begins on a cache line."""
 
     def __init__(self, dtype: DTypeLike, capacity: int = 16) -> None:
         self.data: np.ndarray = zeros_in_lines(capacity, dtype)
@@ -124,7 +124,9 @@ def joined(tables: Sequence[np.ndarray]) -> np.ndarray:
 
 @subkernel
 def root_of(row, parents_inout):
-    """Return the root of a row's tree, with path halving."""
+    """Return the root of the tree that contains a row. parents_inout: the parent of each row; paths are halved on the
+    way.
+    """
     while parents_inout[row] != row:
         parents_inout[row] = parents_inout[parents_inout[row]]
         row = parents_inout[row]
@@ -133,6 +135,6 @@ def root_of(row, parents_inout):
 
 @subkernel
 def join_trees(a, b, parents_inout):
-    """Join the trees of two rows; the lower root stays."""
+    """Join the trees that contain two rows under the lower of their roots. parents_inout: the parent of each row."""
     first, second = root_of(a, parents_inout), root_of(b, parents_inout)
     parents_inout[max(first, second)] = min(first, second)
