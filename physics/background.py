@@ -208,8 +208,8 @@ class Background:
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
     def _urgency(self, waiting):
-        """Return the priority of kernels that share one file: 1 plus their seconds as plain Python per byte of code
-        that is still to be compiled.
+        """Return the priority of kernels that share one file: 1 + (seconds as plain Python) / (bytes of code still to
+        be compiled).
         """
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code

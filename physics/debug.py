@@ -201,7 +201,7 @@ def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
 
 
 class Drawn(NamedTuple):
-    """Masks at their poses; equal rasters share their pixels."""
+    """Masks as they are drawn, at their poses. Masks with equal pixels share one array."""
 
     solids: list  # of bool arrays [row, col]
     which: np.ndarray  # (n,) index of each mask's pixels in solids
@@ -226,9 +226,7 @@ def drawn_masks(world: World) -> Drawn:
 
 
 def _drawn(world, rows):
-    """Return the masks in these shape rows as they are drawn. Pictures of masks that a step does not draw are made
-    here.
-    """
+    """Return the masks in these shape rows as they are drawn. Rasters that a step does not need are drawn first."""
     draw_pictures(world.library, rows, world.bodies, world.shapes)
     shapes, library = world.shapes[rows], world.library
     raster_of = library.raster_of[: len(library.masks)].ravel()

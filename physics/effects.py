@@ -52,7 +52,7 @@ class Effects:
 
     @classmethod
     def rigid_bodies(cls) -> "Effects":
-        """Return the effects of rigid bodies: they fall, bounce, rub, stack, sleep and trigger sensors."""
+        """Return the effects of rigid bodies: they fall, bounce, have friction, stack, sleep and trigger sensors."""
         return cls(
             response=True,
             gravity=True,

@@ -330,7 +330,7 @@ def _sleepers(arrays) -> SleepingSet:
 
 
 def _unpack(arrays, facts, geometry):
-    """Check a snapshot, and return (library, shapes of each body, source masks of bodies with a tier, random
+    """Check a snapshot, and return (library, shapes of each body, original masks of approximated bodies, random
     generator).
 
     Raises one of DAMAGE.

@@ -48,10 +48,11 @@ def warmup(
 ) -> None:
     """Compile, or load from the cache, the kernels of a world with these effects, with all cores.
 
-    broadphase: brute, sweep, hash, tree or "all". pieces: names in PIECES of the shapes and queries that the world will
-    use, None: all. Kernels of other pieces compile at their first call. progress(done, total, name) is called before
-    each piece, with each compiled kernel, and at the end; `total` grows when the number of kernels is known. Without
-    numba the small worlds are run all the same. Raises KeyError for an unknown broad phase or piece.
+    The kernels are found by running small worlds with the pieces: shapes and queries, by their names in PIECES. pieces:
+    those that the world will use, None: all; kernels of other pieces compile at their first call. broadphase: brute,
+    sweep, hash, tree or "all". progress(done, total, name) is called before each piece, with each compiled kernel, and
+    at the end; `total` grows when the number of kernels is known. Without numba the small worlds run all the same.
+    Raises KeyError for an unknown broad phase or piece.
     """
     runs = _runs(effects, broadphase, solver, pieces)
 
@@ -280,7 +281,7 @@ def _zone(effects, solver):
 
 
 def _queries(effects):
-    """Run queries with circles and boxes. Without narrow phase, no other code calls their kernels."""
+    """Run queries with circles and boxes, whose kernels a world without narrow phase calls only in queries."""
     world = World(effects)
     world.add_body(Circle(4), kind="static")
     world.ray_cast((-20, 0), (40, 0))

@@ -198,7 +198,7 @@ class WorldState:
         return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids: Any) -> np.ndarray:
-        """Return the row numbers in `world.bodies` of Bodies or ids, in the shape of the argument. Raises KeyError."""
+        """Return the row numbers in `world.bodies` of Bodies or ids, as an array of the same shape. Raises KeyError."""
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
         ids = np.asarray(ids, np.int64)
@@ -305,7 +305,7 @@ class WorldState:
         self.awake.forget_shapes()
 
     def _remove(self, ids: Sequence[int] | np.ndarray) -> None:
-        """Remove bodies by id. Raises KeyError, and removes nothing then."""
+        """Remove bodies by id. Raises KeyError for an unknown id, before any body is removed."""
         self._unlocked()
         ids = np.asarray(ids, np.int64)
         if not len(ids):

@@ -26,7 +26,7 @@ SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range
 
 
 class GapWorkspace(NamedTuple):
-    """Scratch memory for the measurement of one pair of hulls. Corners are stored as indices."""
+    """Scratch memory for GJK and EPA, for one pair of hulls at a time. Corners of A and B are stored as indices."""
 
     state: np.ndarray  # (5,) corners kept, direction of the search, rounds, times the cap was hit
     simplex: np.ndarray  # (3, 4) corner of A, corner of B, their difference [px]
@@ -117,8 +117,8 @@ def edge_distance(a, b, p, q, simplex):
 def drop_corner(a, b, simplex_inout):
     """Reduce a triangle to one of the two edges at its newest corner (row 2): the one nearest to the origin.
 
-    Return False when the origin lies in the triangle, else True. The third edge is not tested: the search came across
-    it.
+    Return False when the origin lies in the triangle, else True. The third edge is not tested, because the search has
+    just crossed it.
     """
     ex, ey = edge_of(a, b, 0, 1, simplex_inout)
     fx, fy = edge_of(a, b, 0, 2, simplex_inout)
@@ -178,8 +178,9 @@ def reduce_simplex(a, b, state_inout, simplex_inout):
 
 @subkernel
 def start_walk(a, b, i, j, state_out, simplex_out):
-    """Start a search at corner a[i] - b[j] of the difference. Any corner will do; one near the last result saves
-    rounds.
+    """Start a GJK search at corner a[i] - b[j] of the Minkowski difference of two hulls.
+
+    Any corner will do; one near the result of the search before saves rounds.
     """
     write_corner(a, b, i, j, 0, simplex_out)
     state_out[COUNT] = 1.0
@@ -191,8 +192,7 @@ def start_walk(a, b, i, j, state_out, simplex_out):
 
 @subkernel
 def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
-    """Run one round of GJK: reduce the simplex to the feature nearest to the origin, and add the support point beyond
-    it.
+    """Run one round of GJK: reduce the simplex to its feature nearest to the origin, then add the support point beyond.
 
     Return SEARCHING when a support point was added; APART when none is nearer to the origin, so that the feature is the
     nearest; TOUCHING when the origin lies in the simplex. O(corners).
@@ -216,10 +216,10 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 
 @subkernel
 def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
-    """Write separation, normal and nearest points for an edge of the difference, from row p to row q of `places`.
+    """Write separation, normal and nearest points of two hulls for an edge of their Minkowski difference.
 
-    places: the simplex or the polytope, whose rows begin with the indices of a corner of A and one of B. (nx, ny): unit
-    normal. gap_out: see GapWorkspace.
+    The edge leads from row p to row q of `places`: the simplex or the polytope, whose rows begin with the indices of a
+    corner of A and one of B. (nx, ny): unit normal of the edge. gap_out: see GapWorkspace.
     """
     i = int(places[p, 0])
     j = int(places[p, 1])
@@ -254,7 +254,7 @@ def write_nearest(a, b, state, simplex, gap_out):
 
 @subkernel
 def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
-    """Run GJK: return APART and write workspace.gap, or return TOUCHING without. At most GJK_CAP rounds.
+    """Run GJK for two hulls: write workspace.gap and return APART, or only return TOUCHING. At most GJK_CAP rounds.
 
     a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: indices of the corners of A and B at which the search
     starts. When the cap is hit, the result so far is returned and workspace.state[CAPPED] is increased.
@@ -287,7 +287,7 @@ EPA_CAP = 60  # rounds; less than the capacity of the polytope
 
 @subkernel
 def write_polytope_corner(i, j, k, polytope_out):
-    """Write the indices of corner a[i] - b[j] to row k of the polytope."""
+    """Write corner a[i] - b[j] of the Minkowski difference, as indices, to row k of the polytope."""
     polytope_out[k, 0] = float(i)
     polytope_out[k, 1] = float(j)
 
@@ -311,7 +311,8 @@ def measure_edge(a, b, k, count, polytope_inout):
 
 @subkernel
 def start_polytope(a, a_count, b, b_count, polytope_out):
-    """Start the polytope with the two corners of the difference furthest apart along x, or along y if it has no width.
+    """Start the polytope with the two corners of the Minkowski difference furthest apart along x, or along y if it has
+    no width.
 
     Return the number of corners: 2, or 1 if the difference is a point.
     """
@@ -342,10 +343,10 @@ def shallowest_edge(polytope, count):
 
 @subkernel
 def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
-    """Replace the edge nearest to the origin by two edges, by way of the support point beyond it. Return the number of
-    corners.
+    """Replace the polytope edge nearest to the origin by two edges that meet in the support point beyond it.
 
-    The number is unchanged if no corner lies beyond: then the edge belongs to the difference. O(corners).
+    Return the new number of corners. It is unchanged if no corner of the Minkowski difference lies beyond the edge,
+    which then belongs to the difference. O(corners).
     """
     k = shallowest_edge(polytope_inout, count)
     n = k + 1 if k + 1 < count else 0
@@ -385,10 +386,10 @@ def write_depth(a, b, count, polytope, gap_out):
 
 @subkernel
 def measure_depth(a, a_count, b, b_count, workspace):
-    """Write to workspace.gap by how much, and along which normal, B must move to only touch A (EPA). O(corners
-    squared).
+    """Write to workspace.gap how far, and along which normal, B must move to end its overlap with A (EPA).
 
-    The rounds are added to workspace.state[ROUNDS], and 1 to workspace.state[CAPPED] if they reach EPA_CAP.
+    The rounds are added to workspace.state[ROUNDS], and 1 to workspace.state[CAPPED] if they reach EPA_CAP. O(corners
+    squared).
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:

@@ -95,8 +95,9 @@ def make_position_pass(rotation: bool) -> Callable:
 
 @subkernel
 def put_center(u, v, body_inout):
-    """Write the world centre of mass of a BODY row, at offset (u, v) [px] from its origin. Store a finite pose as
-    settled.
+    """Write the world centre of mass of a BODY row, at offset (u, v) [px] from its origin.
+
+    The pose is also stored as the settled one, the last finite pose, if it is finite.
     """
     b = body_inout
     b.center_x, b.center_y = b.x + u, b.y + v
@@ -267,7 +268,7 @@ def is_finite_character(character):
 
 
 class Course(NamedTuple):
-    """The parameters of the free motion of a body in a step."""
+    """The parameters of the motion of bodies in a step before any contact acts."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
@@ -286,11 +287,10 @@ def take_body(row, reason, found, bodies_inout, broken_out):
 
 @subkernel
 def take_broken_bodies(rows, course, bodies_inout, broken_out):
-    """Quarantine the bodies whose numbers are not finite or out of range, and list them in broken_out. Return their
-    number.
+    """Quarantine bodies whose numbers are not finite or out of range, and list them. Return their number.
 
-    A body whose pose is out of range returns to its last finite pose. rows: body rows. broken_out (bodies, 2): row,
-    reason.
+    A body whose pose is out of range returns to its last finite pose. rows: body rows. broken_out (bodies, 2): row and
+    reason (index of REASONS).
     """
     found = 0
     for k in range(len(rows)):

@@ -2,12 +2,13 @@
 demand.
 
 With numba a kernel is compiled at its first call and stored on disk. Without numba the same source runs over views of
-the tables and arrays (plain.py). In a program that opted in (tiers.py) a kernel runs as plain Python until its compiled
-form has arrived. Both forms give the same bits.
+the tables and arrays (plain.py). In a program that opted in to background compilation (tiers.py) a kernel runs as plain
+Python until its compiled form has arrived. Both forms give the same bits.
 
-Five decorators: `kernel` for functions that a stage calls with arrays; `generic` for those that are called with arrays
-of several types; `subkernel` for functions that only kernels call; `inlined` for subkernels that are inlined at every
-call; `noalias` for subkernels whose arrays never overlap (noalias). Only the first two have an entry from Python.
+Five decorators: `kernel` for functions that a stage calls with arrays; `generic` for functions that are called with
+arrays of several types; `subkernel` for functions that only kernels call; `inlined` for subkernels that are inlined at
+every call; `noalias` for subkernels whose arrays never overlap. Python can call the compiled form only of `kernel` and
+`generic` functions.
 """
 
 from collections.abc import Callable
@@ -42,7 +43,7 @@ def noalias(function: Callable) -> Any:
 
 
 def kernel(function: Callable) -> Any:
-    """Return a function that a stage calls with tables, arrays and scalars, of the same types in each call."""
+    """Return a kernel: a function that a stage calls with tables, arrays and scalars, always of the same types."""
     return StageKernel(function) if JIT else _viewing(function)
 
 

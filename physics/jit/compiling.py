@@ -238,7 +238,7 @@ def _link(kept):
 
 
 def _environment(name, module, values):
-    """Return the environment of compiled code: the globals and constants of its module."""
+    """Return numba's environment of compiled code: the globals of its module, and its constants."""
     known = lookup_environment(name)
     if known is not None:
         return known
@@ -369,7 +369,7 @@ class PartCache(caching._Cache):
         """Do nothing: the store is always on."""
 
     def flush(self) -> None:
-        """Do nothing: files of other contents have other names."""
+        """Do nothing: no file is ever stale, because its name contains a hash of its sources."""
 
 
 def _type_text(found: Any) -> str:

@@ -37,7 +37,9 @@ def fingerprint(kernel: Kernel) -> str:
 
 
 def content_of(kernel: Kernel) -> str:
-    """Return the hash of a kernel's code and of all that it refers to. Raises NotHashable naming a value."""
+    """Return the hash of a kernel's code and of all that it refers to. Raises NotHashable, naming a value without a
+    hash.
+    """
     with _describing:
         if kernel.content is None:
             kernel.content = "recursive"  # a recursive function is described by the place of the call
@@ -107,7 +109,7 @@ def _describe_code(code):
 
 
 def _describe(value, names=()):
-    """Yield texts that distinguish a value from others. names: attributes that are described if it is a module."""
+    """Yield texts that distinguish a value from others. names: if the value is a module, its attributes to describe."""
     kind = type(value)
     if value is None or kind in (bool, int, float, complex, str, bytes):
         yield f"{kind.__name__} {value!r}"

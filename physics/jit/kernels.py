@@ -100,7 +100,7 @@ def _dtype_text(dtype):
 
 @cache
 def type_of(key: Key) -> Any:
-    """Return numba's type for a key; imports numba."""
+    """Return numba's type for the key of an argument; imports numba."""
     from numba import types
     from numba.np.numpy_support import from_dtype
 
@@ -128,7 +128,9 @@ registry: "list[Kernel]" = []  # every kernel, in the order of definition; empty
 
 
 class Kernel:
-    """A function over tables that can be compiled. A call of it calls `run`: a compiled form, or its plain twin."""
+    """A function over tables that can be compiled. A call runs its present form `run`: a compiled form, or plain
+    Python.
+    """
 
     is_part = False
     __call__: Any = property(attrgetter("run"))
@@ -152,7 +154,7 @@ class Kernel:
 
     @property
     def name(self) -> str:
-        """Module and qualified name."""
+        """The module and the qualified name of the function."""
         return f"{self.__module__}.{self.__qualname__}"
 
     @property
@@ -180,15 +182,15 @@ class Kernel:
         return f"<kernel {self.name}>"
 
     def reset(self) -> None:
-        """Set the form that runs back to the first one."""
+        """Make calls run the plain twin again."""
         self.run = self.call_plain
 
     def call_plain(self, *arguments: Any) -> Any:
-        """Run the plain twin over views of the arguments."""
+        """Run the kernel as plain Python, on views of the arguments that return Python numbers."""
         return self.plain(*[view_of(each) for each in arguments])
 
     def install(self, keys: Keys, form: Form) -> None:
-        """Store a compiled form for these types."""
+        """Store a compiled form for arguments of these types."""
         self.forms[keys] = form
 
 

@@ -1,4 +1,7 @@
-"""Kernels without the compiler: views of tables, 64-bit words, and plain twins. Imports numba only on demand."""
+"""Kernels without the compiler: views of tables, 64-bit words, and plain twins (kernels as plain Python functions).
+
+Imports numba only on demand.
+"""
 
 import math
 import os
@@ -71,7 +74,7 @@ class TableView:
 
 
 def _table_view(array):
-    """Return the view of a table, which is cached as long as the table exists.
+    """Return the TableView of a structured array, which is cached as long as the array exists.
 
     Most tables are used in many calls: the cache saves 10 % of a plain step (three games).
     """

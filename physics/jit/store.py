@@ -1,9 +1,9 @@
 """The store: compiled kernels on disk, in a private folder. Its files are code, so the folder is checked before any is
 loaded.
 
-There is one file per kernel and types, named by the hash of everything that its contents follow from, and starting with
-a checksum. Files are written by atomic replace. A file that was not used for KEPT is removed, and the least recently
-used ones when the folder exceeds LIMIT.
+There is one file per kernel and argument types. Its name contains a hash of everything that its contents depend on, and
+it starts with a checksum. Files are written by atomic replace. A file that was not used for KEPT is removed, and the
+least recently used ones when the folder exceeds LIMIT.
 """
 
 import atexit
@@ -75,7 +75,7 @@ def make_private(folder: Path) -> str:
 
 
 def _exposed(folder):
-    """Return how another user could read or write code in the folder; "" if none can."""
+    """Return a message if another user could read or write code in the folder; "" if no other user can."""
     info = folder.stat()
     if info.st_uid != os.getuid():
         return f"{folder} belongs to another user"
@@ -213,7 +213,9 @@ class Store:
             warnings.warn(line, stacklevel=3)
 
     def sweep(self) -> None:
-        """Remove files unused for KEPT, the least recently used beyond LIMIT, and leftovers of killed processes."""
+        """Remove files unused for KEPT [s], the least recently used beyond LIMIT [bytes], and leftovers of killed
+        processes.
+        """
         self._swept = True
         now = time.time()
         found = []
@@ -254,7 +256,7 @@ class Store:
 
 
 def checksum(name: str, content: bytes) -> bytes:
-    """Return the checksum of a file's name and contents, with which the file begins."""
+    """Return the checksum that a stored file begins with: a hash of the name and contents of the file."""
     return hashlib.blake2b(content, digest_size=CHECKSUM, key=hashlib.blake2b(name.encode()).digest()).digest()
 
 

@@ -103,7 +103,7 @@ def take_over() -> None:
 
 
 def share_taken_over() -> float:
-    """Return the share of the called kernels that run compiled, 0..1; 1 before any was called."""
+    """Return the share of the called kernels that run compiled, 0..1; 1 before any kernel was called."""
     if not wanted:
         return 1.0
     compiled = sum(len(each.forms) for each in registry)
@@ -246,7 +246,7 @@ def _make(module, code, cells, flags):
 
 
 def _codes_of(module, qualname):
-    """Yield the code objects of a qualified name within a module, outermost function first."""
+    """Yield the code objects in a module that have this qualified name, those of outer functions first."""
     outer: Any = getattr(importlib.import_module(module), qualname.partition(".")[0], None)
     while hasattr(outer, "__wrapped__"):
         outer = outer.__wrapped__
@@ -265,7 +265,7 @@ def code_of(kernel: Kernel, known: Container[Kernel]) -> int:
 
 @cache
 def parts_of(kernel: Kernel) -> dict[Kernel, int]:
-    """Return {kernel: length of its code in bytes} of a kernel and all that it calls, at any depth."""
+    """Return a kernel and all that it calls, at any depth, as {kernel: length of its code in bytes}."""
     found: dict[Any, int] = {}
     todo = [kernel]
     while todo:

@@ -29,8 +29,8 @@ TURN = 0.0005  # [s] switch interval of the threads of this process while kernel
 def short_turns() -> Iterator[None]:
     """Let the interpreter switch threads after TURN while the context is open.
 
-    The program releases the interpreter in every call of NumPy, and would wait for 5 ms each time. While the compiler
-    is imported, frames of the platformer take 55 ms instead of 80 ms.
+    The main thread releases the interpreter in every call of NumPy, and would wait 5 ms to get it back. While the
+    compiler is imported, frames of the platformer take 55 ms instead of 80 ms.
     """
     before = sys.getswitchinterval()
     sys.setswitchinterval(TURN)
@@ -79,9 +79,9 @@ IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the fol
 def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
     """Start `python -m module` with pipes for lines, at low priority, ignoring Ctrl-C in the terminal.
 
-    module: its full name, as in f"{__package__}.worker". The child imports from the same places as this program, and
-    not from the current folder, where a `physics.py` or `numpy.py` belongs to the user. environment: additional
-    variables. Raises OSError, ValueError if no process can be started.
+    module: full name of the module, as in f"{__package__}.worker". The child imports from the same places as this
+    program, and not from the current folder, where a `physics.py` or `numpy.py` belongs to the user. environment:
+    additional environment variables. Raises OSError, ValueError if no process can be started.
     """
     # A process group, not a session: Linux weighs sessions against each other whatever the priority of their processes
     # (autogroups, man 7 sched), so that an own session would take as much time as the program.

@@ -94,7 +94,9 @@ def query_rect(world: AskedWorld, rect: Any) -> list:
 
 
 def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, float] | None:
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a body's shapes at its pose; None if they are empty."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a body's shapes at its pose; None if all its shapes are
+    empty.
+    """
     world.queries.refresh(world)
     rows = with_content(world, np.flatnonzero(world.shapes["body"] == identity))
     if not len(rows):
@@ -148,9 +150,10 @@ def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_ou
 
 @kernel
 def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
-    """Write (fraction, normal) to hit_out[1:] for the first part that a ray from the origin by (dx, dy) [px] hits.
+    """Write (fraction, normal) of the nearest hit of a ray from the origin by (dx, dy) [px] on convex parts to
+    hit_out[1:].
 
-    Return whether it hits any. parts: Parts. corners_inout (16, 2): scratch. hit_out (4,). O(parts).
+    Return whether the ray hits a part. parts: Parts. corners_inout (16, 2): scratch. hit_out (4,). O(parts).
     """
     hit_out[1] = MISS
     for k in range(len(parts.counts)):
@@ -255,7 +258,7 @@ PIECE = 8.0  # [m] … of about this width
 
 @dataclass(frozen=True)
 class RayHit:
-    """A hit of a ray: the body, the id of the shape, point [px], unit normal, fraction of the translation."""
+    """A hit of a ray or cast shape: body, id of the shape, point [px], unit normal, fraction of the translation."""
 
     body: Any  # a Body, whose module imports this one
     shape: int
@@ -318,7 +321,7 @@ def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
 
 
 def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
-    """Return (row, fraction, normal) of the masks that a ray hits, each by the parts of its outline near the ray."""
+    """Return (row, fraction, normal) of each mask that a ray hits, as arrays (1, 4). The rays are cast at outlines."""
     hits, corners = [], np.zeros((16, 2))
     for row in rows.tolist():
         parts = _swept_parts(world, row, x, y, math.inf)
@@ -425,8 +428,9 @@ def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
 
 
 def _swept_parts(world, row, x, y, feet) -> Parts:
-    """Return the convex parts of a SHAPE row for casts, relative to (x, y) [px]. feet: lowest point of the cast shape
-    [px].
+    """Return the convex parts of a SHAPE row for casts, relative to (x, y) [px].
+
+    feet: y [px] of the lowest point of the cast shape; a one-way tile counts only if it lies below.
     """
     placed = Placed(world.library.tables, world.bodies, world.shapes, row, x, y, feet, True)
     return world.library.shape_of(world.shapes[row])._parts_at(placed)

@@ -1,6 +1,4 @@
-"""Index of shapes for queries between steps: which shapes may meet a box, by the broad phase, and which boxes were
-visited.
-"""
+"""Index of the shapes of a world for queries between steps, and the boxes that the last query visited."""
 
 from math import floor
 from typing import Any, NamedTuple, Protocol
@@ -254,7 +252,7 @@ CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
 
 class Visited(NamedTuple):
-    """The boxes that a query searched, and the boxes that it compared [px], in order, with repetitions."""
+    """The boxes [px] that a query searched, and the boxes that it compared with them, in order, with repetitions."""
 
     kind: str  # brute, sweep, hash, tree
     asked: np.ndarray  # (k, 4) min_x min_y max_x max_y

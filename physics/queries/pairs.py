@@ -116,7 +116,7 @@ def hull_pair(a: HullRow, pose_a: At, b: HullRow, pose_b: At) -> PairRows:
 
 
 def any_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At) -> tuple[Library, PairRows]:
-    """Return two shapes at two poses as rows, and the library of their geometry."""
+    """Return (library of the geometry, PairRows) of any two shapes at two poses."""
     library, bodies, shapes = Library(), np.zeros(2, BODY), np.zeros(2, SHAPE)
     for row, (shape, pose) in enumerate(((shape_a, pose_a), (shape_b, pose_b))):
         place(library, shape, bodies, shapes, row, pose)
@@ -323,7 +323,7 @@ def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out,
 
 @subkernel
 def size_of(corners, count, radius):
-    """Return the longer side of the box [px] around a rounded hull."""
+    """Return the longer side [px] of the AABB of a rounded hull."""
     longest = 0.0
     for axis in range(2):
         low = corners[0, axis]
@@ -336,7 +336,10 @@ def size_of(corners, count, radius):
 
 
 def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
-    """Return (separation, size, rounds) as separate_hulls, for any two shapes; infinite if a shape is empty."""
+    """Return (separation, size, rounds) as separate_hulls, for any two shapes.
+
+    If one of the shapes is empty, the separation is infinite.
+    """
     parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     totals = np.zeros(2)
     found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)

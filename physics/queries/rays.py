@@ -1,4 +1,4 @@
-"""A ray against every shape: circles, hulls, lines, chains, tiles and pixels."""
+"""Rays cast at every kind of shape: circles, hulls, lines, chains, tiles and pixels."""
 
 import math
 

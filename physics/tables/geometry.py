@@ -88,7 +88,7 @@ CELL = np.dtype(
 
 
 class Geometry(NamedTuple):
-    """Flat geometry tables that kernels read."""
+    """The geometry of all shapes of a world as flat tables, which kernels read."""
 
     polygons: np.ndarray  # SPAN of corners: polygons; capsules and segments as hulls of two corners
     corners: np.ndarray  # CORNER [px] in body space, clockwise on the screen
