@@ -318,9 +318,7 @@ def _points(world, contacts, state):
 
 
 def islands(world: World) -> np.ndarray:
-    """Return the island of every body (n,), which is named by the lowest body id in it; -1 for a body without an
-    island.
-    """
+    """Return for every body (n,) the lowest body id of its island, which names the island; -1 without an island."""
     bodies = world.bodies
     return np.where(
         (bodies["kind"] == DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1

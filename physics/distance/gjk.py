@@ -287,7 +287,7 @@ EPA_CAP = 60  # rounds; less than the capacity of the polytope
 
 @subkernel
 def write_polytope_corner(i, j, k, polytope_out):
-    """Write corner a[i] - b[j] of the Minkowski difference, as indices, to row k of the polytope."""
+    """Write the indices i, j of a corner a[i] - b[j] of the Minkowski difference to row k of the polytope."""
     polytope_out[k, 0] = float(i)
     polytope_out[k, 1] = float(j)
 

@@ -40,8 +40,9 @@ from physics.jit.store import store
 
 
 class PartLibrary(codegen.JITCodeLibrary):
-    """The code of a part, to be linked into its callers: calls are resolved, but it is neither optimised nor
-    executable.
+    """The code of a part (a kernel that only kernels call), to be linked into the code of its callers.
+
+    Its calls are resolved, but it is neither optimised nor executable.
     """
 
     def _optimize_final_module(self):
@@ -217,7 +218,7 @@ def _generator() -> Any:
 
 
 def _link(kept):
-    """Return the function whose stored machine code is linked into numba's engine here. kept: the result of _kept()."""
+    """Return the function of stored machine code, linked into numba's engine. kept: the result of _kept()."""
     modname, qualname, symbol, env_name, constants, code = kept
     with global_compiler_lock:
         generator = _generator()
@@ -314,7 +315,7 @@ _claimed: dict[str, ExitStack] = {}  # file name -> release of the claim, of all
 
 @contextmanager
 def _claims():
-    """Release at the end of the context all claims on parts that an error has left held."""
+    """Release, at the end of the context, the claims on parts that are still held after an error."""
     try:
         yield
     finally:

@@ -101,7 +101,7 @@ def _row_class(dtype):
 
 
 def view_of(argument: Any) -> Any:
-    """Return an argument as a plain kernel reads it: a TableView, a memoryview of another array, Python numbers."""
+    """Return an argument as plain kernels read it: table as TableView, other array as memoryview, Python numbers."""
     kind = type(argument)
     if kind is float or kind is int or kind is bool:
         return argument
@@ -187,7 +187,7 @@ def _make_popcount():
 
 
 def put_in(function: Callable) -> Callable[[], Any]:
-    """Return a maker of the form of a function for numba, which inlines it at every call; for Builtin."""
+    """Return a function that makes numba's form of `function`, inlined at every call: argument `make` of a Builtin."""
     return lambda: compiler().njit(inline="always")(function)
 
 

@@ -238,7 +238,7 @@ class Store:
 
     @contextlib.contextmanager
     def claim(self, name: str) -> Iterator[None]:
-        """Hold a lock on a name while the context is open, for up to one process at a time to compile a kernel.
+        """Hold a lock on a name while the context is open, so that only one process compiles the kernel of that name.
 
         Another process waits for the lock on entry, but no longer than PATIENCE [s].
         """

@@ -63,7 +63,7 @@ def _note(kernel, keys, collected):
 
 @contextmanager
 def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], None]]:
-    """Run kernels that are not on disk plain while the context is open, and compile nothing.
+    """Run kernels that are not on disk as plain Python while the context is open, and compile nothing.
 
     Yields a dict whose keys are (kernel, types) of those kernels, in the order of their first calls. all_calls: treat
     kernels on disk in the same way, unless they have been loaded already.
@@ -78,7 +78,7 @@ def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], No
 
 
 def start(when_asked: Callable[[], object]) -> None:
-    """Run each kernel that has no compiled form plain from now on, and call when_asked() once for it."""
+    """Run each kernel without a compiled form as plain Python from now on, and call when_asked() once for it."""
     global background, asked
     background, asked = True, when_asked
 
@@ -130,10 +130,10 @@ def forget() -> None:
 class StageKernel(Kernel):
     """A kernel that a stage calls. Once it is compiled, a call goes straight to the compiled form.
 
-    So the types of the arguments are not inspected: numba takes 1.07 us for six tables, and 0.1 us for the call; a step
-    of 55 boxes makes 15 calls. Unless it is `generic`, a kernel is called with the same types each time. A float for an
-    int raises TypeError, and the compiled form refuses another element size. Other types are refused only under
-    HITBOX_CHECK_CALLS=1.
+    The types of the arguments are then not inspected: numba takes 1.07 us for that with six tables, and 0.1 us for the
+    call; a step of 55 boxes makes 15 calls. Unless it is `generic`, a kernel is called with the same types each time. A
+    float for an int raises TypeError, and the compiled form refuses another element size. Other types are refused only
+    under HITBOX_CHECK_CALLS=1.
     """
 
     def reset(self) -> None:

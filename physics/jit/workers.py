@@ -203,7 +203,7 @@ class Workers:
         return self.count > 0 and not self._stopped and self._deaths < DEATHS
 
     def add(self, tasks: list[Task]) -> None:
-        """Add tasks, and start more processes if there are fewer than tasks, up to `count`."""
+        """Add tasks, and start processes for them, up to `count` processes in all."""
         with self._changed:
             self._tasks += tasks
             while len(self._threads) < min(self.count, len(self._tasks) + self._under_way):

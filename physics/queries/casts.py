@@ -217,8 +217,7 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
 @kernel
 def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, work_inout):
-    """Write (distance, x, y) [px] of the nearest place to a point on the listed hulls. Return the row of its shape, or
-    -1.
+    """Write (distance, x, y) [px] of the place nearest to a point on the listed hulls. Return the row of that hull.
 
     The result is -1 if no hull is listed. rows: numbers of SHAPE rows in order; tiles, masks and chains are left out.
     If the point lies in a hull, the distance is 0 and the place is the point itself. workspace: AdvanceWorkspace.
