@@ -30,9 +30,10 @@ IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conve
 
 @kernel
 def stay_behind(bodies_inout, manifolds_inout, work_inout):
-    """Move the dynamic bodies of every overlap that moved back to their old poses, and return their number.
+    """Move overlapping dynamic bodies that moved in this step back to their old poses. O(manifolds).
 
-    The manifold that stopped them is marked as hit on the way. Touching (separation 0) stops no body. O(manifolds).
+    Return the number of bodies moved back. Manifolds that stopped a body are marked as `swept`. Touching (separation 0)
+    stops no body.
     """
     put_back = 0
     for i in range(len(manifolds_inout)):
@@ -61,7 +62,7 @@ def stay_behind(bodies_inout, manifolds_inout, work_inout):
 
 @subkernel
 def stop_at_point(x, y, nx, ny, a_inout, b_inout):
-    """Remove the closing speed at a point, by an impulse without restitution. Return the impulse."""
+    """Remove the approach speed of two bodies at a point, by an impulse without restitution. Return the impulse."""
     inverse_masses = a_inout.inverse_mass + b_inout.inverse_mass
     if inverse_masses == 0.0:
         return 0.0
@@ -75,7 +76,7 @@ def stop_at_point(x, y, nx, ny, a_inout, b_inout):
 
 @kernel
 def stop_approach(bodies_inout, manifolds_inout):
-    """Remove the closing speed of the manifolds that stopped a body. O(manifolds)."""
+    """Remove the approach speed at the points of the manifolds that stopped a body. O(manifolds)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         if not m.swept or m.sensor:
@@ -87,7 +88,7 @@ def stop_approach(bodies_inout, manifolds_inout):
 
 
 def _make_way(state, stayed):
-    """Let kinematic bodies push the bodies that stayed in their way, and those that they overlapped before.
+    """Let kinematic bodies push the dynamic bodies that overlap, or that were moved back to their old poses.
 
     stayed: CONTACT rows that stopped a body.
     """
@@ -109,7 +110,10 @@ def _make_way(state, stayed):
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Move overlapping bodies back until there are none. Return the step [s]. It needs no rows but the contacts."""
+    """Move overlapping bodies back to their old poses until no body has to move. Return the step [s].
+
+    contacts: unused, as the solver needs only the contact rows.
+    """
     bodies, stopped = state.bodies, []
     while True:
         found = state.contact_rows

@@ -1,7 +1,8 @@
 """The contacts of a step as constraints: their edges, substeps, order and groups, and the way from lanes to their rows.
 
-Islands with the same number of substeps form a group, which advances by the whole step before the next group begins.
-Islands do not affect each other: the motion of kinematic bodies between them is a function of time.
+A lane holds one contact for the SIMD passes, see lanes.py. Islands with the same number of substeps form a group, which
+advances by the whole step before the next group begins. Groups may differ in their substeps because islands do not
+affect each other: the motion of kinematic bodies between them depends on the time alone.
 """
 
 import math
@@ -49,18 +50,18 @@ from physics.tables.table import rows_of
 
 BOTH = (False, True)
 CHOICES = np.array(AUTO_SUBSTEPS, np.int64)
-BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # index of the greatest that a load alone may take
+BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # index of the most substeps that a load alone may take
 
 
 class Plan(NamedTuple):
-    """The constraints to solve and their order; each array has room for all of them."""
+    """The constraints to solve and their order; each array is long enough for all edges, or for all MOTION rows."""
 
-    edges: Edges  # their nodes are rows of MOTION
+    edges: Edges  # one for each contact to solve; its nodes are rows of MOTION
     colors: np.ndarray  # (edges) int32 of each edge
     places: np.ndarray  # (edges) int32 place of each among the constraints, by group and colour
-    taken: np.ndarray  # (motions) int64 bits of the colours that each has
-    degrees: np.ndarray  # (motions) int64 edges of each
-    classes: np.ndarray  # (motions) int32 index of the substeps of each among the choices
+    taken: np.ndarray  # (motions) int64 bits of the colours of the edges of each body
+    degrees: np.ndarray  # (motions) int64 number of edges of each body
+    classes: np.ndarray  # (motions) int32 index in CHOICES of the number of substeps of each body
     parents: np.ndarray  # (motions) int32 root of the island of each, if …
     joined: np.ndarray  # (1) bool … it was computed
     touching: np.ndarray  # (motions) int32 root of the bodies with which each exchanged impulses, see energy.py
@@ -73,7 +74,7 @@ class Plan(NamedTuple):
 
 
 def new_plan(edges: int, motions: int) -> Plan:
-    """Return room for so many edges between so many motions."""
+    """Return a Plan with arrays for `edges` edges between `motions` motions."""
     slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
     return Plan(
         edges=new_edges(edges),
@@ -95,7 +96,7 @@ def new_plan(edges: int, motions: int) -> Plan:
 
 
 class Islands(NamedTuple):
-    """The bodies of islands, and how many substeps they may take."""
+    """The bodies of all islands, and the numbers of substeps from which an island may choose."""
 
     members: np.ndarray  # int32 rows of MOTION
     rate: float  # see estimate_rate
@@ -119,7 +120,10 @@ class Group(NamedTuple):
 
 @subkernel
 def credit_overlap(overlap, motion, balance_inout):
-    """Add the energy that lifts a body by an overlap [px] to what it may take."""
+    """Add the energy that lifts a body by an overlap [px] to its reserve, which contacts may give it.
+
+    balance_inout: BALANCE row of the body.
+    """
     m = motion
     if m.inverse_mass > 0.0:
         balance_inout.reserve += overlap * norm(m.acceleration_x, m.acceleration_y) / m.inverse_mass
@@ -127,9 +131,9 @@ def credit_overlap(overlap, motion, balance_inout):
 
 @subkernel
 def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges_out):
-    """List the contacts to solve as edges between rows of MOTION. Return their number, that of overlaps with bodies of
-    infinite mass, and the greatest overlap [px] of all. O(contacts).
+    """List the contacts to solve as edges between rows of MOTION. O(contacts).
 
+    Return the number of edges, the number of overlaps with bodies of infinite mass, and the greatest overlap [px].
     Sensors, pairs without a dynamic body, and contacts under a character's feet are left out.
     """
     motion_of = lists_inout.motion_of
@@ -171,7 +175,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
                 edges_out.face_speeds[found] = speed if o.moves else 0.0
                 faces += 1
         if overlap > 0.0 and c.of_new_pair:
-            # What is made inside another may be lifted out of it.
+            # A body that was created inside another one may be lifted out of it.
             credit_overlap(overlap, a, lists_inout.balance[row_a])
             credit_overlap(overlap, b, lists_inout.balance[row_b])
         found += 1
@@ -179,22 +183,23 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
 
 
 # ---- substep classes -------------------------------------------------------------------------------------------------
-# The number of substeps of each island, as an index of the choices.
+# The number of substeps of each island, as an index in CHOICES: its class.
 
 
 def estimate_rate(state: StepState) -> float:
-    """Return the square of the substeps that keep the sag of a contact within the accuracy, per speed [s/px].
+    """Return n² per speed [s/px], for the number n of substeps that keeps the sag of a contact within the accuracy.
 
-    The speed is that which the impulses of a step give the effective mass. A contact sags by F / (m ω²), with ω by
-    HERTZ_SHARE.
+    The speed is the change of speed that the contact's impulses of a step give to its effective mass m. A contact sags
+    under a force F by F / (m ω²), with ω by HERTZ_SHARE.
     """
     return state.dt / ((math.tau * HERTZ_SHARE) ** 2 * state.accuracy)
 
 
 @subkernel
 def class_for(choices, square, least):
-    """Return the index of the first choice, from `least` on, whose square is at least that; the last one if there is
-    none.
+    """Return the index of the first number of substeps, from index `least` on, whose square is at least `square`.
+
+    choices: numbers of substeps, rising. Return the index of the last one if none is large enough.
     """
     place = least
     while place < len(choices) - 1 and choices[place] * choices[place] < square:
@@ -204,9 +209,10 @@ def class_for(choices, square, least):
 
 @subkernel
 def class_motions(motions, degrees, choices, by_load, classes_out):
-    """Write the index of each motion's number of substeps among the choices. Return whether there are new bodies.
+    """Write for each MOTION row the class: the index of its number of substeps in `choices`. O(motions).
 
-    A body without constraints takes the fewest, a new one as many as a load may need. O(motions).
+    A body without constraints takes the fewest substeps, a new body as many as a load may need (index by_load). Return
+    whether there are new bodies with constraints.
     """
     unknown = False
     for i in range(len(classes_out)):
@@ -223,9 +229,10 @@ def class_motions(motions, degrees, choices, by_load, classes_out):
 
 @subkernel
 def expect_impacts(edges, count, motions, rate, choices, classes_inout):
-    """Raise the class of bodies that meet in this step to the substeps that the impact will need. O(count).
+    """Raise the class of bodies that meet in this step to the number of substeps that the impact needs. O(count).
 
-    A light body carries the momentum of a heavy one. rate: see estimate_rate.
+    count: number of edges; rate: see estimate_rate; classes: see class_motions. Substeps rise with the ratio of the
+    masses: a light body has to transmit the momentum of a heavy one.
     """
     for i in range(count):
         speed = edges.impact_speeds[i]
@@ -252,9 +259,10 @@ def expect_impacts(edges, count, motions, rate, choices, classes_inout):
 
 @subkernel
 def expect_columns(edges, count, motions, degrees, most, classes_inout):
-    """Give new two-contact stacks the most substeps: the class `most`. O(count).
+    """Give new stacks whose bodies have at most two contacts the most substeps: class `most`. O(count).
 
-    How a column leans is unknown until the load has reached its foot, and a lean does not stop by itself.
+    count: number of edges. How a column leans is unknown until the load has reached its foot, and a lean does not stop
+    by itself.
     """
     for i in range(count):
         if not edges.resting[i]:
@@ -273,7 +281,7 @@ def expect_columns(edges, count, motions, degrees, most, classes_inout):
 
 @subkernel
 def are_mixed(links_islands, degrees, classes):
-    """Return whether the bodies with constraints are of more than one class. O(motions)."""
+    """Return whether the bodies with constraints have different numbers of substeps (classes). O(motions)."""
     first = -1
     for i in range(len(classes)):
         if links_islands[i] and degrees[i] > 0:
@@ -289,9 +297,9 @@ def are_mixed(links_islands, degrees, classes):
 
 @subkernel
 def list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
-    """List the constraints to solve as edges, and colour these. Return their number. O(contacts + motions).
+    """List the constraints to solve as edges, and colour the edges. Return the number of edges. O(contacts + motions).
 
-    lists_inout: see MotionLists. See list_contact_edges, color_edges.
+    Also find islands without room, see energy.find_squeezed. lists_inout: see MotionLists.
     """
     nodes = len(motions)
     count, faces, deepest = list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_out.edges)
@@ -307,8 +315,9 @@ def list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out)
 
 @kernel
 def order_in_one_group(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
-    """List the constraints to solve in one group, by colour. Return their number, and the number without a colour.
-    O(contacts + motions).
+    """List the constraints to solve in one group, sorted by colour. O(contacts + motions).
+
+    Return the number of constraints, and the number of those without a colour.
     """
     count = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out)
     starts = plan_out.starts[: COLORS + 2]
@@ -318,9 +327,9 @@ def order_in_one_group(contacts, bodies, motions, dt, limits, lists_inout, plan_
 
 @kernel
 def order_by_load(contacts, bodies, motions, islands, dt, limits, lists_inout, plan_out):
-    """List the constraints to solve by the number of substeps of their islands, and by colour. Return their number.
+    """List the constraints to solve, sorted by the number of substeps of their islands and then by colour.
 
-    islands: see Islands; dt [s]; limits: see settings.Limits. O(contacts + motions).
+    Return the number of constraints. islands: see Islands; dt [s]; limits: see settings.Limits. O(contacts + motions).
     """
     plan = plan_out
     nodes = len(motions)
@@ -342,13 +351,16 @@ def order_by_load(contacts, bodies, motions, islands, dt, limits, lists_inout, p
 
 
 class Selection:
-    """The order of the constraints of one world; its arrays grow and are reused."""
+    """The constraints of one world in the order in which they are solved; its arrays grow and are reused."""
 
     def __init__(self) -> None:
         self.plan = new_plan(16, 16)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Select, colour and order the constraints. substeps: their number, 0 for as many as each island needs."""
+        """Select, colour and order the constraints, and return their groups.
+
+        substeps: number of substeps of all islands; 0: each island takes as many as it needs.
+        """
         rows, contacts, limits = motions.used, state.contact_rows, state.tolerances.limits
         if len(self.plan.colors) < len(contacts) or len(self.plan.taken) < len(rows):
             self.plan = new_plan(2 * len(contacts), 2 * len(rows))
@@ -378,18 +390,19 @@ class Selection:
 # ---- unloading -------------------------------------------------------------------------------------------------------
 # Release of cached forces under a heavy load that is removed; otherwise those forces would throw the bodies below.
 #
-# A contact starts from the force at the end of the step before. After a body of a thousand times its mass is removed,
-# that is a thousand times the force that is needed. A pass removes as much of it as the order of the contacts allows;
-# the rest becomes velocity.
+# A contact starts from the force at the end of the step before. After a load of a thousand times the mass of a body is
+# removed, the cached force is a thousand times the force needed. A pass removes only a part of it, which depends on the
+# order of the contacts; the rest becomes velocity.
 
 FORCES = ("normal_force_1", "tangent_force_1", "normal_force_2", "tangent_force_2", "rolling_force")
 
 
 def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
-    """Clear the cached forces under a load that is removed or moved.
+    """Clear the cached forces below bodies that are removed or moved, if their load was heavy.
 
-    Where a removed body lay on a body of a small fraction of its weight, all contacts of the stack below, through
-    dynamic bodies, lose their cached forces. O(contacts · depth of the stack), in worlds that stack.
+    ids: body ids. It was heavy if the force on the body below was more than BLOW times the weight of that body. Then
+    all contacts of the stack below, through dynamic bodies, lose their cached forces. O(contacts · depth of the stack),
+    only in worlds with stacking.
     """
     contacts, bodies = tables.contact_rows, tables.bodies
     if not len(contacts) or not tables.stacks:
@@ -418,21 +431,20 @@ def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
 
 
 # ---- estimate --------------------------------------------------------------------------------------------------------
-# Substep estimate of an island: as many as keep the sag of its contacts within the accuracy.
+# Substep estimate of an island: the number of substeps that keeps the sag of its contacts within the accuracy.
 #
 # A contact is a spring whose frequency is a share of the substeps per second: under a force F it sags by F / (m ω²), a
 # quarter of that with twice the substeps. The loads of the last step give the number for the next one. It rises at
-# once; it falls by half after half has been enough for a whole island for a while: the sag then stays within half of
-# the accuracy, so that islands do not alternate. A load alone takes no more than LOAD_SUBSTEPS, and so does a heap. A
-# leaning column takes more: its load shifts further out, and it does not recover. Source of the spring: Catto, Soft
-# Constraints, GDC 2011.
+# once. It is halved after half of it has been enough for the whole island for a while, with the sag within half of the
+# accuracy, so that islands do not alternate. Loads alone, and heaps, take no more than LOAD_SUBSTEPS. A leaning column
+# takes more, because its lean would increase and not stop. Source of the spring: Catto, Soft Constraints, GDC 2011.
 
 
 class LoadRules(NamedTuple):
-    """How the substeps of an island follow from its loads."""
+    """Constants that determine the number of substeps of an island from its loads."""
 
-    rate: float  # square of the substeps per speed that the impulses of the step give [s/px], between bodies …
-    rate_static: float  # … and against static ones, without the factor on the stiffness (see StepContext)
+    rate: float  # see estimate_rate; between dynamic bodies …
+    rate_static: float  # … and against static ones, both without the factor on the stiffness (see StepContext)
     least: int  # fewest substeps
     most_by_load: int  # most substeps of a load …
     most: int  # … and of a leaning stack
@@ -442,14 +454,14 @@ class LoadRules(NamedTuple):
 
 @subkernel
 def add_estimates(blocks, count, substeps, rules, motions_inout):
-    """Write to both motions of each constraint the square of the substeps that it needs, if it is greater.
+    """Raise the substep estimates of the bodies to the squared number of substeps that their contacts need.
 
-    Also write whether its load would need more than these `substeps` and than a load may take. blocks: so many blocks
-    of lanes, see lanes.py. O(constraints).
+    Also write whether a load needs more than the present `substeps` and more than most_by_load. count: number of
+    blocks. O(constraints).
     """
     reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)
-    # Half of the square keeps the present number, and lets a lean that took twice as many come down to it.
+    # Half of the square keeps an island at most_by_load, and lets one that took twice as many come down to it.
     by_load = 0.5 * float(rules.most_by_load * rules.most_by_load)
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
@@ -465,8 +477,7 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
                 least = min(estimate, other)
                 estimate = max(estimate, other)
                 if c[at.STIFFNESS + lane] < 0.0 and least > 0.0:
-                    # A body on one sole support leans by the difference of its points, and the rest of the face is its
-                    # margin.
+                    # A body on a sole support leans if its two points carry different loads.
                     lean = min(estimate / least, LEAN)
             capped = estimate > reach_squared
             estimate = min(lean * min(estimate, by_load), float(rules.most * rules.most))
@@ -480,8 +491,9 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
 
 @subkernel
 def choose_substeps(members, degrees, substeps, rules, motions_inout):
-    """Write the substeps that each island body needs after a step of so many. Return whether all need the present
-    number. O(members).
+    """Write the number of substeps that each island body needs in the next step. O(members).
+
+    substeps: their number in this step. Return whether all bodies need the same number again.
     """
     content = True
     for k in range(len(members)):
@@ -512,10 +524,11 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
 
 @subkernel
 def share_substeps(members, parents, substeps, most_by_load, motions_inout):
-    """Give each body the most substeps that a body of its island needs, after a step of so many.
+    """Give each body the most substeps that a body of its island needs. O(members).
 
-    In a heap it is no more than a load may take, since some body leans there all the time. Return the number of islands
-    that are reported as capped. parents (motions) int32: the root of each island, its lowest row. O(members).
+    An island with branching contacts takes at most most_by_load, because in a heap there is always a leaning body.
+    substeps: their number in this step; parents (motions) int32: the lowest row of the island of each body. Return the
+    number of islands that are reported as capped.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]
@@ -537,11 +550,11 @@ def share_substeps(members, parents, substeps, most_by_load, motions_inout):
 
 @kernel
 def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motions_inout):
-    """Write the substeps of the islands after a step of so many.
+    """Write the number of substeps that each island of a group takes in the next step. O(members + constraints).
 
-    Return the number of islands that needed more than they may take for `patience` [s], which leaves out impacts.
-    blocks: so many blocks of lanes; group, plan_inout: see Group, Plan; links_islands: see find_roots. Islands are
-    found only if the bodies differ. O(members + constraints).
+    count: number of blocks; links_islands: see find_roots. Islands are determined only if their bodies need different
+    numbers. Return the number of islands that needed more than they may take for `patience` [s], so that a short impact
+    does not count.
     """
     plan = plan_inout
     substeps = group.substeps
@@ -556,7 +569,7 @@ def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motio
 
 
 def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
-    """Estimate the substeps of the next step from the contacts of a group, so many blocks."""
+    """Estimate the substeps of the next step from the loads of the contacts of a group. count: number of blocks."""
     rate = estimate_rate(state)
     rules = LoadRules(
         rate, rate / STILL_STIFFNESS**2, AUTO_SUBSTEPS[0], LOAD_SUBSTEPS, AUTO_SUBSTEPS[-1], state.dt, EASE_TIME
@@ -571,7 +584,10 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
 
 @subkernel
 def limit_friction(count, motions_inout, blocks_inout):
-    """Remove friction beyond its share of the final normal impulse, over the step, of so many blocks. O(lanes)."""
+    """Reduce friction impulses of the step to their limit, friction times the final normal impulse. O(lanes).
+
+    count: number of blocks.
+    """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks_inout.contact, block)):
@@ -592,9 +608,8 @@ def limit_friction(count, motions_inout, blocks_inout):
 def store_lanes(blocks, count, inverse_h, share, contacts_inout):
     """Write the impulses of the step, and the cached forces for the next one, back to the contacts. O(lanes).
 
-    share: weight of this step in the cached forces. A step of a thousandth of the last one's length says little about
-    forces: an impulse that stops a small motion in it would count as a thousand times the force in a step of usual
-    length.
+    count: number of blocks; share: weight of this step in the cached forces. A very short step says little about
+    forces: an impulse in it that stops a small motion would count as a large force in a step of usual length.
     """
     rest = 1.0 - share
     for block in range(count):
@@ -615,13 +630,13 @@ def store_lanes(blocks, count, inverse_h, share, contacts_inout):
 
 
 def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
-    """Return the pass after the last substep in a world with these effects."""
+    """Return the function that ends a step after its last substep, with or without restitution and friction."""
 
     @kernel
     def finish_lanes(count, context, impacts_inout, motions_inout, blocks_inout, contacts_inout, work_inout):
-        """Apply restitution, limit friction, and write the impulses of so many blocks back. O(lanes).
+        """Apply restitution, limit friction, and write the impulses back to the contacts. O(lanes).
 
-        impacts_inout: scratch, as long as the contacts.
+        count: number of blocks; impacts_inout: scratch, as long as the contacts.
         """
         if restitution:
             # The speeds of impacts are those at the start of the step, and so are normals and arms.
@@ -656,11 +671,11 @@ class ContactLanes:
         self.impacts = make_impacts(16)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Group the islands by substeps; 0: as many as each needs."""
+        """Group the islands by their number of substeps. substeps: that of all; 0: as many as each island needs."""
         return self.selection.choose(state, motions, substeps)
 
     def prepare(self, state: StepState, motions: Motions, group: Group, context: StepContext) -> tuple[Blocks, int]:
-        """Fill the lanes of a group. Return them, and the number of blocks."""
+        """Write the contacts of a group into lanes. Return the blocks of lanes, and the number of those in use."""
         needed = blocks_needed(group.count, group.uncolored)
         if len(self.blocks.contact) < needed:
             self.blocks = make_blocks(2 * needed)
@@ -669,7 +684,7 @@ class ContactLanes:
         return blocks, prepare(state.bodies, motions.used, plan, group, context, contacts, blocks, state.work)
 
     def store(self, state: StepState, motions: Motions, count: int, context: StepContext) -> None:
-        """Apply restitution, limit friction, and write the impulses of so many blocks back."""
+        """Apply restitution, limit friction, and write the impulses of `count` blocks back to the contacts."""
         if len(self.impacts) < len(state.contact_rows):
             self.impacts = make_impacts(2 * len(state.contact_rows))
         finish = FINISH[state.effects.restitution, state.effects.friction]

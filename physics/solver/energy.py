@@ -2,10 +2,10 @@
 
 Contacts that separate overlaps, springs that ring, normals that are a step old on curved ground, and moment arms that
 are fixed for a substep may add energy. After a step, the kinetic energy of bodies that exchanged impulses is compared
-with that before, plus the work of gravity, forces and surfaces along the motion of the step. What they gained beyond
-it they may take from a reserve, the energy that they have lost before; the rest is removed by scaling their velocities.
-Of bodies in flight that hit only each other, the velocities relative to their common motion are scaled, that of one
-rigid body, so that their momentum and angular momentum stay.
+with their energy before the step plus the work of gravity, forces and moving surfaces during the step. A gain beyond
+that may come from the reserve of the bodies, which is energy that they lost in earlier steps. The rest of the gain is
+removed by scaling their velocities. Bodies in flight that hit only each other keep their momentum and angular momentum:
+only their velocities relative to the common motion, that of one rigid body, are scaled.
 """
 
 import math
@@ -21,7 +21,7 @@ from physics.tables.table import join_trees, root_of
 PARALLEL = 1e-9  # sine between normals that count as one direction
 FACES = 0.05  # sine between normals of faces that count as parallel
 FORGETTING = 0.1  # [1/s] rate at which an island forgets the energy that it has lost
-QUICK_LIFT = 0.02  # lift in slops that needs no proof
+QUICK_LIFT = 0.02  # [slops] lift of a body by its contacts whose energy is allowed without a check of the whole island
 SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 
 # ---- work ------------------------------------------------------------------------------------------------------------
@@ -29,7 +29,7 @@ SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
 
 @inlined
 def work_of_surfaces(c, lane, a, b):
-    """Return the work of the impulses of a lane by surfaces that move: kinematic bodies and conveyors."""
+    """Return the work of a contact's impulses by moving surfaces: those of kinematic bodies and conveyors."""
     nx, ny = c[at.NX + lane], c[at.NY + lane]
     work = abs(c[at.SURFACE + lane] * (c[at.TANGENT_TOTAL_1 + lane] + c[at.TANGENT_TOTAL_2 + lane]))
     for side in range(2):
@@ -53,8 +53,9 @@ def work_of_surfaces(c, lane, a, b):
 
 @inlined
 def work_of_lift(c, lane, a, b, context):
-    """Return the work of the impulses of a lane along a gap that opens by up to a slop: springs that sagged give
-    it back.
+    """Return the work that the impulses of the contact in a lane do as its points separate, each by up to a slop.
+
+    Contact springs that sagged give this energy back.
     """
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
     first = along + b.turn * c[at.B_1 + lane] - a.turn * c[at.A_1 + lane]
@@ -64,12 +65,17 @@ def work_of_lift(c, lane, a, b, context):
 
 
 # ---- direction -------------------------------------------------------------------------------------------------------
-# Contacts without friction leave the motion along them alone: it is scaled only if nothing else is left.
+# Contacts without friction do not change the velocity along their tangent: it is scaled only if the energy along the
+# normal is not enough.
 
 
 @inlined
 def note_direction(nx, ny, rubs, motion, balance_inout):
-    """Note along which direction a contact with this normal acts on a body: one, or with friction or others all."""
+    """Record the directions in which contacts act on a body: the first normal, or `in_all` for all directions.
+
+    rubs: whether friction acted. With friction, or with a normal that is not parallel to the first one, `in_all` is
+    set.
+    """
     e = balance_inout
     if motion.inverse_mass == 0.0:
         return
@@ -80,7 +86,7 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
 
 @inlined
 def energy_along(motion, balance):
-    """Return the kinetic energy of a body along the only direction in which contacts act on it; 0 if they do in all."""
+    """Return the kinetic energy of a body along the only normal of its contacts; 0 if its contacts have several."""
     if balance.in_all or motion.inverse_mass == 0.0:
         return 0.0
     along = motion.vx * balance.normal_x + motion.vy * balance.normal_y
@@ -89,7 +95,10 @@ def energy_along(motion, balance):
 
 @subkernel
 def scale_without(energy, whole):
-    """Return the factor on velocities that removes so much of their kinetic energy, or all."""
+    """Return the factor on velocities that removes `energy` from their kinetic energy `whole`.
+
+    It is 0 if the velocities have less energy than that.
+    """
     if energy <= 0.0:
         return 1.0
     return math.sqrt(1.0 - energy / whole) if energy < whole else 0.0
@@ -97,7 +106,12 @@ def scale_without(energy, whole):
 
 @inlined
 def scale_motion(root, balance, motion_inout):
-    """Scale the velocities of a body, those along the only direction of its contacts first. root: its BALANCE."""
+    """Scale the velocities of a body by the factors at its root, to remove energy that contacts added.
+
+    root: BALANCE row with the sums of all bodies that touch each other. Without a body of infinite mass among these,
+    only the velocity relative to their common motion is scaled. Otherwise the velocity along the only normal of the
+    contacts of the body has a factor of its own.
+    """
     m = motion_inout
     if not root.anchored:
         vx = root.vx - root.spin * (balance.y + m.dy - root.middle_y)
@@ -116,13 +130,18 @@ def scale_motion(root, balance, motion_inout):
 
 
 # ---- parallel faces --------------------------------------------------------------------------------------------------
-# Between parallel faces, without restitution, no body becomes faster than the fastest face and body before: impulses of
-# impacts that are carried on from substep to substep may overshoot. Where normals differ, levers and wedges may.
+# Between parallel faces, without restitution, no body becomes faster than the fastest face, or than the fastest body
+# before the step. Without this limit, impact impulses that are cached from substep to substep may overshoot. Where
+# normals differ there is no limit, because levers and wedges may accelerate a body.
 
 
 @inlined
 def note_face(c, lane, a, b, root_inout):
-    """Note whether a lane is parallel or perpendicular to the others of its root, and the speed of a kinematic side."""
+    """Record the normal of a contact, and the speed of a kinematic side, at the root of its bodies.
+
+    root_inout: BALANCE row. `oblique` is set if the normal is neither parallel nor perpendicular to the first normal
+    recorded, if the contact has restitution, or if the kinematic side rotates.
+    """
     e = root_inout
     nx, ny = c[at.NX + lane], c[at.NY + lane]
     if e.face_x == 0.0 and e.face_y == 0.0:
@@ -139,9 +158,10 @@ def note_face(c, lane, a, b, root_inout):
 
 @inlined
 def limit_speed(root, push_speed, motion_inout):
-    """Scale the velocity of a body between parallel faces, one of which moves, if it is faster than allowed.
+    """Limit the speed of a body between parallel faces, one of which moves.
 
-    root: BALANCE of its root; push_speed [px/s]: what the separation of overlaps may add.
+    The limit is the greatest speed of a face, or of a body before the step, plus push_speed [px/s], the speed that the
+    separation of overlaps may add. root: BALANCE row with these speeds.
     """
     m = motion_inout
     speed = norm(m.vx, m.vy)
@@ -156,10 +176,11 @@ def limit_speed(root, push_speed, motion_inout):
 
 @subkernel
 def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
-    """Write the energy that each body of a group gained. Return whether one in contact gained more than it may.
+    """Write the energy that each body of a group gained. Return whether a body in contact gained more than allowed.
 
-    That is an energy per mass `floor` [px2/s2], and what it may take back: a share of its energy, or as much as its own
-    load takes for a `lift` [px]. keep: share of the reserve that is not forgotten.
+    Allowed is `floor` [px2/s2], an energy per mass, or a part of the reserve: up to SHARE_BACK of the energy of the
+    body, or up to the energy that lifts its load by `lift` [px]. keep: share of the reserve that remains after this
+    step.
     """
     suspect = False
     for k in range(len(group.members)):
@@ -185,7 +206,7 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
 
 @inlined
 def reset_balance(balance_out):
-    """Write 0 to the fields that are summed or noted at a root."""
+    """Clear the fields of a BALANCE row that hold sums or directions of touching bodies."""
     e = balance_out
     e.lift, e.surfaces = 0.0, 0.0
     e.face_x, e.face_y, e.fastest = 0.0, 0.0, 0.0
@@ -201,9 +222,10 @@ def reset_balance(balance_out):
 
 @subkernel
 def join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout):
-    """Join the bodies of a group that exchanged impulses in this step, in so many blocks: no others exchanged energy.
+    """Join the bodies of a group that exchanged impulses in this step into trees, and clear their BALANCE rows.
 
-    parents_out (motions) int32: their roots.
+    Only such bodies can have exchanged energy. count: number of blocks; parents_out (motions) int32: the root of each
+    body. Also records in which directions contacts act on each body.
     """
     for k in range(len(group.members)):
         i = group.members[k]
@@ -227,7 +249,10 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
 
 @inlined
 def add_momentum(motion, balance, root_inout):
-    """Add mass, momentum and angular momentum of a body to the sums of its root, whose own place is the origin."""
+    """Add the mass, momentum and angular momentum of a body to the sums at its root, a BALANCE row.
+
+    The origin of these sums is the place of the root before the step.
+    """
     m = motion
     e = root_inout
     mass = 1.0 / m.inverse_mass if m.inverse_mass > 0.0 else 0.0
@@ -246,7 +271,10 @@ def add_momentum(motion, balance, root_inout):
 
 @subkernel
 def energy_in_common(balance_inout):
-    """Convert the sums of add_momentum to the common motion, that of one rigid body. Return its kinetic energy."""
+    """Turn the sums of add_momentum into the common motion of touching bodies: that of one rigid body.
+
+    Return the kinetic energy of the common motion.
+    """
     e = balance_inout
     if e.mass == 0.0:
         return 0.0
@@ -264,7 +292,10 @@ def energy_in_common(balance_inout):
 
 @subkernel
 def sum_balances(blocks, count, group, links_islands, parents, context, motions, balance_inout):
-    """Sum the balances of the bodies of a group at their roots, with the work of surfaces in so many blocks."""
+    """Sum the energy balances of touching bodies at their roots, and add the work of moving surfaces.
+
+    count: number of blocks; parents (motions) int32: the root of each body.
+    """
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks.contact, block)):
@@ -298,10 +329,11 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
 
 @subkernel
 def draw_on_reserve(slop, balance_inout):
-    """Write the factors that remove what the bodies of a root gained beyond their reserve. Return 1 if there was any.
+    """Write the factors on velocities that remove the energy which touching bodies gained beyond their reserve.
 
-    Errors of the integrator alternate: what they have lost before they may take back, slowly, or as far as their load
-    rises by a slop [px]. Work of surfaces that moved nothing is lost for good.
+    Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row of their root. Errors of the integrator
+    alternate, so bodies may take back what they lost before: slowly, or as far as their load rises by a slop [px]. Work
+    of surfaces that did not speed up a body is not added to the reserve.
     """
     e = balance_inout
     allowed = min(e.reserve, max(SHARE_BACK * e.before, min(e.lift, slop * e.load)))
@@ -319,7 +351,10 @@ def draw_on_reserve(slop, balance_inout):
 
 @subkernel
 def limit_squeezed(most, before, motion_inout):
-    """Scale the velocities of a body without room: no faster than `most` [px/s], 0 for no bound, or than before."""
+    """Limit the speed of a body without room to `most` [px/s], or to its speed before the step if that was greater.
+
+    most: 0 for no limit; before: its kinetic energy before the step.
+    """
     m = motion_inout
     if most == 0.0 or m.inverse_mass == 0.0:
         return
@@ -334,7 +369,7 @@ def limit_squeezed(most, before, motion_inout):
 
 @subkernel
 def remove_gains(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
-    """Remove the energy that contacts have added. Return the number of sets of touching bodies that had any."""
+    """Remove the energy that contacts have added. Return the number of sets of touching bodies that had gained any."""
     plan, motions, parents_out = plan_inout, motions_inout, plan_inout.touching
     join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout)
     sum_balances(blocks, count, group, links_islands, parents_out, context, motions, balance_inout)
@@ -363,11 +398,11 @@ def remove_gains(blocks, count, group, links_islands, context, plan_inout, balan
 
 @kernel
 def limit_energy(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
-    """Remove the energy that the contacts of a group have added. Return the number of sets of touching bodies that had
-    any. O(members + lanes).
+    """Remove the energy that the contacts of a group have added. O(members + lanes).
 
-    In islands without room a body is no faster than its surroundings and the push-out, or than it was.
-    balance_inout: BALANCE rows beside the motions.
+    Return the number of sets of touching bodies that had gained any. In islands without room, the limit for a body is
+    the speed of the faces plus push-out, or its speed before the step if that was greater. balance_inout: BALANCE rows,
+    one for each MOTION row.
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
@@ -383,19 +418,22 @@ def limit_energy(blocks, count, group, links_islands, context, plan_inout, balan
 
 
 # ---- squeeze ---------------------------------------------------------------------------------------------------------
-# Islands without room: faces of bodies of infinite mass oppose one another, and what they do is bounded.
+# Islands without room: faces of bodies of infinite mass oppose one another, so the impulses in them are bounded.
 #
-# Two sides that cannot give way would press a body with ever greater impulses, one of which is released when it
-# escapes. Instead of that the bodies stay overlapped, and leave at no more than the speed of the faces and that of
-# push-out.
+# Two sides that cannot give way would press a body with ever greater impulses, and would throw it when it escapes. With
+# the bound, the bodies stay overlapped, and leave at no more than the speed of the faces plus that of push-out.
 
-FACING = 0.5  # cosine between normals of faces below which one does not leave the room that the other needs
+FACING = 0.5  # cosine between normals of two faces below which a body between them has no room
 OPPOSITE = -0.5  # … below which they oppose each other
 
 
 @subkernel
 def note_faces(edges, count, lists, slop, parents, squeeze_out):
-    """Write how deep the overlaps of each island are, and whether its faces oppose one another. parents: its roots."""
+    """Write the greatest overlaps of each island, and whether faces of bodies of infinite mass oppose each other in it.
+
+    count: number of edges; parents (motions) int32: the root of the island of each body; slop [px]: smaller overlaps
+    with a face do not count.
+    """
     for turn in range(2):
         for i in range(count):
             node = edges.nodes[i, 0] if lists.links_islands[edges.nodes[i, 0]] else edges.nodes[i, 1]
@@ -423,10 +461,11 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
 
 @subkernel
 def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out):
-    """Write the bounds of islands without room, SQUEEZE rows. Return whether there are any. O(count + motions).
+    """Find the islands without room, and write the bounds of their impulses as SQUEEZE rows. O(count + motions).
 
-    Their overlaps are deep, and either those with faces that point in different directions, or between a face that
-    moves and one opposite. See settings.Limits.
+    Return whether there are any. An island has no room if its overlaps are deep, and if either overlapping faces point
+    in different directions, or one face moves towards an opposite one. count: number of edges; limits: see
+    settings.Limits.
     """
     for i in range(len(motions)):
         s = squeeze_out[i]

@@ -22,7 +22,7 @@ from physics.tables.table import zeros_in_lines
 # over the lanes of a block that has no branches. Unused lanes hold a contact between no bodies. The results equal those
 # of one contact after the other, to the bit. Source: Catto, SIMD Matters, 2024.
 
-# The plain form solves one contact after the other. Wide blocks are as fast in heaps, and slower with few boxes
+# Plain Python solves one contact after the other. Wide blocks are as fast in heaps, and slower with few boxes
 # (measured with 16).
 LANES = 8 if JIT else 1
 
@@ -63,9 +63,9 @@ LANES = 8 if JIT else 1
     AY_2,
     BX_2,
     BY_2,
-    BASE_1,  # [px] separation minus the part of the points
+    BASE_1,  # [px] separation minus the distance of the points along the normal and minus the radii
     BASE_2,
-    RADIUS_A,  # [px] separations are measured from core to core
+    RADIUS_A,  # [px] of the rounding: distance of the surface from the core of the shape
     RADIUS_B,
     ROLLING_LIMIT,  # [px] torque per normal impulse
     ROLLING_MASS,
@@ -90,7 +90,7 @@ LANES = 8 if JIT else 1
     BOUNCING,  # 1: the sides approached fast enough to bounce; 0: not
     PUSH_1,  # impulses of the pseudo-velocities, of sequential impulses
     PUSH_2,
-    TURNS,  # how it follows its bodies in the step: FIXED, ARMS, NORMAL_OF_A, NORMAL_OF_B, NORMAL_OF_CORES
+    TURNS,  # how normal and arms follow the bodies in the step: FIXED, ARMS, NORMAL_OF_A, NORMAL_OF_B, NORMAL_OF_CORES
     START_NX,  # unit normal at the start of the step
     START_NY,
     LAST_NX,  # unit normal at the start of the substep, …
@@ -116,7 +116,7 @@ IN_CONTACT, UNLOADED = 1.0, 2.0  # outcomes of a lane: it has an impulse or rest
 
 
 def _lanes_in_use(contacts, block):
-    """Return the number of lanes of a block in use, which are the first ones. The plain form skips the others."""
+    """Return the number of lanes in use of a block, which are the first ones. Plain Python skips the empty ones."""
     count = 0
     while count < LANES and contacts[block, count] >= 0:
         count += 1
@@ -136,20 +136,20 @@ lanes_of: Any = Builtin(_lanes_in_use, put_in(ALL_LANES), ALL_LANES) if JIT else
 
 
 class Blocks(NamedTuple):
-    """Arrays for blocks of lanes."""
+    """Arrays that hold contacts in blocks of LANES lanes: each lane of a block is one contact."""
 
     contact: np.ndarray  # (blocks, LANES) int32 contact of each lane, -1 for none
-    motion_a: np.ndarray  # (blocks, LANES) uint32 its rows of MOTION, 0 for none
+    motion_a: np.ndarray  # (blocks, LANES) uint32 MOTION rows of the bodies of each contact, 0 for none
     motion_b: np.ndarray
-    turns: np.ndarray  # (blocks) bool moment arms of round contacts turn in this step
+    turns: np.ndarray  # (blocks) bool the block has a round contact whose moment arms turn in this step
     lines: np.ndarray  # SIZE numbers for each block
     gathered: np.ndarray  # GATHERED numbers of the current block of a pass
-    block_of: np.ndarray  # (colours + 1) place of the next contact of each colour, those without a colour first
-    lane_of: np.ndarray
+    block_of: np.ndarray  # (colours + 1) int64 block and …
+    lane_of: np.ndarray  # … lane of the next contact without a colour, then of each colour
 
 
 def make_blocks(count: int) -> Blocks:
-    """Return arrays for so many blocks."""
+    """Return arrays for `count` blocks."""
     lanes = (count, LANES)
     return Blocks(
         contact=np.zeros(lanes, np.int32),
@@ -164,16 +164,16 @@ def make_blocks(count: int) -> Blocks:
 
 
 def blocks_needed(contacts: int, uncolored: int) -> int:
-    """Return the greatest number of blocks of so many contacts, of which so many have no colour."""
+    """Return the greatest number of blocks that `contacts` contacts need, of which `uncolored` have no colour."""
     return contacts // LANES + COLORS + 1 + uncolored  # the last block of a colour may be partly empty
 
 
 @subkernel
 def lay_out(starts, blocks_out):
-    """Assign blocks to the contacts of each colour, and empty the unused lanes. Return the number of blocks. O(blocks).
+    """Assign blocks to the contacts of each colour, and clear the unused lanes. Return the number of blocks. O(blocks).
 
-    starts (colours + 2) int64: the first contact of each colour, those without a colour first, and the end of the last
-    colour. A contact without a colour has a block of its own.
+    starts (colours + 2) int64: index of the first contact of each slot, and the end of the last. Slot 0 holds the
+    contacts without a colour, each of which gets a block of its own; slot k + 1 holds colour k.
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -196,7 +196,7 @@ def lay_out(starts, blocks_out):
 
 @inlined
 def next_lane(slot, blocks_inout):
-    """Return the block and lane of the next contact of a colour, and move its place on. slot: see lay_out."""
+    """Return the free block and lane for the next contact of a colour, and reserve them. slot: see lay_out."""
     block = blocks_inout.block_of[slot]
     lane = blocks_inout.lane_of[slot]
     last = slot == 0 or lane == LANES - 1
@@ -217,9 +217,9 @@ FLAT = 1e-3  # share of k_11 · k_22 below which the two points count as one
 
 @inlined
 def block_factor(off_diagonal_1, off_diagonal_2):
-    """Return the factor of solve_two where both points press, 1 / (1 - off_diagonal_1 · off_diagonal_2).
+    """Return 1 / (1 - off_diagonal_1 · off_diagonal_2), the factor of solve_two for the case that both points press.
 
-    It is 0 where the points coincide.
+    It is 0 where the points nearly coincide.
     """
     apart = 1.0 - off_diagonal_1 * off_diagonal_2
     return 1.0 / apart if apart > FLAT else 0.0
@@ -229,9 +229,10 @@ def block_factor(off_diagonal_1, off_diagonal_2):
 def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1, old_2):
     """Return the impulses x >= 0 of two points such that each gets the velocity change it needs, or separates.
 
-    change: of each impulse if it were alone. off_diagonal: k_12 / k_11 and k_12 / k_22. factor: see block_factor. old:
-    accumulated impulses. The points are solved in sequence where they nearly coincide, or where rounding leaves no
-    case. All cases are computed side by side, so that the loop has no branch and vectorises.
+    change: change of each impulse if the point were alone. off_diagonal: k_12 / k_11 and k_12 / k_22. factor: see
+    block_factor. old: accumulated impulses. Where the points nearly coincide, or rounding leaves none of the four
+    cases, they are solved in sequence. All cases are computed side by side, so that the loop has no branch and
+    vectorises.
     """
     only_1 = old_1 + change_1 + off_diagonal_1 * old_2
     only_2 = old_2 + change_2 + off_diagonal_2 * old_1
@@ -258,7 +259,7 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
 
 @inlined
 def gather_velocities(a, b, lane, s_out):
-    """Copy the velocities of MOTION rows into a lane."""
+    """Copy the velocities of two bodies, MOTION rows, into a lane."""
     s_out[VX_A + lane] = a.vx
     s_out[VY_A + lane] = a.vy
     s_out[W_A + lane] = a.angular_velocity
@@ -269,7 +270,7 @@ def gather_velocities(a, b, lane, s_out):
 
 @inlined
 def gather_poses(a, b, lane, s_out):
-    """Copy the motion of MOTION rows since the start of the step into a lane."""
+    """Copy the displacements and rotations of two bodies, MOTION rows, since the start of the step into a lane."""
     s_out[DX_A + lane] = a.dx
     s_out[DY_A + lane] = a.dy
     s_out[COS_A + lane] = a.cosine
@@ -282,7 +283,7 @@ def gather_poses(a, b, lane, s_out):
 
 @inlined
 def scatter_velocities(s, lane, a_out, b_out):
-    """Write the velocities of a lane back to its MOTION rows."""
+    """Write the velocities of a lane back to its two bodies, MOTION rows."""
     a_out.vx, a_out.vy = s[VX_A + lane], s[VY_A + lane]
     a_out.angular_velocity = s[W_A + lane]
     b_out.vx, b_out.vy = s[VX_B + lane], s[VY_B + lane]
@@ -291,10 +292,10 @@ def scatter_velocities(s, lane, a_out, b_out):
 
 @inlined
 def measure_gaps(lane, s, c_inout):
-    """Write the separations [px] at both points of a lane.
+    """Write the separations [px] at both points of a contact at the present poses.
 
-    A round surface does not move when its body rotates, because only the core moves. Points rotate with the bodies
-    here.
+    Both points rotate with their bodies. On a round shape only the core, the shape without its radius, rotates: the
+    distance from the core to the surface stays the same.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -318,10 +319,10 @@ def measure_gaps(lane, s, c_inout):
 
 @inlined
 def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
-    """Return the moment arms [px] of impulses along the normal and along the tangent at a point of a turned body.
+    """Return the moment arms [px] of impulses along the normal and along the tangent at a point of a rotated body.
 
-    x, y: the point before the turn, on a surface at a radius from the core in the direction of the normal, then
-    (start_nx, start_ny), now (nx, ny).
+    x, y [px]: the point from the centre of mass before the rotation (cosine, sine). radius [px]: distance of the point
+    from the core of the shape along the normal, which was (start_nx, start_ny) and is now (nx, ny).
     """
     x -= radius * start_nx
     y -= radius * start_ny
@@ -332,9 +333,9 @@ def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
 
 @inlined
 def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
-    """Write the moment arms of both points, for bodies turned by these angles since the start of the step.
+    """Write the moment arms of both points of a contact, for bodies rotated by these angles in the step.
 
-    A point stays at its place on the core of a shape; the radius from there to the surface does not turn.
+    A point keeps its place on the core of a shape; the radius from the core to the surface points along the normal.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -351,7 +352,7 @@ def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
 
 @inlined
 def write_masses(lane, c_inout):
-    """Write the effective masses at the present moment arms, and the factors of the block solver."""
+    """Write the effective masses of a contact at the present moment arms, and the factors of the block solver."""
     c = c_inout
     masses = c[IM_A + lane] + c[IM_B + lane]
     ii_a, ii_b = c[II_A + lane], c[II_B + lane]
@@ -382,14 +383,17 @@ def clamp(impulse, limit):
 
 
 def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
-    """Return the friction at one point of a lane, in a world with this effect. sums: the step has several substeps."""
+    """Return the function that applies friction at one point of a contact, in a world with or without rotation.
+
+    second: the second point; sums: the step has several substeps, so the impulses are summed.
+    """
     a_line, b_line = (TANGENT_A_2, TANGENT_B_2) if second else (TANGENT_A_1, TANGENT_B_1)
     mass_line, impulse_line = (TANGENT_MASS_2, TANGENT_2) if second else (TANGENT_MASS_1, TANGENT_1)
     total_line = TANGENT_TOTAL_2 if second else TANGENT_TOTAL_1
 
     @inlined
     def apply_friction(lane, vx, vy, wa, wb, normal_impulse, c_inout):
-        """Apply friction under a normal impulse. Return the impulse x, y on B, and the angular velocities after it.
+        """Apply friction under a normal impulse. Return the impulse x, y on B, and the new angular velocities.
 
         vx, vy [px/s]: velocity of B's centre relative to A's. wa, wb [1/s]: angular velocities.
         """
@@ -413,7 +417,7 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
 
 @inlined
 def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
-    """Apply rolling resistance under a normal impulse. Return the angular velocities [1/s] after it."""
+    """Apply rolling resistance under a normal impulse. Return the new angular velocities [1/s] of A and B."""
     c = c_inout
     old = c[ROLLING + lane]
     impulse = clamp(old - c[ROLLING_MASS + lane] * (wb - wa), c[ROLLING_LIMIT + lane] * normal_impulse)
@@ -427,7 +431,7 @@ def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
 
 @subkernel
 def relative_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the normal at a point of a lane; negative if they approach."""
+    """Return the speed [px/s] of B relative to A along the normal at a point of a contact; negative: they approach."""
     speed = (b.vx - a.vx) * c[NX + lane] + (b.vy - a.vy) * c[NY + lane]
     speed += b.angular_velocity * c[(B_2 if second else B_1) + lane]
     return speed - a.angular_velocity * c[(A_2 if second else A_1) + lane]
@@ -435,7 +439,7 @@ def relative_speed(c, lane, second, a, b):
 
 @subkernel
 def push_pair(c, lane, second, impulse, a_inout, b_inout):
-    """Apply an impulse along the normal at a point of a lane, to B forwards and to A backwards."""
+    """Apply an impulse along the normal at a point of a contact, to B along the normal and to A against it."""
     x, y = impulse * c[NX + lane], impulse * c[NY + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -447,7 +451,7 @@ def push_pair(c, lane, second, impulse, a_inout, b_inout):
 
 @subkernel
 def tangential_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the tangent at a point of a lane, beyond the surface speed."""
+    """Return the speed [px/s] of B relative to A along the tangent at a point, minus the contact's surface speed."""
     speed = (b.vy - a.vy) * c[NX + lane] - (b.vx - a.vx) * c[NY + lane] - c[SURFACE + lane]
     speed += b.angular_velocity * c[(TANGENT_B_2 if second else TANGENT_B_1) + lane]
     return speed - a.angular_velocity * c[(TANGENT_A_2 if second else TANGENT_A_1) + lane]
@@ -455,7 +459,7 @@ def tangential_speed(c, lane, second, a, b):
 
 @subkernel
 def push_along(c, lane, second, impulse, a_inout, b_inout):
-    """Apply an impulse along the tangent at a point of a lane, to B forwards and to A backwards."""
+    """Apply an impulse along the tangent at a point of a contact, to B along the tangent and to A against it."""
     x, y = -impulse * c[NY + lane], impulse * c[NX + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -469,7 +473,8 @@ def push_along(c, lane, second, impulse, a_inout, b_inout):
 def speed_of_impact(speed, separation, acceleration):
     """Return the approach speed [px/s] at the moment of impact.
 
-    separation [px] before the step; speed and acceleration [px/s2] of approach. Sides that overlapped keep their speed.
+    speed [px/s], acceleration [px/s2] of the approach, and separation [px], all before the step. Sides that already
+    overlap or separate keep their speed.
     """
     if speed <= 0.0 or separation <= 0.0:
         return speed
@@ -485,20 +490,21 @@ def speed_of_impact(speed, separation, acceleration):
 # column buckles (Catto, Box2D v3: contact recycling).
 
 BOTH = (False, True)
-TURNING = 1e-5  # [rad] turn in a step from which a round contact follows it; bodies at rest turn less
+TURNING = 1e-5  # [rad] rotation in a step from which a round contact follows its bodies; bodies at rest rotate less
 
 
 @subkernel
 def touches_slowly(separation, speed, limits):
-    """Return whether a point touches, and approaches too slowly to bounce."""
+    """Return whether a point touches, and its approach is too slow to bounce."""
     return separation <= limits.slop and abs(speed) <= limits.impact_speed
 
 
 @subkernel
 def limit_impulses(a, b, squeeze_a, squeeze_b, h, lane, c_inout):
-    """Limit the normal impulses of a substep of h [s] at each point of a lane, and those from which it starts.
+    """Limit the normal impulses of a contact in an island without room, for a substep of h [s].
 
-    a, b: MOTION rows of its sides, with their SQUEEZE rows.
+    The limit also applies to the impulses with which the substep starts. a, b: MOTION rows; squeeze_a, squeeze_b: their
+    SQUEEZE rows.
     """
     c = c_inout
     speed = max(squeeze_a.speed, squeeze_b.speed)
@@ -515,9 +521,9 @@ def limit_impulses(a, b, squeeze_a, squeeze_b, h, lane, c_inout):
 
 @inlined
 def sticks(a, b, contact, distance):
-    """Return whether two faces stick: normal and moment arms may stay as they were when the contact was found.
+    """Return whether two faces stick: then the normal and moment arms stay as they were when the contact was found.
 
-    They stick if they carry a load, neither shape is round, neither body (BODY rows) rotated by more than
+    They stick if they carry a load, neither shape is round, neither body (BODY rows a, b) rotated by more than
     STICKING_TURN, and their centres moved relative to each other by no more than distance [px]. An unloaded contact
     never sticks, because it has to leave its overlap.
     """
@@ -535,13 +541,13 @@ def sticks(a, b, contact, distance):
     )
 
 
-DRIFT_SLOPS = 0.1  # greatest drift that is taken back, in slops
+DRIFT_SLOPS = 0.1  # [slops] greatest drift that is taken back
 GRIPPING = 0.99  # share of the limit of friction up to which a contact does not slip
 
 
 @inlined
 def tangential_drift(a, b, contact):
-    """Return how far [px] B's side has moved along a sticking contact since it was found. a, b: BODY rows."""
+    """Return how far [px] B has moved along the tangent of a sticking contact since it was found. a, b: BODY rows."""
     c = contact
     x, y = b.center_x - a.center_x - c.apart_x, b.center_y - a.center_y - c.apart_y
     on_a = c.held_ax_1 * c.held_nx + c.held_ay_1 * c.held_ny
@@ -552,7 +558,7 @@ def tangential_drift(a, b, contact):
 
 @inlined
 def slips(contact):
-    """Return whether friction was at its limit in the last step, up to a hundredth."""
+    """Return whether the friction of a contact reached 99 % of its limit in the last step."""
     c = contact
     tangent = abs(c.tangent_force_1) + abs(c.tangent_force_2)
     return tangent >= GRIPPING * c.friction * (c.normal_force_1 + c.normal_force_2)
@@ -560,10 +566,10 @@ def slips(contact):
 
 @inlined
 def speed_of_drift(a, b, rate, slop, contact_inout):
-    """Return the surface speed [px/s] that takes back the drift of a sticking contact since it slipped last.
+    """Return the surface speed [px/s] that moves the bodies of a sticking contact back to where it last slipped.
 
-    Without it a light plank under a heavy load wanders, because the passes leave some speed. A push that moves it
-    further than a part of the slop [px] has moved it. a, b: BODY rows; rate: [1/s].
+    Without it a light plank under a heavy load creeps, because the passes leave a small tangential speed. A drift of
+    more than DRIFT_SLOPS slops counts as slipping, and is not taken back. a, b: BODY rows; rate [1/s]; slop [px].
     """
     c = contact_inout
     drift = tangential_drift(a, b, c)
@@ -577,9 +583,10 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
 
 @inlined
 def how_it_turns(contact, a, b, dt, lane, c):
-    """Return how the normal and the moment arms of a lane follow its bodies, MOTION rows, see TURNS.
+    """Return how the normal and moment arms of a contact follow its bodies in the step: FIXED, ARMS or NORMAL_OF_….
 
-    They do if it is round and its bodies turn. An elastic impact is undone by restitution, at the arms of the start.
+    They follow if a shape is round and the bodies (MOTION rows a, b) rotate. Elastic impacts are FIXED: restitution
+    works with the arms at the start of the step.
     """
     m = contact
     elastic = m.restitution > 0.0 and (c[LOADED + lane] == 0.0 or c[BOUNCING + lane] > 0.0)
@@ -593,13 +600,13 @@ def how_it_turns(contact, a, b, dt, lane, c):
 
 @inlined
 def rocks(body):
-    """Return whether a body may be one of two that rock on each other: static, or in one place for a while."""
+    """Return whether rocking on a body may be damped: it is static, or has rocked in one place for ROCKING_TIME."""
     return body.kind == STATIC or (body.kind == DYNAMIC and body.rocking_time >= ROCKING_TIME)
 
 
 @inlined
 def rolling_limit(contact, p, q, limits):
-    """Return the rolling resistance [px] of a contact; p, q: BODY rows of its sides."""
+    """Return the greatest rolling resistance torque of a contact per normal impulse [px]. p, q: its BODY rows."""
     is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
     still = is_round and contact.friction > 0.0 and rocks(p) and rocks(q)
     return max(contact.rolling_resistance, limits.rocking_resistance if still else 0.0)
@@ -607,9 +614,9 @@ def rolling_limit(contact, p, q, limits):
 
 @inlined
 def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
-    """Write how a lane separates: its push-out share, spring and stiffness, and whether it rests, is loaded or bounces.
+    """Write how a contact separates: push-out share, spring, stiffness; whether it is resting, loaded and bouncing.
 
-    a, b: MOTION rows of its sides, with their numbers of constraints.
+    a, b: MOTION rows of its sides; degrees: their numbers of contacts.
     """
     m = contact
     limits = context.limits
@@ -626,8 +633,8 @@ def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
     resting = touches_slowly(m.separation_1, m.speed_1, limits) or (
         two and touches_slowly(m.separation_2, m.speed_2, limits)
     )
-    # A loaded contact oscillates as slowly as its load is heavy, so its spring may be stiffer with the same damping. A
-    # new contact may not.
+    # The heavier the load, the slower a contact oscillates: its spring may be stiffer with the same damping. A new
+    # contact carries no load yet, so its spring may not.
     stiffness = 1.0
     if loaded and not bouncing:
         stiffness = context.sole_support_stiffness if sole_support else context.loaded_stiffness
@@ -645,7 +652,7 @@ def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
 
 
 def make_write_point(second: bool) -> Callable:
-    """Return the function that writes the first or second point of a contact into a lane."""
+    """Return the function that writes the first or the second point of a contact into a lane."""
     arm_lines = (AX_2, AY_2, BX_2, BY_2) if second else (AX_1, AY_1, BX_1, BY_1)
     ax_line, ay_line, bx_line, by_line = arm_lines
     base_line, gap_line = (BASE_2, GAP_2) if second else (BASE_1, GAP_1)
@@ -654,7 +661,10 @@ def make_write_point(second: bool) -> Callable:
 
     @inlined
     def write_point(contact, p, q, sticking, h, lane, c_out):
-        """Write point, separation and the cached impulses for a substep of h [s]. p, q: BODY rows of the sides."""
+        """Write one point of a contact, its separation, and its cached impulses for a substep of h [s].
+
+        p, q: BODY rows of the sides.
+        """
         m = contact
         c = c_out
         nx, ny = c[NX + lane], c[NY + lane]
@@ -674,7 +684,7 @@ def make_write_point(second: bool) -> Callable:
         c[bx_line + lane] = bx
         c[by_line + lane] = by
         c[base_line + lane] = base
-        # At the start of the substeps nothing has moved; afterwards the relaxing pass measures.
+        # The gap at the start of the substeps; afterwards the relaxing pass measures it.
         c[gap_line + lane] = m.radius_a + m.radius_b + base + ((bx - ax) * nx + (by - ay) * ny)
         c[normal_line + lane] = h * (m.normal_force_2 if second else m.normal_force_1)
         c[tangent_line + lane] = h * (m.tangent_force_2 if second else m.tangent_force_1)
@@ -689,7 +699,7 @@ write_first, write_second = make_write_point(False), make_write_point(True)
 
 @inlined
 def copy_first(lane, c_inout):
-    """Write the second point of a contact with one: a copy of the first without effective mass."""
+    """Write the second point of a contact that has only one: a copy of the first, without impulses."""
     c = c_inout
     c[AX_2 + lane] = c[AX_1 + lane]
     c[AY_2 + lane] = c[AY_1 + lane]
@@ -704,14 +714,14 @@ def copy_first(lane, c_inout):
 
 
 def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
-    """Return the pass from contacts to lanes for a world with these effects."""
+    """Return the function that writes contacts into lanes, for a world with or without friction and conveyors."""
 
     @kernel
     def prepare_lanes(bodies, motions, plan, group, context, contacts_inout, blocks_out, work_inout):
         """Write the contacts of a group into blocks of one colour each. Return the number of blocks. O(edges).
 
-        Contacts are read in memory order, for the prefetcher of the processor; the open blocks of all colours fit into
-        its cache.
+        Contacts are read in memory order, for the prefetcher of the processor; the blocks that are being filled, one of
+        each colour, fit into its cache.
         """
         starts = group.starts
         count = lay_out(starts, blocks_out)

@@ -25,7 +25,7 @@ BOTH = (False, True)
 
 @subkernel
 def kinetic_energy(motion):
-    """Return the kinetic energy of a MOTION row of finite mass."""
+    """Return the kinetic energy of a body of finite mass, given as a MOTION row."""
     m = motion
     energy = 0.5 * (m.vx * m.vx + m.vy * m.vy) / m.inverse_mass
     if m.inverse_inertia > 0.0:
@@ -35,7 +35,7 @@ def kinetic_energy(motion):
 
 @subkernel
 def reset_motion(motion_out):
-    """Write the fields with which every body starts a step: no motion, no mass and no contact yet."""
+    """Write the values of a MOTION row that are the same for every body at the start of a step: no mass, no contact."""
     m = motion_out
     m.pseudo_vx, m.pseudo_vy, m.pseudo_w = 0.0, 0.0, 0.0
     m.dx, m.dy = 0.0, 0.0
@@ -53,7 +53,7 @@ def reset_motion(motion_out):
 
 @subkernel
 def write_fixed(motions_out, lists_out):
-    """Write row 0, which no impulse moves."""
+    """Write row 0 of MOTION, which stands for all bodies that do not move: impulses do not change it."""
     m = motions_out[0]
     reset_motion(m)
     m.vx, m.vy, m.angular_velocity = 0.0, 0.0, 0.0
@@ -68,13 +68,13 @@ def write_fixed(motions_out, lists_out):
 
 
 class MotionLists(NamedTuple):
-    """Arrays beside the MOTION rows."""
+    """Arrays with one entry for each MOTION row, and the rows of bodies by kind."""
 
     motion_of: np.ndarray  # (bodies) int32 the MOTION row of each body; 0: it does not move
     has_finite_mass: np.ndarray  # (motions) bool an impulse changes its velocity
-    links_islands: np.ndarray  # (motions) bool
-    rank: np.ndarray  # (motions) int8 which contacts are solved later: see islands.graph.color_edges
-    balance: np.ndarray  # BALANCE (motions)
+    links_islands: np.ndarray  # (motions) bool it is dynamic: its contacts join islands
+    rank: np.ndarray  # (motions) int8 contacts with a greater rank are solved later, see islands.graph.color_edges
+    balance: np.ndarray  # BALANCE (motions) energy of each, see energy.py
     by_kind: np.ndarray  # (2, motions) int32 the MOTION rows of dynamic bodies, and of kinematic ones
 
 
@@ -89,13 +89,14 @@ class Air(NamedTuple):
 
 
 def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
-    """Return the pass from bodies to motions for a world with these effects."""
+    """Return the function that copies bodies to MOTION rows, for a world with or without gravity, wind and rotation."""
 
     @kernel
     def gather_motions(rows, bodies, air, motions_out, lists_out, work_inout):
-        """Write the motions of the bodies in these rows. Return the numbers of dynamic and of kinematic ones. O(rows).
+        """Write a MOTION row for each body of `rows`. O(rows).
 
-        air: see Air; lists_out: see MotionLists.
+        Return the number of dynamic bodies and that of moving kinematic bodies. air: see Air; lists_out: see
+        MotionLists.
         """
         write_fixed(motions_out, lists_out)
         dynamic = 0
@@ -149,14 +150,15 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
 
 
 def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
-    """Return the pass that integrates velocities at the start of each substep."""
+    """Return the function that integrates velocities at the start of a substep, with or without drag and rotation."""
 
     @subkernel
     def integrate_substep_velocities(members, h, drag_rate, motions_inout):
-        """Add the accelerations of a substep of h [s] to island bodies, rows of MOTION. O(members).
+        """Add the accelerations of a substep of h [s] to the velocities of island bodies, rows of MOTION. O(members).
 
-        drag [1/s] is implicit and stable for any rate. The sum of the contact impulses of the substep before is applied
-        here: impulses and arms are unchanged, so no contact has to be read for the warm start.
+        drag_rate [1/s]: implicit, so stable at any rate. The sum of the contact impulses of the last substep is added
+        again to the velocity of each body. This is the warm start: impulses and arms are unchanged, so it reads no
+        contact.
         """
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
@@ -182,15 +184,15 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
 
 def make_substep_positions(rotation: bool) -> Callable:
-    """Return the pass that integrates positions at the end of each substep."""
+    """Return the function that integrates positions at the end of a substep, with or without rotation."""
 
     @subkernel
     def integrate_substep_positions(members, h, push_speed, motions_inout):
-        """Move island bodies by a substep of h [s] and by their pseudo-velocity. O(members).
+        """Move island bodies by their velocity and pseudo-velocity over a substep of h [s]. O(members).
 
-        The pseudo-velocity is capped at push_speed [px/s], and then reset. A body without contacts flies on its
-        parabola: with the velocity at the end of each substep, which keeps stacks stable, a bouncing ball would lose h
-        times its speed in height on every flight.
+        The pseudo-velocity is limited to push_speed [px/s], and then reset. A body without contacts moves on the exact
+        parabola. With the velocity at the end of each substep, which keeps stacks stable, each flight of a bouncing
+        ball would lose h times its speed in height.
         """
         for i in range(len(members)):
             m = motions_inout[members[i]]
@@ -217,8 +219,9 @@ def make_substep_positions(rotation: bool) -> Callable:
 
 @subkernel
 def move_kinematic(kinematic, time, motions_inout):
-    """Place kinematic bodies where they are at a time [s] since the start of the step, so that every island sees the
-    same.
+    """Move kinematic bodies to their poses at a time [s] since the start of the step.
+
+    The poses depend on the time alone, so they are the same for every island.
     """
     for i in range(len(kinematic)):
         m = motions_inout[kinematic[i]]
@@ -229,15 +232,15 @@ def move_kinematic(kinematic, time, motions_inout):
 
 @subkernel
 def is_usable(body, speed_limit):
-    """Return whether the next step can use the state of a body. Quarantined bodies are not tested again."""
+    """Return whether the next step can use the numbers of a body. Quarantined bodies are not tested: they count."""
     return body.quarantined or (is_within_limits(body) and is_finite_in_step(body, 0.0, 0.0, speed_limit, 0.0))
 
 
 @kernel
 def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
-    """Write velocities, poses and centres of mass back to the bodies; the poses before the step become previous ones.
+    """Write velocities, poses and centres of mass back to the bodies, and the poses before the step as previous poses.
 
-    Return the number of bodies whose state no step can use. speed_limit [px/s]. O(rows).
+    Return the number of bodies with numbers that no step can use. speed_limit [px/s]. O(rows).
     """
     non_finite_count = 0
     for k in range(len(rows)):
@@ -278,7 +281,7 @@ SUBSTEP_POSITIONS = {r: make_substep_positions(rotation=r) for r in BOTH}
 
 
 class Motions:
-    """The MOTION rows of one world; they grow and are reused."""
+    """The MOTION rows of one world and their lists; the arrays grow and are reused."""
 
     def __init__(self) -> None:
         self._grow(16, np.zeros(16, np.int32))
@@ -295,7 +298,7 @@ class Motions:
         self.used, self.island_bodies, self.kinematic = self.rows[:0], *self.lists.by_kind[:, :0]
 
     def gather(self, state: StepState) -> None:
-        """Gather the awake bodies."""
+        """Copy the awake bodies to MOTION rows."""
         rows, bodies, effects = state.awake.bodies, state.bodies, state.effects
         if len(self.rows) < len(rows) + 1:
             self._grow(2 * len(rows) + 1, self.lists.motion_of)
@@ -314,7 +317,7 @@ class Motions:
             self.lists.rank[characters] = np.where(state.characters["wedged"], STATIC_RANK, 0)
 
     def scatter(self, state: StepState) -> None:
-        """Write the bodies back."""
+        """Write the MOTION rows back to the bodies."""
         rows, bodies, limit = state.awake.bodies, state.bodies, state.tolerances.speed_limit
         state.non_finite_count = scatter_motions(rows, self.used, limit, self.lists, bodies)
         # A body that was rotated has an angle for which no raster was drawn ahead.

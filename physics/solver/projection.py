@@ -22,11 +22,11 @@ from physics.tables.step_state import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROW
 ROUNDING = 1e-9  # share of an acceleration below which its part along a normal is rounding
 
 # ---- pushes ----------------------------------------------------------------------------------------------------------
-# Contacts of the solvers without warm start: one PUSH row for each point that is no sensor's.
+# Contacts of the solvers without warm start: one PUSH row for each contact point, but for those of sensors.
 
 
 class Press(NamedTuple):
-    """The accelerations that press bodies together, and the speed from which pressed ones bounce."""
+    """The accelerations that press bodies together, and the least approach speed at which pressed bodies bounce."""
 
     dt: float  # [s]
     gravity_x: float  # [px/s2], times the gravity scale of a body
@@ -38,7 +38,10 @@ class Press(NamedTuple):
 
 @subkernel
 def press_of(press, body, nx, ny):
-    """Return the acceleration [px/s2] of a dynamic BODY row along a normal; a collected force counts as infinite."""
+    """Return the acceleration [px/s2] along a normal that presses a dynamic BODY row; 0 for other kinds.
+
+    A force that was added to the body counts as infinite.
+    """
     if body.kind != DYNAMIC:
         return 0.0
     if body.forced:
@@ -50,9 +53,9 @@ def press_of(press, body, nx, ny):
 
 @subkernel
 def restitution_threshold(press, a, b, nx, ny):
-    """Return the approach speed [px/s] up to which two BODY rows do not bounce along a normal.
+    """Return the approach speed [px/s] along a normal above which two bodies, BODY rows, bounce.
 
-    Where no acceleration presses them together they bounce at any speed; see step_context.restitution_threshold.
+    It is 0 where no acceleration presses them together; see step_context.restitution_threshold.
     """
     into = max(press_of(press, a, nx, ny), 0.0) + max(press_of(press, b, -nx, -ny), 0.0)
     if into == 0.0:
@@ -62,9 +65,9 @@ def restitution_threshold(press, a, b, nx, ny):
 
 @kernel
 def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_out):
-    """Write a row for every point of the manifolds that are no sensors. Return their number. O(manifolds).
+    """Write a PUSH row for every contact point that is not of a sensor. Return the number of rows. O(manifolds).
 
-    conveyor: 1 with surface speeds; press: see Press.
+    conveyor: 1 to use surface speeds; press: see Press.
     """
     found = 0
     for i in range(len(manifolds)):
@@ -97,9 +100,9 @@ def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_
 
 @kernel
 def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
-    """Write the greatest displacement [px] of each dynamic body in this step. O(pushes).
+    """Write the greatest displacement [px] by which contacts may push each dynamic body in this step. O(pushes).
 
-    It is push_speed [px/s] · dt [s], and the approach of both sides within dt, which is no old overlap.
+    It is dt [s] times the sum of push_speed [px/s] and the greater of its speed and its approach speeds.
     """
     for i in range(len(pushes)):
         r = pushes[i]
@@ -115,7 +118,7 @@ def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
 
 @kernel
 def store_pushes(pushes, manifolds_inout):
-    """Write the impulses back to the manifolds. A pushed pair counts as touching, wherever it ends. O(pushes)."""
+    """Write the impulses back to the manifolds. Overlapping pairs are touching, wherever they end. O(pushes)."""
     for i in range(len(pushes)):
         r = pushes[i]
         m = manifolds_inout[r.manifold]
@@ -130,7 +133,7 @@ def store_pushes(pushes, manifolds_inout):
 
 
 class PushSet:
-    """The contacts of one world as PUSH rows, which grow and are reused. It has no warm start, and caches nothing."""
+    """The contacts of one world as PUSH rows, which grow and are reused; without warm start, and not cached."""
 
     def __init__(self) -> None:
         self.data = np.zeros(16, PUSH)
@@ -138,7 +141,7 @@ class PushSet:
         self.reach = np.zeros(16)  # (body rows) see limit_pushes
 
     def prepare(self, state: StepState) -> None:
-        """Fill the rows, and write the caches of the contacts at the poses of detection."""
+        """Fill the PUSH rows from the contacts, and write the contact caches at the poses of detection."""
         points = 2 * len(state.contact_rows)
         if len(self.data) < points:
             self.data = np.zeros(2 * points, PUSH)
@@ -156,11 +159,11 @@ class PushSet:
         write_caches(tables, state.bodies, state.shapes, state.contact_rows)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
-        """Run one pass of a solver over the rows."""
+        """Run one pass of a solver, the kernel `run`, over the PUSH rows."""
         run(*settings, state.bodies, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
-        """Write the result back to the manifolds, and update these to the final poses."""
+        """Write the impulses back to the manifolds, and update the manifolds to the final poses."""
         store_pushes(self.rows, state.contact_rows)
         update_contacts(state.bodies, state.contact_rows)
 
@@ -176,7 +179,7 @@ IGNORED = ("stacking", "sleeping")  # effects that it ignores, because contacts 
 
 @subkernel
 def push(x, y, anchor_x, anchor_y, rotation, body_inout):
-    """Change the velocity of a body by an impulse (x, y) at an arm from its centre of mass [px]."""
+    """Apply an impulse (x, y) to a body at a point, whose offset from the centre of mass is the anchor [px]."""
     body_inout.vx += body_inout.inverse_mass * x
     body_inout.vy += body_inout.inverse_mass * y
     if rotation:
@@ -185,7 +188,7 @@ def push(x, y, anchor_x, anchor_y, rotation, body_inout):
 
 @subkernel
 def resist_rolling(push_inout, a_inout, b_inout):
-    """Reduce the relative rotation of two bodies, by no more torque than the normal impulse of a PUSH row allows."""
+    """Reduce the relative rotation of two bodies, up to the rolling resistance of their contact, a PUSH row."""
     turning = a_inout.inverse_inertia + b_inout.inverse_inertia
     if turning <= 0.0:
         return
@@ -199,7 +202,7 @@ def resist_rolling(push_inout, a_inout, b_inout):
 
 
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
-    """Return one pass over the contacts of a world with these effects."""
+    """Return one pass over the contacts, for a world with or without rotation, friction and restitution."""
 
     @kernel
     def project(
@@ -210,9 +213,9 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
         pushes_inout,
         work_inout,
     ):
-        """Separate overlapping bodies, remove or reflect their approach, and apply friction. O(contacts).
+        """Separate overlapping bodies, stop or reflect their approach, and apply friction. O(contacts).
 
-        first: 1 in the first pass of a step. Impulses accumulate in the contacts.
+        first: 1 in the first pass of a step. Impulses accumulate in the PUSH rows.
         """
         for i in range(len(pushes_inout)):
             c = pushes_inout[i]
@@ -288,7 +291,7 @@ PASSES = {
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Separate all overlaps. Return the step [s]."""
+    """Separate overlapping bodies in PROJECTION_PASSES passes. Return the step [s]."""
     effects = state.effects
     run = PASSES[effects.rotation, effects.friction, effects.restitution]
     bodies, rows = state.bodies, state.awake.bodies
@@ -304,13 +307,13 @@ def solve(state: StepState, contacts: PushSet) -> float:
 
 
 def _moves(bodies, rows, before):
-    """Return (n, 2) [px] displacements of the bodies in these rows, and their lengths."""
+    """Return the displacements (n, 2) [px] of the bodies in these rows since `before`, and their lengths (n,) [px]."""
     moves = np.column_stack([bodies["x"][rows], bodies["y"][rows]]) - before
     return moves, np.hypot(moves[:, 0], moves[:, 1])
 
 
 def _slow_down(bodies, rows, before, reach):
-    """Limit the displacement of each body to its reach [px], however many contacts push it.
+    """Limit the displacement of each body by contacts to `reach` [px], however many contacts push it.
 
     It is limited after all passes: a body lifted by one contact and pressed down by the next has hardly moved.
     """
@@ -322,7 +325,10 @@ def _slow_down(bodies, rows, before, reach):
 
 
 def _hold_back(state, rows, before):
-    """Move back bodies that were pushed through a wall. before (n, 2) [px]: the positions of these rows before."""
+    """Move bodies that contacts pushed far back, and forward again as far as no wall stops them.
+
+    before (n, 2) [px]: the positions of these rows before the passes.
+    """
     bodies = state.bodies
     moves, ways = _moves(bodies, rows, before)
     far = ways > CORE * bodies["min_half_extent"][rows]
@@ -346,7 +352,7 @@ def _hold_back(state, rows, before):
     ),
 )  # fmt: skip
 def projection(state: StepState) -> None:
-    """Separate the bodies at the poses where they ended. A step of length 0 reports contacts and moves nothing."""
+    """Separate the bodies that overlap after their motion. A step of length 0 reports contacts and moves nothing."""
     if state.dt > 0.0:
         solve(state, state.workspace.contacts)
         place_shapes(state)

@@ -21,9 +21,9 @@ from physics.solver.lanes import (
 from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 
 # ---- impacts ---------------------------------------------------------------------------------------------------------
-# A lane with an impulse that may bounce, or that hands a blow on.
+# Contacts with an impulse in this step that may bounce, or that pass an impact on to the next body.
 
-NO_IMPACT, LEFT_OUT = 0, -1  # values of MOTION.last_impact: none yet; not to be simulated
+NO_IMPACT, LEFT_OUT = 0, -1  # values of MOTION.last_impact: no impact yet; the body is not simulated
 
 IMPACT = np.dtype(
     [
@@ -55,25 +55,28 @@ IMPACT = np.dtype(
 
 
 def make_impacts(room: int) -> np.ndarray:
-    """Return room for that many IMPACT rows."""
+    """Return an array for `room` IMPACT rows."""
     return np.zeros(room, IMPACT)
 
 
 @inlined
 def line_of(blocks, impact, line):
-    """Return the value of a line, such as lanes.NX, of the lane of an impact."""
+    """Return one field of the contact of an impact; line: offset of the field in a block, such as lanes.NX."""
     return blocks.lines[impact.block * SIZE + line + impact.lane]
 
 
 @inlined
 def points_of(blocks, impact):
-    """Return the number of points of an impact."""
+    """Return the number of contact points of an impact."""
     return 2 if line_of(blocks, impact, at.MASS_2) > 0.0 else 1
 
 
 @subkernel
 def list_impacts(blocks, count, impacts_out):
-    """List the lanes, of so many blocks, that may bounce and had an impulse in this step. Return their number."""
+    """List the contacts with restitution that had an impulse in this step. Return their number.
+
+    count: number of blocks.
+    """
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -89,7 +92,7 @@ def list_impacts(blocks, count, impacts_out):
 
 @subkernel
 def predict_impact(blocks, contacts, motions, impact_inout):
-    """Write the predicted impact speeds and gaps of an impact, from the state before the step."""
+    """Write the approach speeds [px/s] and gaps [px] of an impact, predicted from the state before the step."""
     r = impact_inout
     c = contacts[blocks.contact[r.block, r.lane]]
     a = motions[blocks.motion_a[r.block, r.lane]]
@@ -117,8 +120,8 @@ def predict_impact(blocks, contacts, motions, impact_inout):
 MOST_IMPACTS = 16  # moments with impacts of one body within a step; later ones wait for the next step: cap_hits
 TOGETHER = 1.0 / 64.0  # share of a step within which points hit at once
 LATE = 1.0 / 16.0  # share of a step by which an impact may be late: substeps reach further than a parabola
-MOST_ROUNDS = 256  # over the points that hit at once
-ROUNDS = 32  # over bounces that depend on each other; the rest is left to the next step, as contacts are
+MOST_ROUNDS = 256  # greatest number of rounds over the points that hit at once
+ROUNDS = 32  # most rounds over bounces that share bodies; what then is missing is left to the next step
 SETTLED = 1e-6  # change of speed in a round, relative to the impact, from which the rounds end
 
 
@@ -130,7 +133,10 @@ def is_against_static(blocks, impact):
 
 @subkernel
 def mover_of(blocks, impact, motions):
-    """Return the dynamic side of an impact against a static body: its MOTION row, and 1.0 for B, -1.0 for A."""
+    """Return the dynamic body of an impact against a static one, and its side.
+
+    It is returned as its MOTION row, and as a sign: 1.0 if it is body B of the contact, -1.0 if it is body A.
+    """
     row = blocks.motion_b[impact.block, impact.lane]
     if motions[row].inverse_mass > 0.0:
         return row, 1.0
@@ -139,10 +145,10 @@ def mover_of(blocks, impact, motions):
 
 @subkernel
 def link_impacts(blocks, count, impacts_inout, motions_inout):
-    """Link the impacts of each body that may bounce: MOTION.last_impact is its last one plus one, IMPACT.before the one
-    before.
+    """Link the impacts of each body into a list. O(count).
 
-    A body that also has a resting contact, or hits a dynamic body, is left out. O(count).
+    MOTION.last_impact is the index of its last impact plus one, IMPACT.before the index plus one of the impact before.
+    A body that also has a resting contact, or hits a dynamic body, is left out: it gets LEFT_OUT.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -162,7 +168,7 @@ def link_impacts(blocks, count, impacts_inout, motions_inout):
 
 @subkernel
 def unlink_impacts(blocks, impacts, count, motions_inout):
-    """Reset the links in the motions."""
+    """Reset MOTION.last_impact of the bodies of the impacts. count: number of impacts."""
     for i in range(count):
         r = impacts[i]
         motions_inout[blocks.motion_a[r.block, r.lane]].last_impact = NO_IMPACT
@@ -171,7 +177,7 @@ def unlink_impacts(blocks, impacts, count, motions_inout):
 
 @subkernel
 def arm_of(blocks, impact, second, sign):
-    """Return the moment arm [px] of an impulse along the normal at a point of the mover."""
+    """Return the moment arm [px] of a normal impulse at a point, about the dynamic body's centre. sign: see mover_of."""
     if sign > 0.0:
         return line_of(blocks, impact, at.B_2 if second else at.B_1)
     return line_of(blocks, impact, at.A_2 if second else at.A_1)
@@ -179,9 +185,10 @@ def arm_of(blocks, impact, second, sign):
 
 @subkernel
 def is_simulated(blocks, impacts, last, contacts):
-    """Return whether the impacts of a body, linked from `last`, are to be simulated in sequence.
+    """Return whether the impacts of a body have to be simulated in the order of their times.
 
-    That is so if it has impacts at two points, other than the two of one manifold that both approached before.
+    last: index plus one of its last impact. It is so if impulses acted at two or more of its points, and one of these
+    approached fast enough to bounce; not for a single manifold of which both points did.
     """
     points = 0
     rows = 0
@@ -202,9 +209,9 @@ def is_simulated(blocks, impacts, last, contacts):
 
 @inlined
 def speed_now(blocks, impact, second, sign, change):
-    """Return the approach speed [px/s] of a point after the impulses that its body, at the side `sign`, got so far.
+    """Return the present approach speed [px/s] of a point, after the simulated impulses on its body.
 
-    change: the last IMPACT row of the body, with their effect on its velocity.
+    change: the last IMPACT row of the body, which sums the changes of its velocity; sign: see mover_of.
     """
     r = impact
     along = change.vx * line_of(blocks, r, at.NX) + change.vy * line_of(blocks, r, at.NY)
@@ -214,7 +221,10 @@ def speed_now(blocks, impact, second, sign, change):
 
 @inlined
 def strike(blocks, impact, second, sign, impulse, mover, change_inout):
-    """Add the effect of an impulse at a point to the velocity of its body, a MOTION row. See speed_now."""
+    """Add the effect of an impulse at a point to the summed change of velocity of its body.
+
+    mover: MOTION row of the body; sign: see mover_of; change_inout: the last IMPACT row of the body.
+    """
     r = impact
     change_inout.vx += mover.inverse_mass * sign * impulse * line_of(blocks, r, at.NX)
     change_inout.vy += mover.inverse_mass * sign * impulse * line_of(blocks, r, at.NY)
@@ -223,7 +233,10 @@ def strike(blocks, impact, second, sign, impulse, mover, change_inout):
 
 @subkernel
 def soonest_impact(blocks, impacts, last, motions):
-    """Return the next impact of a body: its time [s], and its approach speed [px/s]; 0: there is none."""
+    """Return the time [s] until the next impact of a body, and its approach speed [px/s]; speed 0 if there is none.
+
+    last: index plus one of the last impact of the body.
+    """
     soonest = math.inf
     hit_speed = 0.0
     k = last
@@ -242,7 +255,7 @@ def soonest_impact(blocks, impacts, last, motions):
 
 @subkernel
 def close_gaps(blocks, last, time, motions, impacts_inout):
-    """Advance the gaps of the points of a body, linked from `last`, by a time [s]."""
+    """Reduce the gaps at all points of a body by the motion of a time [s]. last: index plus one of its last impact."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -255,7 +268,10 @@ def close_gaps(blocks, last, time, motions, impacts_inout):
 
 @subkernel
 def list_hits(blocks, last, span, motions, impacts_inout):
-    """Write which points of a body, linked from `last`, hit within a span [s], and the speeds that they want."""
+    """Write which points of a body hit within a span [s], and their separation speeds [px/s] after the impact.
+
+    last: index plus one of the last impact of the body.
+    """
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -274,7 +290,10 @@ def list_hits(blocks, last, span, motions, impacts_inout):
 
 @inlined
 def hits_at(impact, second):
-    """Return whether a point of an impact hits, the impulse of this moment, and the separation speed that it wants."""
+    """Return whether a point of an impact hits now, its impulse of this moment, and its separation speed afterwards.
+
+    All refer to the first point, or to the second if `second` is true.
+    """
     r = impact
     if second:
         return r.bounces_2, r.blow_2, r.wanted_2
@@ -283,7 +302,7 @@ def hits_at(impact, second):
 
 @inlined
 def add_blow(second, change, impact_inout):
-    """Add an impulse at a point of an impact."""
+    """Add a change of impulse at a point of an impact to the impulse of this moment and to that of the step."""
     if second:
         impact_inout.blow_2 += change
         impact_inout.impulse_2 += change
@@ -294,9 +313,9 @@ def add_blow(second, change, impact_inout):
 
 @subkernel
 def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_inout):
-    """Solve two points of a body that hit, IMPACT rows i and j. Return the greater change of speed [px/s].
+    """Solve two points of one body that hit at the same time. Return the greater change of a normal speed [px/s].
 
-    The two points may be one, i = j: then it is solved alone.
+    i, j: their IMPACT rows. If both are the same point, it is solved alone. last: index plus one of the last impact.
     """
     r = impacts_inout[i]
     o = impacts_inout[j]
@@ -335,11 +354,11 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
 
 @subkernel
 def solve_together(blocks, last, hit_speed, motions, impacts_inout):
-    """Apply the impulses of all points of a body, linked from `last`, that hit now. Return whether they settled.
+    """Apply the impulses of all points of a body that hit now. Return whether the impulses converged.
 
-    They hit at up to about hit_speed [px/s]. Each separates at least by its restitution times its approach speed. Every
-    pair of points is solved as a whole: on level ground the first pair with the centre of mass between them is the
-    solution, and the others agree.
+    last: index plus one of its last impact; hit_speed [px/s]: approach speed of the hits. Each point separates at least
+    at restitution times its approach speed. The points are solved in pairs: on level ground the first pair with the
+    centre of mass between its points is the solution, and the other pairs agree with it.
     """
     for _ in range(MOST_ROUNDS):
         changed = 0.0
@@ -372,7 +391,7 @@ def solve_together(blocks, last, hit_speed, motions, impacts_inout):
 
 @subkernel
 def solve_alone(blocks, last, motions, impacts_inout):
-    """Solve the only point of a body, linked from `last`, that hits."""
+    """Solve the only point of a body that hits now. last: index plus one of the last impact of the body."""
     i = last
     while i != NO_IMPACT:
         for point in range(points_of(blocks, impacts_inout[i - 1])):
@@ -384,9 +403,11 @@ def solve_alone(blocks, last, motions, impacts_inout):
 
 @subkernel
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
-    """Simulate the impacts of a body, linked from `last`, over dt [s]: their impulses, and in the last row its way.
+    """Simulate the impacts of a body over dt [s] in the order of their times, and write their impulses.
 
-    Return the time [s] that is left after the last one, and whether MOST_IMPACTS and MOST_ROUNDS were enough.
+    last: index plus one of its last impact; in this row the displacement of the body up to the last hit is written.
+    Return the time [s] of the step that is left after the last hit, and whether MOST_IMPACTS and MOST_ROUNDS were
+    enough.
     """
     k = last
     while k != NO_IMPACT:
@@ -415,10 +436,10 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
 
 @subkernel
 def rub(impact, second, to_rest, motions_inout, blocks_inout):
-    """Remove the friction of the substeps at a point of an impact, or apply that of its impulse: to_rest.
+    """Remove the friction impulse of the substeps at a point of an impact, or apply friction anew.
 
-    Its limit is the share of the impulse that stops the approach, as in the substeps: restitution comes after friction.
-    Return the change of speed [px/s].
+    to_rest: False to remove, True to apply. The limit of friction follows, as in the substeps, from the part of the
+    normal impulse that stops the approach. Return the change of the tangential speed [px/s].
     """
     r = impact
     lane = r.lane
@@ -439,7 +460,7 @@ def rub(impact, second, to_rest, motions_inout, blocks_inout):
 
 @subkernel
 def greatest_speed(impacts, last):
-    """Return the greatest predicted impact speed [px/s] of a body, linked from `last`."""
+    """Return the greatest predicted approach speed [px/s] of a body. last: index plus one of its last impact."""
     fastest = 0.0
     k = last
     while k != NO_IMPACT:
@@ -450,9 +471,10 @@ def greatest_speed(impacts, last):
 
 @subkernel
 def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout):
-    """Replace the impulses of the substeps by those of the simulated impacts, which hit at up to hit_speed [px/s].
+    """Replace the impulses of the substeps on a body by those of its simulated impacts, with friction.
 
-    They are no cached forces for the next step.
+    last: index plus one of its last impact; hit_speed [px/s]: their greatest approach speed. These impulses are not
+    cached for the next step.
     """
     k = last
     while k != NO_IMPACT:
@@ -489,9 +511,10 @@ def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout)
 
 @subkernel
 def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks_inout, work_inout):
-    """Apply simultaneous impacts: flying bodies that hit static ones several times within a step of dt [s].
+    """Simulate the impacts of flying bodies that hit static bodies several times within a step of dt [s].
 
-    They are among so many IMPACT rows, which are then `simulated`. O(count + impacts · points² of such a body).
+    count: number of IMPACT rows; those of such bodies are marked as `simulated`. O(count + impacts · points² of each
+    body).
     """
     link_impacts(blocks_inout, count, impacts_inout, motions_inout)
     for i in range(count):
@@ -506,7 +529,7 @@ def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks
             left, settled = simulate_impacts(blocks_inout, i + 1, dt, contacts, motions_inout, impacts_inout)
             work_inout[CAP_HITS] += int(not settled)
             apply_simulated(i + 1, greatest_speed(impacts_inout, i + 1), impacts_inout, motions_inout, blocks_inout)
-            # It stays where it hit last: there, the acceleration of the rest of the step would be a loss.
+            # The body stays where it hit last: acceleration in the rest of the step would lose energy.
             m = motions_inout[row]
             half = 0.5 * (dt - left) * (dt - left)
             m.dx = impacts_inout[i].x + half * m.acceleration_x
@@ -524,11 +547,11 @@ def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks
 # It uses the approach speed at the moment of impact, by the parabola from before the step. So a speculative contact
 # that slowed the body does not reduce the bounce (Rapier #919, #974), and no height is lost by the length of steps. Two
 # points of one manifold are solved together, otherwise a box that lands flat would rotate. Where impacts share a body,
-# or a body that bounces presses others, all of them are solved in rounds: contacts that only touch hand the blow on,
-# without a bounce of their own. Each separation speed times its impulse loses energy or keeps it, so their sum does.
+# or a body that bounces presses others, all of them are solved in rounds: contacts that only touch pass the impact on
+# and do not bounce. No single impact adds energy, so their sum adds none.
 
-LIGHT = 1e-4  # share of a blow below which a load is left out
-MOST_BLOWS = 256  # handed on by bodies without loads; later ones are left to the next step, and counted in cap_hits
+LIGHT = 1e-4  # share of an impact impulse below which the load of a contact is neglected
+MOST_BLOWS = 256  # impacts in sequence between bodies without loads; later ones wait for the next step: cap_hits
 
 
 @subkernel
@@ -539,9 +562,9 @@ def bounces(speed, threshold, total):
 
 @subkernel
 def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
-    """Apply restitution at one point of a lane, for a separation speed [px/s]. Return the change of its impulse.
+    """Apply an impulse at one point of a lane, so that it separates at `wanted` [px/s].
 
-    total: the impulse of the point so far.
+    total: the impulse of the point so far. Return the change of this impulse.
     """
     mass = c[(at.MASS_2 if second else at.MASS_1) + lane]
     missing = wanted - relative_speed(c, lane, second, a_inout, b_inout)
@@ -552,8 +575,9 @@ def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
 
 @subkernel
 def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout):
-    """Apply restitution at two points at once, for separation speeds [px/s], by the 2 x 2 system. Return the changes of
-    their impulses, which are `old` so far.
+    """Apply impulses at both points of a lane, so that they separate at `wanted` [px/s], by the 2 x 2 block solver.
+
+    old: their impulses so far. Return the changes of both impulses.
     """
     missing_1 = wanted_1 - relative_speed(c, lane, False, a_inout, b_inout)
     missing_2 = wanted_2 - relative_speed(c, lane, True, a_inout, b_inout)
@@ -573,9 +597,10 @@ def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout)
 
 @subkernel
 def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, work_inout):
-    """Keep those of so many IMPACT rows of which a point bounces, with the separation speeds that they want.
+    """Keep the IMPACT rows with a point that bounces, and write the separation speeds [px/s] after the impact.
 
-    Return their number, and whether two of them share a body. The bodies are marked in MOTION.last_impact.
+    count: number of rows. Return the number kept, and whether two of them share a body. The bodies are marked in
+    MOTION.last_impact.
     """
     blocks = blocks_inout
     kept = 0
@@ -608,7 +633,7 @@ def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, wo
 
 @subkernel
 def mark_bodies(blocks, block, lane, motions_inout):
-    """Mark the dynamic bodies of a lane. Return whether one of them was marked before."""
+    """Mark the dynamic bodies of the contact in a lane. Return whether one of them was already marked."""
     shared = False
     for side in range(2):
         m = motions_inout[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]
@@ -620,9 +645,11 @@ def mark_bodies(blocks, block, lane, motions_inout):
 
 @subkernel
 def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_inout):
-    """Append to so many IMPACT rows the lanes with an impulse that touch a marked body, and mark theirs, over and over.
+    """Append the contacts with an impulse that can pass an impact on: those that touch a marked body.
 
-    Return the number of rows. Such a lane keeps the speed with which it approaches, and approaches no faster.
+    Their bodies are marked too, until no further contact is found. Such a contact does not bounce: it may keep its
+    approach speed, but not approach faster. blocks_count: number of blocks; count: number of IMPACT rows before. Return
+    the number of IMPACT rows.
     """
     blocks = blocks_inout
     grown = True
@@ -653,7 +680,10 @@ def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_ino
 
 @subkernel
 def bounce_row(impact_inout, motions_inout, blocks_inout):
-    """Apply restitution at the points of an IMPACT row, to which its impulses are added. Return the change of speed."""
+    """Apply restitution at the points of an IMPACT row, and add the impulses to the row.
+
+    Return the greatest change of a normal speed [px/s].
+    """
     r = impact_inout
     lane = r.lane
     c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
@@ -671,7 +701,7 @@ def bounce_row(impact_inout, motions_inout, blocks_inout):
         change_2 = bounce_once(r.wanted_2, c, lane, True, r.impulse_2, a, b)
     r.impulse_1 += change_1
     r.impulse_2 += change_2
-    # They are no cached forces for the next step, nor is what stopped the approach.
+    # Impulses of an impact are not cached for the next step.
     if r.bounces_1:
         c[at.NORMAL_1 + lane] = 0.0
         c[at.TANGENT_1 + lane] = 0.0
@@ -686,7 +716,10 @@ def bounce_row(impact_inout, motions_inout, blocks_inout):
 
 @subkernel
 def are_unloaded(blocks, impacts, count, contacts, speed, dt):
-    """Return whether the loads of so many IMPACT rows in the step before do not count beside a speed [px/s]."""
+    """Return whether the contact forces of the step before are negligible beside an impact at a speed [px/s].
+
+    count: number of IMPACT rows; dt [s]: length of the step.
+    """
     for i in range(count):
         r = impacts[i]
         c = contacts[blocks.contact[r.block, r.lane]]
@@ -698,9 +731,9 @@ def are_unloaded(blocks, impacts, count, contacts, speed, dt):
 
 @subkernel
 def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blocks_inout):
-    """Solve so many IMPACT rows that depend on each other, until none changes a speed by more than `least` [px/s].
+    """Solve IMPACT rows that share bodies in rounds, until none changes a normal speed by more than `least` [px/s].
 
-    hits_alone: leave out those that hand on.
+    count: number of rows; hits_alone: leave out contacts that only pass an impact on.
     """
     for _ in range(ROUNDS):
         changed = 0.0
@@ -713,10 +746,11 @@ def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blo
 
 @subkernel
 def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
-    """Replace the impulses of so many IMPACT rows of bodies without loads by a sequence of impacts.
+    """Replace the impulses of contacts without loads by a sequence of impacts, as in Newton's cradle.
 
-    Contacts that approach are solved together; those that approach after that are next: a contact that only touches has
-    the blow handed on, as in Newton's cradle. Return whether they end. fastest [px/s]: speed of the first impacts.
+    All contacts that approach are solved together; contacts that approach afterwards are the next impacts. So the
+    impact passes through contacts that only touch. count: number of IMPACT rows; fastest [px/s]: speed of the first
+    impacts. Return whether the sequence ended within MOST_BLOWS.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -753,7 +787,7 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
 
 @subkernel
 def restore_bounces(contacts, count, context, impacts_inout, motions_inout, blocks_inout, work_inout):
-    """Set the separation speed of points with an impulse to restitution times the approach speed. O(lanes).
+    """Make points that hit in this step separate at restitution times their approach speed. O(lanes).
 
     count: number of blocks; context: see StepContext; impacts_inout: scratch.
     """

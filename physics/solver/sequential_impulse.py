@@ -1,11 +1,12 @@
 """Sequential impulses: one step, several passes, warm start, Baumgarte stabilisation.
 
-It differs from `soft_step` in that positions move once, after all passes, and in that contacts are hard: stacks are
-livelier and sag by the slop. Unloaded contacts separate by a pseudo-velocity (split impulses). Cost:
-ITERATIONS_PER_SUBSTEP passes for each substep of soft_step, whose number follows from the loads in the same way. Each
-pass transmits a load by one or two rows: with ten passes for all islands, a pyramid of 45 rows moves at 8 to 60 px/s
-for over a minute, and a plank of a hundredth of its load creeps by 0.4 to 5 m in that time. With passes by load both
-rest, for 1.5 times the step. Source: Catto, Iterative Dynamics with Temporal Coherence, GDC 2005, and Box2D-Lite, 2006.
+It differs from `soft_step` in that bodies move once, after all passes, and in that contacts are hard: stacks are
+livelier and sag by the slop. Unloaded contacts separate by a pseudo-velocity (split impulses). A step takes
+ITERATIONS_PER_SUBSTEP passes for each substep that soft_step would take; as there, their number follows from the loads.
+Each pass transmits a load by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at
+8 to 60 px/s for over a minute, and a plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time.
+With passes by load both rest; a step then takes 1.5 times as long. Source: Catto, Iterative Dynamics with Temporal
+Coherence, GDC 2005, and Box2D-Lite, 2006.
 """
 
 import math
@@ -34,24 +35,27 @@ from physics.solver.step_context import context_of, separation_speed
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
-# Share of the step by which the arms and normals of round contacts lead. At the start of the step (0) planks that rock
-# on a disc swing up to 8 % further in half a minute; at its middle they and eccentric discs stop in seconds.
+# Moment arms and normals of round contacts are those after this share of the step. With 0, its start, planks that rock
+# on a disc swing up to 8 % further in half a minute; with 0.5, its middle, they and eccentric discs stop in seconds.
 LEAD = 0.1
 
 
 class Passes(NamedTuple):
-    """The constants of all passes of a step."""
+    """The constants of all passes of a step over the contacts."""
 
-    count: int
+    count: int  # number of passes
     warm: bool  # they start from the cached impulses
     bias_rate: float  # [1/s] separation speed per overlap of a loaded contact beyond the slop, …
     bias_speed: float  # [px/s] … and its bound
-    push_rate: float  # [1/s] the same of an unloaded contact; its bound is the context's push_speed
+    push_rate: float  # [1/s] separation speed per overlap of an unloaded contact; StepContext.push_speed bounds it
 
 
 @inlined
 def bias_speed(gap, inverse_h, slop, rate, most):
-    """Return the separation speed [px/s] of a loaded point; negative: the speed at which a gap may close."""
+    """Return the separation speed [px/s] of a point of a loaded contact; negative: the speed at which a gap may close.
+
+    rate [1/s]: separation speed per overlap beyond the slop [px]; most [px/s]: its bound.
+    """
     beyond = -gap - slop
     speed = rate * (beyond if beyond > 0.0 else 0.0)
     speed = speed if speed < most else most
@@ -59,7 +63,7 @@ def bias_speed(gap, inverse_h, slop, rate, most):
 
 
 def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
-    """Return one pass over the lanes of a world with these effects, with the block solver for two points."""
+    """Return the function that solves all contacts once, for a world with or without rotation and friction."""
     friction_1, friction_2 = make_friction(False, rotation, False), make_friction(True, rotation, False)
 
     @noalias
@@ -72,10 +76,11 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
         motions_inout,
         blocks_inout,
     ):
-        """Solve every lane of so many blocks once, friction first. O(count).
+        """Solve every contact once: friction first, then both normal impulses together. O(count).
 
-        A loaded contact separates by the velocities of its bodies: in all passes and with warm start, otherwise columns
-        would sag. context: see StepContext; passes: see Passes.
+        count: number of blocks; context: see StepContext; passes: see Passes. A loaded contact separates by the
+        velocities of its bodies. The separation is part of every pass and of the warm start, otherwise columns would
+        sag.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -153,15 +158,15 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
 
 
 def make_push_point(second: bool, rotation: bool) -> Callable:
-    """Return the push-out at one point of a lane in a world with this effect."""
+    """Return the function that pushes out one point of a contact, for a world with or without rotation."""
     gap_line, push_line = (at.GAP_2, at.PUSH_2) if second else (at.GAP_1, at.PUSH_1)
     mass_line = at.MASS_2 if second else at.MASS_1
 
     @inlined
     def push_point(lane, a_arm, b_arm, context, rate, s_inout, c_inout):
-        """Change the pseudo-velocities of a lane such that one point of an unloaded contact separates.
+        """Change the pseudo-velocities of the bodies of a lane such that one point of an unloaded contact separates.
 
-        a_arm, b_arm [px]: moment arms of the normal impulse. rate [1/s]: see separation_speed.
+        a_arm, b_arm [px]: moment arms of the normal impulse; rate [1/s]: see separation_speed.
         """
         c = c_inout
         s = s_inout
@@ -194,7 +199,7 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
 
 
 def make_push_pass(rotation: bool) -> Callable:
-    """Return one pass of push-out over the lanes of a world with this effect."""
+    """Return one pass of push-out over all contacts, for a world with or without rotation."""
     push_first, push_second = make_push_point(False, rotation), make_push_point(True, rotation)
 
     @noalias
@@ -207,9 +212,10 @@ def make_push_pass(rotation: bool) -> Callable:
         motions_inout,
         blocks_inout,
     ):
-        """Give the bodies pseudo-velocities that separate unloaded contacts, of so many blocks. O(count).
+        """Give bodies pseudo-velocities that separate their unloaded contacts. O(count).
 
-        rate [1/s]: see separation_speed. The impulses of these velocities accumulate apart from those of the contacts.
+        count: number of blocks; rate [1/s]: see separation_speed. The impulses of the pseudo-velocities accumulate
+        apart from the contact impulses.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -244,10 +250,10 @@ def make_push_pass(rotation: bool) -> Callable:
 
 @subkernel
 def stop_impacts(count, motions_inout, blocks_inout):
-    """Remove from contacts that met in this step the speed with which they closed their gaps. O(lanes).
+    """Remove the approach speed that is left at points which closed their gap in this step. O(lanes).
 
-    Otherwise they would meet again in the next step. Slow approaches are left out: the passes leave some speed in
-    loaded stacks, which the next step removes.
+    count: number of blocks. Otherwise these points would meet again in the next step. Slow approaches are left alone:
+    the passes leave a small approach speed in loaded stacks, which the next step removes.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -264,7 +270,7 @@ def stop_impacts(count, motions_inout, blocks_inout):
 
 @subkernel
 def sum_up(count, blocks_inout):
-    """Copy the impulses of the one substep to those of the step, of so many blocks. O(lanes)."""
+    """Copy the contact impulses of the only substep to the totals of the step. count: number of blocks. O(lanes)."""
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks_inout.contact, block)):
@@ -276,9 +282,10 @@ def sum_up(count, blocks_inout):
 
 @subkernel
 def foresee_turns(members, kinematic, time, count, motions_inout, blocks_inout):
-    """Write the normals and moment arms of round contacts at the poses of bodies after a time [s] of their motion.
+    """Write the normals and moment arms of round contacts at the poses that the bodies will have after `time` [s].
 
-    O(members + lanes).
+    The poses of the bodies are then reset to those at the start of the step. count: number of blocks. O(members +
+    lanes).
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]
@@ -297,7 +304,7 @@ PUSH_OUT = {r: make_push_pass(rotation=r) for r in BOTH}
 
 
 def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
-    """Return all passes of a step in a world with these effects."""
+    """Return the function that does all passes of a step, for a world with or without drag, rotation and friction."""
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, solve_all, push_out = WARM_LANES[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
 
@@ -313,9 +320,9 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
         motions_inout,
         blocks_inout,
     ):
-        """Advance island bodies and kinematic ones, rows of MOTION, by a step under so many blocks of constraints.
+        """Advance island bodies and kinematic bodies, rows of MOTION, by one step under their contacts.
 
-        context: see StepContext; passes: see Passes. O(members + passes · constraints).
+        count: number of blocks; context: see StepContext; passes: see Passes. O(members + passes · constraints).
         """
         if not passes.warm:
             clear_impulses(members, count, motions_inout, blocks_inout)
@@ -344,10 +351,10 @@ PASSES = {(d, r, f): make_passes(drag=d, rotation=r, friction=f) for d in BOTH f
 
 
 def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, warm: bool = True) -> float:
-    """Advance the motions by a step under the contacts. Return the step [s] to which the impulses belong.
+    """Solve the contacts of a step and move the bodies. Return the step [s], to which the impulses belong.
 
-    For measurements (studied_solvers.py): passes, None for those of the substeps; warm: whether they start from the
-    cached impulses.
+    For measurements (studied_solvers.py): passes: number of passes, None for the number by load; warm: whether the
+    passes start from the cached impulses.
     """
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     run = PASSES[effects.drag, effects.rotation, effects.friction]

@@ -30,17 +30,18 @@ from physics.tables.step_state import StepState, stage
 # ---- soft pass -------------------------------------------------------------------------------------------------------
 # Passes of the soft step over blocks of lanes; see lanes.py for the layout.
 #
-# The motions of a block are gathered, all of its lanes solved without a branch, and the motions scattered. Push-out by
-# pseudo-velocity is rare and done lane by lane. Sources: see "soft step" below.
+# The velocities of the bodies of a block are gathered, its contacts are solved side by side without a branch, and the
+# velocities are written back. Push-out by pseudo-velocity is rare and done one contact after the other. Sources: see
+# "soft step" below.
 
 BOTH = (False, True)
 
 
 @subkernel
 def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
-    """Separate two bodies at the points of an unloaded lane, by pseudo-velocities.
+    """Separate two bodies at the points of an unloaded contact in a lane, by pseudo-velocities.
 
-    a_inout, b_inout: MOTION rows, with the velocities of the lane's solution.
+    a_inout, b_inout: MOTION rows of the bodies.
     """
     nx = c[at.NX + lane]
     ny = c[at.NY + lane]
@@ -83,15 +84,18 @@ def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
 
 @inlined
 def rigid_change(speed, gap, mass, inverse_h):
-    """Return the change of an impulse that stops an approach; across a gap, that closes it exactly in this substep."""
+    """Return the change of the normal impulse of a hard contact that stops the approach of a point.
+
+    If there is a gap, the point keeps the speed that closes it at the end of this substep.
+    """
     return -mass * (speed + gap * inverse_h if gap > 0.0 else speed)
 
 
 @inlined
 def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
-    """Return the change of an impulse of a soft contact without a dead zone.
+    """Return the change of the normal impulse of a soft contact at a point, for any gap [px], negative for an overlap.
 
-    It separates at `most` [px/s] at most. bias_rate, impulse_scale: see Softness.
+    most [px/s]: greatest separation speed. bias_rate, impulse_scale: see Softness.
     """
     grip = 1.0 - impulse_scale
     bias = grip * bias_rate * gap
@@ -101,9 +105,10 @@ def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
 
 @inlined
 def greatest_separation_speed(c, lane, gap_1, gap_2, context):
-    """Return the greatest separation speed [px/s] of a lane.
+    """Return the greatest separation speed [px/s] of the contact in a lane.
 
-    With many substeps a deep overlap separates as slowly as with the fewest; a shallow one may carry a load.
+    With many substeps a deep overlap separates no faster than with the fewest. A shallow overlap may separate faster,
+    so that it carries its load.
     """
     most = context.push_speed * abs(c[at.PUSH_OUT_SHARE + lane])
     deep = -gap_2 if gap_2 < gap_1 else -gap_1
@@ -114,7 +119,7 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
 
 @inlined
 def angular_impulses(lane, c):
-    """Return the angular impulses of a lane on its bodies A and B, but for rolling resistance."""
+    """Return the angular impulses of the contact in a lane on its bodies A and B, without rolling resistance."""
     n_1 = c[at.NORMAL_1 + lane]
     n_2 = c[at.NORMAL_2 + lane]
     t_1 = c[at.TANGENT_1 + lane]
@@ -127,7 +132,7 @@ def angular_impulses(lane, c):
 
 
 def make_warm_lanes(rotation: bool) -> Callable:
-    """Return the pass over blocks that applies the impulses with which a substep starts."""
+    """Return the function that applies cached impulses (warm start), for a world with or without rotation."""
 
     @noalias
     def warm_lanes(
@@ -137,7 +142,7 @@ def make_warm_lanes(rotation: bool) -> Callable:
         motions_inout,
         blocks_inout,
     ):
-        """Apply the cached impulses of the lanes. O(count)."""
+        """Apply the cached impulses of all contacts to their bodies (warm start). count: number of blocks. O(count)."""
         s = blocks_inout.gathered
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -179,7 +184,10 @@ def make_warm_lanes(rotation: bool) -> Callable:
 
 @subkernel
 def clear_impulses(members, count, motions_inout, blocks_inout):
-    """Start a substep without impulses, to measure the worth of warm starting. O(members + count)."""
+    """Clear the impulses with which a substep would start, to measure the effect of warm starting.
+
+    count: number of blocks. O(members + count).
+    """
     for i in range(len(members)):
         m = motions_inout[members[i]]
         m.free_vx = m.vx
@@ -197,9 +205,10 @@ def clear_impulses(members, count, motions_inout, blocks_inout):
 
 
 def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = False) -> Callable:
-    """Return one pass over blocks: with bias and without friction, or relaxing with friction where declared.
+    """Return one pass over all contacts: with bias, which separates overlaps, or without bias, to relax.
 
-    alone: with bias, where no other pass relaxes, measures gaps, applies friction and sums impulses.
+    Friction is part of the relaxing pass. alone: there is no relaxing pass, so the pass with bias measures gaps,
+    applies friction and sums impulses.
     """
     last = alone or not biased
     rubs = friction and last
@@ -214,7 +223,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
         motions_inout,
         blocks_inout,
     ):
-        """Solve every lane of so many blocks once. context: see StepContext. O(count)."""
+        """Solve every contact once. count: number of blocks; context: see StepContext. O(count)."""
         calm_speed = CALM_SHARE * context.push_speed
         s = blocks_inout.gathered
         for block in range(count):
@@ -272,7 +281,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                     # An unloaded contact that is not new separates by pseudo-velocity, and gains no velocity.
                     unloaded = not_approaching & (not loaded) & (c[at.PUSH_OUT_SHARE + lane] < 0.0)
                 else:
-                    # A gap that closes is the task of the next substep.
+                    # The pass with bias of the next substep handles a gap that closes.
                     carried = old_1 + old_2 + c[at.TOTAL_1 + lane] + c[at.TOTAL_2 + lane]
                     apart = (gap_1 > 0.0) & (gap_2 > 0.0) & (carried == 0.0)
                     change_1 = 0.0 if apart else change_1
@@ -345,7 +354,10 @@ WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 
 @inlined
 def turn_normal(lane, s, c_inout):
-    """Write the normal of a lane at the present poses, and the base of its separations along it. See lanes.TURNS."""
+    """Write the normal of a round contact at the present poses, and adapt the base of its separations to the normal.
+
+    How the normal follows the bodies: see lanes.TURNS.
+    """
     c = c_inout
     turns = c[at.TURNS + lane]
     of_a = turns == at.NORMAL_OF_A
@@ -356,7 +368,7 @@ def turn_normal(lane, s, c_inout):
     start_y = c[at.START_NY + lane]
     nx = cosine * start_x - sine * start_y
     ny = sine * start_x + cosine * start_y
-    # From core to core.
+    # Vector from the core of A to that of B; cores are shapes without their radius.
     apart_x = c[at.BX_1 + lane] - c[at.AX_1 + lane]
     apart_y = c[at.BY_1 + lane] - c[at.AY_1 + lane]
     x = c[at.BX_1 + lane] + c[at.RADIUS_B + lane] * start_x
@@ -380,7 +392,10 @@ def turn_normal(lane, s, c_inout):
 
 @inlined
 def follow_core(lane, s, c_inout):
-    """Write the moment arms of a face at the core that it lies on, which moves along it."""
+    """Write the moment arms of a contact of a round shape with a face, at the present position of the core.
+
+    The core, the shape without its radius, moves along the face.
+    """
     c = c_inout
     turns = c[at.TURNS + lane]
     of_a = turns == at.NORMAL_OF_A
@@ -399,10 +414,10 @@ def follow_core(lane, s, c_inout):
 
 @noalias
 def turn_arms(count, motions_inout, blocks_inout):
-    """Write the normals and moment arms of round contacts at the present poses, and the effective masses there.
+    """Write the normals, moment arms and effective masses of round contacts at the present poses. O(count).
 
-    The impulses with which the next substep starts act at the new arms, and along the new normals, see turn_impulses:
-    those of the substep before would let torques and forces lag, and a lag adds energy. O(count).
+    count: number of blocks. The impulses with which the next substep starts act at the new arms, and along the new
+    normals (see turn_impulses). With the old ones, torques and forces would lag behind the motion, which adds energy.
     """
     s = blocks_inout.gathered
     for block in range(count):
@@ -439,10 +454,10 @@ def turn_arms(count, motions_inout, blocks_inout):
 
 @noalias
 def turn_impulses(count, motions_inout, blocks_inout):
-    """Turn the impulses that the relaxing pass has left to the present normals of round contacts. O(count).
+    """Turn the impulses that remain after the relaxing pass to the present normals of round contacts. O(count).
 
-    The next substep starts with them. Those that it has removed along the present normals were given along the former
-    ones: what is left of their difference is removed too.
+    count: number of blocks. The next substep starts with these impulses. The relaxing pass has removed impulses along
+    the present normals that were applied along the former normals: the remaining difference is removed here.
     """
     s = blocks_inout.gathered
     for block in range(count):
@@ -487,10 +502,11 @@ def turn_impulses(count, motions_inout, blocks_inout):
 def make_substeps(
     drag: bool, rotation: bool, friction: bool, iterations: int = 1, warm: bool = True, relaxed: bool = True
 ) -> Callable:
-    """Return all substeps of a step in a world with these effects.
+    """Return the function that does all substeps of a step, for a world with or without drag, rotation and friction.
 
-    For measurements (studied_solvers.py): iterations: passes with bias in a substep; warm: whether each starts from the
-    impulses of the one before; relaxed: whether a relaxing pass follows, otherwise friction is in the pass with bias.
+    For measurements (studied_solvers.py): iterations: passes with bias in a substep; warm: whether each substep starts
+    from the impulses of the substep before; relaxed: whether a relaxing pass follows, otherwise the pass with bias
+    applies friction.
     """
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, push_out, relax = WARM_LANES[rotation], PUSH_OUT[rotation], RELAX[rotation, friction]
@@ -508,10 +524,10 @@ def make_substeps(
         motions_inout,
         blocks_inout,
     ):
-        """Advance island bodies by substeps under so many blocks of constraints, and kinematic bodies beside them.
+        """Advance island bodies and kinematic bodies, rows of MOTION, by all substeps of a step under their contacts.
 
-        context: see StepContext. Bodies are rows of MOTION. One kernel holds all substeps: with ten boxes five sixths
-        of a substep were calls from Python. O(substeps · (members + constraints)).
+        count: number of blocks; context: see StepContext. One kernel holds all substeps: with ten boxes, calls from
+        Python were five sixths of the time of a substep. O(substeps · (members + constraints)).
         """
         h = context.h
         move_kinematic(kinematic, 0.0, motions_inout)
@@ -539,7 +555,7 @@ SUBSTEPS = {(d, r, f): make_substeps(drag=d, rotation=r, friction=f) for d in BO
 
 
 def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS) -> float:
-    """Advance the motions by a step under the contacts, group by group. Return the shortest substep [s]."""
+    """Solve the contacts of a step, group by group, and move the bodies. Return the shortest substep [s]."""
     effects, motions, dt = state.effects, state.workspace.motions, state.dt
     run, h = kernels[effects.drag, effects.rotation, effects.friction], dt
     by_load = state.substeps == 0

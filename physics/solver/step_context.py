@@ -21,7 +21,7 @@ from physics.settings import (
 )
 
 NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
-DRIFT_SHARE = 0.02  # share of the drift of a sticking contact that friction takes back in a step
+DRIFT_SHARE = 0.02  # share of the tangential drift of a sticking contact that friction undoes in a step
 
 # ---- context ---------------------------------------------------------------------------------------------------------
 # Constants of the substeps of a group of islands: their length, the softness of contacts, the push-out. Source of the
@@ -29,14 +29,14 @@ DRIFT_SHARE = 0.02  # share of the drift of a sticking contact that friction tak
 
 
 class Softness(NamedTuple):
-    """A damped spring as a soft constraint over a substep."""
+    """The spring and damper of a soft contact, as the two constants of its impulse over a substep."""
 
     bias_rate: float  # [1/s] separation speed per overlap
     grip: float  # weight of the relative velocity against the accumulated impulse: softness 1 / (1 + grip)
 
 
 class StepContext(NamedTuple):
-    """The constants of all substeps of a group of islands."""
+    """The constants of all substeps of a group of islands with the same number of substeps."""
 
     substeps: int
     dt: float  # [s] of the step …
@@ -48,21 +48,24 @@ class StepContext(NamedTuple):
     restitution_speed: float  # [px/s] slower impacts do not bounce
     sleep_speed: float  # [px/s]
     push_speed: float  # [px/s]
-    push_rate: float  # [1/s] rate for the overlap of an unloaded contact above …
+    push_rate: float  # [1/s] separation speed of an unloaded contact per overlap beyond half of …
     slop: float  # [px] … the overlap that may stay
-    deep_rate: float  # [1/s] rate for a deep one, 0: no limit, above …
-    shallow_speed: float  # [px/s] … the separation speed of a shallow one
+    deep_rate: float  # [1/s] greatest separation speed of a loaded contact per overlap, 0: no limit; it is not below …
+    shallow_speed: float  # [px/s] … this speed
     spring: Softness  # of contacts between dynamic bodies …
     static_spring: Softness  # … and with static or kinematic ones
     loaded_stiffness: float  # factor on the grip of a loaded contact …
     sole_support_stiffness: float  # … and of a sole support
-    strike_factor: float  # factor on the load before the step above which it counts as struck, and yields
-    drift_rate: float  # [1/s] at which friction takes back the drift of a sticking contact
+    strike_factor: float  # factor on the load before the step above which a contact counts as struck, and is softer
+    drift_rate: float  # [1/s] rate at which friction undoes the tangential drift of a sticking contact
     limits: Limits
 
 
 def softness(hertz: float, damping: float, h: float) -> Softness:
-    """Return the implicit spring of a frequency [1/s] and damping ratio over h [s] (Catto, Soft Constraints, 2011)."""
+    """Return the Softness of an implicit spring over a substep of h [s] (Catto, Soft Constraints, 2011).
+
+    hertz [1/s]: its frequency; damping: its damping ratio.
+    """
     omega = math.tau * hertz
     rate = 2.0 * damping + h * omega
     return Softness(omega / rate, h * omega * rate)
@@ -72,10 +75,10 @@ def softness(hertz: float, damping: float, h: float) -> Softness:
 def context_of(
     substeps: int, by_load: bool, dt: float, span: float, drag: float, tolerances: Tolerances
 ) -> StepContext:
-    """Return the constants of so many substeps of a step of dt [s].
+    """Return the constants of a step of dt [s] that is divided into `substeps` substeps.
 
-    by_load: whether the substeps follow from the loads. span [s]: at least dt, the step that springs are tuned for: in
-    a shorter step they push no faster.
+    by_load: whether the number of substeps follows from the loads. span [s]: length of the step for which springs are
+    tuned, at least dt; in a shorter step they separate overlaps no faster.
     """
     h = dt / substeps
     # With substeps by load, springs are as stiff as the substeps allow.
@@ -115,10 +118,10 @@ def context_of(
 
 @inlined
 def separation_speed(separation, inverse_h, slop, rate, push_speed):
-    """Return the separation speed [px/s] of an overlapping point; negative: the speed at which a gap may still close.
+    """Return the separation speed [px/s] of an unloaded point; negative: the speed at which a gap may close.
 
-    rate [1/s]: share of the overlap beyond half a slop. Shapes may overlap by a slop (Jolt's penetration slop): without
-    it, unloaded contacts would creep. Deeper ones come to rest within it.
+    rate [1/s]: speed per overlap beyond half a slop; push_speed [px/s]: its bound. Overlaps of up to a slop stay
+    (Jolt's penetration slop): without that, unloaded contacts would creep.
     """
     beyond = rate * (-separation - 0.5 * slop)
     beyond = beyond if beyond < push_speed else push_speed
@@ -133,10 +136,10 @@ def separation_speed(separation, inverse_h, slop, rate, push_speed):
 def restitution_threshold(contact, a, b, degrees, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
 
-    A new contact bounces at any speed if no acceleration presses its sides together: otherwise a slow ball would stick
-    to a wall in space. One that touched in the step before bounces only beyond what acceleration adds in two steps.
-    a, b: MOTION rows of its sides, with their numbers of constraints. Two bodies with other constraints do not fall
-    together.
+    A new contact bounces at any speed if no acceleration presses its bodies together: otherwise a slow ball would stick
+    to a wall in space. A contact that touched in the step before bounces only above the speed that acceleration adds in
+    two steps. a, b: MOTION rows of the bodies; degrees: their numbers of contacts. Two bodies without other contacts
+    fall together: only the difference of their accelerations presses.
     """
     m = contact
     on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
