@@ -14,9 +14,9 @@ from physics.tables.step_state import PAIRS_TESTED
 
 @kernel
 def find_all(proxies, changed, pairs_out, work_inout):
-    """List the pairs with at least one changed side.
+    """List the pairs of overlapping proxies of which at least one changed. Return their number. O(changed · n).
 
-    proxies PROXY rows, free slots have row -1; changed: slots. Return the number found. O(changed · n).
+    proxies: PROXY rows, in which free slots have row -1; changed: slots of the changed proxies.
     """
     found = 0
     for i in range(len(changed)):
@@ -34,7 +34,7 @@ def find_all(proxies, changed, pairs_out, work_inout):
 
 @kernel
 def near_in_all(proxies, box, slots_out, work_inout):
-    """List the slots whose box meets a closed box [px], one by one. Return their number. O(n)."""
+    """List the slots of the proxies whose box meets a closed box [px]. Return their number. O(n)."""
     found = 0
     for slot in range(len(proxies)):
         p = proxies[slot]
@@ -48,10 +48,10 @@ def near_in_all(proxies, box, slots_out, work_inout):
 
 
 class BruteForce:
-    """Broad phase that tests all pairs: O(n²) for the first step, O(moved · n) after it.
+    """Broad phase that tests all pairs: O(n²) in the first step, O(moved · n) in later steps.
 
-    incremental False: all n (n - 1) / 2 pairs in every step, as "brute force" means in papers, with the same result.
-    Raises TypeError.
+    incremental: False tests all n (n - 1) / 2 pairs in every step, which "brute force" means in papers; the pairs found
+    are the same. Raises TypeError.
     """
 
     name = "brute"
@@ -60,20 +60,23 @@ class BruteForce:
         self.incremental = checks.flag("incremental", incremental)
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
+
+        lower, upper (n, 2) [px]: corners of the boxes. Raises ValueError.
+        """
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "BruteForce":
-        """Return a copy without state."""
+        """Return a broad phase with the same settings and without proxies."""
         return BruteForce(self.incremental)
 
     def update(self, arena: Arena) -> None:
-        """Do nothing: there is no state."""
+        """Do nothing: this broad phase stores nothing between steps."""
 
     def query(self, arena: Arena) -> Query:
-        """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_all(arena.proxies, arena.changed, pairs, work)
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
+        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
         return near_in_all(proxies, box, slots, work)

@@ -1,10 +1,11 @@
 """Two dynamic bounding volume hierarchies with AVL balance, one for static proxies and one for moving ones.
 
-A leaf holds a fat box: a proxy that moves within it costs one comparison. Insertion descends by surface area to a leaf
-or its parent, then single rotations restore the AVL balance on the way up. Children have no order, so a single rotation
-always suffices, and the height stays within 1.45·log2(n) + 2. When most proxies of a tree change at once, it is rebuilt
-by median splits. Source: Catto, Dynamic Bounding Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
-O(moved · log n). Suits many static bodies and few moving ones.
+A leaf holds a box with a margin (fat box): a proxy that moves within its fat box costs one comparison. Insertion
+descends by the surface area heuristic to a leaf or the parent of a leaf. Single rotations then restore the AVL balance
+on the way up. Children have no order, so a single rotation always suffices, and the height stays within 1.45·log2(n) +
+2. When most proxies of a tree change at once, the tree is rebuilt by median splits. Source: Catto, Dynamic Bounding
+Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many static bodies and few moving
+ones.
 """
 
 import numpy as np
@@ -21,7 +22,7 @@ STACK = 256  # far above any height that fits in memory
 WIDTH = 2  # boxes of a node. Four, tested at once, made a step at most 4 % faster (5,300 bodies, most of them static)
 
 # ---- tree nodes ------------------------------------------------------------------------------------------------------
-# Nodes of a BVH with AVL balance: insert, remove, rotate, improve.
+# Nodes of a bounding volume hierarchy (BVH) with AVL balance: insert, remove, rotate, improve.
 #
 # Children have no order, so a single rotation always restores the balance. Source: Catto, Dynamic Bounding Volume
 # Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962.
@@ -55,7 +56,7 @@ def joined_outline(nodes, a, b):
 
 @subkernel
 def refit(index, nodes_inout):
-    """Write a node's box and height from its children."""
+    """Write the box and the height of a node from those of its children."""
     n = nodes_inout[index]
     p, q = nodes_inout[n.child_a], nodes_inout[n.child_b]
     n.lower_x, n.lower_y = min(p.lower_x, q.lower_x), min(p.lower_y, q.lower_y)
@@ -65,7 +66,10 @@ def refit(index, nodes_inout):
 
 @subkernel
 def replace_child(parent, old, new, root, nodes_inout, state_inout):
-    """Replace a child of a parent, or the root."""
+    """Put the node `new` in the place of `old`: as a child of `parent`, or as the root if parent is -1.
+
+    root: ROOT_MOVING or ROOT_STILL.
+    """
     nodes_inout[new].parent = parent
     if parent < 0:
         state_inout[root] = new
@@ -77,11 +81,11 @@ def replace_child(parent, old, new, root, nodes_inout, state_inout):
 
 @subkernel
 def rotate(index, root, nodes_inout, state_inout):
-    """Raise the higher child when it is two levels above the other. Return the node that is now at this place.
+    """Raise the higher child C of a node A if it is two levels higher than the other. Return the node now on top.
 
          A                  C
         / \\                / \\
-       B   C      ->      A   F      F the higher of C's children (of equal ones, G joins B if their box is smaller)
+       B   C      ->      A   F      F: the higher child of C; of equal ones, G is the one with less outline beside B
           / \\            / \\
          F   G          B   G
     """
@@ -111,10 +115,9 @@ def rotate(index, root, nodes_inout, state_inout):
 
 @subkernel
 def swap_pays(upper, lower_parent, lower, nodes):
-    """Return the outline [px] saved by swapping a child with a grandchild on the other side; 0 where it would
-    unbalance.
+    """Return how much outline [px] is saved by swapping a child of a node with a child of its sibling.
 
-    upper: child of the node; lower: child of upper's sibling lower_parent.
+    It is 0 if the swap would violate the AVL balance. upper: the child; lower: the child of its sibling lower_parent.
     """
     q = nodes[lower_parent]
     other = q.child_b if q.child_a == lower else q.child_a
@@ -129,7 +132,7 @@ def swap_pays(upper, lower_parent, lower, nodes):
 
 @subkernel
 def improve(index, nodes_inout):
-    """Swap a child with a grandchild on the other side if that shrinks the box between and keeps the AVL balance.
+    """Swap a child of a node with a child of its sibling if that shrinks the sibling's box and keeps the AVL balance.
 
     Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
     """
@@ -170,7 +173,7 @@ def improve(index, nodes_inout):
 
 @subkernel
 def repair_upward(index, root, nodes_inout, state_inout, work_inout):
-    """Balance and refit from a node up to the root. O(height)."""
+    """Refit, balance and improve all nodes from `index` up to the root. O(height)."""
     while index >= 0:
         work_inout[NODES_VISITED] += 1
         refit(index, nodes_inout)
@@ -181,7 +184,7 @@ def repair_upward(index, root, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def take_node(nodes_inout, state_inout):
-    """Return the index of a free node. The caller ensures that there is one."""
+    """Remove a node from the free nodes. Return its index. The caller ensures that there is a free node."""
     index = state_inout[FREE]
     if index >= 0:
         state_inout[FREE] = nodes_inout[index].parent
@@ -193,7 +196,7 @@ def take_node(nodes_inout, state_inout):
 
 @subkernel
 def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Insert a leaf beside the sibling that costs the least outline. O(height)."""
+    """Insert a leaf beside the node for which the outlines of all nodes grow least. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     at = state_inout[root]
     if at < 0:
@@ -228,7 +231,7 @@ def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Remove a leaf: its sibling takes the parent's place. O(height)."""
+    """Remove a leaf from its tree: its sibling takes the place of their parent. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     parent = nodes_inout[leaf].parent
     if parent < 0:
@@ -250,7 +253,10 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def select_median(along, first, last, middle, leaves_inout):
-    """Reorder leaves first..last so that none before `middle` lies beyond it in `along` (quickselect, Hoare 1961)."""
+    """Reorder leaves first..last so that `middle` holds the leaf of that rank by `along`, smaller ones before it.
+
+    along: coordinate of each leaf. Source: quickselect, Hoare 1961.
+    """
     low, high = first, last
     while low < high:
         pivot = along[leaves_inout[(low + high) // 2]]
@@ -274,7 +280,7 @@ def select_median(along, first, last, middle, leaves_inout):
 
 @subkernel
 def spread(along, leaves, first, last):
-    """Return the extent of leaves first..last in `along`."""
+    """Return the difference of the greatest and least value of `along` among leaves first..last."""
     low = along[leaves[first]]
     high = low
     for k in range(first + 1, last + 1):
@@ -288,10 +294,10 @@ def spread(along, leaves, first, last):
 
 @kernel
 def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nodes_inout, state_inout):
-    """Rebuild the tree of the static leaves (still 1) or of the moving ones (0) by median splits.
+    """Rebuild the tree of the static leaves (still 1) or of the moving ones (still 0) by median splits. O(n log n).
 
-    leaf_of (slots): leaf or -1; scratch: leaves_out (slots), spans_out (slots, 4), twice_x_out, twice_y_out (nodes):
-    twice the middle of each leaf's box [px]. The inner nodes of the old tree are freed first. O(n log n).
+    The inner nodes of the old tree are freed first. leaf_of (slots): leaf of each proxy, or -1. Scratch: leaves_out
+    (slots); spans_out (slots, 4); twice_x_out, twice_y_out (nodes): twice the centre of each leaf's box [px].
     """
     root = ROOT_STILL if still == 1 else ROOT_MOVING
     count = 0
@@ -314,8 +320,8 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
         if count == 1:
             nodes_inout[leaves_out[0]].parent = -1
         return
-    # Each span: first leaf, last leaf, its node, the parent. A node precedes its children, so that a backward refit
-    # visits children first.
+    # A span is the range of leaves below one node: first leaf, last leaf, node, parent of the node. A node precedes its
+    # children, so that a backward refit visits children first.
     made = 1
     spans_out[0, 0] = 0
     spans_out[0, 1] = count - 1
@@ -371,9 +377,10 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
 
 @kernel
 def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, work_inout):
-    """List the pairs with a changed side, by descending both trees with each changed box.
+    """List the pairs of overlapping proxies of which at least one changed. Return their number.
 
-    changed: slots; stack_inout: scratch. Return the number of pairs. O(changed · log n + pairs).
+    Both trees are searched with the box of each changed proxy. changed: slots; stack_inout: scratch. O(changed · log n
+    + pairs).
     """
     found = 0
     for i in range(len(changed)):
@@ -407,7 +414,7 @@ def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, 
 
 @kernel
 def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
-    """List the slots whose leaf meets a closed box [px], from the roots down. Return their number. O(log n + found)."""
+    """List the slots of the leaves in both trees that meet a closed box [px]. Return their number. O(log n + found)."""
     found = 0
     depth = 0
     for k in range(len(roots)):
@@ -431,16 +438,17 @@ def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
 
 
 # ---- dynamic tree ----------------------------------------------------------------------------------------------------
-# The strategy.
+# The broad phase made of both trees.
 
 
 @kernel
 def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, state_inout, work_inout):
-    """Insert, remove, or move the changed proxies; one that is still within its fat box stays. O(moved · log n).
+    """Insert, remove, or move the leaves of the changed proxies. O(moved · log n).
 
-    changed: slots; margins: in px and as a share of the box: the smaller is the margin of a leaf; leaf_of_inout
-    (slots): leaf or -1; state_inout: free list, used nodes, two roots. loose 1: leaves of the moving or the static tree
-    are neither linked nor unlinked, because that tree is rebuilt next. Return the number of leaves that were moved.
+    A proxy that is still within the fat box of its leaf stays. changed: slots. margins: in px and as a share of the
+    box; the smaller one is the margin of a leaf. loose: for the moving and the static tree, 1 if the tree is rebuilt
+    next, so that leaves need not be linked or unlinked. leaf_of_inout (slots): leaf of each proxy, or -1. state_inout:
+    first free node, number of used nodes, both roots. Return the number of leaves moved, inserted and removed.
     """
     moved = 0
     for i in range(len(changed)):
@@ -497,7 +505,7 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
 class DynamicTree:
     """Broad phase with two dynamic bounding volume trees.
 
-    width: boxes a node, 2 or None for 2. margin [px]: the largest margin of a moving leaf; None takes the setting for
+    width: boxes in a node, 2; None for 2. margin [px]: the greatest margin of a moving leaf; None takes the setting for
     32 px per metre. Raises TypeError, ValueError.
     """
 
@@ -514,15 +522,18 @@ class DynamicTree:
         self.leaves, self.spans, self.twice = np.zeros(0, np.int64), np.zeros((0, 4), np.int64), np.zeros((2, 0))
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
+
+        lower, upper (n, 2) [px]: corners of the boxes. Raises ValueError.
+        """
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "DynamicTree":
-        """Return a copy without state."""
+        """Return a broad phase with the same settings and without proxies."""
         return DynamicTree(self.width, self.margin)
 
     def update(self, arena: Arena) -> None:
-        """Move the leaves whose boxes left their fat boxes."""
+        """Move the leaves of the changed proxies that left their fat boxes."""
         if len(self.leaf_of) < len(arena.proxies):
             slots = max(len(arena.proxies), 2 * len(self.leaf_of))
             self.leaf_of = np.concatenate([self.leaf_of, np.full(slots - len(self.leaf_of), -1, np.int64)])
@@ -549,9 +560,9 @@ class DynamicTree:
                 rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
 
     def _rebuilds(self, arena):
-        """Return for the moving and the static tree whether to rebuild it: most of its proxies have changed.
+        """Return for the moving and for the static tree 1 if most of its proxies have changed, so that it is rebuilt.
 
-        A rebuild then costs less than moving each leaf, and gives the better tree.
+        A rebuild then costs less than moving each leaf, and gives the better tree. Return 0 otherwise.
         """
         still = arena.proxies["still"]
         total = np.bincount(still[self.leaf_of[: len(still)] >= 0], minlength=2)
@@ -559,24 +570,24 @@ class DynamicTree:
         return tuple(int(changed[k] > max(REBUILD_FROM, total[k] // 2)) for k in (0, 1))
 
     def query(self, arena: Arena) -> Query:
-        """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count that lists the pairs of the changed proxies."""
         proxies, changed = arena.proxies, arena.changed
         return lambda pairs, work: find_pairs_in_trees(
             proxies, changed, self.nodes, self.state, self.stack, pairs, work
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
+        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
         roots = self.state[ROOT_MOVING:]
         return query_trees(self.nodes, roots, box, self.stack, slots, work)
 
     @property
     def height(self) -> int:
-        """Height of the higher of the two trees; 0 for a single leaf, -1 when empty."""
+        """Height of the higher one of both trees; 0 for a single leaf, -1 if both are empty."""
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
     def boxes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return all nodes: (m, 4) boxes [px] and (m,) depths from the root, for drawing."""
+        """Return all nodes for drawing: (m, 4) boxes [px], and (m,) the depth of each below its root."""
         found, depths = [], []
         for root in self.state[ROOT_MOVING:].tolist():
             todo = [(root, 0)] if root >= 0 else []

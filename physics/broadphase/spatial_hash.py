@@ -36,18 +36,18 @@ ENTRY = np.dtype(
 
 
 class Cells(NamedTuple):
-    """The lists of proxies in the cells of all levels, and on each level."""
+    """Linked lists of the proxies: one list for each hash bucket, and one for each level of the grids."""
 
-    levels: np.ndarray  # (slots,) level, or -1
-    heads: np.ndarray  # (buckets,) first entry; a power of two of them
-    entries: np.ndarray  # ENTRY, four for each slot
+    levels: np.ndarray  # (slots,) level of each proxy, or -1
+    heads: np.ndarray  # (buckets,) first entry of each bucket, or -1; their number is a power of two
+    entries: np.ndarray  # ENTRY, four for each slot: one for each cell that its box touches
     lists: np.ndarray  # (slots, 2) previous and next slot of the level
-    level_heads: np.ndarray  # (LEVELS + 1,) first slot
-    level_counts: np.ndarray  # (LEVELS + 1,) number of slots
+    level_heads: np.ndarray  # (LEVELS + 1,) first slot of each level, or -1
+    level_counts: np.ndarray  # (LEVELS + 1,) number of slots on each level
 
 
 def empty_cells(slots: int, buckets: int) -> Cells:
-    """Return room for so many slots and buckets, without proxies."""
+    """Return Cells without proxies, with arrays for `slots` proxies and `buckets` hash buckets."""
     entries = np.zeros(4 * slots, ENTRY)
     entries["bucket"] = -1
     levels, heads, lists = np.full(slots, -1), np.full(buckets, -1), np.full((slots, 2), -1)
@@ -56,19 +56,25 @@ def empty_cells(slots: int, buckets: int) -> Cells:
 
 @subkernel
 def cell_of(coordinate, inverse_size):
-    """Return the cell of a coordinate [px]."""
+    """Return the column or row of the cell with a coordinate [px]. inverse_size [1/px]: one over the cell size."""
     return math.floor(coordinate * inverse_size)
 
 
 @subkernel
 def bucket_at(level, cell_x, cell_y, mask):
-    """Return the bucket of a cell. Products stay below 2^62 for cells within CELL_RANGE. Source: Teschner 2003."""
+    """Return the hash bucket of a cell. mask: number of buckets minus one. Source: Teschner 2003.
+
+    Products stay below 2^62 for cells within CELL_RANGE.
+    """
     return ((cell_x * 73856093) ^ (cell_y * 19349663) ^ (level * 83492791)) & mask
 
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level with cells as large as the box; LEVELS without one or for a box too far out."""
+    """Return the finest level whose cells are at least as large as the box [px]. base [px]: cells of level 0.
+
+    Return LEVELS if no level has such cells, or if the box is outside CELL_RANGE.
+    """
     extent = max(upper_x - lower_x, upper_y - lower_y)
     size = base
     level = 0
@@ -90,7 +96,7 @@ def write_box(proxy, entry_out):
 
 @subkernel
 def take_out(slot, cells_inout, work_inout):
-    """Unlink a slot from its cells and from the list of its level. O(4)."""
+    """Unlink a slot from its cells, at most four, and from the list of its level. O(1)."""
     entries = cells_inout.entries
     lists = cells_inout.lists
     level = cells_inout.levels[slot]
@@ -121,7 +127,7 @@ def take_out(slot, cells_inout, work_inout):
 
 @subkernel
 def put_in(proxies, slot, level, base, cells_inout, work_inout):
-    """Link a slot into the cells its box touches and into the list of its level. O(4)."""
+    """Link a slot into the cells that its box touches, at most four, and into the list of its level. O(1)."""
     p = proxies[slot]
     heads = cells_inout.heads
     entries = cells_inout.entries
@@ -157,10 +163,10 @@ def put_in(proxies, slot, level, base, cells_inout, work_inout):
 
 @kernel
 def place_changed(proxies, changed, base, cells_inout, work_inout):
-    """Move the changed proxies to the cells they touch; one that stays in its cells is only updated. O(changed).
+    """Link the changed proxies into the cells that their boxes touch. O(changed).
 
-    changed: slots. A box that spans more than two cells along an axis, by its ends on cell borders, goes to the next
-    coarser level.
+    changed: slots. If the cells are still the same, only the box in them is updated. A box whose ends lie on cell
+    borders may span three cells along an axis; it goes to the next coarser level.
     """
     entries = cells_inout.entries
     for i in range(len(changed)):
@@ -207,11 +213,12 @@ CHAINS, NEAR = 8, 64  # cells whose lists are traversed side by side; entries co
 
 @subkernel
 def follow(entries, p, level, count, chains_inout, near_out):
-    """Traverse the lists of some cells and collect the entries whose boxes overlap the PROXY row p, up to NEAR entries.
+    """Traverse the lists of several cells, and collect the entries whose boxes overlap the PROXY row p.
 
-    chains_inout (CHAINS, 3) int64: the next entry of each list, and its cell's column and row; near_out (NEAR,) int64.
-    The lists are traversed side by side, so that their memory latencies overlap. The tests have no branch, because it
-    would be mispredicted. Return the number of unfinished lists, of collected entries, and of tests.
+    It ends when NEAR entries might be exceeded. count: number of lists. chains_inout (CHAINS, 3) int64: the next entry
+    of each list, and the column and row of its cell; near_out (NEAR,) int64: the collected entries. The lists are
+    traversed side by side, so that their memory latencies overlap. The tests have no branch, because it would be
+    mispredicted. Return the number of unfinished lists, of collected entries, and of tests.
     """
     near = 0
     tested = 0
@@ -243,10 +250,11 @@ def follow(entries, p, level, count, chains_inout, near_out):
 
 @kernel
 def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out, work_inout):
-    """List the pairs with a changed side: per level from the cells the box touches, or from the level's list.
+    """List the pairs of overlapping proxies of which at least one changed. Return their number. O(cells + candidates).
 
-    A pair that shares several cells is reported in the cell of the lower corner of the shared rectangle. Return the
-    number of pairs. O(cells + candidates); the number of cells is at most proportional to the outline of the box.
+    On each level, the candidates are those in the cells that the box touches; if these are too many, all proxies of the
+    level. So the number of cells is at most proportional to the outline of the box. A pair that shares several cells is
+    reported only in the cell with the lower corner of the overlap.
     """
     heads = cells.heads
     entries = cells.entries
@@ -317,10 +325,11 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
 
 @kernel
 def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
-    """List the slots whose box meets a closed box [px], by the cells or the list of each level. Return their number.
+    """List the slots of the proxies whose box meets a closed box [px]. Return their number. O(cells + boxes in them).
 
-    A slot in several cells is taken from the cell of the lower corner of the shared rectangle. O(cells + boxes in
-    them); the number of cells is at most proportional to the level's proxies.
+    On each level it reads the cells that the box touches; if there are more cells than about the proxies of the level,
+    the list of the level. A proxy in several of the cells is reported only in the cell with the lower corner of the
+    overlap.
     """
     heads = cells.heads
     level_counts = cells.level_counts
@@ -377,19 +386,21 @@ def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
 # ---- spatial hash ----------------------------------------------------------------------------------------------------
 # A uniform grid in a hash table, with coarser grids above it for larger boxes.
 #
-# A proxy is in the level whose cells are at least as large as its box, so it touches at most four cells. A giant is in
-# one coarse cell and does not flood the fine ones. A box that would cover too many cells of a finer level walks the
-# list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2. O(cells touched + candidates).
+# A proxy is on the finest level whose cells are at least as large as its box, so it touches at most four cells. A very
+# large box is in a few coarse cells, and not in many fine ones. A box that would cover too many cells of a finer level
+# is tested against the list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2. O(cells
+# touched + candidates).
 # Suits many bodies of one size, moving or not.
 
-CELL_OF_MEDIAN = 2.0  # cell width in median boxes, untuned: the flat optimum of `tests.bench broadphase`
+CELL_OF_MEDIAN = 2.0  # cell size per median extent of the boxes: the flat optimum of `tests.bench broadphase`
 SMALLEST_CELL = 2.0**-1000  # its inverse is finite
 
 
 class SpatialHashGrid:
     """Broad phase with a hierarchical hash grid.
 
-    cell: size of the finest cells [px]; None tunes it to the bodies. Raises ValueError for a cell below 2^-1000.
+    cell [px]: size of the finest cells; None: it follows from the sizes of the bodies. Raises ValueError for a cell
+    below 2^-1000.
     """
 
     name = "hash"
@@ -403,15 +414,22 @@ class SpatialHashGrid:
         self.lists = empty_cells(0, 16)
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
+
+        lower, upper (n, 2) [px]: corners of the boxes. Raises ValueError.
+        """
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "SpatialHashGrid":
-        """Return a copy without state."""
+        """Return a broad phase with the same settings and without proxies."""
         return SpatialHashGrid(self.cell)
 
     def update(self, arena: Arena) -> None:
-        """Move the changed proxies to their cells; enlarge the table and tune the cells when bodies have doubled."""
+        """Move the changed proxies to their cells.
+
+        The table is enlarged when it has fewer buckets than proxies, and the cell size is tuned anew when the proxies
+        have doubled or most are on coarse levels.
+        """
         proxies = arena.proxies
         changed = arena.changed
         alive = int(self.lists.level_counts.sum()) + len(changed)  # a cheap upper bound
@@ -433,24 +451,24 @@ class SpatialHashGrid:
 
     @staticmethod
     def _tuned(boxes):
-        """Return twice the median extent of the finite boxes with a size; 1 if there is none."""
+        """Return a cell size [px]: twice the median extent of the finite boxes with a size; 1 if there are none."""
         with np.errstate(invalid="ignore", over="ignore"):
             extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
         extent = extent[np.isfinite(extent) & (extent > 0.0)]
         return max(SMALLEST_CELL, CELL_OF_MEDIAN * float(np.median(extent))) if len(extent) else 1.0
 
     def query(self, arena: Arena) -> Query:
-        """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count that lists the pairs of the changed proxies."""
         return lambda pairs, work: find_in_cells(
             arena.proxies, arena.changed, self.base, self.lists, self.chains, self.near_entries, pairs, work
         )
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
+        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
         return near_in_cells(self.base, self.lists, proxies, box, slots, work)
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the occupied cells: (m, 4) rectangles [px] and (m,) levels, for drawing."""
+        """Return the occupied cells for drawing: (m, 4) rectangles [px], and (m,) the level of each."""
         linked = self.lists.entries["bucket"] >= 0
         used, level = self.lists.entries[linked], np.repeat(self.lists.levels, 4)[linked]
         cells = np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0)

@@ -1,9 +1,10 @@
 """Sweep and prune: sort the boxes along an axis and test only those whose intervals overlap there.
 
-`axes="auto"` sorts the axis along which the centres vary more and tests the other. `axes="both"` sweeps x and y and
-intersects the two lists (dimension reduction). Insertion sort keeps the order between steps, so its swaps are the
-changes of order. Source: Baraff 1992; Ericson, Real-Time Collision Detection, 7.5. O(n + swaps + interval overlaps of
-the changed). Suits slow bodies spread along one axis.
+`axes="auto"` sorts along the axis with the greater variance of the centres, and tests the intervals on the other axis.
+`axes="both"` sorts and sweeps along x and along y, and intersects the two lists of overlaps (dimension reduction). The
+order is kept between steps and repaired by insertion sort, so the swaps of a step are the changes of the order. Source:
+Baraff 1992; Ericson, Real-Time Collision Detection, 7.5. O(n + swaps + interval overlaps of the changed proxies). Suits
+slow bodies spread along one axis.
 """
 
 import numpy as np
@@ -21,9 +22,9 @@ SWAP_BUDGET = 16  # swaps per body after which a full sort is cheaper than inser
 
 @kernel
 def refresh_order(proxies, axis, order_inout, lower_out):
-    """Drop freed slots from the order and read the lower ends along the axis.
+    """Remove freed slots from the order, and read the lower ends of the boxes along the axis (0: x). O(n).
 
-    order_inout: slots; lower_out [px]. Return the number of slots left. O(n).
+    order_inout: slots; lower_out [px]. Return the number of slots left.
     """
     count = 0
     for i in range(len(order_inout)):
@@ -38,9 +39,10 @@ def refresh_order(proxies, axis, order_inout, lower_out):
 
 @kernel
 def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
-    """Sort nearly sorted lower ends by insertion sort. Return 0, or 1 when the budget of swaps was exceeded.
+    """Sort nearly sorted lower ends by insertion sort. O(n + swaps).
 
-    order_inout: slots; lower_inout [px]. O(n + swaps).
+    order_inout: slots; lower_inout [px]: lower ends of their boxes. Return 1 if it stopped, unsorted, after more than
+    `budget` swaps, otherwise 0.
     """
     left = budget
     for i in range(1, count):
@@ -62,10 +64,10 @@ def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
 
 @kernel
 def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
-    """Copy the boxes into sorted order, where the sweep reads them sequentially.
+    """Copy the boxes into sorted order, so that the sweep reads them sequentially. O(n).
 
-    boxes_out (n, 4) float64 [px]: low and high along the axis, low and high along the other; next_changed_out: place
-    of the next changed proxy. O(n).
+    boxes_out (n, 4) float64 [px]: low and high end along the axis, then along the other axis; next_changed_out (n,):
+    index in the order of the next changed proxy after each.
     """
     following = count
     for k in range(count):
@@ -82,10 +84,10 @@ def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
 
 @kernel
 def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout):
-    """Sweep the sorted intervals; test each overlap with a changed side. Return the number of pairs.
+    """List the overlapping pairs of which at least one proxy changed, by a sweep along the axis. Return their number.
 
-    order: slots; boxes (n, 4) [px]; next_changed: places. An unchanged proxy is tested against changed neighbours only,
-    so few movers among many cost few tests. The boxes are read sequentially, which makes a test cheap.
+    order: slots; boxes, next_changed: see sort_boxes. An unchanged proxy is tested against changed proxies only, so few
+    moving bodies among many cost few tests. The boxes are read sequentially, which makes a test cheap.
     """
     found = 0
     tested = 0
@@ -102,7 +104,8 @@ def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout)
         while j < count and boxes[j, 0] <= upper:
             if not changed:
                 tested += 1
-            # Always written, and counted only on overlap: no branch to mispredict. The last row takes the surplus.
+            # Each pair is written, and counted only if it overlaps, without a branch that could be mispredicted. When
+            # pairs_out is full, its last row takes all further pairs.
             at = min(found, room)
             pairs_out[at, 0] = a
             pairs_out[at, 1] = order[j]
@@ -126,7 +129,11 @@ def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout)
 
 @kernel
 def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_inout):
-    """Write the interval overlaps along one axis as keys slot << 32 | slot. Return their number."""
+    """Write the interval overlaps along one axis of which at least one proxy changed. Return their number.
+
+    keys_out: lower slot << 32 | higher slot. Arguments: see sweep_one. Overlaps for which there is no room are only
+    counted.
+    """
     found = 0
     for i in range(count):
         a = order[i]
@@ -148,7 +155,7 @@ def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_i
 
 @kernel
 def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
-    """Write the pairs that are in both sorted key lists and may meet. Return their number. O(both lists)."""
+    """Write the pairs that are in both sorted lists of keys, and may collide. Return their number. O(keys)."""
     found = 0
     i, j = 0, 0
     low = 0xFFFFFFFF
@@ -168,11 +175,11 @@ def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
 
 @kernel
 def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
-    """List the slots whose box meets a closed box, by binary search along the sorted axis. Return their number.
+    """List the slots of the proxies whose box meets a closed box, by binary search along the sorted axis.
 
-    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: low and high along the axis (0: x), along the
-    other; highest (n,) [px]: running maximum of the high ends, by which boxes that end before the query are skipped.
-    One giant at the start defeats that. O(log n + boxes between).
+    order: slots by the lower ends of their boxes; boxes (n, 4) [px]: see sort_boxes; axis: 0 for x; highest (n,) [px]:
+    running maximum of the high ends, by which boxes that end before the closed box are skipped. A very large box at the
+    start of the order prevents that. Return the number of slots. O(log n + boxes between).
     """
     count = len(order)
     lower, upper = box[axis], box[axis + 2]
@@ -197,19 +204,19 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
 
 
 class Axis:
-    """The proxies in order of their lower ends along one axis, kept between steps."""
+    """The proxies in the order of the lower ends of their boxes along one axis; the order is kept between steps."""
 
     def __init__(self, axis: int) -> None:
         self.axis = axis
         self.order = np.zeros(0, np.int64)
-        self.known = np.zeros(0, bool)  # slot -> is in the order
+        self.known = np.zeros(0, bool)  # for each slot: whether it is in the order
         self.boxes = np.zeros((0, 4))
         self.next_changed = np.zeros(0, np.int64)
         self.keys = np.zeros(64, np.int64)
         self.highest = None  # running maximum of the upper ends; None until a query needs it
 
     def update(self, arena: Arena) -> None:
-        """Update the order with the changed proxies."""
+        """Add, remove and move the changed proxies in the order."""
         proxies, changed = arena.proxies, arena.changed
         if len(self.known) < len(proxies):
             self.known = np.concatenate([self.known, np.zeros(len(proxies) - len(self.known), bool)])
@@ -232,7 +239,7 @@ class Axis:
         self.highest = None
 
     def query_box(self, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
+        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
         if self.highest is None:
             self.highest = np.maximum.accumulate(self.boxes[: len(self.order), 1])
         return near_in_order(self.order, self.boxes, self.highest, self.axis, box, slots, work)
@@ -241,7 +248,7 @@ class Axis:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
 
     def intervals(self, arena: Arena, work: np.ndarray) -> tuple[np.ndarray, int]:
-        """Return the sorted keys of the interval overlaps along this axis, and their number."""
+        """Return the sorted keys of the interval overlaps along this axis, see sweep_intervals, and their number."""
         before = work.copy()
         count = sweep_intervals(
             arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, self.keys, work
@@ -255,7 +262,7 @@ class Axis:
 
 
 class SweepAndPrune:
-    """Broad phase by sorting along x, y, or both. Raises ValueError for other axes than "auto" and "both"."""
+    """Broad phase that sorts the boxes along x, y, or both. Raises ValueError for axes other than "auto" and "both"."""
 
     name = "sweep"
     incremental = True
@@ -266,15 +273,21 @@ class SweepAndPrune:
         self.sorted = [Axis(0), Axis(1)] if self.axes == "both" else [Axis(0)]
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
+
+        lower, upper (n, 2) [px]: corners of the boxes. Raises ValueError.
+        """
         return find_pairs(self.fresh(), lower, upper)
 
     def fresh(self) -> "SweepAndPrune":
-        """Return a copy without state."""
+        """Return a broad phase with the same settings and without proxies."""
         return SweepAndPrune(self.axes)
 
     def update(self, arena: Arena) -> None:
-        """Sort the changed proxies into their places."""
+        """Move the changed proxies to their places in the order.
+
+        With axes "auto", the axis is chosen anew every AXIS_INTERVAL updates, and when most proxies have changed.
+        """
         self.updates += 1
         if self.axes == "auto" and (
             self.updates % AXIS_INTERVAL == 1 or len(arena.changed) > 2 * len(self.sorted[0].order)
@@ -301,7 +314,7 @@ class SweepAndPrune:
         return 1 - now if spread[1 - now] > needed * spread[now] else now
 
     def query(self, arena: Arena) -> Query:
-        """Return the function (pairs, work) -> count that lists the pairs of the changed proxies."""
+        """Return a function (pairs, work) -> count that lists the pairs of the changed proxies."""
         if self.axes == "auto":
             return lambda pairs, work: self.sorted[0].sweep(arena, pairs, work)
 
@@ -313,5 +326,5 @@ class SweepAndPrune:
         return both
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
+        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
         return self.sorted[0].query_box(box, slots, work)

@@ -50,17 +50,17 @@ from physics.tables.table import row_of, rows_of
 
 @subkernel
 def motion_of(b):
-    """Return the greatest distance [px] that any point of a body moved in the step."""
+    """Return an upper bound of the distance [px] that any point of a body moved in the step."""
     turn = abs(b.angle - b.previous_angle) * (b.extent + abs(b.local_center_x) + abs(b.local_center_y))
     return abs(b.x - b.previous_x) + abs(b.y - b.previous_y) + turn
 
 
 @kernel
 def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
-    """Flag the characters that ride a body, stand on a belt, or may have met a body that is not static.
+    """Flag the characters that a step may move: riders, those on conveyors, and those that may touch a moving body.
 
-    pairs (count, 2): shape rows out of the broad phase. stirred_out (characters,). Return the greatest distance [px]
-    that any point of those bodies moved in the step. O(pairs · log characters).
+    pairs (count, 2): shape rows from the broad phase. stirred_out (characters,): the flags. Return the greatest
+    distance [px] that any point of the bodies concerned moved in the step. O(pairs · log characters).
     """
     most = 0.0
     for me in range(len(characters)):
@@ -80,7 +80,7 @@ def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
 
 
 def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
-    """Return (near, spans) of a Walk for this step: the shape rows that may carry, push or stop each character."""
+    """Return (near, spans), see Walk: the shape rows that may carry, push or stop each character in this step."""
     rows, pairs = state.characters, state.pairs.rows
     dirty = np.zeros(len(rows), bool)
     motion = find_stirred(state.bodies, state.shapes, rows, pairs, len(pairs), dirty)
@@ -109,7 +109,10 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
 
 @subkernel
 def shift_aside(me, without, pixels, walk_inout, rows_out):
-    """Move a character along x by so many pixels at most. Return the number of pixels that were blocked."""
+    """Move a character along x by up to `pixels` (negative: left). Return the number of pixels that were blocked.
+
+    without: body row to ignore, or -1; rows_out: room for the solids near.
+    """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
     along_slope = c.climb * abs(pixels)
@@ -132,7 +135,10 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift_along_y(me, without, pixels, walk_inout, rows_out):
-    """Move a character along y by so many pixels at most. Return the number of pixels that were blocked."""
+    """Move a character along y by up to `pixels` (negative: up). Return the number of pixels that were blocked.
+
+    without: body row to ignore, or -1; rows_out: room for the solids near.
+    """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
     gather(walk_inout, me, without, 2.0, reach, reach, rows_out)
@@ -147,10 +153,10 @@ def shift_along_y(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift(me, without, pixels, along_x, walk_inout, rows_out):
-    """Move a character by so many pixels along an axis, up and down walkable slopes. Return the number of blocked
-    pixels.
+    """Move a character by up to `pixels` along an axis, along x also up and down walkable slopes.
 
-    without: body row to ignore, or -1. rows_out: room for the solids near.
+    Return the number of pixels that were blocked. without: body row to ignore, or -1; rows_out: room for the solids
+    near.
     """
     if along_x == 1:
         stopped = shift_aside(me, without, pixels, walk_inout, rows_out)
@@ -162,13 +168,13 @@ def shift(me, without, pixels, along_x, walk_inout, rows_out):
 
 @subkernel
 def carried_by(way, stopped):
-    """Return the pixels of a translation that were moved, of which some were blocked."""
+    """Return the pixels by which a character was moved: `way`, of which `stopped` pixels were blocked."""
     return way - stopped if way > 0 else way + stopped
 
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Carry the riders of a carried character, and their riders: a stack of any height."""
+    """Move the characters that stand on a carried character, and those that stand on them: a stack of any height."""
     characters = walk_inout.characters
     for _ in range(len(characters)):
         repeated = False
@@ -194,7 +200,10 @@ def carry_riders(along_x, walk_inout):
 
 @subkernel
 def loose_under(walk, me):
-    """Return the shape row that carries a character by the motion of the point under its feet, or -1."""
+    """Return the row of the loose shape that a character rides, or -1 if it rides none.
+
+    The point under the character's feet moves with such a shape. Loose: see solids.is_loose.
+    """
     c = walk.characters[me]
     row = row_of(walk.shapes, c.riding_shape) if c.riding >= 0 else -1
     if row < 0 or walk.shapes[row].sensor or not is_loose(walk, row):
@@ -205,7 +214,7 @@ def loose_under(walk, me):
 
 @kernel
 def note_feet(shapes, characters_inout):
-    """Store the point under the feet of each rider before the step. O(characters · log shapes)."""
+    """Store the point [px] under the feet of each rider, before the step moves it. O(characters · log shapes)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         row = row_of(shapes, c.riding_shape) if c.riding >= 0 else -1
@@ -215,7 +224,7 @@ def note_feet(shapes, characters_inout):
 
 @kernel
 def take_back(characters_inout, bodies_inout):
-    """Move the bodies of characters back to their boxes after the solver moved them. O(characters)."""
+    """Move the bodies of characters back to their pixel boxes after the step has moved them. O(characters)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         if not bodies_inout[c.body_row].quarantined:
@@ -225,7 +234,7 @@ def take_back(characters_inout, bodies_inout):
 
 @subkernel
 def motion_under(c, body):
-    """Return the distance [px] that the point under a character's feet moved with its ground in the step."""
+    """Return the displacement (x, y) [px] in the step of the ground, a body, at the point under a character's feet."""
     u, v = rotate(
         c.foot_x - body.previous_x,
         c.foot_y - body.previous_y,
@@ -237,7 +246,10 @@ def motion_under(c, body):
 
 @subkernel
 def pixels_carried(me, row, along_x, walk_inout):
-    """Return the whole pixels that the ground (shape row or -1) and its belt carry a character along an axis."""
+    """Return the whole pixels by which the ground and its conveyor carry a character along an axis.
+
+    row: shape row of the ground, or -1 if its motion does not carry.
+    """
     c = walk_inout.characters[me]
     way = 0
     if row < 0:
@@ -263,7 +275,7 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Move a character down to ground that sank by less than it may drop on one pixel."""
+    """Move a character down to ground that sank by no more than it may drop over one pixel along x."""
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)
     drop, slope = drop_onto(walk_inout, me, walk_inout.found, c.left, 0.5)
@@ -274,10 +286,9 @@ def step_down(me, walk_inout):
 
 @subkernel
 def ride_bodies(walk_inout):
-    """Carry characters by the motion of the point under their feet, in whole pixels with a remainder.
+    """Carry characters by the motion of the ground under their feet, in whole pixels with a remainder.
 
-    walk_inout: a Walk for the step. They also step down to ground that rotated or was pushed down. O(characters ·
-    solids near).
+    Then move them down to ground that rotated or was pushed down. walk_inout: see Walk. O(characters · solids near).
     """
     for axis in range(2):
         along_x = 1 - axis
@@ -300,7 +311,7 @@ def ride_bodies(walk_inout):
 
 @subkernel
 def move_out(me, row, walk_inout):
-    """Move a character out of one loose shape as far as it is free, and note the depth that remains."""
+    """Move a character out of one loose shape, row, as far as it is free, and store the depth that remains."""
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
     body_row = walk_inout.shapes[row].body_row
@@ -326,10 +337,10 @@ def move_out(me, row, walk_inout):
 
 @subkernel
 def give_way(walk_inout):
-    """Move characters out of loose bodies that moved into them, and flag those that stay overlapped as squeezed.
+    """Move characters out of loose bodies that moved into them, and flag those without room as squeezed.
 
-    walk_inout: a Walk for the step. A body that has just fallen onto a character is deep until the solver has separated
-    it, so it squeezes only if it is no less deep after that. O(characters · solids near).
+    walk_inout: see Walk. A body that has just fallen onto a character overlaps it until the solver has separated them.
+    So a character is squeezed only if the overlap is as deep in the step after that. O(characters · solids near).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
@@ -355,7 +366,10 @@ def give_way(walk_inout):
 
 @subkernel
 def swept_box(walk, row, along_x):
-    """Return (left, top, right, bottom [px], pixels moved) of a box swept on the pixel grid along an axis, x first."""
+    """Return (left, top, right, bottom [px], pixels moved) of the sweep of a box along one axis in this step.
+
+    All are whole pixels. The box moves along x first, and then along y.
+    """
     b = walk.bodies[walk.shapes[row].body_row]
     old_left, old_top, old_right, old_bottom = aabb_at(
         walk.geometry, walk.shapes, row, b.previous_x, b.previous_y, b.previous_angle
@@ -380,10 +394,9 @@ def swept_box(walk, row, along_x):
 
 @subkernel
 def in_swept(me, row, shifted, along_x, box, walk_inout):
-    """Return whether a character, shifted by some pixels along an axis, overlaps the sweep of a solid. box: see
-    swept_box.
+    """Return whether a character, shifted by `shifted` pixels along an axis, overlaps the sweep of a solid.
 
-    A tile grid is tested at its pose after the motion along this axis.
+    box: see swept_box. A tile grid is tested at its pose after the motion along this axis.
     """
     c = walk_inout.characters[me]
     left, top, right, bottom, moved = box
@@ -408,7 +421,10 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
 
 @subkernel
 def way_clear(me, row, along_x, box, walk_inout):
-    """Return the whole pixels along the motion of a solid that move a character out of its sweep; 0 if it is out."""
+    """Return the whole pixels, in the direction of a solid's motion, that move a character out of its sweep.
+
+    0 if the character does not overlap the sweep. box: see swept_box.
+    """
     if not in_swept(me, row, 0, along_x, box, walk_inout):
         return 0
     left, top, right, bottom, moved = box
@@ -451,10 +467,10 @@ def carry_one(me, row, along_x, box, walk_inout):
 
 @subkernel
 def carry_and_push(movers, walk_inout):
-    """Let every kinematic solid that moved by whole pixels carry its riders and push characters in its way.
+    """Let kinematic solids that moved by whole pixels carry their riders and push characters in their way.
 
-    movers: shape rows, in order, of which upright boxes and tile grids count; ride_bodies handles the others. O(moved
-    solids · characters).
+    movers: shape rows, in order. Only axis-aligned boxes and tile grids are used; ride_bodies handles other shapes.
+    O(moved solids · characters).
     """
     for k in range(len(movers)):
         row = movers[k]
@@ -476,7 +492,7 @@ def carry_and_push(movers, walk_inout):
 
 @kernel
 def carry_all(movers, walk_inout):
-    """Carry, push and press characters by all motion of the step. movers: see carry_and_push."""
+    """Carry and push characters by all motion of solids in the step. movers: shape rows, see carry_and_push."""
     carry_and_push(movers, walk_inout)
     ride_bodies(walk_inout)
     give_way(walk_inout)
@@ -496,7 +512,7 @@ def carry_all(movers, walk_inout):
     ),
 )  # fmt: skip
 def carry_characters(state: StepState) -> None:
-    """Move the characters that solids carry or push. Those that moved meet others in the same step."""
+    """Move the characters that solids carry or push, and update the pairs: contacts at the new place count."""
     characters = state.characters
     bodies, shapes = state.bodies, state.shapes
     find_own_rows(bodies, shapes, characters)
@@ -531,7 +547,10 @@ def carry_characters(state: StepState) -> None:
     ),
 )  # fmt: skip
 def apply_character_weight(state: StepState) -> None:
-    """Apply the weight of characters to their ground before a step, and wake it when they came, left or walked."""
+    """Apply the weight of characters to their ground before a step.
+
+    The ground is woken if a character came, left or walked.
+    """
     characters, bodies = state.characters, state.bodies
     if state.effects.sleeping:
         own = bodies[characters["body_row"]]

@@ -30,10 +30,11 @@ MAX_SLOPE = 0.8  # [rad] 46 degrees: a slope of one tile per tile is walked
 class Moved(NamedTuple):
     """The result of a move: pixels moved, and the contacts of the character after it.
 
-    grounded: it stands on ground that it walks, or that holds it. wall: -1 solid at its left, 1 at its right. slope:
-    rise of the ground under its feet per px to the right (1: 45 degrees up to the right), also of ground that it slides
-    down. riding: the kinematic or dynamic body, or pushable character, under its feet. squeezed: a body that moved left
-    it no room; it is set in every move until that body has left it.
+    x, y: pixels moved. grounded: it stands on ground that it can walk on, or that holds it. wall: -1 for a solid at its
+    left, 1 at its right, 0 for none. slope: rise of the ground under its feet per px to the right (1: 45 degrees up to
+    the right), also of ground that it slides down. riding: the kinematic or dynamic body, or pushable character, under
+    its feet; None on static ground and in the air. squeezed: a moving body left it no room; it is True in every move
+    until that body no longer overlaps the character.
     """
 
     x: int
@@ -114,7 +115,7 @@ class Character:
 
     @property
     def position(self) -> tuple[float, float]:
-        """Position of the shape's origin [px]."""
+        """Position [px] of the shape's origin."""
         return self.body.position
 
     @property
@@ -125,7 +126,7 @@ class Character:
 
     @property
     def max_slope(self) -> float:
-        """Angle of the steepest ground that it walks [rad]."""
+        """Angle [rad] of the steepest ground that the character can walk on."""
         return math.atan(self.world.characters.rows["climb"][self._row])
 
     @property
@@ -161,7 +162,7 @@ class Character:
             reach = int(max(rows["width"][me], rows["height"][me]))
             lead_out(me, reach, self._walk(me, reach, reach), world.workspace.walked)
         if len(asleep):
-            # It was pushed from the next pixel: it may be a hair away, where no contact would wake it.
+            # A pushed body may be less than a pixel away from the character, where no contact would wake it.
             disturb(world, world.bodies["id"][asleep[before != world.bodies[asleep][BODY_DEF]]])
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
@@ -176,10 +177,10 @@ class Character:
         )
 
     def blocked(self, dx: float, dy: float) -> bool:
-        """Return whether a move by (dx, dy) [px] would be stopped at once: no pixel of it is free, along x or along y.
+        """Return whether a move by (dx, dy) [px] would be stopped at once: not one pixel along x or y is free.
 
-        Bodies that walking pushes, and slopes that it walks or slides down, do not block. The world is unchanged.
-        Raises TypeError, ValueError, RuntimeError.
+        Only the signs of dx and dy count. Bodies that walking pushes, and slopes that the character walks or slides
+        down, do not block. The world is unchanged. Raises TypeError, ValueError, RuntimeError.
         """
         self.world._unlocked()
         dx, dy = _checked_move(dx, dy)
@@ -187,7 +188,7 @@ class Character:
         return bool(is_stopped(me, int(np.sign(dx)), int(np.sign(dy)), self._walk(me, 0.0, 0.0)))
 
     def _walk(self, me, dx, dy):
-        """Return the Walk of a move, with the shapes near its way."""
+        """Return the Walk for a move by (dx, dy) [px], with the shapes near the character's way."""
         world = self.world
         rows = world.characters.rows
         find_own_rows(world.bodies, world.shapes, rows)
@@ -227,7 +228,7 @@ class Character:
 
 
 def _asleep(world, near):
-    """Return the body rows of these shape rows that sleep."""
+    """Return the rows of the sleeping bodies among the bodies of the shape rows `near`."""
     if not world.sleeps:
         return np.zeros(0, np.int64)
     rows = np.unique(world.shapes["body_row"][near])
@@ -247,7 +248,7 @@ def _is_upright_box(shape):
 
 
 def _outline(shape):
-    """Return (the shape of a character's body, its left, top, right, bottom [px] at the origin)."""
+    """Return (the shape for a character's body, its left, top, right, bottom [px] with the origin at 0, 0)."""
     inner, wrapped = getattr(shape, "_inner", shape), shape is not getattr(shape, "_inner", shape)
     hulls = sorted((each for each in with_area() if issubclass(each, Convex)), key=lambda each: each is not Polygon)
     if not (wrapped or isinstance(inner, tuple(hulls))):

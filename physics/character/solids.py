@@ -36,14 +36,14 @@ from physics.tables.step_state import WorldTables
 from physics.tables.table import row_of
 
 # ---- ground ----------------------------------------------------------------------------------------------------------
-# The verdict on a place for a character: free, ground that it walks or slides down, or a wall.
+# The kind of a place for a character: free, ground that it walks or slides down, or a wall.
 # One rule holds for all grounds: the normal at the place is compared with the steepest ground that the character walks.
 
-FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # in the order of strength, for a place with several of them
-GIVE = 2.0  # [px] depth to which characters may sink into loose bodies, which the solver then moves
+FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # of several results for a place, the greatest decides
+GIVE = 2.0  # [px] depth to which characters may sink into loose bodies (see is_loose), which the solver then moves
 FEET = 0.5  # [px] the feet stand on the whole pixel nearest to a moving surface
 LEADS_DEEPER = 0.02  # cosine between motion and normal above which the motion leads into a dynamic body
-SHEER = 1e-9  # cosine between a wall's normal and down below which it carries nothing
+SHEER = 1e-9  # cosine between a normal and down below which the surface is a wall, not ground
 EVEN = 1e-9  # rounding of a slope
 STEEPEST_CLIMB = (
     16.0  # [px] rise per px along (86 degrees): steeper ground is never walked, which bounds the tests of a pixel
@@ -52,19 +52,22 @@ STEEPEST_CLIMB = (
 
 @subkernel
 def pixels_along(slope):
-    """Return the greatest number of whole pixels that a slope rises or falls on one pixel along."""
+    """Return the greatest number of whole pixels by which a slope rises or falls over one pixel along x."""
     return math.floor(abs(slope) + 1.0 + 1e-6)
 
 
 @subkernel
 def is_walkable(c, nx, ny):
-    """Return whether ground can be walked. (nx, ny): unit normal into it."""
+    """Return whether a character, row c, can walk on ground. (nx, ny): unit normal into the ground."""
     return ny > SHEER and abs(nx) <= c.climb * ny + EVEN
 
 
 @subkernel
 def verdict(c, nx, ny):
-    """Return (kind of the ground for a character, rise per px to the right). (nx, ny): unit normal into it."""
+    """Return the kind of a surface for a character, row c (ON_SLOPE, STEEP or BLOCKED), and its slope.
+
+    (nx, ny): unit normal into it; slope: rise per px to the right.
+    """
     if ny <= SHEER:
         return BLOCKED, 0.0
     slope = nx / ny + 0.0
@@ -73,7 +76,10 @@ def verdict(c, nx, ny):
 
 @subkernel
 def allowed_depth(c, loose, nx, ny, give, slop):
-    """Return the allowed depth [px] in a surface. give [px]: more of it in a loose shape, see solids.is_loose."""
+    """Return the depth [px] by which a character may overlap a surface without being blocked.
+
+    (nx, ny): unit normal into it; give [px]: depth that is added in a loose shape, see is_loose.
+    """
     if not loose:
         return slop
     return give + (FEET if is_walkable(c, nx, ny) else 0.1 * slop)
@@ -81,9 +87,10 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 
 @subkernel
 def deepest_of(b, slop, dt):
-    """Return the depth [px] that a character can have come into an outline: a pixel, or the motion of the outline.
+    """Return the greatest depth [px] by which a character can have entered an outline of body b since it was free.
 
-    A deeper overlap behind an edge of one part belongs to a neighbouring part, see hulls.collide_hulls.
+    It is a pixel plus the motion of the body. A deeper overlap behind an edge of one part belongs to a neighbouring
+    part, see hulls.collide_hulls.
     """
     if b.kind == STATIC:
         return 1.0 + 2.0 * slop
@@ -92,10 +99,10 @@ def deepest_of(b, slop, dt):
 
 @subkernel
 def judge(c, kind, beyond, nx, ny, way_x, way_y):
-    """Return the verdict for a surface that a character overlaps by so much more than allowed [px].
+    """Return the kind (FREE, ON_SLOPE, STEEP or BLOCKED) and slope of a surface that a character overlaps.
 
-    kind: of its body. A moving body may have come into the character by itself, so it blocks only motion that leads
-    deeper.
+    beyond [px]: depth beyond the allowed one; kind: of its body; way_x, way_y: pixels just moved. A moving body may
+    have moved into the character, so it blocks only motion that leads deeper.
     """
     if beyond <= 0.0:
         return FREE, 0.0
@@ -110,7 +117,10 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 
 @subkernel
 def place_outline(walk, me, left, top):
-    """Write the character's corners at a pixel to scratch.mine. Return their number and rounding radius."""
+    """Write the corners [px] of a character's outline at a pixel to scratch.mine.
+
+    Return the number of corners and the rounding radius [px].
+    """
     c = walk.characters[me]
     if c.is_box:
         return box_corners(left, top, left + c.width, top + c.height, walk.scratch.mine), 0.0
@@ -121,7 +131,10 @@ def place_outline(walk, me, left, top):
 
 @subkernel
 def manifold_depth(points, manifold):
-    """Return (depth [px], normal, middle of the points) of a manifold with so many points; depth 0 if apart."""
+    """Return (depth [px], unit normal, middle of the points [px]) of a manifold; all 0 if it has no points.
+
+    points: their number.
+    """
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
     depth = -manifold[5]
@@ -134,7 +147,10 @@ def manifold_depth(points, manifold):
 
 @subkernel
 def meet_disc(scratch, count, radius, x, y, other):
-    """Return the result of meet for a disc of radius `other` [px] at (x, y)."""
+    """Return (depth, normal, contact point) of scratch.mine in a disc, as meet does.
+
+    x, y, other [px]: centre and radius of the disc; count, radius: see place_outline.
+    """
     mine = scratch.mine
     if count == 1:
         nx, ny, px, py, separation = collide_circles(mine[0, 0], mine[0, 1], radius, x, y, other)
@@ -145,10 +161,11 @@ def meet_disc(scratch, count, radius, x, y, other):
 
 @subkernel
 def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
-    """Return the result of meet for the hull in scratch.theirs, of so many corners and that rounding radius [px].
+    """Return (depth, normal, contact point) of scratch.mine in the hull in scratch.theirs, as meet does.
 
-    edges, deepest: as in hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP where a neighbouring part reports
-    the contact.
+    corners, rounded: number of corners and rounding radius [px] of that hull; count, radius: see place_outline; edges,
+    deepest: see hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP where a neighbouring part reports the
+    contact.
     """
     mine = scratch.mine
     theirs = Hull(scratch.theirs, corners, rounded, edges)
@@ -168,7 +185,10 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
 
 @subkernel
 def meet_link(links, link, scratch, count, radius):
-    """Return the result of meet for a link of a chain, with its ends in scratch.theirs; its back is not met."""
+    """Return (depth, normal, contact point) of scratch.mine in a chain link, as meet does; from its back, depth 0.
+
+    The ends of the link are in scratch.theirs; count, radius: see place_outline.
+    """
     if count == 1:
         hit, nx, ny, x, y, separation, feature = collide_link_circle(
             links[link], scratch.theirs, scratch.mine[0, 0], scratch.mine[0, 1], radius
@@ -182,10 +202,10 @@ def meet_link(links, link, scratch, count, radius):
 
 @subkernel
 def meet(walk, row, count, radius):
-    """Return (depth [px], normal from the character, middle of the contact) of scratch.mine in a hull or a disc.
+    """Return (depth [px], unit normal from the character, contact point [px]) of scratch.mine in a hull or a disc.
 
-    count, radius: of the character, see place_outline. Depth 0: apart, or a neighbouring part of the outline has the
-    nearer surface, for which scratch.points[0] is COVERED_OVERLAP.
+    row: of the shape; count, radius: see place_outline. Depth 0: apart, or a neighbouring part of the outline has the
+    nearer surface; then scratch.points[0] is COVERED_OVERLAP.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -204,7 +224,7 @@ def meet(walk, row, count, radius):
 
 @subkernel
 def deepest_on(walk, body):
-    """Return the depth [px] to which a character may overlap a link of a body's chain that it met from the front."""
+    """Return the greatest depth [px] of an overlap with a link of a body's chain that was entered from the front."""
     most = 1.0 + 2.0 * walk.settings.slop
     if body.kind == KINEMATIC:
         most += 1.0 + (abs(body.vx) + abs(body.vy) + abs(body.angular_velocity) * body.extent) * walk.settings.dt
@@ -213,10 +233,10 @@ def deepest_on(walk, body):
 
 @subkernel
 def link_depth(walk, row, link, drops, count, radius):
-    """Return (depth [px], normal from the character) of scratch.mine in a link that holds it, otherwise depth 0.
+    """Return (depth [px], normal from the character) of scratch.mine in a chain link; depth 0 if the link lets it pass.
 
-    A character moves by pixels and starts free, so a deeper overlap came from the back of the link, and passes. It also
-    passes when it drops through a level link, or through a one-way surface.
+    A deeper overlap than deepest_on was entered from the back, and passes: the character moves by pixels and starts
+    free. If `drops` is true, it also passes a level link and a one-way surface.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -231,7 +251,7 @@ def link_depth(walk, row, link, drops, count, radius):
 
 @subkernel
 def is_across(walk, me, row, left, top):
-    """Return whether a character lies across a one-way surface, and so passes it; any other chain is met."""
+    """Return whether a character lies across a one-way surface, and therefore passes it; False for any other chain."""
     s = walk.shapes[row]
     if s.role != PART:
         return False
@@ -249,7 +269,7 @@ def is_across(walk, me, row, left, top):
 
 @subkernel
 def in_chain(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a chain. See solids.in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character in a chain. Arguments: see in_shape."""
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -292,7 +312,7 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def deepest_link(walk, me, row, left, top):
-    """Return (depth [px], normal from the character) of the link of a chain with the deepest overlap."""
+    """Return (depth [px], normal from the character) of its deepest overlap with a link of a chain."""
     c = walk.characters[me]
     span = walk.geometry.chains[walk.shapes[row].geometry]
     if is_across(walk, me, row, left, top):
@@ -310,24 +330,24 @@ def deepest_link(walk, me, row, left, top):
 
 # ---- tiles -----------------------------------------------------------------------------------------------------------
 # Characters against tiles. A box meets them on the pixel grid; another outline meets each run of tiles as a polygon.
-# On the pixel grid touching never blocks, and one shared pixel does. The strongest verdict of the tiles decides.
+# On the pixel grid touching never blocks, and one shared pixel does. The strongest result of all tiles decides.
 
 
 @subkernel
 def on_pixels(kind, coordinate):
-    """Return the place of a grid [px] for characters: of a moving one the nearest whole pixel."""
+    """Return a coordinate [px] at which characters meet a body: rounded to whole pixels if it is kinematic."""
     return float(math.floor(coordinate + 0.5)) if kind == KINEMATIC else coordinate
 
 
 @subkernel
 def is_falling(c, way_x, way_y):
-    """Return 1 if one-way ground holds a character that came this way."""
+    """Return 1 if one-way ground holds a character that moved by (way_x, way_y) pixels: straight down, not dropping."""
     return 1 if way_x == 0 and way_y > 0 and not c.drop else 0
 
 
 @subkernel
 def slope_tile_verdict(c, slope, depth):
-    """Return the verdict of a slope tile for a box that reaches `depth` [px] below its surface."""
+    """Return ON_SLOPE, STEEP or BLOCKED for a box that is `depth` [px] below the surface of a slope tile."""
     if depth > pixels_along(slope):
         return BLOCKED  # its side, or from inside
     return ON_SLOPE if abs(slope) <= c.climb + EVEN else STEEP
@@ -335,7 +355,7 @@ def slope_tile_verdict(c, slope, depth):
 
 @subkernel
 def in_tiles(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a box of pixels in a tile grid. See solids.in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a box in a tile grid. Arguments: see in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     g = walk.geometry.grids[walk.shapes[row].geometry]
@@ -376,7 +396,10 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 @subkernel
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
-    """Return (depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs."""
+    """Return (depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs.
+
+    count, radius: see place_outline; corners: their number; edges, deepest: see hulls.collide_hulls.
+    """
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
     if count == 1:
@@ -394,7 +417,10 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
 
 @subkernel
 def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
-    """Return the result of in_tiles for a character that is no box, by the outlines of runs of tiles and of slopes."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character that is no box, in a tile grid at a place.
+
+    The character meets the outlines of runs of tiles and of slopes. Arguments: see in_shape.
+    """
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -410,7 +436,7 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
     result = FREE
     slope = 0.0
     for attempt in range(2):
-        # A deep overlap may be left by each tile to a neighbour: test once more, by every edge.
+        # Each tile may leave a deep overlap to its neighbour: then test once more, with all edges.
         deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
         met = False
         for line in range(first_row, last_row + 1):
@@ -453,7 +479,7 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
 
 
 class Scratch(NamedTuple):
-    """Arrays for one test."""
+    """Arrays for the test of a character against one shape."""
 
     mine: np.ndarray  # (16, 2) corners of the character [px]
     theirs: np.ndarray  # (16, 2) corners of the other shape
@@ -461,7 +487,7 @@ class Scratch(NamedTuple):
 
 
 class Settings(NamedTuple):
-    """The values of a world on which walking depends."""
+    """The values of a world on which the motion of characters depends."""
 
     stacking: int  # 1: dynamic bodies stop, carry and squeeze characters
     rotation: int  # 1: they rotate
@@ -471,14 +497,14 @@ class Settings(NamedTuple):
 
 
 class Walk(NamedTuple):
-    """Tables, the shapes near each character, and scratch arrays."""
+    """The tables, settings and scratch arrays that the kernels of characters read and write."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY, written: forces, and poses of characters
     shapes: np.ndarray  # SHAPE
     characters: np.ndarray  # CHARACTER, written
     near: np.ndarray  # shape rows, in order, of one character after the other
-    spans: np.ndarray  # (characters, 2) first and number of the rows of each
+    spans: np.ndarray  # (characters, 2) for each character: its first index in near, and its number of rows
     found: np.ndarray  # solids near a character, see solids.gather
     found_beside: np.ndarray  # the same, for a character that is moved by another
     scratch: Scratch
@@ -486,12 +512,15 @@ class Walk(NamedTuple):
 
 
 def new_scratch() -> Scratch:
-    """Return scratch arrays for the walks of one world."""
+    """Return the scratch arrays for the characters of one world."""
     return Scratch(np.zeros((16, 2)), np.zeros((16, 2)), np.zeros(POINTS))
 
 
 def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, spans: np.ndarray, dt: float) -> Walk:
-    """Return the Walk of a world or a StepState for dt [s]. characters: CHARACTER rows. near, spans: see Walk."""
+    """Return the Walk of a world or a StepState for a motion within dt [s].
+
+    characters: CHARACTER rows; near, spans: see Walk.
+    """
     effects = tables.effects
     room = len(near) + 1
     rows = tables.workspace.rows_for(2 * room)
@@ -524,13 +553,13 @@ def character_of(characters, body):
 
 @kernel
 def can_walk(me, characters):
-    """Return whether a character can be moved: its numbers are finite and in range."""
+    """Return whether a character can be moved: all its numbers are finite and in range. me: its CHARACTER row."""
     return is_finite_character(characters[me])
 
 
 @kernel
 def find_own_rows(bodies, shapes, characters_inout):
-    """Write the body and shape rows of the characters. O(characters · log shapes)."""
+    """Write the row of the body and of the shape of each character. O(characters · log shapes)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         c.body_row = row_of(bodies, c.body)
@@ -539,7 +568,7 @@ def find_own_rows(bodies, shapes, characters_inout):
 
 @subkernel
 def place_body(c, body_inout):
-    """Move the body of a character (row c) to its box."""
+    """Move the body of a character, row c, to the place of its pixel box."""
     body_inout.x, body_inout.y = c.left + c.offset_x, c.top + c.offset_y
     body_inout.center_x = body_inout.x + body_inout.local_center_x
     body_inout.center_y = body_inout.y + body_inout.local_center_y
@@ -547,7 +576,7 @@ def place_body(c, body_inout):
 
 @subkernel
 def settle(me, walk_inout):
-    """Move the character's body to its box."""
+    """Move the body of a character to the place of its pixel box. me: its CHARACTER row."""
     c = walk_inout.characters[me]
     place_body(c, walk_inout.bodies[c.body_row])
 
@@ -562,7 +591,7 @@ def settle(me, walk_inout):
 
 @subkernel
 def is_upright_box(corners, count):
-    """Return whether an outline is an axis-aligned box."""
+    """Return whether the outline of `count` corners [px] is an axis-aligned box."""
     if count != 4:
         return False
     along_x = corners[0, 1] == corners[1, 1] and corners[2, 1] == corners[3, 1]
@@ -580,7 +609,7 @@ def round_half_up(value):
 
 @subkernel
 def is_box(walk, row):
-    """Return whether a shape is an axis-aligned box in the world."""
+    """Return whether a shape is an axis-aligned box at the present pose of its body."""
     s = walk.shapes[row]
     if s.kind == BOUNDS:
         return True
@@ -593,7 +622,10 @@ def is_box(walk, row):
 
 @subkernel
 def is_loose(walk, row):
-    """Return whether a shape is dynamic, or moves other than by the whole pixels of its box."""
+    """Return whether a shape is loose: dynamic, or kinematic and not met on the pixel grid.
+
+    Of kinematic shapes only axis-aligned boxes and tile grids that do not rotate are met on the pixel grid.
+    """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     if b.kind != KINEMATIC:
@@ -612,7 +644,7 @@ def aabb_of(walk, row):
 
 @subkernel
 def in_character(walk, me, other, left, top):
-    """Return whether the character, with its box at a pixel, would overlap another one."""
+    """Return whether a character, with its box at pixel (left, top), would overlap the character `other`."""
     c = walk.characters[me]
     o = walk.characters[other]
     hit = left < o.left + o.width and o.left < left + c.width and top < o.top + o.height and o.top < top + c.height
@@ -625,7 +657,7 @@ def in_character(walk, me, other, left, top):
 
 @subkernel
 def in_upright_box(walk, me, row, left, top):
-    """Return whether a character that is a box shares a pixel with an upright box, as it is drawn."""
+    """Return whether a character's box at pixel (left, top) shares a pixel with an axis-aligned box, rounded."""
     c = walk.characters[me]
     min_x, min_y, max_x, max_y = aabb_of(walk, row)
     return (
@@ -638,7 +670,7 @@ def in_upright_box(walk, me, row, left, top):
 
 @subkernel
 def in_hull(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character in a hull or a disc."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character in a hull or a disc. Arguments: see in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     count, radius = place_outline(walk, me, left, top)
@@ -656,10 +688,10 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED, slope) of a character against one shape.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character at a place against one shape.
 
-    left, top: pixel of its box. way_x, way_y: pixels moved to get there. give [px]: depth that is allowed in a loose
-    shape, beyond the feet.
+    me, row: CHARACTER row and shape row. left, top: pixel of the character's box. way_x, way_y: pixels moved to get
+    there. give [px]: depth that is allowed in a loose shape, see allowed_depth.
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -682,9 +714,10 @@ def in_shape(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
-    """List the shape rows that may block a character within so many pixels of its box: their number, then the rows.
+    """List the shapes that may block a character, within these distances [px] of its box. O(rows near).
 
-    without: body row to ignore (the platform that moves it), or -1. A loose shape is listed as -1 - row. O(rows near).
+    rows_out: the number of shapes, then their rows; a loose shape is listed as -1 - row. without: body row to leave out
+    (the platform that moves the character), or -1.
     """
     c = walk.characters[me]
     own = walk.shapes[c.shape_row]
@@ -722,10 +755,10 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 
 @subkernel
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED of a place; the shape row that decides, or -1; its slope).
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED of a place; the shape row that decides, or -1; slope).
 
-    rows: as gather lists them; the other arguments as in in_shape. The strongest verdict decides. Where all parts of a
-    static mask leave the place to their neighbours, it is deep inside.
+    rows: see gather; other arguments: see in_shape. The strongest result decides, BLOCKED at once. If all parts of a
+    static mask leave the contact to their neighbours, the place is deep inside the mask, and BLOCKED.
     """
     result = FREE
     by = -1

@@ -33,11 +33,11 @@ from physics.tables.table import row_of
 
 @subkernel
 def rise_onto(walk, me, rows, direction, slope):
-    """Return the pixels up by which a character is free one pixel to a side, on walkable ground; -1 if there are too
-    many.
+    """Return the pixels up by which a character can rise onto walkable ground one pixel to a side; -1 if it cannot.
 
-    It allows half a pixel more than the slope rises, for corners of outlines on steps of pixels. Ground that is too
-    steep does not count, even if it holds the character.
+    direction: -1 left, 1 right; slope: rise of that ground per px. The rise may exceed the slope by half a pixel, for
+    corners of outlines on steps of pixels. Ground that is too steep to walk does not count, even if it holds the
+    character.
     """
     c = walk.characters[me]
     most = pixels_along(abs(slope) + 0.5)
@@ -57,7 +57,10 @@ def rise_onto(walk, me, rows, direction, slope):
 
 @subkernel
 def way_aside(walk, me, rows, direction):
-    """Return (pixels up to go one pixel to a side, or -1; the shape row that blocks it or -1; slope)."""
+    """Return how a character can move one pixel to a side: (pixels up, or -1; blocking shape row, or -1; slope).
+
+    Pixels up: 0 on level ground, -1 if it is blocked. direction: -1 left, 1 right.
+    """
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
     if what == FREE:
@@ -69,10 +72,10 @@ def way_aside(walk, me, rows, direction):
 
 @subkernel
 def drop_onto(walk, me, rows, left, onto):
-    """Return (pixels down at a pixel column until a character stands on walkable ground, 0 if none is near; its slope).
+    """Return (pixels down until a character at pixel column `left` stands on walkable ground, slope of that ground).
 
-    onto: the slope that it leaves; 0 for flat ground, from which it drops onto slopes only. Slopes may be as steep as
-    it walks. Flat ground is found within one pixel and the drop of the slope that it leaves.
+    The pixels are 0 if there is no such ground near. onto: slope of the ground that the character leaves; 0 for flat
+    ground, from which it drops onto slopes only. Flat ground is found down to one pixel plus the rise of `onto`.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -92,7 +95,7 @@ def drop_onto(walk, me, rows, left, onto):
 
 @subkernel
 def is_wedged(walk, me, rows, slope):
-    """Return whether a solid at the foot of a slope keeps a character from sliding down."""
+    """Return whether a solid at the foot of a slope stops a character that slides down the slope."""
     c = walk.characters[me]
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk, me, rows, c.left + side, c.top, side, 0, 0.0)
@@ -101,7 +104,10 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """Return the slope of the ground that a character slides down, within its fall on one pixel; 0 for none."""
+    """Return the slope of the ground too steep to walk that is below a sliding character; 0 if there is none.
+
+    The ground is looked for within the drop of `slope` over one pixel along x.
+    """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
         what, by, found = blocked_at(walk, me, rows, c.left, c.top + drop, 0, drop, 0.0)
@@ -112,7 +118,7 @@ def steep_below(walk, me, rows, slope):
 
 @subkernel
 def slide_of(slope):
-    """Return (pixels along x, pixels down) of a slide along a slope for each pixel straight down."""
+    """Return (pixels along x, pixels down) that a character slides along a slope for each pixel of a free fall."""
     length = math.sqrt(1.0 + slope * slope)
     sine = slope / length
     return -sine / length, sine * sine
@@ -120,9 +126,9 @@ def slide_of(slope):
 
 @subkernel
 def slide_gently(me, rows, pixels, slope, walk_inout):
-    """Slide down ground that rises by less than it runs, for so many pixels down, pixel by pixel along x.
+    """Slide down ground that is too steep to walk but flatter than 45 degrees, for a fall of `pixels`.
 
-    Return whether the slide was free.
+    The character moves pixel by pixel along x. Return whether nothing stopped it.
     """
     c = walk_inout.characters[me]
     aside, down = slide_of(slope)
@@ -150,7 +156,7 @@ def slide_gently(me, rows, pixels, slope, walk_inout):
 
 @subkernel
 def tile_slope(walk, row, x, y):
-    """Return the rise per px to the right of the slope tile at a point [px] of a tile grid, 0 elsewhere."""
+    """Return the slope (rise per px to the right) of the slope tile at a point [px] of a tile grid, 0 elsewhere."""
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     g = walk.geometry.grids[s.geometry]
@@ -164,7 +170,7 @@ def tile_slope(walk, row, x, y):
 
 @subkernel
 def slope_under_box(walk, me, row):
-    """Return the slope of the tile under the middle of a box's feet, or under a foot beside it."""
+    """Return the slope of the tile under the middle of a box's feet, or else under one of their ends."""
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
     slope = tile_slope(walk, row, c.left + 0.5 * c.width, bottom)
@@ -177,9 +183,9 @@ def slope_under_box(walk, me, row):
 
 @subkernel
 def speed_under(walk, row, x, y):
-    """Return the surface speed [px/s] to the right under a point [px] that stands on it.
+    """Return the surface speed [px/s] of a shape at the point (x, y) [px] where a character stands on it.
 
-    It acts along the tangent, to the right on a floor (Box2D's tangent speed).
+    It acts along the tangent, and is positive to the right on a floor (Box2D's tangent speed).
     """
     s = walk.shapes[row]
     if s.kind != CHAIN:
@@ -203,7 +209,7 @@ def speed_under(walk, row, x, y):
 
 @subkernel
 def feel_ground(me, walk_inout):
-    """Write whether a character stands, on which body, and its slope and surface speed."""
+    """Write whether a character stands, the body that it stands on, and the slope and surface speed of its ground."""
     c = walk_inout.characters[me]
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + 1, 0, 1, 0.0)
     was_grounded = c.grounded
@@ -231,7 +237,7 @@ def feel_ground(me, walk_inout):
 
 @subkernel
 def feel(me, walk_inout):
-    """Write the contacts of a character. walk_inout.found: the shapes near it."""
+    """Write the ground and the wall that a character touches. walk_inout.found: the shapes near it."""
     c = walk_inout.characters[me]
     feel_ground(me, walk_inout)
     c.wall = 0
@@ -242,12 +248,15 @@ def feel(me, walk_inout):
 
 
 # ---- crush -----------------------------------------------------------------------------------------------------------
-# Squeezing: a moving solid overlaps a character that had no room. The flag lasts as long as the overlap.
+# Squeezing: a moving solid overlaps a character that had no room. The flag `squeezed` lasts as long as the overlap.
 
 
 @subkernel
 def depth_in(me, row, walk_inout):
-    """Return (depth [px], normal from the character) of a character at its place in a loose shape."""
+    """Return (depth [px], unit normal from the character) of a character's overlap with a loose shape, at its place.
+
+    row: of the shape; see solids.is_loose.
+    """
     c = walk_inout.characters[me]
     if walk_inout.shapes[row].kind == CHAIN:
         return deepest_link(walk_inout, me, row, c.left, c.top)
@@ -258,7 +267,7 @@ def depth_in(me, row, walk_inout):
 
 @subkernel
 def is_in_drawn(me, row, walk_inout):
-    """Return whether a character overlaps a shape on the pixel grid, so that some motion leads deeper."""
+    """Return whether a shape overlaps a character on the pixel grid: it blocks a motion left, right, up or down."""
     c = walk_inout.characters[me]
     for side in range(-1, 2, 2):
         what, slope = in_shape(walk_inout, me, row, c.left, c.top, side, 0, 0.0)
@@ -272,9 +281,9 @@ def is_in_drawn(me, row, walk_inout):
 
 @subkernel
 def is_crushed(me, all_kinds, walk_inout):
-    """Return whether a moving solid overlaps a character by more than a loose shape may. O(solids near).
+    """Return whether a moving solid overlaps a character, by more than GIVE if the solid is loose. O(solids near).
 
-    all_kinds: include bodies that the solver pushes, otherwise only kinematic ones.
+    all_kinds: test also bodies that the solver moves, otherwise only kinematic ones.
     """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):
@@ -294,9 +303,9 @@ def is_crushed(me, all_kinds, walk_inout):
 
 
 # ---- way out ---------------------------------------------------------------------------------------------------------
-# The way out of a static solid that overlaps a character: it was placed there, or the ground was changed.
+# The way out of a static solid that overlaps a character: the character was placed there, or the ground was changed.
 #
-# Walking never leads into a solid. The character leaves by the shortest of eight straight ways, some pixels in each
+# Walking never leads into a solid. The character leaves by the shortest of eight straight ways, PACE pixels in each
 # move, whatever the move is. Moving bodies that overlap a character are handled by "crush" above.
 
 PACE = 2  # [px] of a way out in one move: about the push-out of overlapping bodies in a step
@@ -304,7 +313,7 @@ PACE = 2  # [px] of a way out in one move: about the push-out of overlapping bod
 
 @subkernel
 def keep_still(walk, rows_inout):
-    """Keep the listed rows of static bodies."""
+    """Remove the shapes of moving bodies from a list of rows, which begins with their number."""
     kept = 0
     for k in range(1, rows_inout[0] + 1):
         row = rows_inout[k]
@@ -316,7 +325,7 @@ def keep_still(walk, rows_inout):
 
 @subkernel
 def is_inside(me, walk_inout):
-    """Return whether a character overlaps a static solid. walk_inout.found: the shapes near. O(solids near)."""
+    """Return whether a character overlaps a static solid. walk_inout.found: the solids near it. O(solids near)."""
     c = walk_inout.characters[me]
     keep_still(walk_inout, walk_inout.found)
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top, 0, 0, 0.0)
@@ -325,10 +334,10 @@ def is_inside(me, walk_inout):
 
 @kernel
 def lead_out(me, reach, walk_inout, moved_inout):
-    """Move a character out of a static solid towards the nearest free place, up before aside before down.
+    """Move a character out of a static solid towards the nearest free place: up before aside before down.
 
-    It stays if there is none within `reach` [px]. walk_inout: a Walk with the shapes near. moved_inout: as walk writes
-    it, and increased by this motion. O(reach · solids near).
+    It moves up to PACE pixels, and stays if there is no free place within `reach` [px]. moved_inout: see walk; the
+    pixels moved are added. O(reach · solids near).
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -361,13 +370,16 @@ def lead_out(me, reach, walk_inout, moved_inout):
 # Impulses between characters and the bodies of a world that stacks: pushing, landing, weight.
 #
 # A character has a mass but no velocity that a solver could change, because the game moves it. So it acts on bodies by
-# its own impulses, and the solver leaves out the contacts under its feet: there the character is a weight and no
-# ceiling.
+# its own impulses, and the solver leaves out the contacts under its feet: there the character acts by its weight, and
+# does not block the body like an immovable ceiling.
 
 
 @subkernel
 def push_body(me, row, direction, speed, left, walk_inout):
-    """Push one body towards a speed [px/s], by the impulse left at most. Return the impulse that remains."""
+    """Push one body towards a speed [px/s] along x, by an impulse of at most `left`.
+
+    Return the part of `left` that was not used. row: of the shape; direction: -1 left, 1 right.
+    """
     c = walk_inout.characters[me]
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
     settings = walk_inout.settings
@@ -392,9 +404,9 @@ def push_body(me, row, direction, speed, left, walk_inout):
 
 @subkernel
 def shove(me, direction, speed, walk_inout):
-    """Push bodies sideways towards the speed [px/s] of a move, as far as the character's strength allows.
+    """Push the bodies beside a character towards the speed [px/s] of its move, as far as its strength allows.
 
-    It acts as a force over the coming step, so that sufficient friction holds a body in place.
+    The push is a force over the coming step, so sufficient friction holds a body in place. direction: -1 left, 1 right.
     """
     c = walk_inout.characters[me]
     speed += walk_inout.bodies[c.body_row].vx  # of its carrier
@@ -413,13 +425,19 @@ def shove(me, direction, speed, walk_inout):
 
 @subkernel
 def foot_of(c, s):
-    """Return the point [px] of a character's feet that stands on a shape: the middle, or the nearest such point."""
+    """Return the point (x, y) [px] of the feet of a character, row c, that stands on a shape, row s.
+
+    It is the middle of the feet, or the point nearest to the middle that is above the shape.
+    """
     return min(max(c.left + 0.5 * c.width, s.min_x), s.max_x), float(c.top + c.height)
 
 
 @subkernel
 def knock(me, row, direction, speed, walk_inout):
-    """Apply the momentum of a landing (direction 1), or of a head that hits (-1), as an inelastic impact."""
+    """Apply the impact of a character that lands on a body (direction 1) or hits it with its head (-1), inelastic.
+
+    row: of the shape; speed [px/s]: of the character along y, positive down.
+    """
     c = walk_inout.characters[me]
     x, y = foot_of(c, walk_inout.shapes[row])
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
@@ -438,10 +456,10 @@ def knock(me, row, direction, speed, walk_inout):
 
 @kernel
 def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
-    """Apply the weight of characters to the awake bodies that they ride, and copy the velocity of their ground.
+    """Apply the weight of characters to the awake dynamic bodies that they stand on. O(characters · log shapes).
 
-    gravity [px/s2]. slow [px/s]: slower ground is coming to rest, and is not kept awake. Store the point under their
-    feet [px]. O(characters · log shapes).
+    Also copy the velocity of their ground to their own bodies, unless it is slower than `slow` [px/s]: such ground is
+    coming to rest, and is not kept awake. Also store the point under their feet [px]. gravity [px/s2].
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -467,16 +485,17 @@ def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
 
 @subkernel
 def is_between(manifold, first, second):
-    """Return whether a manifold is between two bodies, by id."""
+    """Return whether a manifold is between two bodies, `first` and `second`, given as ids."""
     m = manifold
     return (m.body_a == first and m.body_b == second) or (m.body_b == first and m.body_a == second)
 
 
 @kernel
 def write_weight(characters, weight_rate, manifolds_inout):
-    """Write the impulse of the weight of characters into the manifolds with their ground.
+    """Write the weight of characters as normal impulses into the manifolds with their ground.
 
-    weight_rate [px/s]: gravity times the step; the points of a pair share it. O(characters · manifolds).
+    weight_rate [px/s]: gravity times the length of the step. The points of a character's manifolds share its weight.
+    O(characters · manifolds).
     """
     for me in range(len(characters)):
         c = characters[me]
@@ -503,13 +522,16 @@ def write_weight(characters, weight_rate, manifolds_inout):
 
 @subkernel
 def whole_pixels(remainder):
-    """Return the whole pixels of a remainder, which stays within half a pixel."""
+    """Return the whole number of pixels nearest to a remainder [px], by which a character moves."""
     return math.floor(remainder + 0.5)
 
 
 @subkernel
 def way_for_pushed(by, direction, walk_inout):
-    """Return (the character that blocks a way sideways, or -1; pixels up by which it moves one pixel, or -1)."""
+    """Return whether a character in the way can be pushed one pixel aside: (its row, or -1; pixels up, or -1).
+
+    by: shape row that blocks the way. The row is -1 if that is no character, the pixels up are -1 if it cannot move.
+    """
     other = character_of(walk_inout.characters, walk_inout.shapes[by].body)
     if other < 0:
         return -1, -1
@@ -520,7 +542,10 @@ def way_for_pushed(by, direction, walk_inout):
 
 @subkernel
 def step_sideways(me, direction, follow, walk_inout):
-    """Move one pixel along x: up a slope, down one if `follow` is 1, pushing characters. Return whether it moved."""
+    """Move a character one pixel along x, and a pushable character in its way with it. Return whether it moved.
+
+    It moves up a slope, and down one if `follow` is 1. direction: -1 left, 1 right.
+    """
     c = walk_inout.characters[me]
     rows = walk_inout.found
     lift, by, slope = way_aside(walk_inout, me, rows, direction)
@@ -550,7 +575,10 @@ def step_sideways(me, direction, follow, walk_inout):
 
 @subkernel
 def walk_along(me, dx, follow, walk_inout, moved_out):
-    """Make the part of a move along x [px]: pixel by pixel, pushing bodies by impulses."""
+    """Move a character along x by dx [px], pixel by pixel, and push bodies in its way by impulses.
+
+    follow: 1 to follow ground that goes down. moved_out[2] is set to 1 if it was stopped.
+    """
     c = walk_inout.characters[me]
     c.remainder_x += dx
     pixels = whole_pixels(c.remainder_x)
@@ -563,13 +591,13 @@ def walk_along(me, dx, follow, walk_inout, moved_out):
             break
     settings = walk_inout.settings
     if settings.stacking == 1 and settings.dt > 0.0 and dx != 0.0:
-        # Also when the next pixel is not due yet: a pushed body keeps its speed between two pixels.
+        # Also in moves of less than a pixel, so that a pushed body keeps its speed.
         shove(me, 1 if dx > 0.0 else -1, dx / settings.dt, walk_inout)
 
 
 @subkernel
 def slide_pixel(me, slope, walk_inout):
-    """Move one pixel aside, down a slope that the character does not walk. Return whether it was free."""
+    """Move a character one pixel aside, down a slope that is too steep to walk. Return whether that pixel was free."""
     c = walk_inout.characters[me]
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk_inout, me, walk_inout.found, c.left + side, c.top, side, 0, 0.0)
@@ -580,7 +608,11 @@ def slide_pixel(me, slope, walk_inout):
 
 @subkernel
 def fall_or_rise(me, dy, walk_inout, moved_out):
-    """Make the part of a move along y [px]. On ground too steep to walk it slides, by its part along the slope."""
+    """Move a character along y by dy [px], pixel by pixel, with impacts on bodies that it hits.
+
+    On ground too steep to walk it slides down, by the part of dy along the slope. moved_out[3] is set to 1 if it was
+    stopped.
+    """
     c = walk_inout.characters[me]
     rows = walk_inout.found
     settings = walk_inout.settings
@@ -596,7 +628,7 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
     c.remainder_y -= pixels
     direction = 1 if pixels > 0 else -1
     left = abs(pixels)
-    asides = 0  # pixels since it last went down
+    asides = 0  # pixels moved aside since it last moved down
     while left > 0:
         what, by, slope = blocked_at(walk_inout, me, rows, c.left, c.top + direction, 0, direction, 0.0)
         if what == FREE:
@@ -631,8 +663,8 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
 def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
-    me: its row. walk_inout: a Walk. moved_out (4,): pixels moved along x and y, 1 if it was stopped along x, along y.
-    See "way out" above. O(pixels · solids near).
+    me: its CHARACTER row. walk_inout: see Walk. moved_out (4,): pixels moved along x, along y; 1 if it was stopped
+    along x, along y. If it overlaps a static solid, see lead_out. O(pixels · solids near).
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -646,7 +678,7 @@ def walk(me, dx, dy, walk_inout, moved_out):
     settle(me, walk_inout)
     feel(me, walk_inout)
     if c.squeezed:
-        # Reported; from now on for as long as the solid overlaps it.
+        # This move reports it; the flag stays as long as the solid overlaps the character.
         c.squeezed = is_crushed(me, True, walk_inout)
     moved_out[0] = c.left - start_left
     moved_out[1] = c.top - start_top
@@ -655,7 +687,10 @@ def walk(me, dx, dy, walk_inout, moved_out):
 
 @kernel
 def is_stopped(me, along_x, along_y, walk_inout):
-    """Return whether a character cannot move a pixel along_x, along_y (-1, 0 or 1); it is not moved."""
+    """Return whether a character cannot move one pixel along_x, along_y (each -1, 0 or 1). It is not moved.
+
+    me: its CHARACTER row.
+    """
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 3.0, 3.0 + STEEPEST_CLIMB, 3.0, walk_inout.found)
     if along_x != 0:

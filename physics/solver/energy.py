@@ -86,7 +86,7 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
 
 @inlined
 def energy_along(motion, balance):
-    """Return the kinetic energy of a body along the only normal of its contacts; 0 if its contacts have several."""
+    """Return the kinetic energy of a body along the only normal of its contacts; 0 if they act in all directions."""
     if balance.in_all or motion.inverse_mass == 0.0:
         return 0.0
     along = motion.vx * balance.normal_x + motion.vy * balance.normal_y

@@ -177,7 +177,7 @@ def unlink_impacts(blocks, impacts, count, motions_inout):
 
 @subkernel
 def arm_of(blocks, impact, second, sign):
-    """Return the moment arm [px] of a normal impulse at a point, about the dynamic body's centre. sign: see mover_of."""
+    """Return the moment arm [px] of a normal impulse at a point on the dynamic body. sign: see mover_of."""
     if sign > 0.0:
         return line_of(blocks, impact, at.B_2 if second else at.B_1)
     return line_of(blocks, impact, at.A_2 if second else at.A_1)
