@@ -560,9 +560,10 @@ class DynamicTree:
                 rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
 
     def _rebuilds(self, arena):
-        """Return for the moving and for the static tree 1 if most of its proxies have changed, so that it is rebuilt.
+        """Return two flags, for the moving and the static tree: 1 to rebuild it.
 
-        A rebuild then costs less than moving each leaf, and gives the better tree. Return 0 otherwise.
+        A tree is rebuilt if most of its proxies have changed. That then costs less than moving each leaf, and gives the
+        better tree.
         """
         still = arena.proxies["still"]
         total = np.bincount(still[self.leaf_of[: len(still)] >= 0], minlength=2)

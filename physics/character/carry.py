@@ -168,13 +168,13 @@ def shift(me, without, pixels, along_x, walk_inout, rows_out):
 
 @subkernel
 def carried_by(way, stopped):
-    """Return the pixels by which a character was moved: `way`, of which `stopped` pixels were blocked."""
+    """Return the pixels, with sign, by which a character was moved: `way` without its `stopped` blocked pixels."""
     return way - stopped if way > 0 else way + stopped
 
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Move the characters that stand on a carried character, and those that stand on them: a stack of any height."""
+    """Move the characters that stand on carried characters with them, for stacks of any height."""
     characters = walk_inout.characters
     for _ in range(len(characters)):
         repeated = False
@@ -234,7 +234,7 @@ def take_back(characters_inout, bodies_inout):
 
 @subkernel
 def motion_under(c, body):
-    """Return the displacement (x, y) [px] in the step of the ground, a body, at the point under a character's feet."""
+    """Return the displacement (x, y) [px] of the ground, a body, in this step at the point under a character's feet."""
     u, v = rotate(
         c.foot_x - body.previous_x,
         c.foot_y - body.previous_y,
@@ -311,7 +311,7 @@ def ride_bodies(walk_inout):
 
 @subkernel
 def move_out(me, row, walk_inout):
-    """Move a character out of one loose shape, row, as far as it is free, and store the depth that remains."""
+    """Move a character out of a loose shape, row, as far as it is free, and store the depth that remains."""
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
     body_row = walk_inout.shapes[row].body_row
@@ -340,7 +340,7 @@ def give_way(walk_inout):
     """Move characters out of loose bodies that moved into them, and flag those without room as squeezed.
 
     walk_inout: see Walk. A body that has just fallen onto a character overlaps it until the solver has separated them.
-    So a character is squeezed only if the overlap is as deep in the step after that. O(characters · solids near).
+    So a loose body squeezes a character only if it is as deep in the next step. O(characters · solids near).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]

@@ -117,7 +117,7 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 
 @subkernel
 def place_outline(walk, me, left, top):
-    """Write the corners [px] of a character's outline at a pixel to scratch.mine.
+    """Write the corners [px] of a character's outline, with its box at pixel (left, top), to scratch.mine.
 
     Return the number of corners and the rounding radius [px].
     """
@@ -147,9 +147,9 @@ def manifold_depth(points, manifold):
 
 @subkernel
 def meet_disc(scratch, count, radius, x, y, other):
-    """Return (depth, normal, contact point) of scratch.mine in a disc, as meet does.
+    """Return (depth, normal, contact point) of the character's outline in a disc, as meet does.
 
-    x, y, other [px]: centre and radius of the disc; count, radius: see place_outline.
+    x, y, other [px]: centre and radius of the disc; count, radius: see place_outline, which writes the outline.
     """
     mine = scratch.mine
     if count == 1:
@@ -161,11 +161,11 @@ def meet_disc(scratch, count, radius, x, y, other):
 
 @subkernel
 def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
-    """Return (depth, normal, contact point) of scratch.mine in the hull in scratch.theirs, as meet does.
+    """Return (depth, normal, contact point) of the character's outline in the hull in scratch.theirs, as meet does.
 
-    corners, rounded: number of corners and rounding radius [px] of that hull; count, radius: see place_outline; edges,
-    deepest: see hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP where a neighbouring part reports the
-    contact.
+    count, radius: see place_outline, which writes the outline; corners, rounded: number of corners and rounding radius
+    [px] of the hull; edges, deepest: see hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP where a neighbouring
+    part reports the contact.
     """
     mine = scratch.mine
     theirs = Hull(scratch.theirs, corners, rounded, edges)
@@ -185,9 +185,10 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
 
 @subkernel
 def meet_link(links, link, scratch, count, radius):
-    """Return (depth, normal, contact point) of scratch.mine in a chain link, as meet does; from its back, depth 0.
+    """Return (depth, normal, contact point) of the character's outline in a chain link, as meet does.
 
-    The ends of the link are in scratch.theirs; count, radius: see place_outline.
+    From the back of the link the depth is 0. The ends of the link are in scratch.theirs; count, radius: see
+    place_outline, which writes the outline.
     """
     if count == 1:
         hit, nx, ny, x, y, separation, feature = collide_link_circle(
@@ -202,10 +203,10 @@ def meet_link(links, link, scratch, count, radius):
 
 @subkernel
 def meet(walk, row, count, radius):
-    """Return (depth [px], unit normal from the character, contact point [px]) of scratch.mine in a hull or a disc.
+    """Return (depth [px], unit normal from the character, contact point [px]) of its outline in a hull or a disc.
 
-    row: of the shape; count, radius: see place_outline. Depth 0: apart, or a neighbouring part of the outline has the
-    nearer surface; then scratch.points[0] is COVERED_OVERLAP.
+    row: of the shape; count, radius: see place_outline, which writes the outline. Depth 0: apart, or a neighbouring
+    part of the shape has the nearer surface; then scratch.points[0] is COVERED_OVERLAP.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -233,10 +234,10 @@ def deepest_on(walk, body):
 
 @subkernel
 def link_depth(walk, row, link, drops, count, radius):
-    """Return (depth [px], normal from the character) of scratch.mine in a chain link; depth 0 if the link lets it pass.
+    """Return (depth [px], unit normal from the character) of its outline in a chain link; depth 0 if it may pass.
 
     A deeper overlap than deepest_on was entered from the back, and passes: the character moves by pixels and starts
-    free. If `drops` is true, it also passes a level link and a one-way surface.
+    free. If `drops` is true, it also passes a level link and a one-way surface. count, radius: see place_outline.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -312,7 +313,7 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def deepest_link(walk, me, row, left, top):
-    """Return (depth [px], normal from the character) of its deepest overlap with a link of a chain."""
+    """Return (depth [px], unit normal from the character) of the deepest overlap of a character with a chain link."""
     c = walk.characters[me]
     span = walk.geometry.chains[walk.shapes[row].geometry]
     if is_across(walk, me, row, left, top):
@@ -335,7 +336,7 @@ def deepest_link(walk, me, row, left, top):
 
 @subkernel
 def on_pixels(kind, coordinate):
-    """Return a coordinate [px] at which characters meet a body: rounded to whole pixels if it is kinematic."""
+    """Return a coordinate [px] of a body as characters are tested against it: in whole pixels if it is kinematic."""
     return float(math.floor(coordinate + 0.5)) if kind == KINEMATIC else coordinate
 
 
@@ -396,9 +397,10 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 @subkernel
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
-    """Return (depth [px], normal from the character) of scratch.mine in the tile in scratch.theirs.
+    """Return (depth [px], unit normal from the character) of its outline in the tile in scratch.theirs.
 
-    count, radius: see place_outline; corners: their number; edges, deepest: see hulls.collide_hulls.
+    count, radius: see place_outline, which writes the outline; corners: number of those of the tile; edges, deepest:
+    see hulls.collide_hulls.
     """
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
@@ -417,9 +419,9 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
 
 @subkernel
 def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character that is no box, in a tile grid at a place.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character that is no box, in a tile grid.
 
-    The character meets the outlines of runs of tiles and of slopes. Arguments: see in_shape.
+    The character is tested against the outlines of runs of tiles and of slopes. Arguments: see in_shape.
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -622,9 +624,9 @@ def is_box(walk, row):
 
 @subkernel
 def is_loose(walk, row):
-    """Return whether a shape is loose: dynamic, or kinematic and not met on the pixel grid.
+    """Return whether a shape is loose: dynamic, or kinematic and not tested on the pixel grid.
 
-    Of kinematic shapes only axis-aligned boxes and tile grids that do not rotate are met on the pixel grid.
+    Of kinematic shapes only axis-aligned boxes and tile grids that do not rotate are tested on the pixel grid.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]

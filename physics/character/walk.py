@@ -104,9 +104,9 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """Return the slope of the ground too steep to walk that is below a sliding character; 0 if there is none.
+    """Return the slope of steep ground just below a sliding character; 0 if there is none.
 
-    The ground is looked for within the drop of `slope` over one pixel along x.
+    Steep ground is too steep to walk. It is looked for within the drop of `slope` over one pixel along x.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -253,9 +253,9 @@ def feel(me, walk_inout):
 
 @subkernel
 def depth_in(me, row, walk_inout):
-    """Return (depth [px], unit normal from the character) of a character's overlap with a loose shape, at its place.
+    """Return (depth [px], unit normal from the character) of the overlap of a character with a loose shape.
 
-    row: of the shape; see solids.is_loose.
+    row: of the shape; loose: see solids.is_loose.
     """
     c = walk_inout.characters[me]
     if walk_inout.shapes[row].kind == CHAIN:

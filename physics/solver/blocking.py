@@ -110,9 +110,9 @@ def _make_way(state, stayed):
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Move overlapping bodies back to their old poses until no body has to move. Return the step [s].
+    """Move overlapping bodies back to their old poses until no further body has to move. Return the step [s].
 
-    contacts: unused, as the solver needs only the contact rows.
+    contacts: unused; the solver works on the contact rows of the state.
     """
     bodies, stopped = state.bodies, []
     while True:

@@ -259,10 +259,10 @@ def expect_impacts(edges, count, motions, rate, choices, classes_inout):
 
 @subkernel
 def expect_columns(edges, count, motions, degrees, most, classes_inout):
-    """Give new stacks whose bodies have at most two contacts the most substeps: class `most`. O(count).
+    """Give new stacks, whose bodies have at most two contacts, the most substeps. O(count).
 
-    count: number of edges. How a column leans is unknown until the load has reached its foot, and a lean does not stop
-    by itself.
+    most: index of that number of substeps in the choices; count: number of edges. How a column leans is unknown until
+    the load has reached its foot, and a lean does not stop by itself.
     """
     for i in range(count):
         if not edges.resting[i]:
@@ -663,7 +663,7 @@ FINISH = {(e, f): make_finish_lanes(restitution=e, friction=f) for e in BOTH for
 
 
 class ContactLanes:
-    """The contacts of one world as constraints in lanes; its arrays grow and are reused."""
+    """The contacts of one world as constraints in SIMD lanes; its arrays grow and are reused."""
 
     def __init__(self) -> None:
         self.selection = Selection()
@@ -675,7 +675,7 @@ class ContactLanes:
         return self.selection.choose(state, motions, substeps)
 
     def prepare(self, state: StepState, motions: Motions, group: Group, context: StepContext) -> tuple[Blocks, int]:
-        """Write the contacts of a group into lanes. Return the blocks of lanes, and the number of those in use."""
+        """Write the contacts of a group into blocks of SIMD lanes. Return the blocks, and the number in use."""
         needed = blocks_needed(group.count, group.uncolored)
         if len(self.blocks.contact) < needed:
             self.blocks = make_blocks(2 * needed)

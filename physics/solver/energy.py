@@ -53,7 +53,7 @@ def work_of_surfaces(c, lane, a, b):
 
 @inlined
 def work_of_lift(c, lane, a, b, context):
-    """Return the work that the impulses of the contact in a lane do as its points separate, each by up to a slop.
+    """Return the work that the impulses of a contact do as its points separate, each by up to a slop.
 
     Contact springs that sagged give this energy back.
     """
@@ -106,11 +106,11 @@ def scale_without(energy, whole):
 
 @inlined
 def scale_motion(root, balance, motion_inout):
-    """Scale the velocities of a body by the factors at its root, to remove energy that contacts added.
+    """Scale the velocities of a body, to remove energy that contacts added.
 
-    root: BALANCE row with the sums of all bodies that touch each other. Without a body of infinite mass among these,
-    only the velocity relative to their common motion is scaled. Otherwise the velocity along the only normal of the
-    contacts of the body has a factor of its own.
+    root: BALANCE row with the factors for all bodies that touch each other. If none of them touches a body of infinite
+    mass, only the velocity relative to their common motion is scaled. Otherwise `along_scale` applies to the velocity
+    along the only normal of the body's contacts, and `scale` to the whole velocity.
     """
     m = motion_inout
     if not root.anchored:
@@ -137,10 +137,10 @@ def scale_motion(root, balance, motion_inout):
 
 @inlined
 def note_face(c, lane, a, b, root_inout):
-    """Record the normal of a contact, and the speed of a kinematic side, at the root of its bodies.
+    """Record the normal of a contact, and the speed of its kinematic body, in the BALANCE row of touching bodies.
 
-    root_inout: BALANCE row. `oblique` is set if the normal is neither parallel nor perpendicular to the first normal
-    recorded, if the contact has restitution, or if the kinematic side rotates.
+    `oblique` is set if the normal is neither parallel nor perpendicular to the first normal recorded, if the contact
+    has restitution, or if the kinematic body rotates.
     """
     e = root_inout
     nx, ny = c[at.NX + lane], c[at.NY + lane]
@@ -222,10 +222,10 @@ def reset_balance(balance_out):
 
 @subkernel
 def join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout):
-    """Join the bodies of a group that exchanged impulses in this step into trees, and clear their BALANCE rows.
+    """Join the bodies of a group that exchanged impulses in this step into sets, by union-find.
 
     Only such bodies can have exchanged energy. count: number of blocks; parents_out (motions) int32: the root of each
-    body. Also records in which directions contacts act on each body.
+    body, which is the body that represents its set. Also record in which directions contacts act on each body.
     """
     for k in range(len(group.members)):
         i = group.members[k]
@@ -249,9 +249,9 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
 
 @inlined
 def add_momentum(motion, balance, root_inout):
-    """Add the mass, momentum and angular momentum of a body to the sums at its root, a BALANCE row.
+    """Add the mass, momentum and angular momentum of a body to the sums of its set of touching bodies.
 
-    The origin of these sums is the place of the root before the step.
+    root_inout: BALANCE row with the sums. The origin of these sums is the place of the root before the step.
     """
     m = motion
     e = root_inout
@@ -292,9 +292,10 @@ def energy_in_common(balance_inout):
 
 @subkernel
 def sum_balances(blocks, count, group, links_islands, parents, context, motions, balance_inout):
-    """Sum the energy balances of touching bodies at their roots, and add the work of moving surfaces.
+    """Sum the energy balances of each set of touching bodies, and the work of moving surfaces on the set.
 
-    count: number of blocks; parents (motions) int32: the root of each body.
+    The sums are in the BALANCE row of the root. count: number of blocks; parents (motions) int32: the root of each
+    body.
     """
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -331,7 +332,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
 def draw_on_reserve(slop, balance_inout):
     """Write the factors on velocities that remove the energy which touching bodies gained beyond their reserve.
 
-    Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row of their root. Errors of the integrator
+    Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row with their sums. Errors of the integrator
     alternate, so bodies may take back what they lost before: slowly, or as far as their load rises by a slop [px]. Work
     of surfaces that did not speed up a body is not added to the reserve.
     """

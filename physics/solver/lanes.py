@@ -112,7 +112,7 @@ NORMAL_OF_CORES = 4.0  # … or points from core to core
 )
 # Pseudo-velocities, in the place of poses: no pass gathers both.
 PUSH_VX_A, PUSH_VY_A, PUSH_W_A, PUSH_VX_B, PUSH_VY_B, PUSH_W_B = DX_A, DY_A, COS_A, DX_B, DY_B, COS_B
-IN_CONTACT, UNLOADED = 1.0, 2.0  # outcomes of a lane: it has an impulse or rests; it is pushed out of its overlap
+IN_CONTACT, UNLOADED = 1.0, 2.0  # OUTCOME of a contact: it has an impulse or rests; it is pushed out of its overlap
 
 
 def _lanes_in_use(contacts, block):
@@ -259,7 +259,7 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
 
 @inlined
 def gather_velocities(a, b, lane, s_out):
-    """Copy the velocities of two bodies, MOTION rows, into a lane."""
+    """Copy the velocities of the bodies a, b of a contact, MOTION rows, to its lane in the arrays of a SIMD pass."""
     s_out[VX_A + lane] = a.vx
     s_out[VY_A + lane] = a.vy
     s_out[W_A + lane] = a.angular_velocity
@@ -270,7 +270,10 @@ def gather_velocities(a, b, lane, s_out):
 
 @inlined
 def gather_poses(a, b, lane, s_out):
-    """Copy the displacements and rotations of two bodies, MOTION rows, since the start of the step into a lane."""
+    """Copy the displacements and rotations of the bodies a, b of a contact to its lane in the arrays of a SIMD pass.
+
+    They are those since the start of the step; a, b: MOTION rows.
+    """
     s_out[DX_A + lane] = a.dx
     s_out[DY_A + lane] = a.dy
     s_out[COS_A + lane] = a.cosine
@@ -283,7 +286,7 @@ def gather_poses(a, b, lane, s_out):
 
 @inlined
 def scatter_velocities(s, lane, a_out, b_out):
-    """Write the velocities of a lane back to its two bodies, MOTION rows."""
+    """Write the velocities in the lane of a contact back to its bodies a, b, MOTION rows."""
     a_out.vx, a_out.vy = s[VX_A + lane], s[VY_A + lane]
     a_out.angular_velocity = s[W_A + lane]
     b_out.vx, b_out.vy = s[VX_B + lane], s[VY_B + lane]
@@ -333,9 +336,10 @@ def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
 
 @inlined
 def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
-    """Write the moment arms of both points of a contact, for bodies rotated by these angles in the step.
+    """Write the moment arms of both points of a contact, for bodies rotated since the start of the step.
 
-    A point keeps its place on the core of a shape; the radius from the core to the surface points along the normal.
+    cos_a, sin_a, cos_b, sin_b: their rotations. A point keeps its place on the core of a shape; the radius from the
+    core to the surface points along the normal.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -606,7 +610,7 @@ def rocks(body):
 
 @inlined
 def rolling_limit(contact, p, q, limits):
-    """Return the greatest rolling resistance torque of a contact per normal impulse [px]. p, q: its BODY rows."""
+    """Return the greatest rolling resistance torque of a contact per normal impulse [px]. p, q: BODY rows."""
     is_round = contact.radius_a > 0.0 or contact.radius_b > 0.0
     still = is_round and contact.friction > 0.0 and rocks(p) and rocks(q)
     return max(contact.rolling_resistance, limits.rocking_resistance if still else 0.0)
@@ -652,7 +656,7 @@ def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
 
 
 def make_write_point(second: bool) -> Callable:
-    """Return the function that writes the first or the second point of a contact into a lane."""
+    """Return the function that writes the first or the second point of a contact into its SIMD lane."""
     arm_lines = (AX_2, AY_2, BX_2, BY_2) if second else (AX_1, AY_1, BX_1, BY_1)
     ax_line, ay_line, bx_line, by_line = arm_lines
     base_line, gap_line = (BASE_2, GAP_2) if second else (BASE_1, GAP_1)
@@ -718,10 +722,10 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
 
     @kernel
     def prepare_lanes(bodies, motions, plan, group, context, contacts_inout, blocks_out, work_inout):
-        """Write the contacts of a group into blocks of one colour each. Return the number of blocks. O(edges).
+        """Write the contacts of a group into the SIMD lanes of blocks, each of one colour. O(edges).
 
-        Contacts are read in memory order, for the prefetcher of the processor; the blocks that are being filled, one of
-        each colour, fit into its cache.
+        Return the number of blocks. Contacts are read in memory order, for the prefetcher of the processor; the blocks
+        that are being filled, one of each colour, fit into its cache.
         """
         starts = group.starts
         count = lay_out(starts, blocks_out)

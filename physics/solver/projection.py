@@ -38,9 +38,9 @@ class Press(NamedTuple):
 
 @subkernel
 def press_of(press, body, nx, ny):
-    """Return the acceleration [px/s2] along a normal that presses a dynamic BODY row; 0 for other kinds.
+    """Return the acceleration [px/s2] of a dynamic body, a BODY row, along a normal; 0 for other kinds.
 
-    A force that was added to the body counts as infinite.
+    The acceleration is that of gravity and wind. It is infinite if a force was added to the body.
     """
     if body.kind != DYNAMIC:
         return 0.0
@@ -53,7 +53,7 @@ def press_of(press, body, nx, ny):
 
 @subkernel
 def restitution_threshold(press, a, b, nx, ny):
-    """Return the approach speed [px/s] along a normal above which two bodies, BODY rows, bounce.
+    """Return the approach speed [px/s] up to which two bodies, BODY rows, do not bounce along a normal.
 
     It is 0 where no acceleration presses them together; see step_context.restitution_threshold.
     """
@@ -179,7 +179,10 @@ IGNORED = ("stacking", "sleeping")  # effects that it ignores, because contacts 
 
 @subkernel
 def push(x, y, anchor_x, anchor_y, rotation, body_inout):
-    """Apply an impulse (x, y) to a body at a point, whose offset from the centre of mass is the anchor [px]."""
+    """Apply an impulse (x, y) at a point of a body.
+
+    anchor_x, anchor_y [px]: the point from the centre of mass; rotation: whether the impulse also rotates the body.
+    """
     body_inout.vx += body_inout.inverse_mass * x
     body_inout.vy += body_inout.inverse_mass * y
     if rotation:
@@ -325,9 +328,9 @@ def _slow_down(bodies, rows, before, reach):
 
 
 def _hold_back(state, rows, before):
-    """Move bodies that contacts pushed far back, and forward again as far as no wall stops them.
+    """Stop bodies that contacts pushed through a wall: move them back, then forward up to the wall.
 
-    before (n, 2) [px]: the positions of these rows before the passes.
+    before (n, 2) [px]: the positions of these rows before the passes. Only long pushes are tested.
     """
     bodies = state.bodies
     moves, ways = _moves(bodies, rows, before)

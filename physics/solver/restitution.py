@@ -187,8 +187,8 @@ def arm_of(blocks, impact, second, sign):
 def is_simulated(blocks, impacts, last, contacts):
     """Return whether the impacts of a body have to be simulated in the order of their times.
 
-    last: index plus one of its last impact. It is so if impulses acted at two or more of its points, and one of these
-    approached fast enough to bounce; not for a single manifold of which both points did.
+    That is so if impulses acted at two or more of its points, and one of these points approached fast enough to bounce.
+    A single manifold of which both points approached so fast does not need it. last: index plus one of its last impact.
     """
     points = 0
     rows = 0
@@ -562,7 +562,7 @@ def bounces(speed, threshold, total):
 
 @subkernel
 def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
-    """Apply an impulse at one point of a lane, so that it separates at `wanted` [px/s].
+    """Apply an impulse at one point of a contact, so that it separates at `wanted` [px/s].
 
     total: the impulse of the point so far. Return the change of this impulse.
     """
@@ -575,7 +575,7 @@ def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
 
 @subkernel
 def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout):
-    """Apply impulses at both points of a lane, so that they separate at `wanted` [px/s], by the 2 x 2 block solver.
+    """Apply impulses at both points of a contact, so that they separate at `wanted` [px/s] (2 x 2 block solver).
 
     old: their impulses so far. Return the changes of both impulses.
     """
@@ -633,7 +633,7 @@ def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, wo
 
 @subkernel
 def mark_bodies(blocks, block, lane, motions_inout):
-    """Mark the dynamic bodies of the contact in a lane. Return whether one of them was already marked."""
+    """Mark the dynamic bodies of a contact. Return whether one of them was already marked."""
     shared = False
     for side in range(2):
         m = motions_inout[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]

@@ -41,7 +41,7 @@ LEAD = 0.1
 
 
 class Passes(NamedTuple):
-    """The constants of all passes of a step over the contacts."""
+    """Constants of the passes over the contacts in one step."""
 
     count: int  # number of passes
     warm: bool  # they start from the cached impulses
@@ -164,7 +164,7 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
 
     @inlined
     def push_point(lane, a_arm, b_arm, context, rate, s_inout, c_inout):
-        """Change the pseudo-velocities of the bodies of a lane such that one point of an unloaded contact separates.
+        """Change the pseudo-velocities of the bodies of an unloaded contact such that one of its points separates.
 
         a_arm, b_arm [px]: moment arms of the normal impulse; rate [1/s]: see separation_speed.
         """

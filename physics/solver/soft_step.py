@@ -39,7 +39,7 @@ BOTH = (False, True)
 
 @subkernel
 def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
-    """Separate two bodies at the points of an unloaded contact in a lane, by pseudo-velocities.
+    """Separate two bodies at the points of an unloaded contact, by pseudo-velocities.
 
     a_inout, b_inout: MOTION rows of the bodies.
     """
@@ -105,7 +105,7 @@ def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
 
 @inlined
 def greatest_separation_speed(c, lane, gap_1, gap_2, context):
-    """Return the greatest separation speed [px/s] of the contact in a lane.
+    """Return the greatest separation speed [px/s] of a contact.
 
     With many substeps a deep overlap separates no faster than with the fewest. A shallow overlap may separate faster,
     so that it carries its load.
@@ -119,7 +119,7 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
 
 @inlined
 def angular_impulses(lane, c):
-    """Return the angular impulses of the contact in a lane on its bodies A and B, without rolling resistance."""
+    """Return the angular impulses of a contact on its bodies A and B, without rolling resistance."""
     n_1 = c[at.NORMAL_1 + lane]
     n_2 = c[at.NORMAL_2 + lane]
     t_1 = c[at.TANGENT_1 + lane]
@@ -417,7 +417,8 @@ def turn_arms(count, motions_inout, blocks_inout):
     """Write the normals, moment arms and effective masses of round contacts at the present poses. O(count).
 
     count: number of blocks. The impulses with which the next substep starts act at the new arms, and along the new
-    normals (see turn_impulses). With the old ones, torques and forces would lag behind the motion, which adds energy.
+    normals (see turn_impulses). With the former arms and normals, torques and forces would lag behind the motion, which
+    adds energy.
     """
     s = blocks_inout.gathered
     for block in range(count):
