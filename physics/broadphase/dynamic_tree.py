@@ -2,8 +2,8 @@
 
 A leaf holds a box with a margin (fat box): a proxy that moves within its fat box costs one comparison. Insertion
 descends by the surface area heuristic to a leaf or the parent of a leaf. Single rotations then restore the AVL balance
-on the way up. Children have no order, so a single rotation always suffices, and the height stays within 1.45·log2(n) +
-2. When most proxies of a tree change at once, the tree is rebuilt by median splits. Source: Catto, Dynamic Bounding
+on the way up. Children have no order, so a single rotation always suffices, and the height is at most 1.45·log2(n) + 2.
+When most proxies of a tree change at once, the tree is rebuilt by median splits. Source: Catto, Dynamic Bounding
 Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many static bodies and few moving
 ones.
 """
@@ -196,7 +196,7 @@ def take_node(nodes_inout, state_inout):
 
 @subkernel
 def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Insert a leaf beside the node for which the outlines of all nodes grow least. O(height)."""
+    """Insert a leaf as the sibling of the node for which the outlines of all nodes grow least. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     at = state_inout[root]
     if at < 0:

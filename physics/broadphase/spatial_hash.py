@@ -56,7 +56,7 @@ def empty_cells(slots: int, buckets: int) -> Cells:
 
 @subkernel
 def cell_of(coordinate, inverse_size):
-    """Return the column or row of the cell with a coordinate [px]. inverse_size [1/px]: one over the cell size."""
+    """Return the column or row of the cell that holds a coordinate [px]. inverse_size [1/px]: 1 / size of a cell."""
     return math.floor(coordinate * inverse_size)
 
 
@@ -71,7 +71,7 @@ def bucket_at(level, cell_x, cell_y, mask):
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level whose cells are at least as large as the box [px]. base [px]: cells of level 0.
+    """Return the finest level whose cells are at least as large as the box [px]. base [px]: cell size on level 0.
 
     Return LEVELS if no level has such cells, or if the box is outside CELL_RANGE.
     """
@@ -252,9 +252,9 @@ def follow(entries, p, level, count, chains_inout, near_out):
 def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out, work_inout):
     """List the pairs of overlapping proxies of which at least one changed. Return their number. O(cells + candidates).
 
-    On each level, the candidates are those in the cells that the box touches; if these are too many, all proxies of the
-    level. So the number of cells is at most proportional to the outline of the box. A pair that shares several cells is
-    reported only in the cell with the lower corner of the overlap.
+    On each level, the candidates are the proxies in the cells that the box touches; if there are too many cells, all
+    proxies of the level. So the number of cells is at most proportional to the outline of the box. A pair that shares
+    several cells is reported only in the cell with the lower corner of the overlap.
     """
     heads = cells.heads
     entries = cells.entries
@@ -327,8 +327,8 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
 def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
     """List the slots of the proxies whose box meets a closed box [px]. Return their number. O(cells + boxes in them).
 
-    On each level it reads the cells that the box touches; if there are more cells than about the proxies of the level,
-    the list of the level. A proxy in several of the cells is reported only in the cell with the lower corner of the
+    On each level it reads the cells that the box touches, or the list of all proxies of the level if there are more
+    cells than proxies. A proxy in several of the cells is reported only in the cell with the lower corner of the
     overlap.
     """
     heads = cells.heads

@@ -366,7 +366,7 @@ def give_way(walk_inout):
 
 @subkernel
 def swept_box(walk, row, along_x):
-    """Return (left, top, right, bottom [px], pixels moved) of the sweep of a box along one axis in this step.
+    """Return (left, top, right, bottom [px], pixels moved) of the area that a box sweeps along one axis in a step.
 
     All are whole pixels. The box moves along x first, and then along y.
     """
@@ -512,7 +512,10 @@ def carry_all(movers, walk_inout):
     ),
 )  # fmt: skip
 def carry_characters(state: StepState) -> None:
-    """Move the characters that solids carry or push, and update the pairs: contacts at the new place count."""
+    """Move the characters that solids carry or push.
+
+    The pairs of moved characters are updated, so that their contacts count in the same step.
+    """
     characters = state.characters
     bodies, shapes = state.bodies, state.shapes
     find_own_rows(bodies, shapes, characters)

@@ -120,7 +120,7 @@ class Character:
 
     @property
     def previous(self) -> tuple[float, float]:
-        """Position of the shape's origin before the last move [px], for interpolated drawing."""
+        """Position [px] of the shape's origin before the last move, for interpolated drawing."""
         row = self.world.characters.rows[self._row]
         return (float(row["previous_left"] + row["offset_x"]), float(row["previous_top"] + row["offset_y"]))
 
@@ -131,18 +131,19 @@ class Character:
 
     @property
     def surface_speed(self) -> float:
-        """Surface speed [px/s] to the right of the ground under its feet at the last move; 0 in the air.
+        """Surface speed [px/s] of the ground under the character's feet at the last move, to the right; 0 in the air.
 
         A step of a world with the effect conveyor carries the character along.
         """
         return float(self.world.characters.rows["belt"][self._row])
 
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
-        """Move by (dx, dy) [px], x first. drop: fall through one-way tiles. Raises TypeError, ValueError, RuntimeError.
+        """Move the character by (dx, dy) [px], x first. Return the result of the move.
 
-        On a slope that is too steep it slides down, by the part of dy along the slope. While its body is quarantined,
-        or would be by the next step, it stays and touches nothing. A character that was placed into a static solid is
-        moved out, two pixels a move, if there is a free place within its own size.
+        drop: fall through one-way tiles. On a slope that is too steep it slides down, by the part of dy along the
+        slope. While its body is quarantined, or would be by the next step, it stays and touches nothing. A character
+        that was placed into a static solid is moved out, two pixels a move, if there is a free place within its own
+        size. Raises TypeError, ValueError, RuntimeError.
         """
         world = self.world
         world._unlocked()

@@ -225,7 +225,7 @@ def meet(walk, row, count, radius):
 
 @subkernel
 def deepest_on(walk, body):
-    """Return the greatest depth [px] of an overlap with a link of a body's chain that was entered from the front."""
+    """Return the greatest depth [px] to which a character overlaps a chain link that it entered from the front."""
     most = 1.0 + 2.0 * walk.settings.slop
     if body.kind == KINEMATIC:
         most += 1.0 + (abs(body.vx) + abs(body.vy) + abs(body.angular_velocity) * body.extent) * walk.settings.dt
@@ -399,7 +399,7 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
     """Return (depth [px], unit normal from the character) of its outline in the tile in scratch.theirs.
 
-    count, radius: see place_outline, which writes the outline; corners: number of those of the tile; edges, deepest:
+    count, radius: see place_outline, which writes the outline; corners: number of corners of the tile; edges, deepest:
     see hulls.collide_hulls.
     """
     mine = scratch.mine

@@ -72,10 +72,11 @@ def way_aside(walk, me, rows, direction):
 
 @subkernel
 def drop_onto(walk, me, rows, left, onto):
-    """Return (pixels down until a character at pixel column `left` stands on walkable ground, slope of that ground).
+    """Return (pixels down until a character stands on walkable ground, slope of that ground).
 
-    The pixels are 0 if there is no such ground near. onto: slope of the ground that the character leaves; 0 for flat
-    ground, from which it drops onto slopes only. Flat ground is found down to one pixel plus the rise of `onto`.
+    left: pixel column of the character. The pixels are 0 if there is no such ground near. onto: slope of the ground
+    that the character leaves; 0 for flat ground, from which it drops onto slopes only. Flat ground is found down to one
+    pixel plus the rise of `onto`.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -118,7 +119,7 @@ def steep_below(walk, me, rows, slope):
 
 @subkernel
 def slide_of(slope):
-    """Return (pixels along x, pixels down) that a character slides along a slope for each pixel of a free fall."""
+    """Return (pixels along x, pixels down) of a slide along a slope, for each pixel that a free fall would move."""
     length = math.sqrt(1.0 + slope * slope)
     sine = slope / length
     return -sine / length, sine * sine
@@ -313,7 +314,7 @@ PACE = 2  # [px] of a way out in one move: about the push-out of overlapping bod
 
 @subkernel
 def keep_still(walk, rows_inout):
-    """Remove the shapes of moving bodies from a list of rows, which begins with their number."""
+    """Keep only the shapes of static bodies in a list of shape rows, whose first entry is the number of rows."""
     kept = 0
     for k in range(1, rows_inout[0] + 1):
         row = rows_inout[k]
@@ -334,10 +335,10 @@ def is_inside(me, walk_inout):
 
 @kernel
 def lead_out(me, reach, walk_inout, moved_inout):
-    """Move a character out of a static solid towards the nearest free place: up before aside before down.
+    """Move a character out of a static solid towards the nearest free place.
 
-    It moves up to PACE pixels, and stays if there is no free place within `reach` [px]. moved_inout: see walk; the
-    pixels moved are added. O(reach · solids near).
+    Of equally near places, up comes before aside, and aside before down. It moves up to PACE pixels, and stays if there
+    is no free place within `reach` [px]. moved_inout: see walk; the pixels moved are added. O(reach · solids near).
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -458,8 +459,8 @@ def knock(me, row, direction, speed, walk_inout):
 def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake dynamic bodies that they stand on. O(characters · log shapes).
 
-    Also copy the velocity of their ground to their own bodies, unless it is slower than `slow` [px/s]: such ground is
-    coming to rest, and is not kept awake. Also store the point under their feet [px]. gravity [px/s2].
+    gravity [px/s2]. The bodies of characters get the velocity of their ground, unless it is slower than `slow` [px/s]:
+    such ground is coming to rest, and is not kept awake. The point under their feet [px] is stored.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]

@@ -105,7 +105,7 @@ class Islands(NamedTuple):
 
 
 class Group(NamedTuple):
-    """The islands that take the same number of substeps."""
+    """The islands that take the same number of substeps, and the range of their constraints."""
 
     substeps: int
     edges: int  # number of edges of all groups
@@ -299,7 +299,7 @@ def are_mixed(links_islands, degrees, classes):
 def list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
     """List the constraints to solve as edges, and colour the edges. Return the number of edges. O(contacts + motions).
 
-    Also find islands without room, see energy.find_squeezed. lists_inout: see MotionLists.
+    Also find islands that are squeezed between faces, see energy.find_squeezed. lists_inout: see MotionLists.
     """
     nodes = len(motions)
     count, faces, deepest = list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_out.edges)
@@ -454,7 +454,7 @@ class LoadRules(NamedTuple):
 
 @subkernel
 def add_estimates(blocks, count, substeps, rules, motions_inout):
-    """Raise the substep estimates of the bodies to the squared number of substeps that their contacts need.
+    """Raise the substep estimates of bodies to the square of the number of substeps that their contacts need.
 
     Also write whether a load needs more than the present `substeps` and more than most_by_load. count: number of
     blocks. O(constraints).
@@ -493,7 +493,7 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
 def choose_substeps(members, degrees, substeps, rules, motions_inout):
     """Write the number of substeps that each island body needs in the next step. O(members).
 
-    substeps: their number in this step. Return whether all bodies need the same number again.
+    substeps: number of substeps in this step. Return whether all bodies need the same number again.
     """
     content = True
     for k in range(len(members)):
@@ -526,9 +526,9 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
 def share_substeps(members, parents, substeps, most_by_load, motions_inout):
     """Give each body the most substeps that a body of its island needs. O(members).
 
-    An island with branching contacts takes at most most_by_load, because in a heap there is always a leaning body.
-    substeps: their number in this step; parents (motions) int32: the lowest row of the island of each body. Return the
-    number of islands that are reported as capped.
+    An island in which a body has more than two contacts is a heap, and takes at most most_by_load, because in a heap
+    there is always a leaning body. substeps: number of substeps in this step; parents (motions) int32: the lowest row
+    of the island of each body. Return the number of islands that are reported as capped.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]
@@ -671,7 +671,7 @@ class ContactLanes:
         self.impacts = make_impacts(16)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Group the islands by their number of substeps. substeps: that of all; 0: as many as each island needs."""
+        """Group the islands by their number of substeps. substeps: number for all; 0: as many as each needs."""
         return self.selection.choose(state, motions, substeps)
 
     def prepare(self, state: StepState, motions: Motions, group: Group, context: StepContext) -> tuple[Blocks, int]:

@@ -178,9 +178,9 @@ def limit_speed(root, push_speed, motion_inout):
 def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
     """Write the energy that each body of a group gained. Return whether a body in contact gained more than allowed.
 
-    Allowed is `floor` [px2/s2], an energy per mass, or a part of the reserve: up to SHARE_BACK of the energy of the
-    body, or up to the energy that lifts its load by `lift` [px]. keep: share of the reserve that remains after this
-    step.
+    The allowed gain per mass [px2/s2] is `floor`, or a greater one from the reserve of the body. From the reserve it
+    may take up to SHARE_BACK of its energy, or the energy that lifts its load by `lift` [px]. keep: share of the
+    reserve that remains after this step.
     """
     suspect = False
     for k in range(len(group.members)):
@@ -206,7 +206,7 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
 
 @inlined
 def reset_balance(balance_out):
-    """Clear the fields of a BALANCE row that hold sums or directions of touching bodies."""
+    """Clear the fields of a BALANCE row that hold sums over touching bodies or normals of their contacts."""
     e = balance_out
     e.lift, e.surfaces = 0.0, 0.0
     e.face_x, e.face_y, e.fastest = 0.0, 0.0, 0.0
@@ -352,9 +352,9 @@ def draw_on_reserve(slop, balance_inout):
 
 @subkernel
 def limit_squeezed(most, before, motion_inout):
-    """Limit the speed of a body without room to `most` [px/s], or to its speed before the step if that was greater.
+    """Limit the speed of a body squeezed between faces to `most` [px/s], or to its speed before the step if greater.
 
-    most: 0 for no limit; before: its kinetic energy before the step.
+    most: 0 for no limit; before: kinetic energy of the body before the step.
     """
     m = motion_inout
     if most == 0.0 or m.inverse_mass == 0.0:
@@ -401,9 +401,9 @@ def remove_gains(blocks, count, group, links_islands, context, plan_inout, balan
 def limit_energy(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that the contacts of a group have added. O(members + lanes).
 
-    Return the number of sets of touching bodies that had gained any. In islands without room, the limit for a body is
-    the speed of the faces plus push-out, or its speed before the step if that was greater. balance_inout: BALANCE rows,
-    one for each MOTION row.
+    Return the number of sets of touching bodies that had gained any. In islands without room, which are squeezed
+    between faces, the limit for a body is the speed of the faces plus push-out, or its speed before the step if that
+    was greater. balance_inout: BALANCE rows, one for each MOTION row.
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed

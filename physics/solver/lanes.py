@@ -259,7 +259,7 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
 
 @inlined
 def gather_velocities(a, b, lane, s_out):
-    """Copy the velocities of the bodies a, b of a contact, MOTION rows, to its lane in the arrays of a SIMD pass."""
+    """Copy the velocities of a contact's bodies, MOTION rows a and b, to its lane in the arrays of a SIMD pass."""
     s_out[VX_A + lane] = a.vx
     s_out[VY_A + lane] = a.vy
     s_out[W_A + lane] = a.angular_velocity
@@ -270,9 +270,9 @@ def gather_velocities(a, b, lane, s_out):
 
 @inlined
 def gather_poses(a, b, lane, s_out):
-    """Copy the displacements and rotations of the bodies a, b of a contact to its lane in the arrays of a SIMD pass.
+    """Copy the motion of a contact's bodies, MOTION rows a and b, to its lane in the arrays of a SIMD pass.
 
-    They are those since the start of the step; a, b: MOTION rows.
+    The motion is the displacement and rotation since the start of the step.
     """
     s_out[DX_A + lane] = a.dx
     s_out[DY_A + lane] = a.dy
@@ -499,13 +499,13 @@ TURNING = 1e-5  # [rad] rotation in a step from which a round contact follows it
 
 @subkernel
 def touches_slowly(separation, speed, limits):
-    """Return whether a point touches, and its approach is too slow to bounce."""
+    """Return whether a point touches and approaches too slowly to bounce."""
     return separation <= limits.slop and abs(speed) <= limits.impact_speed
 
 
 @subkernel
 def limit_impulses(a, b, squeeze_a, squeeze_b, h, lane, c_inout):
-    """Limit the normal impulses of a contact in an island without room, for a substep of h [s].
+    """Limit the normal impulses of a contact in an island squeezed between faces, for a substep of h [s].
 
     The limit also applies to the impulses with which the substep starts. a, b: MOTION rows; squeeze_a, squeeze_b: their
     SQUEEZE rows.

@@ -35,7 +35,7 @@ def kinetic_energy(motion):
 
 @subkernel
 def reset_motion(motion_out):
-    """Write the values of a MOTION row that are the same for every body at the start of a step: no mass, no contact."""
+    """Write the values that every MOTION row has at the start of a step: no displacement, no mass, no contact."""
     m = motion_out
     m.pseudo_vx, m.pseudo_vy, m.pseudo_w = 0.0, 0.0, 0.0
     m.dx, m.dy = 0.0, 0.0
@@ -53,7 +53,7 @@ def reset_motion(motion_out):
 
 @subkernel
 def write_fixed(motions_out, lists_out):
-    """Write row 0 of MOTION, which stands for all bodies that do not move: impulses do not change it."""
+    """Write row 0 of MOTION, which stands for all bodies that do not move and that no impulse moves."""
     m = motions_out[0]
     reset_motion(m)
     m.vx, m.vy, m.angular_velocity = 0.0, 0.0, 0.0
@@ -232,7 +232,10 @@ def move_kinematic(kinematic, time, motions_inout):
 
 @subkernel
 def is_usable(body, speed_limit):
-    """Return whether the next step can use the numbers of a body. Quarantined bodies are not tested: they count."""
+    """Return whether the next step can use the numbers of a body: they are finite and within limits.
+
+    Quarantined bodies are not tested, and count as usable.
+    """
     return body.quarantined or (is_within_limits(body) and is_finite_in_step(body, 0.0, 0.0, speed_limit, 0.0))
 
 

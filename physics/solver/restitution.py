@@ -255,7 +255,7 @@ def soonest_impact(blocks, impacts, last, motions):
 
 @subkernel
 def close_gaps(blocks, last, time, motions, impacts_inout):
-    """Reduce the gaps at all points of a body by the motion of a time [s]. last: index plus one of its last impact."""
+    """Advance a body by a time [s]: reduce the gaps at its points. last: index plus one of its last impact."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -268,7 +268,7 @@ def close_gaps(blocks, last, time, motions, impacts_inout):
 
 @subkernel
 def list_hits(blocks, last, span, motions, impacts_inout):
-    """Write which points of a body hit within a span [s], and their separation speeds [px/s] after the impact.
+    """Write which points of a body hit within a span [s], and the separation speeds [px/s] that they get.
 
     last: index plus one of the last impact of the body.
     """
@@ -315,7 +315,8 @@ def add_blow(second, change, impact_inout):
 def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_inout):
     """Solve two points of one body that hit at the same time. Return the greater change of a normal speed [px/s].
 
-    i, j: their IMPACT rows. If both are the same point, it is solved alone. last: index plus one of the last impact.
+    i, j: their IMPACT rows. If both are the same point, it is solved alone. last: index plus one of the body's last
+    impact.
     """
     r = impacts_inout[i]
     o = impacts_inout[j]
@@ -438,7 +439,7 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
 def rub(impact, second, to_rest, motions_inout, blocks_inout):
     """Remove the friction impulse of the substeps at a point of an impact, or apply friction anew.
 
-    to_rest: False to remove, True to apply. The limit of friction follows, as in the substeps, from the part of the
+    to_rest: False to remove, True to apply. As in the substeps, the limit of friction is that for the part of the
     normal impulse that stops the approach. Return the change of the tangential speed [px/s].
     """
     r = impact
