@@ -73,10 +73,7 @@ def points_of(blocks, impact):
 
 @subkernel
 def list_impacts(blocks, count, impacts_out):
-    """List the contacts with restitution that had an impulse in this step. Return their number.
-
-    count: number of blocks.
-    """
+    """List the contacts of `count` blocks with restitution and an impulse in this step. Return their number."""
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -133,10 +130,7 @@ def is_against_static(blocks, impact):
 
 @subkernel
 def mover_of(blocks, impact, motions):
-    """Return the dynamic body of an impact against a static one, and its side.
-
-    It is returned as its MOTION row, and as a sign: 1.0 if it is body B of the contact, -1.0 if it is body A.
-    """
+    """Return the MOTION row of the dynamic body in an impact with a static one, and 1.0 for side B, -1.0 for side A."""
     row = blocks.motion_b[impact.block, impact.lane]
     if motions[row].inverse_mass > 0.0:
         return row, 1.0
@@ -147,8 +141,8 @@ def mover_of(blocks, impact, motions):
 def link_impacts(blocks, count, impacts_inout, motions_inout):
     """Link the impacts of each body into a list. O(count).
 
-    MOTION.last_impact is the index of its last impact plus one, IMPACT.before the index plus one of the impact before.
-    A body that also has a resting contact, or hits a dynamic body, is left out: it gets LEFT_OUT.
+    MOTION.last_impact, in other functions `last`, is the index of its last impact plus one. IMPACT.before is the index
+    of the impact before plus one. A body that also has a resting contact, or hits a dynamic body, gets LEFT_OUT.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -233,10 +227,7 @@ def strike(blocks, impact, second, sign, impulse, mover, change_inout):
 
 @subkernel
 def soonest_impact(blocks, impacts, last, motions):
-    """Return the time [s] until the next impact of a body, and its approach speed [px/s]; speed 0 if there is none.
-
-    last: index plus one of the last impact of the body.
-    """
+    """Return the time [s] to the next impact of a body, and its speed [px/s], 0: none. last: see link_impacts."""
     soonest = math.inf
     hit_speed = 0.0
     k = last
@@ -268,10 +259,7 @@ def close_gaps(blocks, last, time, motions, impacts_inout):
 
 @subkernel
 def list_hits(blocks, last, span, motions, impacts_inout):
-    """Write which points of a body hit within a span [s], and the separation speeds [px/s] that they get.
-
-    last: index plus one of the last impact of the body.
-    """
+    """Write which points of a body hit within a span [s], and their speeds afterwards. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -290,10 +278,7 @@ def list_hits(blocks, last, span, motions, impacts_inout):
 
 @inlined
 def hits_at(impact, second):
-    """Return whether a point of an impact hits now, its impulse of this moment, and its separation speed afterwards.
-
-    All refer to the first point, or to the second if `second` is true.
-    """
+    """Return whether the first or second point of an impact hits now, its impulse, and its speed [px/s] afterwards."""
     r = impact
     if second:
         return r.bounces_2, r.blow_2, r.wanted_2
@@ -681,10 +666,7 @@ def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_ino
 
 @subkernel
 def bounce_row(impact_inout, motions_inout, blocks_inout):
-    """Apply restitution at the points of an IMPACT row, and add the impulses to the row.
-
-    Return the greatest change of a normal speed [px/s].
-    """
+    """Apply restitution at the points of an IMPACT row. Return the greatest change of a normal speed [px/s]."""
     r = impact_inout
     lane = r.lane
     c = blocks_inout.lines[r.block * SIZE : (r.block + 1) * SIZE]
