@@ -41,8 +41,8 @@ def refresh_order(proxies, axis, order_inout, lower_out):
 def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
     """Sort nearly sorted lower ends by insertion sort. O(n + swaps).
 
-    order_inout: slots; lower_inout [px]: lower ends of their boxes. Return 1 if it stopped, unsorted, after more than
-    `budget` swaps, otherwise 0.
+    order_inout: slots; lower_inout [px]: lower ends of their boxes. Return 0, or 1 if the sort stopped unfinished after
+    more than `budget` swaps.
     """
     left = budget
     for i in range(1, count):
@@ -66,8 +66,8 @@ def insertion_sort(count, budget, order_inout, lower_inout, work_inout):
 def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
     """Copy the boxes into sorted order, so that the sweep reads them sequentially. O(n).
 
-    boxes_out (n, 4) float64 [px]: low and high end along the axis, then along the other axis; next_changed_out (n,):
-    index in the order of the next changed proxy after each.
+    boxes_out (n, 4) float64 [px]: low and high end along the axis, then along the other axis. next_changed_out (n,):
+    for each place in the order, the place of the next changed proxy after it.
     """
     following = count
     for k in range(count):

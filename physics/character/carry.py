@@ -174,7 +174,7 @@ def carried_by(way, stopped):
 
 @subkernel
 def carry_riders(along_x, walk_inout):
-    """Move the characters that stand on carried characters with them, for stacks of any height."""
+    """Carry the characters that stand on carried characters, in stacks of any height, by the same pixels."""
     characters = walk_inout.characters
     for _ in range(len(characters)):
         repeated = False

@@ -101,8 +101,8 @@ def deepest_of(b, slop, dt):
 def judge(c, kind, beyond, nx, ny, way_x, way_y):
     """Return the kind (FREE, ON_SLOPE, STEEP or BLOCKED) and slope of a surface that a character overlaps.
 
-    beyond [px]: depth beyond the allowed one; kind: of its body; way_x, way_y: pixels just moved. A moving body may
-    have moved into the character, so it blocks only motion that leads deeper.
+    beyond [px]: overlap minus allowed_depth; kind: kind of the surface's body; way_x, way_y: pixels that the character
+    just moved. A moving body may have moved into the character, so it blocks only motion that leads deeper.
     """
     if beyond <= 0.0:
         return FREE, 0.0
@@ -270,7 +270,7 @@ def is_across(walk, me, row, left, top):
 
 @subkernel
 def in_chain(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character in a chain. Arguments: see in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how a chain acts on a character. Arguments: see in_shape."""
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -356,7 +356,7 @@ def slope_tile_verdict(c, slope, depth):
 
 @subkernel
 def in_tiles(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a box in a tile grid. Arguments: see in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how a tile grid acts on a box. Arguments: see in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     g = walk.geometry.grids[walk.shapes[row].geometry]
@@ -419,7 +419,7 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
 
 @subkernel
 def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character that is no box, in a tile grid.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how a tile grid acts on a character that is no box.
 
     The character is tested against the outlines of runs of tiles and of slopes. Arguments: see in_shape.
     """
@@ -672,7 +672,7 @@ def in_upright_box(walk, me, row, left, top):
 
 @subkernel
 def in_hull(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character in a hull or a disc. Arguments: see in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how a hull or disc acts on a character. See in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     count, radius = place_outline(walk, me, left, top)
@@ -690,7 +690,7 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character at a place against one shape.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how one shape acts on a character at a place.
 
     me, row: CHARACTER row and shape row. left, top: pixel of the character's box. way_x, way_y: pixels moved to get
     there. give [px]: depth that is allowed in a loose shape, see allowed_depth.

@@ -529,9 +529,9 @@ def whole_pixels(remainder):
 
 @subkernel
 def way_for_pushed(by, direction, walk_inout):
-    """Return whether a character in the way can be pushed one pixel aside: (its row, or -1; pixels up, or -1).
+    """Return (row of the character that blocks a way, or -1; pixels up by which it can be pushed aside, or -1).
 
-    by: shape row that blocks the way. The row is -1 if that is no character, the pixels up are -1 if it cannot move.
+    by: shape row that blocks the way. The character is pushed one pixel along x; pixels up: -1 if it cannot move.
     """
     other = character_of(walk_inout.characters, walk_inout.shapes[by].body)
     if other < 0:
@@ -611,8 +611,8 @@ def slide_pixel(me, slope, walk_inout):
 def fall_or_rise(me, dy, walk_inout, moved_out):
     """Move a character along y by dy [px], pixel by pixel, with impacts on bodies that it hits.
 
-    On ground too steep to walk it slides down, by the part of dy along the slope. moved_out[3] is set to 1 if it was
-    stopped.
+    On ground too steep to walk the character slides down, by the part of dy along the slope. moved_out[3] is set to 1
+    if it was stopped.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found

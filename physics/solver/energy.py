@@ -108,9 +108,9 @@ def scale_without(energy, whole):
 def scale_motion(root, balance, motion_inout):
     """Scale the velocities of a body, to remove energy that contacts added.
 
-    root: BALANCE row with the factors for all bodies that touch each other. If none of them touches a body of infinite
-    mass, only the velocity relative to their common motion is scaled. Otherwise `along_scale` applies to the velocity
-    along the only normal of the body's contacts, and `scale` to the whole velocity.
+    root: BALANCE row with the factors for the set of touching bodies. If no body of the set touches a body of infinite
+    mass, only the velocity relative to the common motion of the set is scaled. Otherwise `along_scale` applies to the
+    velocity along the only normal of the body's contacts, and `scale` to the whole velocity.
     """
     m = motion_inout
     if not root.anchored:
