@@ -1,1 +1,1 @@
-"""The narrow phase: contacts of candidate pairs."""
+"""Narrow phase: contacts of the candidate pairs that the broad phase has found."""

@@ -1,6 +1,6 @@
-"""Pixel areas [px2] that masks of existing contacts share with the other shape.
+"""Overlap areas [px2] of contacts with masks, counted in pixels.
 
-The solver does not use areas, so they are counted only when contacts are read.
+The solver does not use these areas, so they are computed only when the user reads the contacts.
 """
 
 import math
@@ -25,7 +25,11 @@ from physics.tables.table import rows_of
 
 @subkernel
 def outline_of_part(geometry, bodies, shapes, row, part, workspace):
-    """Write the corners [px] of a run of tiles, or of a link with its backing, to workspace.b. Return their number."""
+    """Write the corners [px] of one part of a tile grid or chain to workspace.b. Return the number of corners.
+
+    row: of SHAPE; part: index of a run of tiles (one rectangle of equal cells), or of a link. A link is widened to a
+    rectangle, BACKING thick, because a line has no area.
+    """
     s = shapes[row]
     b = bodies[s.body_row]
     if s.kind == CHAIN:
@@ -47,7 +51,10 @@ def outline_of_part(geometry, bodies, shapes, row, part, workspace):
 
 @subkernel
 def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
-    """Return the area [px2] that a mask shares with a run of tiles, or with a link and its backing; rows of SHAPE."""
+    """Return the area [px2] that a mask shares with one part of a tile grid or chain.
+
+    mask, other: rows of SHAPE; part: see outline_of_part.
+    """
     count = outline_of_part(geometry, bodies, shapes, other, part, workspace)
     s = shapes[mask]
     body = bodies[s.body_row]
@@ -57,7 +64,10 @@ def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
 
 @kernel
 def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
-    """Write the area [px2] of every manifold with an area, at the present poses and rasters. O(pixels shared)."""
+    """Recompute area_1 and area_2 [px2] of every CONTACT row whose area_1 is not 0, at the present poses.
+
+    area_2 is written only against tiles and chains, for a second point. O(pixels shared).
+    """
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         if m.area_1 == 0.0:
@@ -82,11 +92,12 @@ def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
 
 
 def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
-    """Return CONTACT rows by owner, with the area [px2] that the shapes share at the present poses.
+    """Return the contacts (CONTACT rows) with the area [px2] that their shapes share at the present poses.
 
-    The area is 0 if neither shape is a mask, and where outlines meet but pixels do not. Each point reports the area of
-    the whole pair; against tiles and chains it reports the area in its own run or link. Without contact response a step
-    only tests whether two masks overlap. In that case their point, normal and depth are computed here too.
+    Rows name whole shapes, not the parts that touch. The area is 0 if neither shape is a mask, or if no pixels overlap.
+    Each point reports the area of the whole pair; against tiles and chains, the area in the touched run or link. In
+    worlds without contact response a step only tests whether two masks overlap; there this function also computes
+    their point, normal and depth.
     """
     whole, _ = by_parent(manifolds)
     shapes = tables.shapes
@@ -112,13 +123,16 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
 
 @kernel
 def put_back(full, places, manifolds_out):
-    """Copy each manifold over that of its pair; places (pairs,) are the rows of these."""
+    """Copy the CONTACT rows `full` into manifolds_out: row i to places[full[i].candidate].
+
+    places (pairs,): row in manifolds_out of each tested pair.
+    """
     for i in range(len(full)):
         copy_manifold(full, i, places[full[i].candidate], manifolds_out)
 
 
 def _told_in_full(tables, manifolds):
-    """Return the manifolds with point, normal and depth of two masks filled in, where these still overlap."""
+    """Return the manifolds with point, normal and depth computed for each pair of masks that still overlaps."""
     shapes = tables.shapes
     row_a, row_b = (_rows(shapes, manifolds, side) for side in "ab")
     masks = (row_a >= 0) & (row_b >= 0) & (shapes["kind"][row_a] == MASK) & (shapes["kind"][row_b] == MASK)
@@ -132,6 +146,9 @@ def _told_in_full(tables, manifolds):
 
 
 def _rows(shapes, manifolds, side):
-    """Return the SHAPE rows of one side: those of the step, unless shapes were added or removed since."""
+    """Return the present SHAPE row of each manifold's shape on one side, "a" or "b"; -1 if the shape is gone.
+
+    The rows stored by the step are used, unless shapes were added or removed since.
+    """
     rows, ids = np.minimum(manifolds["row_" + side], len(shapes) - 1), manifolds["shape_" + side]
     return rows if np.array_equal(shapes["id"][rows], ids) else rows_of(shapes, ids)

@@ -1,4 +1,4 @@
-"""Chains against discs and hulls, link by link, and the upper sides of one-way masks."""
+"""Collision of chains with discs and hulls, link by link, and of one-way platforms made of masks."""
 
 import math
 
@@ -49,18 +49,20 @@ from physics.tables.step_state import MASK_TESTS
 #                              \
 #                               after    a convex corner: the solid side bends away
 #
-# The contact normal is the link's own or, at a convex corner, one between the normals of both links: a corner between
-# two links is felt only as far as it sticks out. Of two links that share a corner, the earlier one reports it, unless
-# the other shape is behind that link. An open end may push in directions up to a quarter turn from the normal. Names as
-# in physics/tables/geometry.py, LINK.
+# The contact normal is the link's own or, at a convex corner, one between the normals of both links. Of two links that
+# share a corner, the earlier one reports the contact, unless the other shape is behind that link. At an open end the
+# contact normal may deviate from the link's by up to 90 degrees. Names as in physics/tables/geometry.py, LINK.
 
 STRAIGHT = 1e-9  # sine of a bend between two links that counts as straight
-ADMIT, SNAP, SKIP = 0, 1, 2  # verdict on a normal: valid for the link; replaced by the link's own; left to a neighbour
+ADMIT, SNAP, SKIP = (0, 1, 2)  # for a normal: use it; use the link's own instead; leave it to the neighbour
 
 
 @subkernel
 def link_at(links, link, x, y, cosine, sine, corners_out):
-    """Write a link's ends a, b and its neighbours' far ends before, after [px, world] to corners_out (16, 2)."""
+    """Write four world points [px] to corners_out (16, 2): a link's ends a and b, and its neighbours' far ends.
+
+    links: LINK rows; link: row; x, y [px], cosine, sine: pose of the chain's body. Order: a, b, before, after.
+    """
     k = links[link]
     for end in range(4):
         u = k.ax if end == 0 else (k.bx if end == 1 else (k.before_x if end == 2 else k.after_x))
@@ -72,7 +74,10 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
 
 @subkernel
 def dot_along(points, i, j, x, y, origin):
-    """Return the dot product [px2] of (x, y) relative to point `origin` with the vector from point i to j."""
+    """Return the dot product [px2] of two vectors: from point `origin` to (x, y), and from point i to point j.
+
+    points (16, 2) [px]; origin, i, j: rows of it.
+    """
     return (points[j, 0] - points[i, 0]) * (x - points[origin, 0]) + (points[j, 1] - points[i, 1]) * (
         y - points[origin, 1]
     )
@@ -80,14 +85,14 @@ def dot_along(points, i, j, x, y, origin):
 
 @subkernel
 def height_over(points, i, j, x, y):
-    """Return the distance [px] of (x, y) in front of the line from point i to j."""
+    """Return the signed distance [px] of (x, y) from the line through points i and j; positive in front of it."""
     nx, ny = unit(points[j, 1] - points[i, 1], points[i, 0] - points[j, 0], 0.0, -1.0)
     return nx * (x - points[i, 0]) + ny * (y - points[i, 1])
 
 
 @subkernel
 def is_convex(points, i, j, k):
-    """Return whether the solid side bends away at point j, on the way from i to k."""
+    """Return whether the chain from point i over j to k has a convex corner at j: it bends away from its front."""
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -97,7 +102,7 @@ def is_convex(points, i, j, k):
 
 @subkernel
 def is_gentle_hollow(points, i, j, k):
-    """Return whether the chain bends towards its front at point j, on the way from i to k, by less than 30 degrees."""
+    """Return whether the chain from point i over j to k bends towards its front at j, by less than 30 degrees."""
     dx = points[j, 0] - points[i, 0]
     dy = points[j, 1] - points[i, 1]
     ex = points[k, 0] - points[j, 0]
@@ -108,10 +113,10 @@ def is_gentle_hollow(points, i, j, k):
 
 @subkernel
 def is_behind(link, points, x, y):
-    """Return whether a shape with its centre at (x, y) is behind a link, and so does not touch it.
+    """Return whether a shape with its centre at (x, y) is behind a link, and so does not collide with the link.
 
-    In a hollow of many short links a centre pressed close to one link slides past its end, behind the next one. While
-    it is in front of the link it comes from, it still touches the next one.
+    link: LINK row; points: see link_at. In a gentle hollow a shape's centre may slide past the end of one link and so
+    behind the next. The shape still collides with that next link while its centre is in front of the first one.
     """
     if height_over(points, 0, 1, x, y) >= 0.0:
         return False
@@ -134,15 +139,16 @@ def is_behind(link, points, x, y):
 
 @subkernel
 def owns_start(link, points, x, y):
-    """Return whether this link reports the corner at a to a shape with its centre at (x, y)."""
+    """Return whether this link, not the previous one, reports contacts at its end a with a shape centred at (x, y)."""
     return link.first_owned or height_over(points, 2, 0, x, y) < 0.0
 
 
 @subkernel
 def collide_link_circle(link, points, x, y, radius):
-    """Return (found, normal to the disc, point midway, separation, feature) of a link and a disc [px].
+    """Return (found, normal from link to disc, contact point, separation, feature) of a link and a disc [px].
 
-    link: its row of LINK; points: see link_at. Features as in hulls.collide_line_circle.
+    link: LINK row; points: see link_at; x, y, radius: the disc. The contact point is midway between the surfaces.
+    Feature: 0 for the link's face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b.
     """
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     height = nx * (x - points[0, 0]) + ny * (y - points[0, 1])
@@ -179,16 +185,16 @@ def collide_link_circle(link, points, x, y, radius):
 
 @subkernel
 def is_towards_end(points, nx, ny):
-    """Return whether a direction goes along a link, towards b."""
+    """Return whether the direction (nx, ny) has a positive component along a link, from its end a to its end b."""
     return dot_along(points, 0, 1, points[0, 0] + nx, points[0, 1] + ny, 0) > 0.0
 
 
 @subkernel
 def classify_normal(link, points, towards_end, nx, ny):
-    """Return the verdict on a normal from a link to a hull: ADMIT, SNAP to the link's normal, or SKIP (a
-    neighbour's).
+    """Return how to treat the normal (nx, ny) from a link to a hull: ADMIT, SNAP or SKIP.
 
-    towards_end: the neighbour that may have the normal is the one at b, otherwise at a: the end that is touched.
+    ADMIT: use the normal. SNAP: use the link's own normal. SKIP: no contact, the neighbouring link reports it.
+    towards_end: whether the hull touches the link's end b (otherwise a), so which neighbour is considered.
     """
     has_neighbour = link.has_after if towards_end else link.has_before
     own_x, own_y = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
@@ -213,9 +219,10 @@ def classify_normal(link, points, towards_end, nx, ny):
 
 @subkernel
 def neighbour_separates(points, nx, ny, hull, x, y, face):
-    """Return whether the neighbour on the normal's side has the Hull's centre (x, y) in front and overlaps it by less.
+    """Return whether a neighbouring link faces a Hull and the Hull is less deep behind it than behind this link.
 
-    face [px]: the separation of this link's face.
+    The neighbour is the one in the direction (nx, ny). x, y: centre of the Hull; face [px]: separation of the Hull from
+    this link's face.
     """
     towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2
@@ -230,7 +237,11 @@ def neighbour_separates(points, nx, ny, hull, x, y, face):
 
 @subkernel
 def push_at_open_end(link, points, hull, face, margin, manifold_out):
-    """Write one point on the plane across an open end if it is further than `face` [px]. Return the points."""
+    """Write a contact point that pushes a Hull out past an open end of the chain. Return the number of points, 0 or 1.
+
+    The reference plane goes through the open end, perpendicular to the link. A point is written only if the Hull's
+    separation from that plane exceeds `face` [px], its separation from the link's face.
+    """
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
     best = face
@@ -261,7 +272,7 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 
 @subkernel
 def keep_owned(link, points, x, y, count, manifold_out):
-    """Drop the points at a corner that the previous link reports. Return how many are left."""
+    """Drop the contact points at end a if the previous link reports them. Return the number of points left."""
     nx, ny = manifold_out[1], manifold_out[2]
     if is_towards_end(points, nx, ny) or owns_start(link, points, x, y):
         return count
@@ -281,9 +292,10 @@ def keep_owned(link, points, x, y, count, manifold_out):
 
 @subkernel
 def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
-    """Write the manifold of a link and a Hull of two or more corners; see hulls.collide_hulls. Return the points.
+    """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
-    is_second: second pass, after every link left the hull to a neighbour; nothing is left to neighbours now.
+    margin, bias, manifold_out: see hulls.collide_hulls. is_second: whether this is the second pass, made if each link
+    left the contact to its neighbour; then no contact is left to neighbours.
     """
     corners = hull.corners
     count = hull.count
@@ -346,12 +358,12 @@ def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out)
 # ---- chain pairs -----------------------------------------------------------------------------------------------------
 # The pass over the candidate pairs with a chain, link by link. Links far from the other shape are skipped in blocks.
 
-BACKING = 2.0  # [px] thickness of a link for masks, behind its front: a line has no area to share
+BACKING = 2.0  # [px] thickness given to a link behind its front when it is tested against a mask: a line has no area
 
 
 @subkernel
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
-    """Return the AABB [px], in the space of a body at (x, y), of a box in the world."""
+    """Return the AABB [px] of a world box in the local space of a body with the pose x, y, cosine, sine."""
     middle_x, middle_y = rotate(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
     half_x, half_y = 0.5 * (max_x - min_x), 0.5 * (max_y - min_y)
     reach_x = abs(cosine) * half_x + abs(sine) * half_y
@@ -361,13 +373,13 @@ def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
 
 @subkernel
 def misses_box(ax, ay, bx, by, min_x, min_y, max_x, max_y):
-    """Return whether the box of a and b is disjoint from another box."""
+    """Return whether the AABB of the segment from (ax, ay) to (bx, by) is disjoint from the box (min_x, …, max_y)."""
     return max(ax, bx) < min_x or min(ax, bx) > max_x or max(ay, by) < min_y or min(ay, by) > max_y
 
 
 @inlined
 def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contacts of a chain and a hull or mask, link by link. Return the new count.
+    """Append the contacts of a chain and a hull or mask, link by link. Return the new number of manifolds.
 
     O(links near the other shape).
     """
@@ -398,7 +410,7 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
     start = found
     near = 0
     for attempt in range(2):
-        # Second pass, for a hull that every link left to its neighbour: only links that overlap it.
+        # Second pass, if each link left the contact to its neighbour: only links that overlap the hull.
         if attempt == 1 and (near == 0 or found > start):
             break
         reach = travel.reach if attempt == 0 else 0.0
@@ -484,9 +496,10 @@ def line_separation(line, hull):
 
 @subkernel
 def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
-    """Return whether a Hull reaches deeper than `most` [px] across a chain that is extended horizontally at both ends.
+    """Return whether a Hull lies across a chain, by more than `most` [px].
 
-    chain: its row; x, y, angle: pose of its body; line_out (16, 2): scratch for a link. O(links near).
+    The chain is extended horizontally at both ends. chain: row of geometry.chains; x, y, angle: pose of the chain's
+    body; line_out (16, 2): scratch. O(links near the Hull).
     """
     span = geometry.chains[chain]
     cosine, sine = math.cos(angle), math.sin(angle)
@@ -524,7 +537,10 @@ def lies_across(geometry, chain, x, y, angle, hull, most, line_out):
 
 @subkernel
 def was_across(batch, surface, other, most, workspace):
-    """Return whether a shape lay across a surface before the last motion of both; surface, other: rows of SHAPE."""
+    """Return whether a shape lay across a one-way surface by more than `most` [px], at the previous poses of both.
+
+    surface, other: rows of SHAPE.
+    """
     s, o = batch.shapes[surface], batch.shapes[other]
     p, q = batch.bodies[s.body_row], batch.bodies[o.body_row]
     corners = workspace.b
@@ -543,9 +559,11 @@ def was_across(batch, surface, other, most, workspace):
 
 @kernel
 def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
-    """Change the kind of the pairs of a surface and a hull that may touch to that of a chain, and drop the others.
+    """Set the kind of each SURFACE_ANY pair: CHAIN_ANY if the shapes may collide, else NOTHING.
 
-    known: whether workspace.memory holds the last step; kinds_inout: the batch's. O(candidates + links near).
+    They may collide if they touched in the last step, or if the shape was not across the surface at the previous poses.
+    known: whether workspace.memory holds the contacts of the last step. kinds_inout (candidates,): kind of each pair;
+    counts_inout: number of pairs of each kind. O(candidates + links near).
     """
     for i in range(batch.count):
         if kinds_inout[i] != SURFACE_ANY:

@@ -1,4 +1,4 @@
-"""Passes over the candidate pairs of circles and other hulls, with speculative contacts."""
+"""Collision of circles, capsules and polygons: passes over the candidate pairs, with speculative contacts."""
 
 import math
 from typing import NamedTuple
@@ -43,29 +43,32 @@ from physics.tables.shape import BOUNDS, CIRCLE
 # ---- speculative contacts --------------------------------------------------------------------------------------------
 # Pairs that meet within the step are evaluated at the predicted contact and not at the start pose.
 #
-# A pair that closes by more than the margin in a step would first be seen overlapping, and be pushed back along its
-# path. So B is moved relative to A, in a straight line, to the pose of contact or of least distance. The manifold is
-# computed there; its gap is the distance left along that normal. The fixed margin is Box2D's b2_speculativeDistance
-# (Catto). The search is conservative advancement (Mirtich, Impulse-based Dynamic Simulation, 1996).
+# B is moved relative to A, in a straight line, to the pose of contact or of least distance. The manifold is computed at
+# that pose; its separation is the distance that B still has to move along the normal. Without this, a pair that closes
+# by more than the margin in a step would first be detected as overlapping, and be pushed back along its path. The fixed
+# margin is Box2D's b2_speculativeDistance (Catto). The search is conservative advancement (Mirtich, Impulse-based
+# Dynamic Simulation, 1996).
 
-MAX_ADVANCES = 16  # most rounds for one pair; a pair that has not met by then is found when it is nearer
-NEVER = -1.0
+MAX_ADVANCES = 16  # most iterations for one pair; a pair that has not met by then is found in a later step
+NEVER = -1.0  # in place of a time: the shapes do not meet
 
 
 @subkernel
 def needs_ccd(body, distance):
-    """Return whether a distance [px] is longer than half the size of a body, BODY row.
+    """Return whether a body that moves a distance [px] in a step needs continuous collision detection.
 
-    A body that moves so far is left to continuous collision detection, or passes through where there is none.
+    It does if the distance exceeds the body's inradius. Such a body gets no speculative contacts. body: BODY row.
     """
     return body.kind != STATIC and distance > body.inradius
 
 
 @subkernel
 def speculative_distance(a, b, speed, margin, lookahead):
-    """Return the largest gap [px] at which two bodies, BODY rows, that close at a speed [px/s] get a contact.
+    """Return the largest gap [px] at which two bodies get a speculative contact.
 
-    It is the margin, or the distance closed in `lookahead` [s], also if one of the two is stopped.
+    It is the margin [px] or, if greater, the distance that the bodies may close in `lookahead` [s], also if one of them
+    is stopped. It is the margin if a body needs continuous collision detection. a, b: BODY rows; speed [px/s]: of B
+    relative to A.
     """
     distance = lookahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if needs_ccd(a, distance) or needs_ccd(b, distance) else max(margin, distance)
@@ -73,9 +76,10 @@ def speculative_distance(a, b, speed, margin, lookahead):
 
 @subkernel
 def speculative_rotation(a, b, speed, margin, lookahead):
-    """Return the largest gap [px] that corners may close by rotation within `lookahead` [s]; at least the margin.
+    """Return the largest gap [px] that the rotation of two bodies may close within `lookahead` [s], at least margin.
 
-    The share of the rotation is at most half the extent of the smaller body.
+    The distance closed by rotation is limited to half the extent of the smaller body. Other arguments as in
+    speculative_distance.
     """
     distance = lookahead * speed
     if needs_ccd(a, distance) or needs_ccd(b, distance):
@@ -86,7 +90,10 @@ def speculative_rotation(a, b, speed, margin, lookahead):
 
 @subkernel
 def collide_circles(ax, ay, a_radius, bx, by, b_radius):
-    """Return (normal from A to B, point midway, separation) of two discs [px]. Equal centres push along +x. O(1)."""
+    """Return (unit normal from A to B, contact point, separation) of two discs [px].
+
+    The point is midway between the surfaces. Discs with equal centres get the normal (1, 0). O(1).
+    """
     dx, dy = bx - ax, by - ay
     nx, ny = unit(dx, dy, 1.0, 0.0)
     distance = norm(dx, dy)
@@ -99,7 +106,8 @@ def collide_circles(ax, ay, a_radius, bx, by, b_radius):
 def toi_circles(dx, dy, radii, vx, vy):
     """Return the time [s] at which two discs touch, or NEVER.
 
-    dx, dy: offset of the centres [px]; vx, vy: velocity of the second disc [px/s].
+    dx, dy [px]: from the centre of the first disc to that of the second; radii [px]: sum of both radii; vx, vy [px/s]:
+    velocity of the second disc relative to the first.
     """
     along = dx * vx + dy * vy
     square = vx * vx + vy * vy
@@ -107,23 +115,27 @@ def toi_circles(dx, dy, radii, vx, vy):
     root = along * along - square * rest
     if along >= 0.0 or root < 0.0 or square == 0.0:
         return NEVER
-    # The root that does not cancel.
+    # This form of the root avoids cancellation.
     return rest / (-along + math.sqrt(root))
 
 
 @subkernel
 def time_of_closest_approach(dx, dy, vx, vy):
-    """Return the time [s] at which two centres dx, dy apart [px] are nearest; the second moves at vx, vy [px/s]."""
+    """Return the time [s] of closest approach of two points; 0 without relative motion.
+
+    dx, dy [px]: from the first to the second; vx, vy [px/s]: velocity of the second relative to the first.
+    """
     square = vx * vx + vy * vy
     return -(dx * vx + dy * vy) / square if square > 0.0 else 0.0
 
 
 @subkernel
 def toi_hulls(a, vx, vy, target, most, b_inout):
-    """Return the time [s] at which two Hulls are within the target [px], B moving at vx, vy [px/s] (conservative
-    advancement); NEVER if not within `most` [s].
+    """Return the time [s] at which the gap of two Hulls has shrunk to `target` [px] (conservative advancement).
 
-    The corners of B are left at that pose. O(corners²) a round.
+    B moves at vx, vy [px/s] relative to A. Return the time of least distance if the gap stops shrinking first, and
+    NEVER if the gap is not reached within `most` [s]. The corners of B are moved to the pose at that time. O(corners²)
+    an iteration.
     """
     time = 0.0
     corners = b_inout.corners
@@ -152,10 +164,11 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
 
 @subkernel
 def advance_to_contact(margin, lookahead, p, q, a, b_inout):
-    """Move B's corners to the predicted contact of two Hulls if they close by more than the margin [px] in this step.
+    """Move the corners of Hull B to its predicted contact with Hull A. Slow pairs are not moved.
 
-    p, q: BODY rows of A and B; lookahead [s]. Return (time [s] or NEVER; velocity of B relative to A [px/s]; largest
-    gap [px] of a contact point at that pose, for rotation closes gaps too).
+    p, q: BODY rows of A and B; margin [px]; lookahead [s]. Return (time [s] of that contact, 0 for slow pairs, or
+    NEVER; velocity of B relative to A [px/s]; largest separation [px] of a contact point at that pose). This separation
+    exceeds the margin if rotation may close a wider gap.
     """
     if lookahead == 0.0:
         return 0.0, 0.0, 0.0, margin
@@ -169,9 +182,10 @@ def advance_to_contact(margin, lookahead, p, q, a, b_inout):
 
 @subkernel
 def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
-    """Return the time [s] at which a moving disc is within the target [px] of a Hull; NEVER if not within `most` [s].
+    """Return the time [s] at which the gap of a Hull and a moving disc has shrunk to `target` [px].
 
-    x, y, radius [px], vx, vy [px/s]: the disc. O(corners) a round.
+    x, y, radius [px], vx, vy [px/s]: the disc, velocity relative to the Hull. Return the time of least distance if the
+    gap stops shrinking first, and NEVER if the gap is not reached within `most` [s]. O(corners) an iteration.
     """
     whole = Hull(hull.corners, hull.count, hull.radius, ALL_EDGES)
     time = 0.0
@@ -190,16 +204,19 @@ def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
 
 @subkernel
 def path_offsets(time, vx, vy, nx, ny):
-    """Return the distances [px] that B, moved for a time [s] at vx, vy [px/s], has covered: against the normal, and
-    along the tangent (-ny, nx)."""
+    """Return the displacement [px] of B after a time [s] at vx, vy [px/s], split into two components.
+
+    The first is against the unit normal (nx, ny), the second along the tangent (-ny, nx).
+    """
     return -time * (vx * nx + vy * ny), time * (vy * nx - vx * ny)
 
 
 @subkernel
 def move_manifold_back(time, vx, vy, points_inout):
-    """Convert a manifold in flight, computed with B moved for a time [s] at vx, vy [px/s], to B's present position.
+    """Convert a manifold computed at the predicted contact to the present position of B.
 
-    Return the tangential offset [px] of B until the contact.
+    B had been moved for a time [s] at vx, vy [px/s]. points_inout (11,): layout at "clipping" in hulls.py. Return the
+    distance [px] that B moves along the tangent (-ny, nx) until the contact.
     """
     nx, ny = points_inout[1], points_inout[2]
     closed, tangential = path_offsets(time, vx, vy, nx, ny)
@@ -213,28 +230,31 @@ def move_manifold_back(time, vx, vy, points_inout):
 
 
 class Travel(NamedTuple):
-    """The motion of a shape relative to ground made of pieces, for the pieces that it meets within a step."""
+    """Motion of a shape relative to a tile grid or chain within a step, the same for each run of tiles or link."""
 
     vx: float  # [px/s]
     vy: float
-    reach: float  # [px] largest gap of a contact point
-    time: float  # [s] within which pieces are met; 0: only those within the margin count
+    reach: float  # [px] largest separation of a contact point
+    time: float  # [s] how far ahead contacts are predicted; 0: no prediction, only gaps within the margin count
 
 
 class Meeting(NamedTuple):
-    """A piece of ground and a hull that meets it within a step."""
+    """Predicted contact of a hull with a piece of ground: a run of tiles, or a link of a chain."""
 
     piece: Hull
     travel: Travel
     time: float  # [s] until they meet
     sign: float  # 1.0 if the ground is A, else -1.0
-    part: int  # feature of the piece
+    part: int  # offset of the piece's feature ids: index of the run or link times PART
 
 
 @inlined
 def travel_of(batch, ground, body):
-    """Return the Travel of a body over ground, BODY rows: no further than the margin if it is left to continuous
-    collision detection, or slow."""
+    """Return the Travel of a body relative to the ground; ground, body: BODY rows.
+
+    For a slow body, and for a fast one that is left to continuous collision detection, the Travel has no prediction:
+    reach is the margin and time is 0.
+    """
     if batch.lookahead == 0.0:
         return Travel(0.0, 0.0, batch.margin, 0.0)
     vx, vy, speed = center_velocity(ground, body)
@@ -245,7 +265,10 @@ def travel_of(batch, ground, body):
 
 @subkernel
 def advance_to_piece(travel, margin, piece, hull, corners_out):
-    """Write the corners of a Hull where it meets a piece of ground, another Hull. Return the time [s] or NEVER."""
+    """Write the corners [px] of a Hull at its predicted contact with `piece`. Return the time [s] of contact or NEVER.
+
+    piece: Hull of a run of tiles or link; margin [px]. Without prediction (travel.time 0) the Hull is not moved.
+    """
     corners = hull.corners
     for k in range(hull.count):
         corners_out[k, 0] = corners[k, 0]
@@ -259,9 +282,10 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
 
 @subkernel
 def move_piece_manifold_back(time, travel, sign, points_inout):
-    """Convert a manifold of ground with a hull that moved for a time [s] to its present position.
+    """Convert a manifold of ground and hull, computed at their predicted contact, to the present position of the hull.
 
-    sign: 1.0 if the ground is A. Return the tangential offset [px].
+    time [s]: until that contact; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): see hulls.py. Return the
+    distance [px] that B moves along the tangent, relative to A, until the contact.
     """
     tangential = move_manifold_back(time, travel.vx, travel.vy, points_inout)
     if sign < 0.0:
@@ -274,7 +298,10 @@ def move_piece_manifold_back(time, travel, sign, points_inout):
 
 @subkernel
 def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
-    """Return whether a disc only passes the corner of a piece of ground. corners_out (16, 2): scratch."""
+    """Return whether the predicted contact of a disc with a corner is false: its path misses the ground piece.
+
+    disc: (x, y, radius); separation [px] and feature: of the contact; corners_out (16, 2): scratch.
+    """
     travel = meeting.travel
     if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
         return False
@@ -288,14 +315,17 @@ def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
 
 @subkernel
 def set_tangential_offset(before, found, offset, manifolds_out):
-    """Write the tangential offset [px] to the manifold added since there were `before`, if one was added."""
+    """Write a tangential offset [px] to manifolds_out[before] if a manifold was added: if found exceeds before.
+
+    before, found: number of manifolds before and after the addition; found may exceed the capacity.
+    """
     if before < found <= len(manifolds_out):
         manifolds_out[before].tangential_offset = offset
 
 
 @inlined
 def time_to_piece(travel, margin, piece, x, y, radius):
-    """Return the time [s] at which a disc meets a piece of ground, or NEVER; 0 without a Travel."""
+    """Return the time [s] at which a disc meets a piece of ground, or NEVER; 0 without prediction (travel.time 0)."""
     if travel.time == 0.0:
         return 0.0
     return toi_hull_circle(piece, x, y, radius, travel.vx, travel.vy, margin, travel.time)
@@ -303,9 +333,10 @@ def time_to_piece(travel, margin, piece, x, y, radius):
 
 @inlined
 def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifolds_out, found):
-    """Append the contact of a piece of ground with a disc, at their Meeting. Return the new count.
+    """Append the contact of a disc with a piece of ground. Return the new number of manifolds.
 
-    disc: its (x, y, radius) there; contact: the result of a collider at that place.
+    disc: (x, y, radius) at the predicted contact; contact: result of the collision function at that position, as of
+    hulls.collide_hull_circle.
     """
     travel, sign = meeting.travel, meeting.sign
     hit, nx, ny, x, y, separation, feature = contact
@@ -325,8 +356,9 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
 
 @inlined
 def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
-    """Append the manifold in workspace.points of a piece of ground with a hull, at their Meeting. Return the new
-    count.
+    """Append the manifold of a hull and a piece of ground from workspace.points. Return the new number of manifolds.
+
+    workspace.points was computed at the predicted contact, `meeting`, and is converted to the present position.
     """
     sign = meeting.sign
     tangential = 0.0
@@ -340,7 +372,7 @@ def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
 
 @inlined
 def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of two circles. Return the new count."""
+    """Append the contact of two circles. Return the new number of manifolds."""
     bodies, shapes = batch.bodies, batch.shapes
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]
@@ -375,7 +407,7 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
 
 @inlined
 def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of a hull of two or more corners and a circle. Return the new count."""
+    """Append the contact of a hull of two or more corners and a circle. Return the new number of manifolds."""
     bodies, shapes, margin = batch.bodies, batch.shapes, batch.margin
     side, circle, polygon = sides_by_kind(batch, pair, CIRCLE)
     p, q = bodies[shapes[polygon].body_row], bodies[shapes[circle].body_row]
@@ -420,10 +452,10 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 
 @subkernel
 def overlaps_narrowly(a, b, most, far, manifold):
-    """Return whether two Hulls with a face manifold share at most `most` [px] of that face: the ends of two sides.
+    """Return whether two Hulls with a face contact overlap by at most `most` [px] along the face.
 
-    Faces at rest may be that narrow, the end of a card for one, and carry a load: they count only if the Hulls part by
-    a distance in this step that matters, `far`.
+    A contact patch that narrow may carry a load at rest (the edge of a card). So the width of the contact patch alone
+    counts only with `far`: whether the Hulls move far enough in this step. manifold (11,): see hulls.py.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True
@@ -434,11 +466,11 @@ def overlaps_narrowly(a, b, most, far, manifold):
 
 @subkernel
 def is_grazing(a, b, batch, p, q, manifold):
-    """Return whether two Hulls with a manifold do not meet in this step.
+    """Return whether the contact of two Hulls is to be dropped because they pass each other in this step.
 
-    Either corners pass each other, or a body passes a side that it would overlap by at most `graze` [px]. A side that
-    ends slightly above the floor beside it must not stop a body; the small overlap is pushed out upwards. Two faces
-    that share no more than `graze` [px] are corners too. p, q: BODY rows of A and B.
+    The path of B must miss A, up to an overlap of batch.graze [px]. Only a contact between corners, with a normal
+    mainly along the motion, or on a patch no wider than graze is dropped. Otherwise a tile that stands slightly above
+    its neighbour would stop a sliding body. p, q: BODY rows of A and B; manifold (11,): see hulls.py.
     """
     graze = batch.graze
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
@@ -456,7 +488,7 @@ def is_grazing(a, b, batch, p, q, manifold):
 
 @inlined
 def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of two hulls of two or more corners. Return the new count."""
+    """Append the contact of two hulls of two or more corners each. Return the new number of manifolds."""
     geometry = batch.geometry
     bodies, shapes, candidates, margin = batch.bodies, batch.shapes, batch.candidates, batch.margin
     manifold = workspace.points

@@ -1,4 +1,4 @@
-"""Rounded convex hulls and circles against each other: separating axis test, clipping, feature ids."""
+"""Collision of convex hulls, rounded or not, and circles: separating axis test, clipping, feature ids."""
 
 import math
 from typing import NamedTuple
@@ -15,8 +15,8 @@ from physics.tables.shape import TURNS
 # Feature ids: they identify a manifold point in the next step.
 #
 # A feature is an integer that encodes which edge, corner, tile, link or pixel touch. It is the same in the next step as
-# long as the same parts touch, whatever the poses. A point whose feature is found in the last step takes over its
-# impulses (warm start). All colliders share one layout:
+# long as the same parts touch, whatever the poses. A point takes over the impulses of the point with the same feature
+# in the last step (warm start). "Support" is the deepest corner under a face. All collision functions share one layout:
 #
 #     hulls, a face     ((edge * 16 + corner) * 2 + side) * 2 + flipped           0 .. 1023
 #     hulls, a support  (edge * 16 + corner) * 4 + flipped                        0 .. 1023
@@ -29,43 +29,50 @@ from physics.tables.shape import TURNS
 CIRCLE_CORNER = 32  # a disc on a corner, + its number
 CORNERS = 2048  # two corners of hulls, + i * 16 + j
 OPEN_END = 3000  # the face across an open end of a chain, + 0 at a or 1 at b
-FLAT = math.cos(math.radians(6.0))  # cosine between a side and a face beneath it along which it may lie
-PART = 4096  # features of one tile run or one link
+FLAT = math.cos(math.radians(6.0))  # least cosine between the normals of two sides that may lie on each other
+PART = 4096  # number of feature ids of one tile run or one link
 
 
 @subkernel
 def clipped_feature(edge, corner, side, flipped):
-    """Return the feature of a clipped point: reference edge, incident corner, side, 1 if the reference face is B's."""
+    """Return the feature id of a clipped manifold point.
+
+    edge: of the reference polygon; corner: of the incident one; side: 0 or 1, which end of the incident edge; flipped:
+    1 if the reference polygon is B.
+    """
     return ((edge * 16 + corner) * 2 + side) * 2 + flipped
 
 
 @subkernel
 def support_feature(edge, corner, flipped):
-    """Return the feature of the deepest corner under a reference face."""
+    """Return the feature id of a corner deepest under a reference edge; flipped: 1 if that edge belongs to B."""
     return (edge * 16 + corner) * 4 + flipped
 
 
 @subkernel
 def corners_feature(i, j):
-    """Return the feature of a corner of A against a corner of B."""
+    """Return the feature id of a contact between corner i of A and corner j of B."""
     return CORNERS + i * 16 + j
 
 
 @subkernel
 def part_feature(part, feature):
-    """Return the feature of one run of tiles, or of one link."""
+    """Return the feature id of a contact with one part of a tile grid or chain.
+
+    part: index of the run of tiles or link; feature: feature id on that part alone.
+    """
     return part * PART + feature
 
 
 @subkernel
 def part_of(feature):
-    """Return the run of tiles, or the link, that a feature belongs to."""
+    """Return the index of the run of tiles or link that a feature id belongs to; inverse of part_feature."""
     return feature // PART
 
 
 @subkernel
 def pixel_feature(row, column, width):
-    """Return the feature of a mask pixel."""
+    """Return the feature id of a mask pixel; width: of the mask [px]."""
     return row * width + column
 
 
@@ -83,17 +90,20 @@ def pixel_feature(row, column, width):
 # Source: Gregorius, The Separating Axis Test, GDC 2013; Catto, Contact Manifolds, GDC 2007.
 
 ANGLE_STEP = 1.0 / TURNS  # [rad]
-# A manifold in flight is a row of 11 floats: count, normal, and twice (point, separation, feature).
-COVERED_OVERLAP = -1.0  # in place of the count: the hulls overlap, and a neighbour covers the nearer edges
-ALL_EDGES = 0xFFFFFFFF  # low 16 bits: touchable edges; next 16: touchable corners; above: as SHAPE's inner
+# A manifold before it is stored as a CONTACT row is an array of 11 floats: number of points, normal x and y, then for
+# each of two points x, y, separation, feature.
+COVERED_OVERLAP = -1.0  # in place of the number of points: the hulls overlap, and a neighbour covers the nearer edges
+# Touchable edges and corners are those that no neighbouring part or tile covers. Bits: low 16, touchable edges; next
+# 16, touchable corners; above, as SHAPE's inner.
+ALL_EDGES = 0xFFFFFFFF
 
 
 class Hull(NamedTuple):
-    """A convex hull with rounded corners. One corner is a disc, two are a line or a capsule."""
+    """Convex hull with rounded corners. One corner is a disc, two are a line or a capsule."""
 
     corners: np.ndarray  # (16, 2) [px], clockwise on the screen
-    count: int  # of the corners
-    radius: float  # [px] rounding
+    count: int  # number of corners
+    radius: float  # [px] rounding: the surface is this far outside the polygon of the corners
     edges: int  # bits of the touchable edges and corners, see ALL_EDGES
 
 
@@ -111,7 +121,7 @@ def edge_normal(corners, count, k):
 
 @subkernel
 def middle_of(corners, count):
-    """Return the mean of so many corners [px]."""
+    """Return the mean (x, y) [px] of the first `count` corners."""
     x, y = 0.0, 0.0
     for k in range(count):
         x += corners[k, 0] / count
@@ -121,11 +131,11 @@ def middle_of(corners, count):
 
 @subkernel
 def is_normal_at_corner(corners, count, edges, corner, nx, ny):
-    """Return whether a corner is the nearest point of the outline to a point in the unit direction (nx, ny) from it.
+    """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull or of a part.
 
-    A corner covered by another part is reported by that neighbour. At a blunt corner the part is sharper than the
-    outline: its inner side is not on the outline. There the direction may deviate from the touchable side's normal only
-    by the angle stored in `edges`.
+    At a corner that is not touchable (covered by a neighbouring part) no normal is valid. At a corner where only one
+    side of the part is on the outline of the whole shape, the normal may deviate from that side's by at most the angle
+    stored in `edges`. At other corners all normals are valid. edges: bits, see ALL_EDGES.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -142,10 +152,11 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
 
 @subkernel
 def find_max_separation(corners, count, allowed, other, other_count):
-    """Return the edge of the first polygon with the greatest separation (separating axis test).
+    """Return the edge of a polygon along whose normal another polygon is furthest away (separating axis test).
 
-    allowed: bits of the edges that may serve as a reference face. Return (edge, separation over the allowed edges [px],
-    separation over all edges [px]). O(count · other_count).
+    corners, other (16, 2) [px]; count, other_count: numbers of corners; allowed: bits of the edges that may be
+    returned. Return (edge or -1, greatest separation over the allowed edges [px], the same over all edges [px]).
+    O(count · other_count).
     """
     best = -1
     best_separation = -math.inf
@@ -164,11 +175,11 @@ def find_max_separation(corners, count, allowed, other, other_count):
 
 @subkernel
 def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
-    """Write the manifold of an edge of the reference Hull and the incident edge of the other Hull.
+    """Write the manifold of a reference edge and the incident edge of the other Hull, clipped to the reference edge.
 
-    limit [px]: points with a larger separation are dropped; flipped: the reference belongs to B, so the normal is
-    inverted. manifold_out: see above. Feature: bits of reference edge, incident corner, side. Return the number of
-    points.
+    edge: of the Hull `reference`; incident: the other Hull; limit [px]: points with a larger separation are dropped;
+    flipped: the reference is B, so the normal is inverted; manifold_out (11,): layout above at COVERED_OVERLAP. Return
+    the number of points.
     """
     corners, count, radius, _ = reference
     others, other_count, other_radius, _ = incident
@@ -224,7 +235,10 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
 
 @subkernel
 def support_manifold(reference, edge, incident, flipped, manifold_out):
-    """Write one point: the corner of the incident Hull deepest under an edge of the reference Hull. Return 1."""
+    """Write a manifold of one point: the corner of the incident Hull deepest under an edge of the reference Hull.
+
+    Arguments as in clip_edges. Return 1, the number of points.
+    """
     corners, count, radius, _ = reference
     others, other_count, other_radius, _ = incident
     nx, ny = edge_normal(corners, count, edge)
@@ -250,16 +264,17 @@ def support_manifold(reference, edge, incident, flipped, manifold_out):
 # ---- circles ---------------------------------------------------------------------------------------------------------
 # Circles against convex polygons, in closed form.
 
-COVERED = -1  # in place of a feature: the centre is inside, and no edge is touchable
+COVERED = -1  # in place of a feature id: the centre of the disc is inside, and no edge is touchable
 
 
 @subkernel
 def collide_polygon_circle(corners, count, edges, x, y, radius):
-    """Return (found, normal to the disc, point midway, separation, feature) of a convex polygon and a disc [px].
+    """Return (found, normal to the disc, contact point, separation, feature) of a convex polygon and a disc [px].
 
-    edges: bits of the touchable edges and corners. The others are covered by a neighbour: where one of them is nearest
-    nothing is found here, and the neighbour reports it. If the centre is inside, the nearest touchable edge is taken;
-    without any, the feature is COVERED. A centre on the outline takes the edge's normal. O(count).
+    The contact point is midway between the surfaces. edges: bits of the touchable edges and corners, see ALL_EDGES. If
+    the nearest edge or corner is not touchable, nothing is found: the neighbour that covers it reports the contact. If
+    the centre of the disc is inside, the nearest touchable edge is used; if there is none, feature is COVERED.
+    O(count).
     """
     best = -1
     inner = -1
@@ -314,9 +329,9 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
 
 
 # ---- aabbs -----------------------------------------------------------------------------------------------------------
-# Axis-aligned boxes, read from the AABBs in the shape table: nothing is rotated, and only their own axes are tested.
+# Collision of axis-aligned boxes that never rotate (shapes of kind BOUNDS), from the AABBs in the shape table.
 #
-# Points, separations and features are those of collide_hulls for the same boxes.
+# Points, separations and features are equal to those that collide_hulls finds for the same boxes.
 
 
 @subkernel
@@ -327,7 +342,7 @@ def aabb_corners(shape, corners_out):
 
 @subkernel
 def move_corners(count, x, y, corners_inout):
-    """Move corners by x, y [px]."""
+    """Translate the first `count` corners by (x, y) [px]."""
     for k in range(count):
         corners_inout[k, 0] += x
         corners_inout[k, 1] += y
@@ -335,7 +350,11 @@ def move_corners(count, x, y, corners_inout):
 
 @subkernel
 def collide_aabb_corners(a, b, margin, manifold_out):
-    """Write one point between the nearest corners of two boxes apart along both axes. Return the points."""
+    """Write a manifold of one point, between the nearest corners of two boxes that are apart along both axes.
+
+    a, b: SHAPE rows; manifold_out (11,): see "clipping" above. Return the number of points, 0 if the corners are
+    further apart than the margin [px].
+    """
     right = b.min_x > a.max_x
     below = b.min_y > a.max_y
     ax = a.max_x if right else a.min_x
@@ -409,8 +428,8 @@ def collide_aabbs(a, b, margin, manifold_out):
 
 
 # ---- hulls -----------------------------------------------------------------------------------------------------------
-# Rounded convex hulls against each other: separating axis test and clipping of the cores; the radii are added
-# afterwards.
+# Collision of rounded convex hulls: separating axis test and clipping of the cores, the polygons without rounding. The
+# radii are added afterwards.
 #
 # A hull of two corners (capsule, segment) is a polygon with two opposite edges. While the cores overlap, the axis of
 # least penetration is a face normal, and both radii are added. While they are apart, the nearest features decide: a
@@ -423,7 +442,7 @@ def collide_aabbs(a, b, margin, manifold_out):
 
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
-    """Return the point of the edge from a to b that is nearest to (x, y), as a fraction 0..1 of the edge."""
+    """Return the position, as a fraction 0..1 of the way from a to b, of the edge's point nearest to (x, y)."""
     ex, ey = bx - ax, by - ay
     along = ex * (x - ax) + ey * (y - ay)
     square = ex * ex + ey * ey
@@ -434,14 +453,17 @@ def nearest_on_edge(ax, ay, bx, by, x, y):
 
 @subkernel
 def distance_to_edge(ax, ay, bx, by, x, y):
-    """Return the distance [px] of a point from an edge."""
+    """Return the distance [px] of the point (x, y) from the edge from a to b."""
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     return norm(x - ax - t * (bx - ax), y - ay - t * (by - ay))
 
 
 @subkernel
 def same_side(a, b):
-    """Return -1.0 if the ends of a are on opposite sides of the line through b, 0.0 if one is on it, else 1.0."""
+    """Return 1.0 if both ends of segment a are on the same side of the line through segment b.
+
+    Return -1.0 if they are on opposite sides, and 0.0 if an end is on the line. a, b (2, 2): ends [px].
+    """
     ex = b[1, 0] - b[0, 0]
     ey = b[1, 1] - b[0, 1]
     first = ex * (a[0, 1] - b[0, 1]) - ey * (a[0, 0] - b[0, 0])
@@ -453,9 +475,9 @@ def same_side(a, b):
 
 @subkernel
 def segment_distance(a, b):
-    """Return the distance [px] of two hulls of two corners, 0 when they cross.
+    """Return the distance [px] of two segments, 0 if they cross. a, b (2, 2): ends [px].
 
-    The face normals do not separate two segments along their line.
+    It supplements the separating axis test, whose face normals cannot separate two segments on one line.
     """
     if same_side(a, b) < 0.0 and same_side(b, a) < 0.0:
         return 0.0
@@ -488,7 +510,10 @@ def nearest_corners(a, a_count, b, b_count):
 
 @subkernel
 def corner_manifold(a, i, b, j, limit, manifold_out):
-    """Write one point between corners of the Hulls A and B, if within the limit [px]. Return the number of points."""
+    """Write a manifold of one point between corner i of Hull A and corner j of Hull B.
+
+    Return the number of points, 0 if the separation exceeds the limit [px].
+    """
     x = a.corners[i, 0]
     y = a.corners[i, 1]
     dx = b.corners[j, 0] - x
@@ -511,7 +536,7 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
 
 @subkernel
 def ends_face(corners, count, edges, corner, nx, ny):
-    """Return whether a corner ends a touchable side whose normal is nearly the unit direction (nx, ny)."""
+    """Return whether a corner ends a touchable edge with a normal within 6 degrees of the unit vector (nx, ny)."""
     for back in range(2):
         side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
         if (edges >> side) & 1:
@@ -523,7 +548,7 @@ def ends_face(corners, count, edges, corner, nx, ny):
 
 @subkernel
 def is_over(corners, count, edge, x, y):
-    """Return whether a point lies between the ends of an edge, along it."""
+    """Return whether the projection of the point (x, y) onto an edge of a polygon lies between the ends of the edge."""
     following = edge + 1 if edge + 1 < count else 0
     dx = corners[following, 0] - corners[edge, 0]
     dy = corners[following, 1] - corners[edge, 1]
@@ -533,10 +558,11 @@ def is_over(corners, count, edge, x, y):
 
 @subkernel
 def pushing_edges(a, b, over_ends):
-    """Return the edges of Hull A that may push it out of Hull B: those that face a touchable corner of B.
+    """Return the bits of the edges of Hull A whose normals may push A out of Hull B, a part of a larger outline.
 
-    With over_ends so do those over which the end of a touchable side of B lies, nearly along them: its other end may be
-    touched too. The other edges face a corner behind which B's neighbour continues the surface.
+    Such an edge faces a touchable corner of B. Other edges face a corner at which B's neighbour continues the surface.
+    over_ends: also return edges nearly parallel to a touchable edge of B whose end lies over them, because the other
+    end of that edge may be touched, too.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES
@@ -554,7 +580,7 @@ def pushing_edges(a, b, over_ends):
 
 @subkernel
 def overlaps_edge(hull, edge, other):
-    """Return whether another Hull lies over an edge: their extents along the edge share more than a point."""
+    """Return whether the projections of an edge of `hull` and of the Hull `other` onto the edge overlap."""
     corners = hull.corners
     others = other.corners
     following = edge + 1 if edge + 1 < hull.count else 0
@@ -579,7 +605,7 @@ def clip_tolerance(corners, count, edge):
 
 @subkernel
 def least_separation(count, manifold):
-    """Return the separation [px] of the deeper point of a manifold; infinite without points."""
+    """Return the least separation [px] of the points of a manifold; infinite without points. count: of the points."""
     if count == 0:
         return math.inf
     return min(manifold[5], manifold[9]) if count > 1 else manifold[5]
@@ -587,7 +613,7 @@ def least_separation(count, manifold):
 
 @subkernel
 def extent_along(corners, count, nx, ny):
-    """Return the least and greatest projection [px] of the corners on a direction."""
+    """Return the least and greatest projection [px] of the corners onto the unit vector (nx, ny)."""
     low, high = math.inf, -math.inf
     for k in range(count):
         low = min(low, nx * corners[k, 0] + ny * corners[k, 1])
@@ -597,9 +623,9 @@ def extent_along(corners, count, nx, ny):
 
 @subkernel
 def path_misses(a, b, allowed, vx, vy):
-    """Return whether Hull B, moved along a velocity, never overlaps Hull A by more than `allowed` [px].
+    """Return whether Hull B, moving in the direction (vx, vy), never overlaps Hull A by more than `allowed` [px].
 
-    A corner against a corner keeps one normal for the whole step, which would deflect a body that only passes.
+    It is used to drop predicted contacts, whose normal is fixed for the whole step: they would deflect B as it passes.
     """
     nx, ny = unit(-vy, vx, 0.0, 0.0)
     low, high = extent_along(a.corners, a.count, nx, ny)
@@ -613,9 +639,10 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
     """Write the manifold of two Hulls of two or more corners, normal from A to B (separating axis test, clipping).
 
     Return the number of points, 0 if the separation exceeds the margin [px]. bias [px]: by how much B's separation must
-    exceed A's to make B the reference, so that the reference does not flip between equal faces. deepest [px]: limit for
-    parts. A deeper overlap, less deep behind an edge that is not touchable, is left to the neighbour that covers that
-    edge; then manifold_out[0] is COVERED_OVERLAP. O(corners of A · corners of B).
+    exceed A's to make B the reference, so that the reference does not flip between equal faces. deepest [px]: an
+    overlap deeper than this is left to a neighbour that covers an edge with less depth. If an overlap is left to a
+    neighbour, 0 is returned and manifold_out[0] is COVERED_OVERLAP. manifold_out (11,): layout above at
+    COVERED_OVERLAP. O(corners of A · corners of B).
     """
     a_corners, a_count, a_radius, a_edges = a
     b_corners, b_count, b_radius, b_edges = b
@@ -644,7 +671,7 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
         and max(a_all, b_all) > allowed
         and not (overlaps_edge(b, b_edge, a) if from_b else overlaps_edge(a, a_edge, b))
     ):
-        # The nearer face belongs to a neighbour, and this one is not over the other hull.
+        # The nearer face is covered by a neighbour, and the other hull is not over the touchable face.
         manifold_out[0] = covered
         return 0
     for attempt in range(2):
@@ -685,9 +712,10 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
 
 @subkernel
 def collide_line_circle(ax, ay, bx, by, x, y, radius):
-    """Return (normal to the disc, point of the line, separation, feature) of the line from a to b and a disc [px].
+    """Return (normal to the disc, nearest point of the line, separation, feature) of a line segment and a disc [px].
 
-    Feature: 0 or 1, the side; 32 or 33, the end. A centre on the line takes the normal of its first side.
+    The segment goes from (ax, ay) to (bx, by). Feature: 0 or 1 for a side of the segment, CIRCLE_CORNER for its start,
+    CIRCLE_CORNER + 1 for its end. If the centre of the disc is on the line, the normal of side 0 is used.
     """
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     px, py = ax + t * (bx - ax), ay + t * (by - ay)
@@ -712,10 +740,10 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
 
 @subkernel
 def collide_hull_circle(hull, x, y, radius):
-    """Return (found, normal from the hull to the disc, point midway, separation, feature) of a Hull of two or more
-    corners and a disc [px].
+    """Return (found, normal from hull to disc, contact point, separation, feature) of a Hull and a disc [px].
 
-    See collide_polygon_circle for the touchable edges and for a centre inside.
+    The Hull has two or more corners. Edges that are not touchable and a centre inside the Hull are treated as in
+    collide_polygon_circle.
     """
     corners = hull.corners
     rounding = hull.radius

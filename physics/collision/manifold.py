@@ -1,4 +1,4 @@
-"""Rows of the CONTACT table, their materials, and the order in which they are reported."""
+"""CONTACT rows: how they are written by the narrow phase, mixed materials, order, and conversion for reports."""
 
 import math
 from collections.abc import Callable
@@ -15,14 +15,14 @@ from physics.tables.geometry import Geometry
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 
 # ---- owners ----------------------------------------------------------------------------------------------------------
-# Manifolds as reported: they name the shapes that touch, not their parts.
+# Manifolds as reported: they name whole shapes (owners), not the parts of them that touch.
 
 SIDES = ("body_", "shape_", "parent_", "body_row_", "row_")
 
 
 @kernel
 def are_whole(manifolds):
-    """Return whether no side of any manifold is a part of another shape. O(manifolds)."""
+    """Return whether all manifolds are between whole shapes: no side is a part of a larger shape. O(manifolds)."""
     for i in range(len(manifolds)):
         m = manifolds[i]
         if m.of_child:
@@ -31,10 +31,10 @@ def are_whole(manifolds):
 
 
 def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return (CONTACT rows that name the owners of touching parts, in owner order; their original rows or None).
+    """Return (CONTACT rows with each part replaced by the shape that owns it; the row in `manifolds` of each, or None).
 
-    None means that the rows are unchanged. Parts are internal, and may have been created later than the other shape. A
-    is the owner with the smaller id here too.
+    The rows are sorted by the ids of the owners, and A is the owner with the smaller id. None: no side is a part, and
+    `manifolds` itself is returned.
     """
     if are_whole(manifolds):
         return manifolds, None
@@ -60,11 +60,11 @@ def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
 
 @inlined
 def mixed(geometry, a, b, manifold):
-    """Return (friction, restitution, rolling resistance [px], surface speed [px/s]) of a manifold of two SHAPE rows.
+    """Return the mixed (friction, restitution, rolling resistance [px], surface speed [px/s]) of a contact.
 
-    A chain's link has its own material. Friction is the geometric mean, restitution and rolling resistance the greater;
-    surface speeds add up. Rolling resistance is a length here: the coefficient times the greater radius (Catto, Box2D
-    v3.1).
+    a, b: SHAPE rows; manifold: CONTACT row, whose feature names the link of a chain, which has its own material.
+    Friction is the geometric mean, restitution and rolling resistance the greater value, surface speed the sum. Rolling
+    resistance is a length: the coefficient times the greater radius (Catto, Box2D v3.1).
     """
     friction = 1.0
     restitution = 0.0
@@ -100,7 +100,7 @@ def mixed(geometry, a, b, manifold):
 CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASKS_EXACT, MASK_HULL, GRID_ANY, CHAIN_ANY = range(8)  # exact: not snapped
 SURFACE_ANY, NOTHING = 8, 9  # surface: a chain that is the upper side of a mask open from below
 BLOCK = 64  # candidates that a pass lists before it collides them
-POINTS = 11  # floats of a manifold in flight: see hulls.py
+POINTS = 11  # floats of a manifold before it is stored: see "clipping" in hulls.py
 
 
 class Batch(NamedTuple):
@@ -119,12 +119,12 @@ class Batch(NamedTuple):
 
 
 class Workspace(NamedTuple):
-    """Scratch memory for one pair in flight."""
+    """Scratch memory of the narrow phase, mostly for the one pair that it is testing."""
 
     a: np.ndarray  # (16, 2) corners [px]
     b: np.ndarray
     c: np.ndarray
-    points: np.ndarray  # (POINTS,), see hulls.py
+    points: np.ndarray  # (POINTS,) manifold of the pair, see "clipping" in hulls.py
     depths: np.ndarray  # (16,)
     previous: np.ndarray  # CONTACT rows of the last step, for pairs with one-way ground
     memory: np.ndarray  # (candidates, 2) first row in previous, number of rows
@@ -149,14 +149,17 @@ def new_workspace() -> Workspace:
 
 @subkernel
 def queue_fallback(pair, fallback_inout):
-    """Add a candidate whose overlap is left to a neighbour, see mask_parts.py."""
+    """Queue a candidate pair for the deep-penetration fallback of mask_parts.py.
+
+    fallback_inout: number of queued candidates, then their indices.
+    """
     fallback_inout[0] += 1
     fallback_inout[fallback_inout[0]] = pair
 
 
 @subkernel
 def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
-    """Write a manifold of a candidate pair, without points."""
+    """Initialize a CONTACT row for a candidate pair, with the normal (nx, ny) but without points."""
     row_a = candidates[pair, 0]
     row_b = candidates[pair, 1]
     a, b = shapes[row_a], shapes[row_b]
@@ -181,10 +184,10 @@ def open_manifold(shapes, candidates, pair, nx, ny, manifold_out):
 
 @subkernel
 def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
-    """Add a manifold of one point. Return the number of manifolds, which may exceed the capacity.
+    """Append a manifold of one point. Return the new number of manifolds, which may exceed the capacity.
 
-    point: (unit normal from A to B, x, y, separation [px], shared area [px2], feature). Fields that depend on the
-    bodies' motion are written by `approach`.
+    pair: index of the candidate; point: (unit normal x and y from A to B, x, y, separation [px], shared area [px2],
+    feature); found: number of manifolds before. The closing speed is written later, by `approach`.
     """
     if found < len(manifolds_out):
         nx, ny, x, y, separation, area, feature = point
@@ -201,10 +204,9 @@ def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
 
 @subkernel
 def add_point(shapes, candidates, pair, point, manifolds_out, found):
-    """Add a point, see add_manifold, to the last manifold if it has this pair, this normal and one point; otherwise add
-    a manifold.
+    """Add a point to the last manifold if that has the same pair and normal and one point, else to a new manifold.
 
-    Return the number of manifolds, which may exceed the capacity.
+    Arguments as in add_manifold. Return the number of manifolds, which may exceed the capacity.
     """
     nx, ny, x, y, separation, area, feature = point
     if 0 < found <= len(manifolds_out):
@@ -221,9 +223,9 @@ def add_point(shapes, candidates, pair, point, manifolds_out, found):
 
 @subkernel
 def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, found):
-    """Add the points of a manifold in flight (see hulls.py). Return the number of manifolds.
+    """Append the manifold in `points` (11,), laid out as in hulls.py, "clipping". Return the new number of manifolds.
 
-    sign: -1.0 where the sides were swapped for the test; part: offset that is added to the features.
+    sign: -1.0 if A and B were swapped for the test, else 1.0; part: offset added to the feature ids.
     """
     for k in range(int(points[0])):
         at = 3 + 4 * k
@@ -235,7 +237,7 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
 
 @subkernel
 def circle_at(bodies, shapes, row):
-    """Return the world centre of a CIRCLE [px], and its radius [px]."""
+    """Return (centre x, y in the world, radius) [px] of a CIRCLE shape; row: of SHAPE."""
     s = shapes[row]
     b = bodies[s.body_row]
     u, v = rotate(s.local_x, s.local_y, *rotation_of(b.angle))
@@ -244,8 +246,9 @@ def circle_at(bodies, shapes, row):
 
 @inlined
 def hull_of(geometry, bodies, shapes, row, corners_out):
-    """Return the Hull of a shape at its body's pose: of a BOUNDS its AABB, of a CIRCLE its centre. corners_out (16, 2):
-    its corners.
+    """Return the Hull of a shape in the world: a BOUNDS has the corners of its AABB, a CIRCLE one corner.
+
+    row: of SHAPE; corners_out (16, 2): receives the corners [px].
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -262,7 +265,7 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
 
 
 # ---- passes ----------------------------------------------------------------------------------------------------------
-# A pass over the candidate pairs: one loop for all colliders.
+# A pass over the candidate pairs: the same loop for each kind of pair.
 
 
 @inlined
@@ -272,17 +275,20 @@ def always(batch, pair):
 
 
 def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -> Any:
-    """Return the pass over the candidate pairs of one kind.
+    """Return a kernel that tests all candidate pairs of one kind.
 
-    collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the contacts of one candidate from
-    `found` on, and returns the new count. may_touch(batch, pair): a cheap test without a branch, made for a block of
-    pairs before any of them is collided, so a mispredicted branch costs one wait with all operands at hand. Both are
-    inlined: passing a whole Batch costs more than a pair of circles.
+    collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the manifolds of one candidate at row
+    `found`, and returns the new number of manifolds. may_touch(batch, pair): cheap test that selects pairs for
+    collide_pair. It runs without branches for a block of pairs at a time, which avoids branch mispredictions. Both
+    functions must be inlined: passing a whole Batch to a call costs more than a test of two circles.
     """
 
     @kernel
     def collide_pairs(batch, workspace, manifolds_out, found, work_inout):
-        """Append the contacts of all pairs of the kind from `found` on. Return the new count. O(candidates)."""
+        """Append the manifolds of all pairs of this kind at row `found`. Return the new number of manifolds.
+
+        O(candidates).
+        """
         kinds = batch.kinds
         block = workspace.block
         for start in range(0, batch.count, BLOCK):
@@ -300,7 +306,10 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
 
 @inlined
 def sides_by_kind(batch, pair, kind):
-    """Return (1.0 if A is of a kind of shape, -1.0 if B is; its SHAPE row; the row of the other)."""
+    """Return (sign, SHAPE row of the pair's shape of this kind, SHAPE row of the other shape).
+
+    sign: 1.0 if the shape of this kind is A, -1.0 if it is B.
+    """
     row_a = batch.candidates[pair, 0]
     row_b = batch.candidates[pair, 1]
     if batch.shapes[row_a].kind == kind:
@@ -314,13 +323,13 @@ def sides_by_kind(batch, pair, kind):
 
 @subkernel
 def copy_manifold(contacts, source, target, contacts_out):
-    """Copy the manifold of a row, without its contact cache."""
+    """Copy row `source` of contacts to row `target` of contacts_out, without the fields of the contact cache."""
     copy_head(contacts[source], contacts_out[target], MANIFOLD_BYTES)
 
 
 @subkernel
 def drop_empty(count, manifolds_inout):
-    """Move the manifolds with points to the front, in order. Return how many they are. O(count)."""
+    """Remove manifolds without points, keeping the order. Return the number of manifolds left. O(count)."""
     kept = 0
     for i in range(count):
         if manifolds_inout[i].count > 0:
@@ -332,21 +341,22 @@ def drop_empty(count, manifolds_inout):
 
 @subkernel
 def is_before(contact, shape_a, shape_b):
-    """Return whether a contact comes before those of a pair, in the order of shape ids."""
+    """Return whether a CONTACT row sorts before the contacts of the pair (shape_a, shape_b), ids."""
     return contact.shape_a < shape_a or (contact.shape_a == shape_a and contact.shape_b < shape_b)
 
 
 @subkernel
 def is_of(contact, shape_a, shape_b):
-    """Return whether a contact belongs to a pair."""
+    """Return whether a CONTACT row is of the pair (shape_a, shape_b), ids."""
     return contact.shape_a == shape_a and contact.shape_b == shape_b
 
 
 @kernel
 def place_in_order(manifolds, count, candidate_count, starts_out, manifolds_out):
-    """Copy manifolds to the order of their candidates, stable within one candidate (counting sort).
+    """Copy manifolds to manifolds_out, sorted by candidate index (stable counting sort).
 
-    manifolds, manifolds_out CONTACT rows; starts_out (candidates + 1): scratch. O(manifolds + candidates).
+    manifolds, manifolds_out: CONTACT rows; count: number of manifolds; starts_out (candidates + 1): scratch.
+    O(manifolds + candidates).
     """
     for i in range(candidate_count + 1):
         starts_out[i] = 0
@@ -384,7 +394,7 @@ def write_contacts(manifolds, contacts_out):
 
 
 def contacts_of(manifolds: np.ndarray) -> np.ndarray:
-    """Return the points of CONTACT rows as CONTACT_POINT rows, in the order of the owners."""
+    """Return the points of CONTACT rows as CONTACT_POINT rows, sorted by the ids of the whole shapes that touch."""
     manifolds, _ = by_parent(manifolds)
     contacts = np.zeros(int(manifolds["count"].sum()), CONTACT_POINT)
     write_contacts(manifolds, contacts)
@@ -397,7 +407,7 @@ def contacts_of(manifolds: np.ndarray) -> np.ndarray:
 
 @subkernel
 def velocity_at(body, x, y):
-    """Return the velocity [px/s] of a world point of a BODY row."""
+    """Return the velocity [px/s] of a body's point that is at (x, y) in the world; body: BODY row."""
     return (
         body.vx - body.angular_velocity * (y - body.center_y),
         body.vy + body.angular_velocity * (x - body.center_x),
@@ -414,7 +424,10 @@ def relative_velocity(a, b, ax, ay, bx, by):
 
 @subkernel
 def center_velocity(a, b):
-    """Return the velocity [px/s] of B relative to A, BODY rows, at the centre of the smaller one, and its norm."""
+    """Return the velocity (vx, vy) [px/s] of B relative to A at the centre of the smaller body, and its norm.
+
+    a, b: BODY rows.
+    """
     x = a.center_x if a.extent < b.extent else b.center_x
     y = a.center_y if a.extent < b.extent else b.center_y
     vx, vy = relative_velocity(a, b, x, y, x, y)
@@ -423,7 +436,7 @@ def center_velocity(a, b):
 
 @subkernel
 def closing_speed_bound(a, b):
-    """Return an upper bound [px/s] of both bodies' speeds and of their relative speed, BODY rows: center_velocity."""
+    """Return an upper bound [px/s] of both bodies' speeds and of the norm returned by center_velocity; BODY rows."""
     distance = abs(b.center_x - a.center_x) + abs(b.center_y - a.center_y)
     turning = abs(a.angular_velocity) + abs(b.angular_velocity)
     return abs(a.vx) + abs(a.vy) + abs(b.vx) + abs(b.vy) + turning * distance
@@ -431,9 +444,9 @@ def closing_speed_bound(a, b):
 
 @inlined
 def closing_speed(a, b, x, y, nx, ny, tangential):
-    """Return the closing speed [px/s] of B and A at a point [px] along the normal; negative when they separate.
+    """Return the closing speed [px/s] of two bodies along the normal at a contact point; negative if they separate.
 
-    a, b: BODY rows; tangential [px]: the offset of B until the contact, see CONTACT.
+    a, b: BODY rows; x, y [px]: the point; tangential [px]: how far B slides along (-ny, nx) before a predicted contact.
     """
     ax, ay = x - a.center_x, y - a.center_y
     bx, by = x - b.center_x + tangential * ny, y - b.center_y - tangential * nx
@@ -444,7 +457,7 @@ def closing_speed(a, b, x, y, nx, ny, tangential):
 
 @inlined
 def approach(a, b, manifold_inout):
-    """Write the closing speed of both points of a CONTACT row of two bodies, BODY rows, before any response."""
+    """Write the closing speed [px/s] of each point of a CONTACT row, before any response; a, b: BODY rows."""
     m = manifold_inout
     m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.tangential_offset)
     if m.count == 2:
@@ -453,7 +466,7 @@ def approach(a, b, manifold_inout):
 
 @kernel
 def measure_approach(bodies, manifolds_inout):
-    """Write the closing speed of every point before any response. manifolds_inout CONTACT rows. O(manifolds)."""
+    """Write the closing speed [px/s] of each point of all CONTACT rows, before any response. O(manifolds)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         approach(bodies[m.body_row_a], bodies[m.body_row_b], m)

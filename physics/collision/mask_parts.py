@@ -1,4 +1,4 @@
-"""Deep-penetration fallback for outlines made of many parts: one separating direction for all parts at once."""
+"""Deep-penetration fallback for shapes made of convex parts: one direction that separates all parts at once."""
 
 import math
 
@@ -17,17 +17,18 @@ from physics.tables.table import rows_of
 # Along a direction a body has left a convex part as soon as one axis separates the two. It has left the whole outline
 # when it has left every part. The nearest edge of one part may lead into the next part, all along a rim.
 
-FACES = 32  # of a pair, at most
-# Of a face: unit, from A to B; how deep the other is behind it [px].
+FACES = 32  # greatest number of faces of a pair
+# Columns of a face: unit normal, from A to B; depth of the other hull behind the face [px]; 1.0 if it is touchable.
 DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH = range(4)
-ALONG = 0.5  # cosine of directions that go the same way
+ALONG = 0.5  # least cosine between directions that count as the same
 
 
 @subkernel
 def write_faces(hull, other, sign, first, faces_out):
-    """Write the faces of a Hull as rows from `first` on; a disc has none. Return the row after them.
+    """Write the faces of a Hull to faces_out, from row `first`. Return the row after the last one.
 
-    Its touchable edges may push. sign: 1.0 of A, -1.0 of B.
+    A disc has no faces. other: the overlapping Hull, whose depth behind each face is written; sign: 1.0 if `hull`
+    belongs to A, -1.0 if to B; faces_out (any, 4): columns DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH.
     """
     if hull.count == 1:
         return first
@@ -47,7 +48,10 @@ def write_faces(hull, other, sign, first, faces_out):
 
 @subkernel
 def translation_along(faces, starts, count, nx, ny):
-    """Return the distance [px] that B has to move along a direction to leave all parts of A. O(faces)."""
+    """Return the distance [px] that B has to move along the unit vector (nx, ny) to leave all parts of A. O(faces).
+
+    faces (any, 4): see write_faces; starts (count + 1,): first face of each of the `count` overlapping pairs of parts.
+    """
     longest = 0.0
     for part in range(count):
         shortest = math.inf
@@ -61,9 +65,11 @@ def translation_along(faces, starts, count, nx, ny):
 
 @subkernel
 def minimum_translation(faces, starts, count, last_x, last_y):
-    """Return (part, row) of the pushing face along whose direction B leaves all of A soonest; -1, -1 without any.
+    """Return the face along whose normal B leaves all parts of A with the shortest move.
 
-    Directions within acos(ALONG) of (last_x, last_y), a unit vector or 0, come before others. O(faces · faces).
+    The result is (index of the pair of parts, row of the face), or (-1, -1) if no face may push. Normals within 60
+    degrees of (last_x, last_y), a unit vector or 0, are preferred. Other arguments as in translation_along.
+    O(faces · faces).
     """
     best = -1
     best_part = -1
@@ -89,7 +95,10 @@ def minimum_translation(faces, starts, count, last_x, last_y):
 
 @subkernel
 def face_manifold(a, edge, b, flipped, margin, manifold_out):
-    """Write the manifold of overlapping Hulls with an edge of a as reference, at any depth."""
+    """Write the manifold of two overlapping Hulls with an edge of Hull a as the reference, however deep they overlap.
+
+    flipped: a is shape B of the pair; margin [px]; manifold_out (11,): see "clipping" in hulls.py.
+    """
     count = 0
     if b.count > 1:
         count = clip_edges(a, edge, b, margin, flipped, manifold_out)
@@ -101,7 +110,7 @@ def face_manifold(a, edge, b, flipped, margin, manifold_out):
 
 @subkernel
 def hulls_of_pair(batch, pair, workspace):
-    """Return the Hulls of both sides of a candidate."""
+    """Return the Hulls of shapes A and B of a candidate pair; pair: index of the candidate."""
     geometry = batch.geometry
     a = hull_of(geometry, batch.bodies, batch.shapes, batch.candidates[pair, 0], workspace.a)
     b = hull_of(geometry, batch.bodies, batch.shapes, batch.candidates[pair, 1], workspace.b)
@@ -110,10 +119,11 @@ def hulls_of_pair(batch, pair, workspace):
 
 @kernel
 def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_out, manifolds_out):
-    """Write the manifold that moves B out of A in the shortest direction, for candidates `pairs` of parts of these two.
+    """Write the manifold that pushes shape B out of shape A along the shortest way.
 
-    last_x, last_y: the direction of the last step, or 0. starts_out (pairs + 1,), faces_out (FACES · pairs, 4):
-    scratch. Return the number of manifolds, 0 or 1. O(faces · faces).
+    pairs: indices of the candidates whose sides are overlapping parts of A and B; last_x, last_y: unit normal of the
+    last step, or 0; starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch. Return the number of manifolds, 0
+    or 1. O(faces · faces).
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -134,11 +144,11 @@ def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_ou
 
 
 # ---- fallback --------------------------------------------------------------------------------------------------------
-# The fallback for pairs that every part of an outline has left to a neighbour: a body deep among thin parts.
+# The fallback for a body deep among thin parts, with which no part reports a contact.
 #
-# A part reports no contact where a neighbour covers the nearer edge. A body that jumps into a thin rim in one fast step
-# may overlap its parts so that each of them does this. Then the pair gets the edge that leads out of all of them
-# soonest. Tiles have the same second pass, see tiles.py.
+# A part reports no contact if the nearest edge is covered by a neighbouring part, which is expected to report it. If a
+# body jumps into a thin rim in one fast step, each part may leave the contact to another. Then the pair gets the edge
+# with the shortest way out of all parts. Tiles have a similar second pass, see tiles.py.
 
 OPPOSED = -0.5  # cosine of normals that oppose each other
 ALIKE = 0.99  # cosine of normals of two parts that belong to one face
@@ -146,7 +156,7 @@ ALIKE = 0.99  # cosine of normals of two parts that belong to one face
 
 @subkernel
 def depth_of(manifold):
-    """Return the depth [px] of the deeper point of a manifold."""
+    """Return the greatest overlap [px] of the points of a CONTACT row; negative if its points do not overlap."""
     if manifold.count == 2:
         return -min(manifold.separation_1, manifold.separation_2)
     return -manifold.separation_1
@@ -154,7 +164,10 @@ def depth_of(manifold):
 
 @kernel
 def find_deep(bodies, manifolds, count, deep, flags_out):
-    """Flag (count,) the manifolds of parts deeper than `deep` [px] in which a side is dynamic. Return how many."""
+    """Flag the deep manifolds of parts: overlap above `deep` [px], a part on at least one side, a dynamic body.
+
+    count: number of manifolds; flags_out (count,) bool. Return the number of flagged manifolds.
+    """
     found = 0
     for i in range(count):
         m = manifolds[i]
@@ -169,9 +182,10 @@ def find_deep(bodies, manifolds, count, deep, flags_out):
 
 @kernel
 def drop_opposed_rows(order, deep, manifolds_inout):
-    """Drop deep manifolds (flags) that a shallower manifold of the same pair opposes; order: sorted by owners.
+    """Drop each deep manifold if a shallower manifold of the same two shapes has an opposite normal.
 
-    Return how many are left, moved to the front. O(manifolds · those of a pair).
+    order: row numbers of the manifolds, sorted by parent ids; deep (manifolds,) bool: flags of find_deep. The manifolds
+    left are moved to the front; return their number. O(manifolds · manifolds of a pair).
     """
     first = 0
     count = len(order)
@@ -200,10 +214,10 @@ def drop_opposed_rows(order, deep, manifolds_inout):
 
 
 def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:
-    """Drop manifolds of parts deeper than `deep` [px] that a shallower manifold of the same pair opposes.
+    """Drop each manifold of parts deeper than `deep` [px] if a shallower one of the same shapes has an opposite normal.
 
-    A body thrown into a notch narrower than itself would be squeezed there for good. It is pushed out by the nearer
-    side, and rests on that. count: manifolds in use; flags (count,): scratch. Return how many are left.
+    Otherwise a body thrown into a notch narrower than itself would be squeezed between both sides; now the nearer side
+    pushes it out. count: number of manifolds; flags (count,): scratch. Return the number of manifolds left.
     """
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
@@ -212,11 +226,11 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 
 
 def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
-    """Return at most one CONTACT row for each pair of shapes whose parts all left the contact to a neighbour.
+    """Return additional CONTACT rows, at most one for each pair of shapes with parts in the fallback queue.
 
-    This covers pairs without a manifold, and pairs deeper than the margin, whose manifold may lead along a wall and not
-    out of it. found: the present manifolds; those with a gap do not count. previous: the manifolds of the last step.
-    They keep the direction in which a body is pushed out, which would otherwise alternate in the middle of an arm.
+    A pair gets one if it has no overlapping manifold, or if its manifolds are deeper than the margin: those may push
+    along a wall and not out of it. found: manifolds of this step; previous: those of the last step, whose normals are
+    preferred so that the direction of the push does not alternate.
     """
     shapes = batch.shapes
     queued = np.sort(workspace.fallback[1 : 1 + workspace.fallback[0]])
@@ -250,13 +264,19 @@ def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, wo
 
 
 def _pair_keys(shapes, pairs):
-    """Return one number for each pair of owners of two SHAPE rows, increasing in the order of the owners."""
+    """Return an integer key (n,) for each pair of shapes, equal for all pairs of parts of the same two shapes.
+
+    pairs (n, 2): SHAPE rows. Keys sort like the rows of the whole shapes.
+    """
     owners = rows_of(shapes, shapes["parent"][pairs].ravel()).reshape(-1, 2)
     return owners[:, 0] * len(shapes) + owners[:, 1]
 
 
 def _is_found(manifold, found) -> bool:
-    """Return whether a manifold of the same face exists already; a recycled one has turned slightly with its body."""
+    """Return whether `found` already contains a manifold of the same candidate with nearly the same normal.
+
+    The normal of a recycled manifold may have rotated slightly with its body.
+    """
     same = found["candidate"] == manifold["candidate"]
     along = found["normal_x"] * manifold["normal_x"] + found["normal_y"] * manifold["normal_y"]
     return bool((same & (along > ALIKE)).any())

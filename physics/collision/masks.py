@@ -1,4 +1,4 @@
-"""Snapped masks: mask against mask by AND of their words, and mask against discs, hulls and bounds."""
+"""Collision of masks snapped to whole pixels: with masks, by AND of their bit words, and with hulls."""
 
 import math
 from collections.abc import Callable
@@ -27,16 +27,19 @@ from physics.tables.step_state import MASK_TESTS
 # ---- mask depth ------------------------------------------------------------------------------------------------------
 # Contact of two masks: point, normal and depth.
 #
-# The normal is the direction in which moving B shrinks the shared area fastest. It is the gradient of the area over the
+# The normal is the direction in which moving B shrinks the shared area fastest: the gradient of the area over the
 # offset, by central differences of one pixel (the recipe of pygame's Mask documentation). Where the gradient vanishes,
-# the direction between the centres of the solid bounds is used, then their axis of least overlap. The depth is searched
-# pixel by pixel along the normal. If the bounds separate sooner along an axis, that axis is taken: the depth is
-# never more than the least overlap of the bounds.
+# the direction between the centres of the solid bounds is used or, if these coincide, their axis of least overlap. The
+# depth is searched pixel by pixel along the normal. If the bounds separate sooner along an axis, that axis is taken:
+# the depth is never more than the least overlap of the bounds.
 
 
 @subkernel
 def center_normal(a, b, dx, dy):
-    """Return the unit direction between the centres of two solid bounds, (1, 0) if they coincide."""
+    """Return the unit direction from the centre of A's solid bounds to that of B's; (1, 0) if they coincide.
+
+    a, b: RASTER rows; dx, dy [px]: offset of B's top left corner from A's.
+    """
     x = float(b.set_left + b.set_right - a.set_left - a.set_right + 2 * dx)
     y = float(b.set_top + b.set_bottom - a.set_top - a.set_bottom + 2 * dy)
     length = math.sqrt(x * x + y * y)  # of integers: no underflow or overflow
@@ -47,7 +50,10 @@ def center_normal(a, b, dx, dy):
 
 @subkernel
 def least_overlap(right, left, down, up):
-    """Return (normal, depth [px]) of the shortest move of B along an axis, of the moves that separate two boxes."""
+    """Return (normal, depth [px]) of the shortest axis-aligned move of B that separates two overlapping boxes.
+
+    right, left, down, up [px]: length of the move in each direction.
+    """
     least = min(min(right, left), min(down, up))
     if least == up:
         return 0.0, -1.0, least
@@ -59,7 +65,7 @@ def least_overlap(right, left, down, up):
 
 
 class RasterPair(NamedTuple):
-    """Two rasters, the second moved by whole pixels."""
+    """Two rasters, and the offset of the second from the first in whole pixels."""
 
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64
@@ -70,9 +76,9 @@ class RasterPair(NamedTuple):
 
 
 class Remainders(NamedTuple):
-    """The parts [px] in 0..1 of two positions that snapping has removed.
+    """Fractions [px] in 0..1 that snapping to whole pixels has removed from the positions of masks A and B.
 
-    They round a tested move as the real one will be, whether B moves along the normal or A against it.
+    With them a tested move is rounded to the same pixels as the real move will be.
     """
 
     ax: float
@@ -83,7 +89,11 @@ class Remainders(NamedTuple):
 
 @subkernel
 def separation_along(pair, remainders, nx, ny, most):
-    """Return the least whole number of pixels along the normal that ends the overlap; > most for none up to it."""
+    """Return the least move [px], a whole number, along the normal (nx, ny) that ends the overlap of two rasters.
+
+    pair: RasterPair. The overlap must end whether B moves along the normal or A against it. The result exceeds `most`
+    if no move up to it is enough.
+    """
     rasters = pair.rasters
     words = pair.words
     a, b = rasters[pair.a], rasters[pair.b]
@@ -117,10 +127,10 @@ def separation_along(pair, remainders, nx, ny, most):
 
 @subkernel
 def mask_contact(pair, remainders):
-    """Return (area, point x, point y in A's raster, normal from A to B, separation) of a RasterPair that shares pixels.
+    """Return (area, point x, point y, normal from A to B, separation) of a RasterPair that shares pixels.
 
-    The point is the centroid of the shared pixels [px]. The separation is negative: minus the move that ends the
-    overlap.
+    The area is the number of shared pixels. The point is their centroid [px] in A's raster. The separation [px] is
+    minus the move along the normal that ends the overlap.
     """
     rasters = pair.rasters
     words = pair.words
@@ -158,7 +168,7 @@ def mask_contact(pair, remainders):
 
 
 # ---- mask hulls ------------------------------------------------------------------------------------------------------
-# A mask against a disc and a convex polygon: the union of its pixel squares, as drawn, against the exact shape.
+# Collision of a mask with a disc or convex polygon. The mask is the union of its pixel squares as drawn.
 #
 # Masks are open sets: a hit shares area, and touching is not a hit. The normal points from the mask to the other shape.
 # Against a disc it runs from the centroid of the overlapping pixels to the centre. Against a polygon it is opposite to
@@ -167,9 +177,10 @@ def mask_contact(pair, remainders):
 
 @subkernel
 def pixel_range(low, high, start, set_low, set_high):
-    """Return the first and last + 1 of the pixels whose squares meet the open interval low..high, within the bounds.
+    """Return the first pixel index, and the last one + 1, of the pixels that overlap the open interval low..high.
 
-    The ends are clamped to the bounds before rounding, because an end may be infinite.
+    low, high, start [px]: the interval, and the position of pixel 0, on one axis; set_low, set_high: bounds of the
+    solid pixels, to which the result is limited. low and high may be infinite, so they are clamped before rounding.
     """
     first = math.floor(min(float(set_high), max(float(set_low), low - start)))
     last = math.floor(max(set_low - 1.0, min(set_high - 1.0, high - start))) + 1
@@ -177,7 +188,7 @@ def pixel_range(low, high, start, set_low, set_high):
 
 
 class PlacedRaster(NamedTuple):
-    """A mask's raster with its top left corner at whole pixels of the space in which the other shape is given."""
+    """A mask's raster, and the position of its top left corner in the coordinates of the other shape."""
 
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64
@@ -201,7 +212,7 @@ def hull_bounds(hull):
 
 @subkernel
 def pixels_under(raster, hull):
-    """Return (first column, last + 1, first row, last + 1) of a PlacedRaster's pixels under a Hull's bounds."""
+    """Return (first column, last column + 1, first row, last row + 1) of a PlacedRaster's pixels in a Hull's AABB."""
     r = raster.rasters[raster.row]
     min_x, min_y, max_x, max_y = hull_bounds(hull)
     first_x, last_x = pixel_range(min_x, max_x, raster.left, r.set_left, r.set_right)
@@ -210,11 +221,17 @@ def pixels_under(raster, hull):
 
 
 def make_pixel_sum(touches: Callable) -> Any:
-    """Return the sum over the solid pixels that overlap a hull: touches(hull, x, y, depths_out) is the test of one."""
+    """Return a kernel that counts the solid pixels of a mask that overlap a hull, and computes their centroid.
+
+    touches(hull, x, y, depths_out): inlined test whether the hull overlaps the pixel square at x, y.
+    """
 
     @subkernel
     def sum_pixels(raster, hull, depths_out):
-        """Return (number of pixels, their centroid [px], number of the first one) of a PlacedRaster and a Hull."""
+        """Return (number of overlapping pixels, centroid x and y [px], pixel_feature of the first one); 0 for none.
+
+        raster: PlacedRaster; depths_out (16,): scratch for `touches`.
+        """
         r = raster.rasters[raster.row]
         first_x, last_x, first_y, last_y = pixels_under(raster, hull)
         area = 0
@@ -239,7 +256,7 @@ def make_pixel_sum(touches: Callable) -> Any:
 
 @inlined
 def square_in_disc(hull, x, y, depths_out):
-    """Return whether the pixel square at x, y and a disc share area."""
+    """Return whether the unit square with its top left corner at x, y shares area with a disc, a Hull of one corner."""
     beside = max(max(x - hull.corners[0, 0], hull.corners[0, 0] - (x + 1.0)), 0.0)
     above = max(max(y - hull.corners[0, 1], hull.corners[0, 1] - (y + 1.0)), 0.0)
     return beside * beside + above * above < hull.radius * hull.radius
@@ -247,9 +264,10 @@ def square_in_disc(hull, x, y, depths_out):
 
 @subkernel
 def square_exit_distance(x, y, nx, ny, radius):
-    """Return the distance [px] a disc at the origin moves along a unit normal to clear the unit square at (x, y).
+    """Return the distance [px] that a disc must move along (nx, ny) to clear a unit square.
 
-    The disc's centre leaves the square grown by the radius through a rounded corner or a straight side.
+    The disc is at the origin, the square's top left corner at (x, y). The disc is clear when its centre has left the
+    square grown by the radius, through a rounded corner or a straight side.
     """
     depth = 0.0
     for corner in range(4):
@@ -273,11 +291,11 @@ sum_pixels_in_disc = make_pixel_sum(square_in_disc)
 
 @subkernel
 def collide_mask_circle(raster, hull, depths_out):
-    """Return (area in whole pixels, normal from mask to disc, point, separation, first pixel number) of a PlacedRaster
-    and a disc.
+    """Return (area, normal from mask to disc, point, separation, feature) of a PlacedRaster and a disc, a Hull.
 
-    The point is the centroid of the overlapping pixels. The separation is minus the move of the disc along the normal
-    that clears all pixels. O(pixels under the disc's bounds).
+    The area is the number of overlapping pixels, 0 for no contact. The point [px] is their centroid, the feature the
+    pixel_feature of the first one. The separation [px] is minus the move of the disc along the normal that clears all
+    pixels. O(pixels in the disc's AABB).
     """
     r = raster.rasters[raster.row]
     cx = hull.corners[0, 0]
@@ -299,7 +317,10 @@ def collide_mask_circle(raster, hull, depths_out):
 
 @subkernel
 def offset_line(points, front, back, corners_out):
-    """Write the rectangle that extends `front` and `back` [px] to the sides of the line from points[0] to points[1]."""
+    """Write the corners (4 rows) of the rectangle that widens the line from points[0] to points[1] to both sides.
+
+    front, back [px]: width in front of the line (towards its normal (dy, -dx)) and behind it.
+    """
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     for k in range(4):
         end = 0 if k == 0 or k == 3 else 1
@@ -310,7 +331,7 @@ def offset_line(points, front, back, corners_out):
 
 @subkernel
 def square_in_polygon(corners, count, x, y):
-    """Return whether the pixel square at x, y and a convex polygon share area (separating axis test)."""
+    """Return whether the unit square with its top left corner at x, y shares area with a convex polygon (SAT)."""
     min_x, max_x = math.inf, -math.inf
     min_y, max_y = math.inf, -math.inf
     for k in range(count):
@@ -329,7 +350,10 @@ def square_in_polygon(corners, count, x, y):
 
 @inlined
 def square_depths(hull, x, y, depths_out):
-    """Return whether the pixel square at x, y and a convex polygon share area, with its depth behind each edge."""
+    """Return whether the unit square at x, y shares area with a convex polygon, and record how deep it is.
+
+    depths_out (16,): greatest depth [px] of all squares so far behind each edge of the polygon.
+    """
     corners = hull.corners
     if not square_in_polygon(corners, hull.count, x, y):
         return False
@@ -346,9 +370,10 @@ sum_pixels_in_polygon = make_pixel_sum(square_depths)
 
 @subkernel
 def collide_mask_polygon(raster, hull, depths_out):
-    """Return the result of collide_mask_circle for a convex polygon, a Hull without radius.
+    """Return (area, normal, point, separation, feature) of a PlacedRaster and a convex polygon, a Hull without radius.
 
-    depths_out (16,): scratch. The normal is that of the touchable edge with the least depth of the overlapping pixels.
+    Values as in collide_mask_circle, but the normal is opposite to that of the touchable edge behind which the
+    overlapping pixels are least deep, and the separation is minus that depth [px]. depths_out (16,): scratch.
     """
     count = hull.count
     for k in range(count):
@@ -370,11 +395,11 @@ def collide_mask_polygon(raster, hull, depths_out):
 
 @subkernel
 def border_pixels(raster, line, low, high, level):
-    """Return (pairs of solid pixels on both sides of a grid border along an open interval, sum of their middles along
-    it, first pixel number).
+    """Find the places where a border between two rows or columns of pixels has solid pixels on both sides.
 
-    raster: a PlacedRaster; line: the border's column or row in it; low, high [px]: the interval in it; level: it is a
-    row.
+    Return (number of places, sum of their positions [px] along the border, pixel_feature of the first or -1). raster:
+    PlacedRaster; line: index of the row or column after the border; level: the border is between rows; low, high [px]:
+    open interval along the border, from the raster's corner.
     """
     words = raster.words
     r = raster.rasters[raster.row]
@@ -402,10 +427,11 @@ def border_pixels(raster, line, low, high, level):
 
 @subkernel
 def collide_mask_line(raster, hull, depths_out):
-    """Return the result of collide_mask_circle for a line, a Hull of two corners, solid from both sides.
+    """Return (area, normal, point, separation, feature) of a PlacedRaster and a line, a Hull of two corners.
 
-    The line is hit where it crosses a solid pixel, or runs along the border of two solid pixels. At a border the normal
-    points to the side further from the middle of the mask. depths_out (16,): scratch.
+    Values as in collide_mask_circle. The line is solid from both sides. It touches where it crosses a solid pixel, or
+    runs along the border between two solid pixels; there the normal points away from the middle of the mask.
+    depths_out (16,): scratch.
     """
     points = hull.corners
     left, top = raster.left, raster.top
@@ -431,13 +457,13 @@ def collide_mask_line(raster, hull, depths_out):
 
 
 # ---- mask rounded ----------------------------------------------------------------------------------------------------
-# A mask, as the union of its pixel squares as drawn, against an exact rounded hull (capsule, rounded polygon).
-# See "mask hulls" above for discs and sharp polygons.
+# Collision of a mask with a rounded hull (capsule, rounded polygon). For discs and sharp polygons see "mask hulls"
+# above. The core of a rounded hull is the polygon of its corners, without the rounding.
 
 
 @subkernel
 def square_distance(corners, count, x, y):
-    """Return the distance [px] between a core and the pixel square at x, y; 0 where they share area."""
+    """Return the distance [px] of a hull's core from the unit square with top left corner x, y; 0 if they overlap."""
     if square_in_polygon(corners, count, x, y):
         return 0.0
     gap = math.inf
@@ -456,13 +482,13 @@ def square_distance(corners, count, x, y):
 
 @inlined
 def square_in_rounded(hull, x, y, depths_out):
-    """Return whether the pixel square at x, y and a rounded hull share area."""
+    """Return whether the unit square with its top left corner at x, y shares area with a rounded hull."""
     return square_distance(hull.corners, hull.count, x, y) < hull.radius
 
 
 @subkernel
 def direction_to_core(corners, count, x, y):
-    """Return the unit direction from (x, y) to the nearest point of a core's outline, (0, -1) on it."""
+    """Return the unit direction from (x, y) to the nearest point of a polygon's outline; (0, -1) for a point on it."""
     best = math.inf
     dx, dy = 0.0, 0.0
     for k in range(count):
@@ -478,7 +504,10 @@ def direction_to_core(corners, count, x, y):
 
 @subkernel
 def depth_along(raster, hull, nx, ny):
-    """Return the move [px] of a rounded hull along a unit direction after which a line separates it from its pixels."""
+    """Return the move [px] of a rounded hull along the unit vector (nx, ny) that separates it from a mask.
+
+    After the move a line across (nx, ny) separates the hull from all pixels that it overlaps now. raster: PlacedRaster.
+    """
     r = raster.rasters[raster.row]
     least, _ = extent_along(hull.corners, hull.count, nx, ny)
     most = -math.inf
@@ -499,10 +528,11 @@ sum_pixels_in_rounded = make_pixel_sum(square_in_rounded)
 
 @subkernel
 def collide_mask_rounded(raster, hull, depths_out):
-    """Return the result of collide_mask_circle for a rounded Hull of two or more corners.
+    """Return (area, normal, point, separation, feature) of a PlacedRaster and a rounded Hull of two or more corners.
 
-    The normal is against a face's, or from the centroid of the overlapping pixels to the core, whichever has the least
-    depth. The separation is minus the move along it that clears the pixels. O(pixels under the hull's bounds · count).
+    Values as in collide_mask_circle. The normal is opposite to a face normal, or points from the centroid of the
+    overlapping pixels to the core, whichever needs the shorter move to clear the pixels. The separation is minus that
+    move. O(pixels in the hull's AABB · corners).
     """
     corners = hull.corners
     count = hull.count
@@ -526,7 +556,10 @@ def collide_mask_rounded(raster, hull, depths_out):
 
 @subkernel
 def collide_mask_hull(raster, hull, depths_out):
-    """Return the result of collide_mask_circle for any Hull in a PlacedRaster's space. depths_out (16,): scratch."""
+    """Return (area, normal, point, separation, feature) of a PlacedRaster and any Hull; see collide_mask_circle.
+
+    depths_out (16,): scratch.
+    """
     if hull.count == 1:
         return collide_mask_circle(raster, hull, depths_out)
     if hull.radius > 0.0:
@@ -537,12 +570,12 @@ def collide_mask_hull(raster, hull, depths_out):
 
 
 # ---- mask pairs ------------------------------------------------------------------------------------------------------
-# Pairs with snapped masks: mask against mask by AND.
+# The pass over pairs of snapped masks, by AND of their bit words.
 
 
 @inlined
 def bounds_overlap(batch, pair):
-    """Return whether the solid bounds of two masks overlap as drawn."""
+    """Return whether the bounding boxes of the solid pixels of a pair of snapped masks overlap."""
     a = batch.shapes[batch.candidates[pair, 0]]
     b = batch.shapes[batch.candidates[pair, 1]]
     rasters = batch.geometry.rasters
@@ -551,14 +584,15 @@ def bounds_overlap(batch, pair):
 
 
 def make_mask_pass(full: bool) -> Any:
-    """Return the pass over pairs of snapped masks: with area, centroid, normal and depth, or the first shared pixel.
+    """Return the pass over pairs of snapped masks.
 
-    In the second form the normal is the direction between the centres and the separation is -1.
+    full: compute area, centroid, normal and depth. Otherwise only find the first shared pixel: the normal is then the
+    direction between the centres, and the separation is -1.
     """
 
     @inlined
     def collide_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contact of two masks as drawn, by AND of words. Return the new count."""
+        """Append the contact of two snapped masks, by AND of bit words. Return the new number of manifolds."""
         shapes = batch.shapes
         candidates, rasters, words = batch.candidates, batch.geometry.rasters, batch.geometry.words
         a = shapes[candidates[pair, 0]]

@@ -1,4 +1,4 @@
-"""Masks that are not snapped, at their exact poses, against masks, hulls and tiles."""
+"""Collision of masks at their exact poses (not snapped to whole pixels) with masks, hulls and tiles."""
 
 import math
 from typing import Any
@@ -34,12 +34,12 @@ from physics.tables.step_state import MASK_TESTS
 # Area and centroid of the overlap of a mask's pixel squares and a rounded hull, in closed form.
 #
 # The hull's outline is its edges, moved out by the radius, and an arc round each corner. Each run of solid pixels in a
-# row is a box, and every edge and arc has a share in it: see raster/exact.py.
+# row is a box, and each edge and arc contributes to the area inside it: see raster/exact.py.
 
 
 @subkernel
 def arc_at(corners, count, k):
-    """Return (start, end) [rad] of the arc round corner k of a rounded hull: between its two edges' normals."""
+    """Return (start, end) [rad] of the arc round corner k of a rounded hull, between the normals of its two edges."""
     if count == 1:
         return 0.0, math.tau
     ax, ay = edge_normal(corners, count, k - 1 if k > 0 else count - 1)
@@ -52,9 +52,9 @@ def arc_at(corners, count, k):
 
 @subkernel
 def hull_share(hull, x, y, width, height):
-    """Return (area, moment of x, moment of y) of a Hull within a box with its top left corner at x, y [px].
+    """Return (area, moment of x, moment of y) of the overlap of a Hull and a box.
 
-    The moments are about that corner. O(corners).
+    x, y [px]: top left corner of the box, about which the moments are taken; width, height [px]. O(corners).
     """
     corners = hull.corners
     count = hull.count
@@ -87,9 +87,9 @@ def hull_share(hull, x, y, width, height):
 
 @subkernel
 def shared_with_hull(rasters, words, mask, hull):
-    """Return (area [px2], moment of x, moment of y) of the overlap of a mask and a Hull in its raster's space.
+    """Return (area [px2], moment of x, moment of y) of the overlap of a mask and a Hull.
 
-    O(runs of solid pixels under the hull's bounds · corners).
+    mask: row of RASTER; the Hull is in the space of this raster. O(runs of solid pixels in the hull's AABB · corners).
     """
     r = rasters[mask]
     min_x, min_y, max_x, max_y = hull_bounds(hull)
@@ -116,20 +116,23 @@ def shared_with_hull(rasters, words, mask, hull):
 # Masks that are not snapped, at their exact pose, against hulls and tiles.
 #
 # The test runs in the space of the mask's raster, with the other shape rotated by minus the mask's angle. Overlap,
-# normal and depth are those of masks.py. The area and the point, the centroid, are exact to rounding. A line has no
-# area: its pixels are counted, as against a snapped mask.
+# normal and depth are computed as in masks.py. The area and the contact point (the centroid) are exact to rounding. A
+# line has no area, so the pixels that it crosses are counted, as with a snapped mask.
 
 
 @subkernel
 def least_area(raster):
-    """Return the least area [px2] of a hit: rounding may leave less of a corner that has just entered."""
+    """Return the least area [px2] reported for an overlap; rounding errors may make the computed area smaller."""
     slack = ROUNDED * (raster.width + raster.height)
     return slack * slack
 
 
 @subkernel
 def move_into_raster(raster, body, count, corners_inout):
-    """Transform corners [px] in the world into the raster of a mask that is not snapped."""
+    """Transform the first `count` corners [px] from the world into the raster space of a mask that is not snapped.
+
+    raster: RASTER row; body: BODY row of the mask.
+    """
     cosine, sine = cosine_and_sine(body.angle, body.angle)
     for k in range(count):
         x, y = into_raster(raster, body, cosine, sine, corners_inout[k, 0], corners_inout[k, 1])
@@ -139,9 +142,10 @@ def move_into_raster(raster, body, count, corners_inout):
 
 @subkernel
 def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
-    """Return the Hull of a shape in the raster space of a mask that is not snapped; mask, other: rows of SHAPE.
+    """Return the Hull of shape `other` in the raster space of shape `mask`, which is not snapped.
 
-    The angles are subtracted first, so that two bodies at quarter turns stay exact. corners_out (16, 2): its corners.
+    mask, other: rows of SHAPE; corners_out (16, 2): receives the corners. The angles are subtracted before their sine
+    and cosine are taken, so that two bodies at multiples of 90 degrees stay exact.
     """
     s, o = shapes[mask], shapes[other]
     b = bodies[s.body_row]
@@ -166,9 +170,10 @@ def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
 
 @subkernel
 def collide_in_raster(rasters, words, mask, hull, depths_out):
-    """Return (area [px2], normal from the mask, point, separation, first pixel) of a mask and a Hull in its raster.
+    """Return (area [px2], normal from mask to Hull, point, separation [px], feature), all in raster space.
 
-    depths_out (16,): scratch. The area is 0 without overlap.
+    mask: row of RASTER; hull: Hull in the space of this raster; depths_out (16,): scratch. The area is 0 without
+    overlap. The point is the centroid of the overlap, the feature the pixel_feature of the first overlapping pixel.
     """
     pixels, nx, ny, x, y, separation, first = collide_mask_hull(
         PlacedRaster(rasters, words, mask, 0, 0), hull, depths_out
@@ -184,7 +189,10 @@ def collide_in_raster(rasters, words, mask, hull, depths_out):
 
 @subkernel
 def out_of_mask(geometry, body, shape, nx, ny, x, y):
-    """Return a normal and a point in the raster of a mask that is not snapped, transformed to the world."""
+    """Return a normal (nx, ny) and a point (x, y) transformed from a mask's raster space to the world.
+
+    body, shape: BODY and SHAPE rows of the mask, which is not snapped.
+    """
     cosine, sine = cosine_and_sine(body.angle, body.angle)
     wx, wy = rotate(nx, ny, cosine, sine)
     px, py = out_of_raster(geometry.rasters[raster_of_shape(geometry, shape)], body, cosine, sine, x, y)
@@ -193,8 +201,9 @@ def out_of_mask(geometry, body, shape, nx, ny, x, y):
 
 @subkernel
 def collide_as_drawn(geometry, shape, hull, depths_out):
-    """Return the result of collide_in_raster for a snapped MASK row and a Hull in the world. The area is the number of
-    its pixels that the hull touches.
+    """Return (area, normal from mask to Hull, point, separation, feature) of a snapped mask and a Hull in the world.
+
+    shape: SHAPE row of the mask. The area is the number of pixels that the Hull overlaps. Else as collide_in_raster.
     """
     raster = PlacedRaster(geometry.rasters, geometry.words, shape.raster, shape.left, shape.top)
     pixels, nx, ny, x, y, separation, first = collide_mask_hull(raster, hull, depths_out)
@@ -203,9 +212,10 @@ def collide_as_drawn(geometry, shape, hull, depths_out):
 
 @subkernel
 def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
-    """Return the result of collide_in_raster, in world space, for a MASK row, snapped or not, and a convex polygon.
+    """Return (area, normal from mask to polygon, point, separation, feature) of a mask and a convex polygon.
 
-    hull: of the polygon in the world; scratch (16, 2): for its corners in the raster.
+    All values are in the world; see collide_in_raster. body, shape: BODY and SHAPE rows of the mask, snapped or not;
+    hull: the polygon in the world; scratch (16, 2), depths_out (16,): scratch.
     """
     if shape.snap:
         return collide_as_drawn(geometry, shape, hull, depths_out)
@@ -222,7 +232,10 @@ def collide_mask_part(geometry, body, shape, hull, scratch, depths_out):
 
 @subkernel
 def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
-    """Return the result of collide_in_raster, in world space, for a mask, snapped or not, and a hull, rows of SHAPE."""
+    """Return (area, normal from mask to hull, point, separation, feature) of two shapes, a mask and a hull.
+
+    All values are in the world; see collide_in_raster. mask, other: rows of SHAPE; the mask may be snapped or not.
+    """
     s = shapes[mask]
     if s.snap:
         hull = hull_of(geometry, bodies, shapes, other, workspace.a)
@@ -240,18 +253,18 @@ def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
 # Contact of two masks of which at least one is not snapped: point, normal and depth.
 #
 # As for snapped masks (masks.py), the normal is the direction in which moving B shrinks the shared area fastest, by
-# differences of one pixel. Where it vanishes, the direction between the centres of the boxes is used, then their axis
-# of least overlap. The depth along the normal is exact, not in whole pixels. If it exceeds the least overlap of the
-# boxes, the normal and depth along that axis are taken.
+# differences of one pixel. Where this gradient vanishes, the direction between the centres of the AABBs is used or, if
+# these coincide, their axis of least overlap. The depth along the normal is exact, not in whole pixels. If it exceeds
+# the least overlap of the boxes, the normal and depth along that axis are taken.
 #
-# A is the mask whose raster is the frame of the test; see raster/exact.py.
+# In this section A is the mask in whose raster space (the frame) the test runs; see raster/exact.py.
 
-NOISE = 1e-9  # of the area: rounding error of area differences
+NOISE = 1e-9  # rounding error of area differences, as a share of the area
 
 
 @subkernel
 def boxes_normal(a, b):
-    """Return (unit direction between the centres of the AABBs of two SHAPE rows, whether the centres differ)."""
+    """Return (unit direction from the centre of A's AABB to that of B's, whether they differ); a, b: SHAPE rows."""
     x, y = (b.min_x - a.min_x) + (b.max_x - a.max_x), (b.min_y - a.min_y) + (b.max_y - a.max_y)
     nx, ny = unit(x, y, 1.0, 0.0)
     return nx, ny, x != 0.0 or y != 0.0
@@ -259,7 +272,10 @@ def boxes_normal(a, b):
 
 @subkernel
 def area_normal(pair, area):
-    """Return (unit normal in the frame along which the shared area shrinks fastest, whether there is one)."""
+    """Return (unit direction in A's raster in which moving B shrinks the shared area fastest, whether it is defined).
+
+    pair: SquaresPair; area [px2]: shared now. The direction is undefined if a move changes the area by rounding only.
+    """
     before, _, _ = shared_squares(pair, pair.u - 1.0, pair.v)
     behind, _, _ = shared_squares(pair, pair.u + 1.0, pair.v)
     above, _, _ = shared_squares(pair, pair.u, pair.v - 1.0)
@@ -270,18 +286,20 @@ def area_normal(pair, area):
 
 @subkernel
 def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
-    """Return the move [px] along a normal in the world that ends the overlap; > most if none up to it does."""
+    """Return the move [px] of B along the world normal (nx, ny) that ends the overlap of a SquaresPair.
+
+    turn_cosine, turn_sine: of A's angle. The result exceeds `most` [px] if no move up to it is enough.
+    """
     rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
     return squares_way_out(pair, rx, ry, most)
 
 
 @subkernel
 def exact_contact(pair, a, b, turn_cosine, turn_sine):
-    """Return (area [px2], point in the frame, normal from A to B in the world, separation [px]) of a SquaresPair that
-    overlaps.
+    """Return (area [px2], point, normal from A to B in the world, separation [px]) of two overlapping masks.
 
-    a, b: their SHAPE rows; turn: cosine and sine of A's angle. The point is the centroid of the overlap. The separation
-    is negative: minus the move along the normal that ends the overlap.
+    pair: SquaresPair of both; a, b: their SHAPE rows; turn_cosine, turn_sine: of A's angle. The point is the centroid
+    of the overlap in A's raster. The separation is minus the move along the normal that ends the overlap.
     """
     area, x, y = shared_squares(pair, pair.u, pair.v)
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
@@ -306,7 +324,7 @@ def exact_contact(pair, a, b, turn_cosine, turn_sine):
 
 @subkernel
 def tested_aabb(geometry, shape):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] by which a SHAPE row is tested: of a mask see box_as_tested."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a SHAPE row; for a mask see placement.box_as_tested."""
     if shape.kind == MASK:
         return box_as_tested(geometry, shape)
     return shape.min_x, shape.min_y, shape.max_x, shape.max_y
@@ -314,7 +332,7 @@ def tested_aabb(geometry, shape):
 
 @subkernel
 def share_no_area(geometry, a, b):
-    """Return whether the tested boxes of two MASK rows touch at most."""
+    """Return whether the AABBs of two masks (SHAPE rows) do not overlap, so that no pixels can overlap."""
     left, top, right, bottom = box_as_tested(geometry, a)
     min_x, min_y, max_x, max_y = box_as_tested(geometry, b)
     return left >= max_x or min_x >= right or top >= max_y or min_y >= bottom
@@ -322,7 +340,10 @@ def share_no_area(geometry, a, b):
 
 @subkernel
 def is_first_the_frame(geometry, a, b):
-    """Return whether A's raster is the frame of two MASK rows: the unsnapped one, else that of more area."""
+    """Return whether two masks are tested in A's raster space (otherwise in B's); a, b: SHAPE rows.
+
+    The space of an unsnapped mask is used; if neither is snapped, that of the mask with the greater area.
+    """
     if a.snap or b.snap:
         return not a.snap
     rasters = geometry.rasters
@@ -331,7 +352,7 @@ def is_first_the_frame(geometry, a, b):
 
 @subkernel
 def squares_pair(geometry, bodies, frame, other):
-    """Return the SquaresPair of two MASK rows; the frame is not snapped."""
+    """Return the SquaresPair of two masks, SHAPE rows, in the raster space of `frame`, which is not snapped."""
     u, v, cosine, sine = raster_in_raster(geometry, bodies[frame.body_row], frame, bodies[other.body_row], other)
     rows = raster_of_shape(geometry, frame), raster_of_shape(geometry, other)
     return SquaresPair(geometry.rasters, geometry.words, rows[0], rows[1], u, v, cosine, sine)
@@ -339,7 +360,7 @@ def squares_pair(geometry, bodies, frame, other):
 
 @subkernel
 def exact_mask_area(geometry, bodies, a, b):
-    """Return the area [px2] that two MASK rows share, at least one of them not snapped."""
+    """Return the area [px2] that two masks (SHAPE rows) share; at least one of them is not snapped."""
     if share_no_area(geometry, a, b):
         return 0.0
     first = is_first_the_frame(geometry, a, b)
@@ -350,14 +371,15 @@ def exact_mask_area(geometry, bodies, a, b):
 
 
 def make_exact_mask_pass(full: bool) -> Any:
-    """Return the pass over mask pairs: with area, centroid, normal and depth, or with two overlapping pixel squares.
+    """Return the pass over pairs of masks of which at least one is not snapped.
 
-    In the second form the normal is the direction between the centres of the boxes and the separation is -1.
+    full: compute area, centroid, normal and depth. Otherwise only find two overlapping pixels: the normal is then the
+    direction between the centres of the AABBs, and the separation is -1.
     """
 
     @inlined
     def collide_exact_mask_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contact of two masks at their exact poses. Return the new count."""
+        """Append the contact of two masks at their exact poses. Return the new number of manifolds."""
         geometry, bodies, shapes, candidates = batch.geometry, batch.bodies, batch.shapes, batch.candidates
         rasters = geometry.rasters
         work_inout[MASK_TESTS] += 1
@@ -399,7 +421,7 @@ collide_exact_mask_pairs_hit = make_exact_mask_pass(full=False)
 
 @inlined
 def collide_mask_hull_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-    """Append the contact of a mask and a hull. Return the new count."""
+    """Append the contact of a mask and a hull. Return the new number of manifolds."""
     work_inout[MASK_TESTS] += 1
     sign, mask, other = sides_by_kind(batch, pair, MASK)
     area, nx, ny, x, y, separation, feature = collide_mask_shape(

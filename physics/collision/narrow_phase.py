@@ -1,4 +1,4 @@
-"""The narrow phase: from candidate pairs to contacts, one pass per kind of pair, and its stages."""
+"""Narrow phase: contacts of the candidate pairs, one pass per kind of pair, and the stages that run it."""
 
 import numpy as np
 
@@ -51,26 +51,26 @@ from physics.tables.table import zeros_in_lines
 # ---- box pairs -------------------------------------------------------------------------------------------------------
 # Which candidates a pass reads, and the pass that compares AABBs only.
 
-# Candidates that a narrow phase reads: ALL; those without a sensor; of these, SOLIDS, those whose contact can change in
-# a step; those with a sensor.
+# Which candidates a call tests: ALL; NO_SENSORS, those without a sensor; SOLIDS, those without a sensor whose contact
+# can change in a step; SENSORS, those with a sensor.
 ALL, NO_SENSORS, SOLIDS, SENSORS = 0, 1, 2, 3
 
 
 @inlined
 def may_change(a, b):
-    """Return whether a step can change the contact of two bodies."""
+    """Return whether a step can change the contact of two bodies, BODY rows: one is active or wakes the other."""
     return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
 @inlined
 def is_wanted(which, a, b):
-    """Return whether a pair of SHAPE rows is selected by `which`, judged by its sensors."""
+    """Return whether `which` (ALL, NO_SENSORS, SOLIDS, SENSORS) selects two SHAPE rows by their sensor flags."""
     return which == ALL or (a.sensor or b.sensor) == (which == SENSORS)
 
 
 @subkernel
 def is_asked(which, bodies, a, b):
-    """Return whether a pair of SHAPE rows is selected, see ALL; of SOLIDS, also whether its contact can change."""
+    """Return whether `which` selects a pair of SHAPE rows; for SOLIDS its contact must also be able to change."""
     if not is_wanted(which, a, b):
         return False
     return which != SOLIDS or may_change(bodies[a.body_row], bodies[b.body_row])
@@ -78,9 +78,10 @@ def is_asked(which, bodies, a, b):
 
 @kernel
 def collide_boxes(batch, which, manifolds_out, work_inout):
-    """Write contacts of candidates from their AABBs alone: normal along the axis of least overlap, point in its middle.
+    """Write the contacts of the candidates from their AABBs alone.
 
-    which: see is_asked. Return the number of contacts. O(candidates).
+    The normal is the axis of least overlap, the point the middle of the overlap. which: ALL, NO_SENSORS, SOLIDS or
+    SENSORS. Return the number of contacts. O(candidates).
     """
     shapes, candidates = batch.shapes, batch.candidates
     found = 0
@@ -120,7 +121,7 @@ WITH_CHILD, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
 
 @inlined
 def kind_of_pair(low, high):
-    """Return the kind of pair of two shape kinds, the lower first."""
+    """Return the kind of pair (CIRCLES, POLYGONS, …) of two shapes of the kinds `low` <= `high`."""
     if low == CIRCLE and high == CIRCLE:
         return CIRCLES
     # Grids and chains are never moved by contacts: no contact between two of them.
@@ -137,10 +138,10 @@ def kind_of_pair(low, high):
 
 @inlined
 def as_snapped(kind, a, b):
-    """Return the kind of pair of two SHAPE rows, where `kind` is that of their shape kinds.
+    """Return the kind of pair of two SHAPE rows; kind: the result of kind_of_pair for them.
 
-    Two snapped masks are tested by AND, any other two masks at their exact poses. A chain that is part of a mask is its
-    surface.
+    It differs for two masks of which one is not snapped (MASKS_EXACT), and for a chain that is the one-way surface of a
+    mask (SURFACE_ANY).
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
@@ -163,7 +164,10 @@ def boxes_apart(a, b, margin):
 
 @inlined
 def kind_asked(bodies, a, b, margin, lookahead, which):
-    """Return the kind of a candidate pair of SHAPE rows, NOTHING if this pass does not read it. which: see classify."""
+    """Return the kind of a candidate pair of SHAPE rows, or NOTHING if the pair is not to be tested.
+
+    margin [px], lookahead [s]: see Batch; which: ALL, NO_SENSORS, SOLIDS or SENSORS.
+    """
     if not is_wanted(which, a, b):
         return NOTHING
     kind = as_snapped(kind_of_pair(min(a.kind, b.kind), max(a.kind, b.kind)), a, b)
@@ -187,17 +191,18 @@ def kind_asked(bodies, a, b, margin, lookahead, which):
 
 @inlined
 def is_of_child(a, b):
-    """Return whether a side of a pair of SHAPE rows is a part of another shape."""
+    """Return whether at least one of two SHAPE rows is a part of a larger shape."""
     return a.parent != a.id or b.parent != b.id
 
 
 @kernel
 def classify(batch, which, kinds_out, counts_out, work_inout):
-    """Write the kind of every candidate pair and the number of pairs of each kind. O(candidates).
+    """Write the kind of each candidate pair, and the number of pairs of each kind. O(candidates).
 
-    counts_out[WITH_CHILD]: pairs with a part of another shape; counts_out[DRAWN_PAIRS]: pairs with a mask drawn for the
-    test. which: ALL, NO_SENSORS, SENSORS, or SOLIDS. SOLIDS are pairs whose contact can change, with boxes within the
-    batch's margin, or that meet within its lookahead. All other pairs are NOTHING.
+    which: ALL, NO_SENSORS, SOLIDS or SENSORS; pairs that are not selected get the kind NOTHING. So do SOLIDS and
+    SENSORS with AABBs further apart than batch.margin, unless they may meet within batch.lookahead.
+    counts_out[WITH_CHILD]: number of pairs with a part of a larger shape; counts_out[DRAWN_PAIRS]: of pairs with a mask
+    to be rasterized first.
     """
     bodies, shapes, candidates = batch.bodies, batch.shapes, batch.candidates
     for i in range(len(counts_out)):
@@ -218,16 +223,15 @@ def classify(batch, which, kinds_out, counts_out, work_inout):
 
 
 # ---- one-way ground --------------------------------------------------------------------------------------------------
-# Contacts of the last step with ground that is open from below.
+# Contacts of the last step with one-way ground, which is open from below.
 
 
 @kernel
 def remember_ground(batch, previous, memory_out):
-    """Write the previous manifolds of each candidate with a tile grid or a surface: memory_out (count, 2) first row,
-    number.
+    """Find the contacts of the last step of each candidate with a tile grid or one-way surface.
 
-    Both tables are in the order of shape ids. One-way ground needs to know which bodies stood on it.
-    O(candidates + previous).
+    They tell which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape ids like
+    the candidates; memory_out (count, 2): first row in `previous`, number of rows. O(candidates + previous).
     """
     j = 0
     for i in range(batch.count):
@@ -251,9 +255,10 @@ def remember_ground(batch, previous, memory_out):
 
 
 class NarrowPhase:
-    """The narrow phase: writes the manifolds of candidate pairs, and keeps its workspace between steps.
+    """Narrow phase of one world, with the arrays that are reused between steps.
 
-    full_masks: area, normal and depth of mask pairs; one_way: with one-way ground; boxes_only: stop at AABBs.
+    full_masks: compute area, normal and depth of pairs of masks, and not only whether they overlap; one_way: the world
+    has one-way ground; boxes_only: find contacts from AABBs alone.
     """
 
     def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
@@ -289,11 +294,12 @@ class NarrowPhase:
         bias: float = 0.0,
         previous: np.ndarray | None = None,
     ) -> np.ndarray:
-        """Return the manifolds of the candidate pairs, in their order: a view that the call after the next overwrites.
+        """Return the CONTACT rows of the candidate pairs, in the order of the candidates.
 
-        The masks among them are drawn at the poses of their bodies, see physics/shapes/library.py. candidates (n, 2)
-        int64 shape rows; margin [px]: largest gap of a contact; work: counters; which: see classify; bias
-        [px]: see hulls.collide_hulls. previous: manifolds of the last step, which report the bodies on one-way ground.
+        The result is a view that the call after the next overwrites. Masks are rasterized first at the poses of their
+        bodies, see physics/shapes/library.py. candidates (n, 2): int64 shape rows; margin [px]: largest gap of a
+        contact; work: counters; which: ALL, NO_SENSORS, SOLIDS or SENSORS; bias [px]: see hulls.collide_hulls;
+        previous: CONTACT rows of the last step, used for one-way ground.
         """
         self.raw, self.last_raw = self.last_raw, self.raw
         self.ordered, self.last_ordered = self.last_ordered, self.ordered
@@ -317,20 +323,20 @@ class NarrowPhase:
         graze: float,
         lookahead: float,
     ) -> Batch:
-        """Return the input of the passes over these candidates, with room for their kinds; see collide and Batch."""
+        """Return the Batch of these candidates, with an array for their kinds; arguments as in collide and Batch."""
         count = len(candidates)
         self._make_room_for_pairs(count)
         return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, lookahead)
 
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
-        """Return the contacts of the candidates from their AABBs alone; see is_asked."""
+        """Return the contacts of the candidates from their AABBs alone; which: ALL, NO_SENSORS, SOLIDS or SENSORS."""
         found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
         return self.raw[:found]  # a larger table than before, where there was no room
 
     def complete(self, batch: Batch, previous: np.ndarray | None, recycled: int, work: np.ndarray) -> np.ndarray:
-        """Return the manifolds of all pairs whose kinds are counted, in the order of the candidates.
+        """Test all pairs that `classify` has selected, and return the manifolds in the order of the candidates.
 
-        recycled: number of manifolds that are in self.raw already.
+        recycled: number of recycled manifolds already at the beginning of self.raw, which are part of the result.
         """
         workspace, counts = self.workspace, self.counts
         if self.one_way and (counts[GRID_ANY] or counts[SURFACE_ANY]):
@@ -354,9 +360,10 @@ class NarrowPhase:
         return self.ordered[:found]
 
     def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
-        """Add the manifolds of the pairs whose kinds are counted after the first `recycled`.
+        """Run the passes, and append their manifolds to self.raw after the first `recycled` rows.
 
-        Return their number, with the first ones, and the number of runs added, each in the order of the candidates.
+        Return (number of manifolds including the recycled ones, number of passes that appended manifolds). The
+        manifolds of one pass are in the order of the candidates, so a merge is needed only after several passes.
         """
         used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.fallback) < batch.count + 1:
@@ -380,7 +387,7 @@ class NarrowPhase:
         return found + len(rest), len(used) + (len(rest) > 0)
 
     def _remember(self, batch, previous):
-        """Return the workspace with the previous manifolds of every pair with ground that may be one-way."""
+        """Return the workspace with the last step's contacts of all pairs that may involve one-way ground."""
         if len(self.workspace.memory) < batch.count:
             self.workspace = self.workspace._replace(memory=np.zeros((2 * batch.count, 2), np.int64))
         workspace = self.workspace._replace(previous=previous)
@@ -407,7 +414,7 @@ class NarrowPhase:
         return self.deep
 
     def _drop_seams(self, batch, previous, found) -> int:
-        """Drop the contacts with seams of the ground. Return how many manifolds are left."""
+        """Drop ghost contacts at seams between flush pieces of ground. Return the number of manifolds left."""
         bodies, rows = len(batch.bodies), found + len(previous)
         rows = max(rows, batch.count)
         if len(self.lists.heads) < bodies or len(self.lists.links) < rows:
@@ -417,7 +424,10 @@ class NarrowPhase:
         return drop_seams(batch, previous, found, self.workspace, self.lists, self.ground, self.raw)
 
     def room_for(self, count: int) -> np.ndarray:
-        """Return room for so many contacts, which `complete` finds there if it is told their number."""
+        """Return an array with room for `count` CONTACT rows, into which the caller writes recycled contacts.
+
+        The next call of `complete` takes their number as `recycled`.
+        """
         self._make_room(count)
         return self.raw
 
@@ -429,7 +439,7 @@ class NarrowPhase:
 
 
 def no_work() -> np.ndarray:
-    """Return a new array of counters, to be discarded."""
+    """Return a new array of work counters, for calls whose work is not counted."""
     return np.zeros(len(COUNTERS), np.int64)
 
 
@@ -437,14 +447,15 @@ def no_work() -> np.ndarray:
 # The narrow phase as a stage of worlds without a contact cache, at the final poses.
 
 PLACE = ("count", "normal_x", "normal_y", *(f"{name}_{k}" for k in (1, 2) for name in ("x", "y", "separation", "area")))
-BIAS = 0.1  # of the slop: by how much another reference face must be better than the last one
-GRAZE = 1.5  # slops that a passing body may overlap a side: a body that rests on the floor may overlap it by one
+BIAS = 0.1  # bias of hulls.collide_hulls, as a share of the slop
+GRAZE = 1.5  # Batch.graze, in slops; more than the one slop by which a resting body may overlap the floor
 
 
 def detect(state: StepState) -> np.ndarray:
-    """Return the manifolds at the present poses, with closing speeds; state.contact_rows are those of the last step.
+    """Return the CONTACT rows at the present poses, with closing speeds.
 
-    With contact response, sensors are left to `sense`, which tests the final poses.
+    Before the call state.contact_rows holds the contacts of the last step. With contact response, pairs with sensors
+    are left out: the stage `sense` tests them at the final poses.
     """
     slop = state.tolerances.slop
     narrow = state.workspace.narrow
@@ -464,7 +475,10 @@ def detect(state: StepState) -> np.ndarray:
 
 
 def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
-    """Write points, normals and separations of manifolds found by a sweep, at the poses it has set."""
+    """Recompute points, normals and separations of contacts that a sweep has found, at the present poses.
+
+    met: CONTACT rows to update; a row stays as it is if the narrow phase finds no contact with a similar normal.
+    """
     found = state.workspace.narrow.collide(
         state.library,
         state.bodies,
@@ -490,5 +504,5 @@ def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
     writes=("contact_rows", "work", "workspace"),
 )
 def detect_ended(state: StepState) -> None:
-    """Detect manifolds at the final poses."""
+    """Find the contacts at the final poses of the step, in worlds without a contact cache."""
     state.contact_rows = detect(state)

@@ -1,4 +1,4 @@
-"""Ground made of pieces: contacts with a seam between two flush pieces are dropped."""
+"""Ghost collisions: contacts at the seam between two flush pieces of ground are dropped."""
 
 import math
 from typing import NamedTuple
@@ -38,25 +38,28 @@ from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 # if it lies ahead of the body, or if another piece that the body touches covers the place. A piece that stands higher
 # than the tolerance is felt, and so is an edge beside a gap.
 #
-# A pair of shapes does not show this: whether a corner is exposed depends on its neighbours. Source: Catto, Ghost
-# Collisions, box2d.org, 2020, where a chain's neighbours are known; here they are found among the candidates.
+# Whether a corner is exposed depends on the neighbouring pieces, so a single pair cannot decide it. Source: Catto,
+# Ghost Collisions, box2d.org, 2020, where a chain's neighbours are known; here they are found among the candidates.
 
-PARALLEL = 0.996  # cosine of the normals of two faces that bear a body together (5 degrees)
-SAME_NORMAL = 1.0 - 1e-12
-WIDE = 4.0  # tolerances between the two points of a face contact that no seam explains
+PARALLEL = 0.996  # least cosine between the normals of two faces that may support a body together (5 degrees)
+SAME_NORMAL = 1.0 - 1e-12  # least cosine between normals that count as equal
+WIDE = 4.0  # a face contact wider than this many tolerances (batch.graze) is not at a seam
 NONE = -1
 
 
 class BodyLists(NamedTuple):
-    """A list of numbers for each body."""
+    """A linked list of row numbers for each body."""
 
-    heads: np.ndarray  # (bodies,) int64 first number of each, or NONE
-    links: np.ndarray  # int64 by number: the next one, or NONE
+    heads: np.ndarray  # (bodies,) int64 first row number of each body, or NONE
+    links: np.ndarray  # int64: the row number that follows each row number in its list, or NONE
 
 
 @subkernel
 def ground_side(bodies, shapes, manifold):
-    """Return the side (0 or 1) of a CONTACT row that is ground under a dynamic hull, or NONE."""
+    """Return which side of a CONTACT row is ground touched by a dynamic body: 0 for A, 1 for B, or NONE.
+
+    NONE: both bodies or neither are dynamic, or a shape is a mask.
+    """
     m = manifold
     a_moves = bodies[m.body_row_a].kind == DYNAMIC
     if a_moves == (bodies[m.body_row_b].kind == DYNAMIC):
@@ -68,7 +71,7 @@ def ground_side(bodies, shapes, manifold):
 
 @subkernel
 def is_at_corner(shapes, manifold):
-    """Return whether a manifold's normal is not that of a face: corner against corner, or a disc on a corner."""
+    """Return whether a contact is between two corners, or a disc and a corner, so the normal is not a face's."""
     part = manifold.feature_1 % PART
     disc = shapes[manifold.row_a].kind == CIRCLE or shapes[manifold.row_b].kind == CIRCLE
     return part >= (CIRCLE_CORNER if disc else CORNERS)
@@ -76,7 +79,10 @@ def is_at_corner(shapes, manifold):
 
 @subkernel
 def piece_at(batch, row, feature, corners_out):
-    """Return the Hull of the piece of a SHAPE row that a feature names: a run of tiles, a link, or the whole shape."""
+    """Return the Hull of the piece of ground that a feature id names: a run of tiles, a link, or the whole shape.
+
+    row: of SHAPE; corners_out (16, 2): receives the corners [px].
+    """
     geometry = batch.geometry
     s = batch.shapes[row]
     p = batch.bodies[s.body_row]
@@ -99,9 +105,10 @@ def piece_at(batch, row, feature, corners_out):
 
 @subkernel
 def may_be_seam(batch, side, manifold, corners_out):
-    """Return whether a contact with ground on a side is at an end of its piece, or ahead of the body.
+    """Return whether a contact with ground may be at a seam: near an end of its ground piece, or not yet touching.
 
-    A wide face in contact is at no end, nor is a disc on a face. corners_out (16, 2): scratch.
+    side: 0 if A is the ground, 1 if B is. A contact over a wide face, or of a disc with a face, is not at a seam.
+    corners_out (16, 2): scratch.
     """
     m = manifold
     row = m.row_a if side == 0 else m.row_b
@@ -121,9 +128,9 @@ def may_be_seam(batch, side, manifold, corners_out):
 
 @subkernel
 def highest_within(hull, nx, ny, low, high):
-    """Return the greatest projection [px] of a Hull on (nx, ny) between two places along the tangent (-ny, nx).
+    """Return how far [px] a Hull reaches along (nx, ny) within a strip: the interval low..high along (-ny, nx) [px].
 
-    It is -inf for a Hull that lies beside them.
+    Return -inf for a Hull outside the strip.
     """
     corners = hull.corners
     low -= hull.radius
@@ -148,7 +155,7 @@ def highest_within(hull, nx, ny, low, high):
 
 @subkernel
 def distance_to_hull(hull, x, y):
-    """Return the distance [px] of a point from a Hull, 0 inside."""
+    """Return the distance [px] of the point (x, y) from a Hull; 0 inside."""
     corners = hull.corners
     if hull.count == 1:
         return max(0.0, norm(x - corners[0, 0], y - corners[0, 1]) - hull.radius)
@@ -167,9 +174,10 @@ def distance_to_hull(hull, x, y):
 
 @subkernel
 def is_behind_plane(batch, seam, support, workspace):
-    """Return whether the plane of a contact, `support`, separates a body from the piece of another contact, `seam`.
+    """Return whether the piece of ground touched in contact `seam` lies behind the contact plane of `support`.
 
-    Both are CONTACT rows of the same dynamic body with pieces of ground. The tolerance is batch.graze.
+    Near the body, the piece may exceed the plane by batch.graze. seam, support: CONTACT rows of the same dynamic body
+    with two pieces of ground.
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -207,7 +215,10 @@ def is_behind_plane(batch, seam, support, workspace):
 
 @subkernel
 def is_on_piece(batch, row, x, y, own_part, workspace):
-    """Return whether a point is on a ground shape or within batch.graze of it, beside its piece `own_part`, or NONE."""
+    """Return whether the point (x, y) is on a ground shape, or within batch.graze of it.
+
+    row: of SHAPE; own_part: index of a run of tiles or link to ignore, or NONE.
+    """
     geometry = batch.geometry
     near = batch.graze
     s = batch.shapes[row]
@@ -248,9 +259,10 @@ def is_on_piece(batch, row, x, y, own_part, workspace):
 
 @subkernel
 def is_covered(batch, seam, first, others, workspace):
-    """Return whether other pieces cover the points at which a contact, a CONTACT row, touches.
+    """Return whether all touching points of a contact lie on other pieces of ground, too.
 
-    first: a candidate of its dynamic body; others (candidates,): the next one of each.
+    seam: CONTACT row; first, others: linked list of the ground candidates of its dynamic body (index of the first one,
+    and index of the next one for each candidate).
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -278,7 +290,7 @@ def is_covered(batch, seam, first, others, workspace):
 
 @subkernel
 def list_ground(batch, lists_out):
-    """Write the candidates of every dynamic body with ground as a list. O(candidates)."""
+    """Write for each dynamic body the list of its candidate pairs with ground (non-dynamic bodies). O(candidates)."""
     for row in range(len(batch.bodies)):
         lists_out.heads[row] = NONE
     for pair in range(batch.count):
@@ -293,7 +305,7 @@ def list_ground(batch, lists_out):
 
 @kernel
 def has_seams(batch, manifolds, count, workspace):
-    """Return whether any of the manifolds may be a contact with a seam. O(manifolds)."""
+    """Return whether any of the first `count` manifolds may be a contact at a seam. O(manifolds)."""
     for i in range(count):
         side = ground_side(batch.bodies, batch.shapes, manifolds[i])
         if side != NONE and may_be_seam(batch, side, manifolds[i], workspace.a):
@@ -316,7 +328,7 @@ def is_recycled(batch, contact):
 
 @subkernel
 def link_contact(batch, contact, place, lists_inout):
-    """Put a place in front of the list of its CONTACT row's dynamic body, if it stands on ground."""
+    """Add `place`, the number of a CONTACT row, to the list of its dynamic body if the contact is with ground."""
     side = ground_side(batch.bodies, batch.shapes, contact)
     if side != NONE:
         row = contact.body_row_b if side == 0 else contact.body_row_a
@@ -326,10 +338,11 @@ def link_contact(batch, contact, place, lists_inout):
 
 @kernel
 def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, manifolds_inout):
-    """Drop the contacts of dynamic bodies with seams of their ground. Return how many manifolds are left, in order.
+    """Drop the contacts of dynamic bodies at seams between pieces of ground. Return the number of manifolds left.
 
-    previous: CONTACT rows of the last step; those of candidates without a kind are recycled. contacts_out,
-    ground_out: scratch, BodyLists of the contacts and of the candidates. O(manifolds · those of a body).
+    manifolds_inout: CONTACT rows, `count` in use, whose order is kept; previous: CONTACT rows of the last step, of
+    which recycled ones count as supports. contacts_out, ground_out: scratch, BodyLists for contacts and candidates.
+    O(manifolds · manifolds of a body).
     """
     bodies = batch.bodies
     shapes = batch.shapes

@@ -1,4 +1,4 @@
-"""Tile grids against other shapes: equal adjacent cells are one rectangle."""
+"""Collision of tile grids with other shapes; equal adjacent tiles in a row are one rectangle (a run)."""
 
 import math
 from typing import Any
@@ -39,7 +39,7 @@ from physics.tables.step_state import MASK_TESTS
 
 @subkernel
 def is_covered(grids, cells, grid, row, column, from_row, from_column):
-    """Return whether the cell at (row, column) covers the whole edge shared with the one at (from_row, from_column)."""
+    """Return whether the cell at (row, column) covers the edge shared with the cell (from_row, from_column)."""
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return False
@@ -60,7 +60,10 @@ def is_covered(grids, cells, grid, row, column, from_row, from_column):
 
 @subkernel
 def bends_down(grids, cells, grid, row, column, side):
-    """Return whether the ground bends down where a tile meets its neighbour at side -1 or 1: an exposed corner."""
+    """Return whether the ground bends down between a tile and its neighbour, so that the corner is exposed.
+
+    side: -1 for the left neighbour, 1 for the right one.
+    """
     g = grids[grid]
     other = column + side
     if other < 0 or other >= g.columns:
@@ -75,17 +78,17 @@ def bends_down(grids, cells, grid, row, column, side):
 
 @subkernel
 def corners_between(edges, count):
-    """Return the bits of the corners of which both edges are set."""
+    """Return the bits of the corners whose two adjacent edges are both set in `edges`; count: of edges."""
     return edges & ((edges << 1) | (edges >> (count - 1)))
 
 
 @inlined
 def run_at(geometry, grid, x, y, row, column, under, corners_out):
-    """Write the world corners [px] of the run of solid or one-way cells that a cell belongs to. Return (corners,
-    edges).
+    """Write the world corners [px] of the run of solid or one-way cells that a cell belongs to.
 
-    The bits of `edges` are those of tile_at, for one rectangle, so that no seam between its cells is felt. under: first
-    and last column under the other shape; top and bottom are touchable where a cell among these is not covered.
+    Return (number of corners, bits of touchable edges and corners, see tile_at). The run is one rectangle, without
+    seams between its cells. under: first and last column under the other shape; the top (bottom) edge is touchable if a
+    cell within these columns has no neighbour above (below) that covers it.
     """
     grids, cells = geometry.grids, geometry.cells
     low, high = under
@@ -118,12 +121,12 @@ def run_at(geometry, grid, x, y, row, column, under, corners_out):
 
 @subkernel
 def tile_at(geometry, grid, x, y, row, column, corners_out):
-    """Write the world corners [px] of a tile, clockwise on the screen from its top left. Return (corners, edges).
+    """Write the world corners [px] of a tile, clockwise on the screen from the top left.
 
-    `edges`: bits of the touchable edges and, 16 bits higher, of the touchable corners; a corner of a covered side is
-    touchable where the ground bends down. grid: row of GRID; x, y [px]: the grid's origin; corners_out (16, 2). A solid
-    tile has four corners, a slope three or four. A tile with all edges covered is touchable everywhere, because a body
-    inside it must get out.
+    Return (number of corners, edges). `edges`: bits of the touchable edges (not covered by a neighbour) and, 16 bits
+    higher, of the touchable corners; a corner at a covered edge is touchable where the ground bends down. If all edges
+    are covered, all are touchable, so that a body inside the tile gets out. A slope has three or four corners. grid:
+    row of GRID; x, y [px]: the grid's origin; corners_out (16, 2).
     """
     grids, cells = geometry.grids, geometry.cells
     g = grids[grid]
@@ -184,9 +187,10 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
 
 @subkernel
 def pushing_edges_on_tile(corners, count, tile_edges):
-    """Return the edges of another polygon that may push it out of a tile: those that do not face a covered side.
+    """Return the bits of the edges of a polygon whose normals may push it out of a tile.
 
-    tile_edges: bits of tile_at for a tile of four corners (surface, right, bottom, left).
+    An edge may not if it would push the polygon out through a covered side of the tile. tile_edges: bits returned by
+    tile_at for a tile of four corners (surface, right, bottom, left).
     """
     if (tile_edges & 15) == 15:
         return ALL_EDGES
@@ -209,12 +213,15 @@ def pushing_edges_on_tile(corners, count, tile_edges):
 
 
 # ---- tile pairs ------------------------------------------------------------------------------------------------------
-# The pass over the candidate pairs with a tile grid, run by run: equal adjacent cells are one rectangle.
+# The pass over the candidate pairs with a tile grid. Equal adjacent cells in a row (a run) are tested as one rectangle.
 
 
 @subkernel
 def touched_run(workspace, pair, run):
-    """Return whether this candidate had a contact with this run of tiles in the last step."""
+    """Return whether a candidate pair touched a run of tiles in the last step.
+
+    pair: index of the candidate; run: index of the run's first cell.
+    """
     if pair >= len(workspace.memory):
         return False
     first = workspace.memory[pair, 0]
@@ -228,11 +235,11 @@ def touched_run(workspace, pair, run):
 
 
 def make_grid_pass(one_way: bool) -> Any:
-    """Return the pass over pairs of a tile grid and any other shape; one_way: with one-way tiles."""
+    """Return the pass over pairs of a tile grid and any other shape; one_way: whether one-way tiles collide."""
 
     @inlined
     def collide_grid_pair(batch, pair, workspace, manifolds_out, found, work_inout):
-        """Append the contacts of a tile grid and another shape, run by run. Return the new count."""
+        """Append the contacts of a tile grid and another shape. Return the new number of manifolds."""
         geometry = batch.geometry
         bodies = batch.bodies
         shapes, candidates, margin, cells = batch.shapes, batch.candidates, batch.margin, geometry.cells
@@ -262,7 +269,7 @@ def make_grid_pass(one_way: bool) -> Any:
         start = found
         seen = 0
         for attempt in range(2):
-            # Second pass, for a deep overlap that every tile left to a neighbour: with every edge touchable.
+            # Second pass, for a deep overlap if each tile left the contact to a neighbour: all edges are touchable.
             if attempt == 1 and (seen == 0 or found > start):
                 break
             deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
