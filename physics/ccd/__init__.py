@@ -1,1 +1,1 @@
-"""Continuous collision detection: first time of impact of moving shapes."""
+"""Continuous collision detection: time of impact of moving shapes, so that fast bodies do not tunnel."""

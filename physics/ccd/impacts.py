@@ -16,7 +16,11 @@ from physics.tables.step_state import TOI_CALLS
 
 @subkernel
 def is_fast(bodies, paths, row, other):
-    """Return whether a kinematic body (other) and a dynamic one have a relative motion above half its size."""
+    """Return whether a dynamic body moves so far relative to a kinematic one that the two may pass through each other.
+
+    That is, a point moves by more than the dynamic body's inradius. row, other: of BODY, the dynamic and the kinematic
+    body; paths: see Sweep.
+    """
     b = bodies[row]
     if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
         return False
@@ -30,7 +34,10 @@ def is_fast(bodies, paths, row, other):
 
 @subkernel
 def cut_path(paths, row, start, end, cut_out):
-    """Write the part of a body's path between two fractions of the step."""
+    """Write to cut_out[row] the part of a body's path between the fractions `start` and `end` of the step.
+
+    paths, cut_out (bodies, 6): see Sweep.paths.
+    """
     for k in range(3):
         whole = paths[row, 3 + k] - paths[row, k]
         cut_out[row, k] = paths[row, k] + start * whole
@@ -44,13 +51,17 @@ def cut_path(paths, row, start, end, cut_out):
 
 @subkernel
 def is_straight(shape):
-    """Return whether the closed forms handle a shape; the sweep with rotation handles all others."""
+    """Return whether a shape has a sweep in closed form: a circle, box or sharp polygon. shape: SHAPE row."""
     return shape.kind == CIRCLE or shape.kind == BOUNDS or (shape.kind == POLYGON and shape.radius == 0.0)
 
 
 @subkernel
 def has_closed_form(mover, other, mode):
-    """Return whether a fast shape is swept here: by its own outline, or as a ray from the centre of any hull."""
+    """Return whether the sweep of a fast shape against another has a closed form.
+
+    mover, other: SHAPE rows; mode: continuous mode of the mover's body. With RAY only the centre of the mover is swept,
+    so the mover may be any hull.
+    """
     if mode == RAY:
         return is_straight(other) and is_hull(mover.kind)
     return is_straight(other) and is_straight(mover)
@@ -58,7 +69,11 @@ def has_closed_form(mover, other, mode):
 
 @subkernel
 def sweep_disc(x, y, radius, move, outline, slack):
-    """Return (fraction or MISS, normal from the outline) of a disc at (x, y), moved by (dx, dy), and a resting Hull."""
+    """Return (fraction of the move until impact or MISS, normal from the Hull) of a moving disc and a resting Hull.
+
+    x, y, radius [px]: the disc; move: (dx, dy) [px]; outline: the Hull. An overlap at the start deeper than slack [px]
+    is MISS.
+    """
     corners, count, _, edges = outline
     fraction, nx, ny = sweep_circle_polygon(corners, count, edges, x, y, move[0], move[1], radius)
     if fraction == 0.0:
@@ -70,7 +85,10 @@ def sweep_disc(x, y, radius, move, outline, slack):
 
 @subkernel
 def sweep_pair(row, other, dt, sweep, scratch):
-    """Return (fraction or MISS, normal to `row`) of shape `row` against shape `other`, both moving for dt [s]."""
+    """Return (fraction or MISS, normal from `other` to `row`) of the first impact of two shapes within dt [s].
+
+    row, other: of SHAPE; both bodies move at their velocities without rotation. fraction: of dt; scratch: a Workspace.
+    """
     geometry, bodies, shapes, slack = sweep.geometry, sweep.bodies, sweep.shapes, sweep.slack
     s, o = shapes[row], shapes[other]
     p, q = bodies[s.body_row], bodies[o.body_row]
@@ -112,9 +130,10 @@ def sweep_pair(row, other, dt, sweep, scratch):
 
 @subkernel
 def asks_sweep(body, dt, only_straight):
-    """Return whether the continuous mode of a body needs a sweep without rotation in this step of dt [s].
+    """Return whether a body is to be swept without rotation in this step of dt [s]; body: BODY row.
 
-    "auto" does if it moves by more than half its size. only_straight: see find_impacts.
+    Modes "ray" and "swept" always are; mode "auto" is if the body moves by more than its inradius and only_straight is
+    false.
     """
     if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
         return False
@@ -125,9 +144,11 @@ def asks_sweep(body, dt, only_straight):
 
 @subkernel
 def write_impact(pair, impact, from_a, stops, found, impacts_out):
-    """Write an impact of a candidate pair if there is room. Return the count, which may exceed the capacity.
+    """Append an impact of a candidate pair. Return the new number of impacts, which may exceed the capacity.
 
-    impact: (fraction, normal from the obstacle to the mover, feature: index of tiles or link). from_a: the mover is A.
+    pair: index of the candidate; impact: (fraction of the step, normal x and y from the obstacle to the mover, feature
+    id of the tile or link, or -1); from_a: whether the mover is A; stops: whether the impact stops the mover; found:
+    number of impacts before.
     """
     if found < impacts_out.shape[0]:
         fraction, nx, ny, feature = impact
@@ -142,12 +163,12 @@ def write_impact(pair, impact, from_a, stops, found, impacts_out):
 
 @kernel
 def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
-    """List (candidate, fraction, normal from A to B, stops, -1) of the pairs that a fast body meets within dt [s].
+    """Find the impacts of fast bodies within dt [s] by sweeps in closed form. Return their number. O(candidates).
 
-    Motion into the other by less than a quarter of the smaller half extent does not stop the body: the contact at the
-    end of the step removes it, and a body that slides along the ground is not held. only_straight: leave bodies that
-    rotate to the sweep with rotation. scratch: a Workspace. impacts_out (n, 8) float64, without points. Return the
-    number found. O(candidates).
+    impacts_out (n, 8) float64, columns: candidate, fraction of the step, normal from A to B, 1.0 if the body stops, -1;
+    the last two stay unset. An impact does not stop the body if its motion into the obstacle within dt is less than a
+    quarter of its smallest half extent. Then the contact solver resolves the overlap, and a body that slides on the
+    ground is not held. only_straight: leave bodies in mode "auto" to the sweep with rotation. scratch: a Workspace.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     found = 0
@@ -182,7 +203,10 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
 
 @kernel
 def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
-    """Set the free fraction of each body to its first impact with a shape that is no sensor. O(impacts)."""
+    """Limit the fraction of the step that each dynamic body moves to its first stopping impact. O(impacts).
+
+    Impacts with sensors are ignored. impacts (n, 8): see find_impacts.
+    """
     for i in range(len(impacts)):
         pair = int(impacts[i, 0])
         a = shapes[candidates[pair, 0]]
@@ -200,16 +224,17 @@ def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
 # ---- impacts ---------------------------------------------------------------------------------------------------------
 # The sweep over one step of bodies that also rotate: the first impact of each fast body, and where it stops.
 #
-# Two bullets that meet stop each other. A body that stops earlier than expected may be in the way of another, so the
-# moving pairs are swept again until no fraction changes. Sources: Catto, Box2D v3, solver.c (fast bodies, core circle);
-# Mirtich, Timewarp Rigid Body Simulation, 2000 (conservative rounds).
+# Two bullets that meet stop each other. A body that stops earlier than expected may be in the way of another, so pairs
+# of moving bodies are swept again until no body stops earlier. Sources: Catto, Box2D v3, solver.c (fast bodies, core
+# circle); Mirtich, Timewarp Rigid Body Simulation, 2000 (conservative rounds).
 
 
 @subkernel
 def first_meeting(mover, other, slack, sweep_inout):
-    """Return the first impact of `mover` with `other` as (fraction or MISS, normal from other to mover, feature).
+    """Return the first impact of two shapes: (fraction of the step or MISS, normal from other to mover, feature).
 
-    Each body moves up to its fraction of the step, and then rests.
+    mover, other: rows of SHAPE. Each body moves along its path up to its own BODY fraction of the step, and then rests.
+    slack [px]: see Mover.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[mover].body_row, sweep_inout.shapes[other].body_row
@@ -234,7 +259,7 @@ def first_meeting(mover, other, slack, sweep_inout):
 
 @subkernel
 def stands_still(bodies, paths, row):
-    """Return whether a body is static, or kinematic and did not move in this step."""
+    """Return whether a body is not dynamic and does not move in this step; row: of BODY."""
     return bodies[row].kind != DYNAMIC and (
         paths[row, 0] == paths[row, 3] and paths[row, 1] == paths[row, 4] and paths[row, 2] == paths[row, 5]
     )
@@ -242,7 +267,7 @@ def stands_still(bodies, paths, row):
 
 @subkernel
 def rest_where_it_is(bodies, row, paths_inout, fast_inout):
-    """Write the path of a resting body for one that no pass of this step reads."""
+    """Write a path without motion, and clear the fast flag, if a body is not active in this step; row: of BODY."""
     b = bodies[row]
     if b.active:
         return
@@ -255,10 +280,10 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
 
 @subkernel
 def goes_on(bodies, paths, mover, other, fraction, nx, ny):
-    """Return the distance [px] that two bodies still move after they meet at a fraction of the step.
+    """Return how far [px] two bodies would move on after an impact at a fraction of the step.
 
-    It is the motion into each other along the unit normal from other to mover, or of any point by rotation, whichever
-    is greater.
+    It is the greater of the motion into each other along the normal (nx, ny), from other to mover, and the motion of
+    their outermost points by rotation. mover, other: rows of BODY.
     """
     left_m = max(0.0, bodies[mover].fraction - fraction)
     left_o = max(0.0, bodies[other].fraction - fraction)
@@ -273,7 +298,11 @@ def goes_on(bodies, paths, mover, other, fraction, nx, ny):
 
 @subkernel
 def is_swept(moving, a, b, sweep_inout):
-    """Return whether a pair of SHAPE rows is swept: one body is fast. moving: see find_rotational_impacts."""
+    """Return whether a pair of SHAPE rows is to be swept: one body is fast relative to the other.
+
+    moving: 0 selects pairs with a resting body, 1 pairs of two moving bodies. With a stacking solver two dynamic bodies
+    are swept only if one is a bullet.
+    """
     bodies, paths, fast = sweep_inout.bodies, sweep_inout.paths, sweep_inout.fast
     rest_where_it_is(bodies, a.body_row, paths, fast)
     rest_where_it_is(bodies, b.body_row, paths, fast)
@@ -289,9 +318,9 @@ def is_swept(moving, a, b, sweep_inout):
 
 @subkernel
 def is_first_mover(a, b, bodies, fast):
-    """Return whether A of two SHAPE rows is swept: the body that can be stopped, otherwise the fast one.
+    """Return whether the sweep of a pair of SHAPE rows treats A as the mover, and B as the obstacle.
 
-    The two move relative to each other.
+    If only one of the bodies is dynamic, it is the mover, because it can be stopped. Otherwise A is if it is fast.
     """
     is_dynamic = bodies[a.body_row].kind == DYNAMIC
     return fast[a.body_row] if is_dynamic == (bodies[b.body_row].kind == DYNAMIC) else is_dynamic
@@ -299,11 +328,12 @@ def is_first_mover(a, b, bodies, fast):
 
 @kernel
 def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
-    """List (candidate, fraction, normal from A to B, stops, feature) of the pairs that a fast body meets on its path.
+    """Find the impacts of fast bodies along their paths, with rotation. Return their number. O(candidates).
 
-    moving: 0 for pairs with resting bodies, 1 for the others. Without stacking, motion into the other by less than a
-    quarter of the half extent does not stop a body, because the contact removes it at once. rotation: without it, pairs
-    with a closed form were found by that. impacts_out (n, 8). Return the number found. O(candidates).
+    impacts_out (n, 8), columns: candidate, fraction of the step, normal from A to B, 1.0 if the body stops, feature.
+    moving: 0 for pairs with a resting body, 1 for pairs of two moving bodies. Without a stacking solver a motion into
+    the obstacle by less than a quarter of the smallest half extent does not stop a body, because the contact resolves
+    the overlap at once. rotation: whether bodies rotate; if not, pairs with a closed form are left to find_impacts.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     stacking, slack = sweep_inout.stacking, sweep_inout.slack
@@ -323,7 +353,7 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
         mode = bodies[shapes[mover].body_row].continuous
         straight = mode == RAY or mode == SWEPT or (mode == AUTO and not (stacking or rotation))
         if straight and has_closed_form(shapes[mover], shapes[other], mode):
-            # From deep inside, by the rule of the other shapes.
+            # The closed form leaves overlaps deeper than the slack to this sweep.
             if not stands_deep(mover, other, sweep_inout):
                 continue
         sweep_inout.work[TOI_CALLS] += 1
@@ -335,7 +365,7 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
         room_left = 0.25 * bodies[m].min_half_extent
         stops = stacking or goes_on(bodies, sweep_inout.paths, m, o, fraction, nx, ny) > room_left
         if not stops and (shapes[other].kind == TILES or shapes[other].kind == CHAIN):
-            # The part that it may pass need not be all of the ground: a ball that rolls down a wall has a floor.
+            # Another part of the same ground may stop the body: a ball that rolls down a wall meets the floor.
             later, u, v, part = first_meeting(mover, other, slack + room_left, sweep_inout)
             if later <= 1.0:
                 fraction, nx, ny, feature, stops = later, u, v, part, True
@@ -343,15 +373,16 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
     return found
 
 
-FREELY = 1e-3  # greatest deviation of a path from that of free fall, as a share of what gravity adds to it
+FREELY = 1e-3  # greatest deviation of a path from free fall, as a share of the distance that gravity adds in a step
 
 
 @subkernel
 def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
-    """Take from a body what gravity [px/s2] gave it in the share of its path that it does not make.
+    """Correct the velocity of a body that is stopped within a step, so that it gains no energy from gravity.
 
-    Otherwise its energy would change: that of a falling body would rise. A body that fell freely has the velocity of
-    the time at which it stopped. Others, that hit something on their path, are slowed down in proportion.
+    The body does not make the share `lost` of its path, but its velocity includes the gravity of the whole step. If it
+    fell freely, it gets the velocity of the time at which it stopped. Otherwise its kinetic energy is reduced by the
+    potential energy of the lost path. path_x, path_y [px]: the whole path; gravity [px/s2]; dt [s].
     """
     b = body_inout
     pull = norm(gravity_x, gravity_y) * abs(b.gravity_scale)
@@ -371,9 +402,10 @@ def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
 
 @kernel
 def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
-    """Move the stopped dynamic bodies back to where they stopped: the rest of the step of dt [s] is lost for them.
+    """Move the stopped dynamic bodies back to their first impact. They lose the rest of the step of dt [s]. O(rows).
 
-    gravity [px/s2]: see lose_fall. O(rows).
+    rows: of BODY; paths (bodies, 6): see Sweep; gravity_x, gravity_y [px/s2]: their velocities are corrected for it,
+    see lose_fall.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -399,16 +431,17 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
 
 @subkernel
 def is_ray(body, other):
-    """Return whether a body meets another with the ray of its centre, not with its outline."""
+    """Return whether a body is swept against another as a ray from its centre, not with its outline; BODY rows."""
     return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
 
 
 @subkernel
 def impact_point(body, shape, side, nx, ny, fraction, flew_on):
-    """Return the point [px] where a shape met another, towards side times the normal.
+    """Return an estimate (x, y) [px] of the point where a shape hit another.
 
-    It is on the edge of its box, or at the centre of a ray. The box is that of the end of the step. flew_on: whether it
-    is moved back from there, because no contact kept it.
+    It is the point of the shape's AABB furthest along side · (nx, ny), or the centre for a ray. body, shape: BODY and
+    SHAPE rows, at the end of the step. fraction: of the step at the impact. flew_on: whether the body moved on after
+    the impact without response; then the point is moved back to that time.
     """
     reach = 0.0 if body.continuous == RAY and body.kind != STATIC else side
     x = 0.5 * (shape.min_x + shape.max_x) + reach * nx * 0.5 * (shape.max_x - shape.min_x)
@@ -422,11 +455,11 @@ def impact_point(body, shape, side, nx, ny, fraction, flew_on):
 
 @kernel
 def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_out):
-    """Write a manifold for every impact that is the first of a body on its path, or of a sensor. Return their number.
+    """Write a CONTACT row for each impact that its bodies reached before they stopped. Return the number of rows.
 
-    impacts (n, 8): candidate, fraction, normal, stops, feature, point. A point of nan is replaced by the edge, along
-    the normal, of the smaller box, or by the place where a ray hit. With response 1 the separation is that at the final
-    poses: the motion of a side after the impact.
+    impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. An unknown point (nan)
+    is estimated by impact_point for the shape with the smaller AABB, or for a ray. response: 1 if the separation [px]
+    is to be computed at the final poses, from the motion after the impact; else it is 0.
     """
     found = 0
     for i in range(len(impacts)):

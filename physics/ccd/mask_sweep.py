@@ -1,8 +1,8 @@
-"""Sweep of masks by their pixels, for worlds without response and for sensors: the latest time without shared area.
+"""Sweep of masks by their pixels, for worlds without contact response and for sensors: the time of the first overlap.
 
-A mask is the union of its pixel squares at the exact pose, in rectangles, however it is drawn. The rule is that of
-rotational.py, without a slop: a motion that leads no deeper than the overlap at the start shares no new area. So
-grazing contacts and seams between two rectangles are no impacts.
+A mask is the union of its solid pixel squares at the exact pose, also if it is drawn snapped. The pixels are grouped
+into rectangles. As in rotational.py, but without a slop, a motion that leads no deeper than the overlap at the start
+is no impact. So grazing contacts and seams between two rectangles are no impacts.
 """
 
 import math
@@ -35,9 +35,9 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 
 
 class Squares(NamedTuple):
-    """The solid pixels of the masks of a library, in rectangles."""
+    """Cache of the solid pixels of all masks of a library, grouped into rectangles."""
 
-    spans: np.ndarray  # (masks, 2) first rectangle and number; -1: not listed yet
+    spans: np.ndarray  # (masks, 2) first row in boxes, number of rows; -1: not computed yet
     boxes: np.ndarray  # (n, 4) left top right bottom [px] in body space
 
 
@@ -45,7 +45,7 @@ NO_SQUARES = Squares(np.zeros((0, 2), np.int64), np.zeros((0, 4)))
 
 
 def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
-    """Return the cached rectangles of a library, with those of these masks (rows)."""
+    """Return the cache `known`, extended by the rectangles of these masks; masks: rows of the library."""
     missing = [row for row in masks.tolist() if row >= len(known.spans) or known.spans[row, 0] < 0]
     if not missing:
         return known
@@ -63,7 +63,10 @@ def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
 
 @subkernel
 def write_square(boxes, k, body, corners_out):
-    """Write the corners of a mask's rectangle from the centre of mass [px] at angle 0. Return their number."""
+    """Write the corners [px] of rectangle k of a mask, relative to the body's centre of mass at angle 0.
+
+    boxes: see Squares; body: BODY row. Return the number of corners, 4.
+    """
     for corner in range(4):
         corners_out[corner, 0] = boxes[k, 2 if corner == 1 or corner == 2 else 0] - body.local_center_x
         corners_out[corner, 1] = boxes[k, 3 if corner > 1 else 1] - body.local_center_y
@@ -72,7 +75,11 @@ def write_square(boxes, k, body, corners_out):
 
 @subkernel
 def pieces_of(shape, body, spans, as_ray):
-    """Return (first rectangle, number of pieces, whether they are rectangles) of a shape; a hull or ray is one."""
+    """Return (first rectangle, number of pieces, whether they are rectangles) of a shape.
+
+    A mask has one piece for each rectangle. A hull, or a body swept as a ray, is a single piece. shape, body: SHAPE and
+    BODY rows; as_ray: whether mode "ray" counts.
+    """
     if shape.kind != MASK or (as_ray and body.continuous == RAY):
         return 0, 1, False
     return spans[shape.geometry, 0], spans[shape.geometry, 1], True
@@ -80,7 +87,7 @@ def pieces_of(shape, body, spans, as_ray):
 
 @subkernel
 def write_single(geometry, bodies, shapes, row, workspace):
-    """Write the one piece of a mover to workspace.mover. Return it as a Mover."""
+    """Write the corners of a hull, or the point of a ray, to workspace.mover. Return the Mover; row: of SHAPE."""
     if shapes[row].kind == MASK:
         workspace.mover[0, 0] = 0.0
         workspace.mover[0, 1] = 0.0
@@ -93,9 +100,10 @@ def write_single(geometry, bodies, shapes, row, workspace):
 
 @subkernel
 def misses_square(boxes, k, body, x, y, dx, dy, reach):
-    """Return whether a motion from (x, y) by (dx, dy) with this reach passes beside a rectangle; all in px.
+    """Return whether a shape that moves from (x, y) by (dx, dy) cannot meet rectangle k of a mask.
 
-    Coordinates are relative to the centre of mass of the rectangle's body, which does not rotate.
+    reach [px]: greatest distance of the shape's points from (x, y). Coordinates [px] are relative to the centre of mass
+    of the mask's body, which must not rotate.
     """
     left = boxes[k, 0] - body.local_center_x - reach
     top = boxes[k, 1] - body.local_center_y - reach
@@ -106,10 +114,12 @@ def misses_square(boxes, k, body, x, y, dx, dy, reach):
 
 @subkernel
 def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out):
-    """Sweep one piece of the mover, in workspace.mover, past the pieces of the other shape.
+    """Sweep one piece of the moving shape against all pieces of the other shape, or measure their overlap.
 
-    depth [px]: the overlap at the start; negative: measure and return it. body: of the other shape. span: see
-    pieces_of. hull: the one piece in local_b. best_out (5,): see sweep_squares. O(pieces near).
+    mover: the piece, with its corners in workspace.mover. depth [px]: overlap at the start, which does not count as an
+    impact. If it is negative, nothing is swept, and the deepest overlap [px] at the start is returned; else 0. body:
+    BODY row of the other shape; span: result of pieces_of for that shape; hull: its only piece if it is no mask, with
+    the corners in workspace.advance.local_b. best_out (5,): first impact so far, see sweep_squares. O(pieces near).
     """
     r = workspace.advance
     first, pieces, are_squares = span
@@ -151,9 +161,10 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
 
 @subkernel
 def middle_of_mask(geometry, shape, body, angle):
-    """Return the centre [px] of the AABB of a MASK row at an angle [rad], from its body's centre of mass, at angle 0.
+    """Return the centre (x, y) [px] of a mask's AABB, in body space relative to the centre of mass.
 
-    It decides on which side of a link the mask is.
+    The AABB is that at an angle [rad]. The centre decides on which side of a link the mask is. shape, body: SHAPE and
+    BODY rows.
     """
     raster = geometry.raster_of[shape.geometry, 0]
     left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
@@ -163,9 +174,10 @@ def middle_of_mask(geometry, shape, body, angle):
 
 @subkernel
 def sweep_on_ground(geometry, other, body, middle, mover, one_way, workspace, best_out):
-    """Sweep one piece of the mover, in workspace.mover, past tiles or a chain (SHAPE row `other`).
+    """Sweep one piece of the moving shape against tiles or a chain.
 
-    middle: of the whole mover, which decides on which side of a link it is.
+    other, body: SHAPE and BODY rows of the tiles or chain; mover: the piece, with its corners in workspace.mover;
+    middle: of the whole moving shape, see middle_of_mask. best_out (5,): first impact so far, see sweep_squares.
     """
     local = (body.local_center_x, body.local_center_y)
     if other.kind == TILES:
@@ -182,10 +194,10 @@ def sweep_on_ground(geometry, other, body, middle, mover, one_way, workspace, be
 
 @subkernel
 def sweep_squares(row, other, squares, sweep_inout, best_out):
-    """Sweep shape `row` against shape `other`, at least one of them a mask, both moving. See sweep_rotational.
+    """Sweep two moving shapes, at least one of them a mask, along the paths in sweep_inout.cuts.
 
-    Write (fraction or MISS, normal from other to row, point [px], nan if unknown) to best_out (5,). O(pieces · pieces
-    near).
+    row, other: of SHAPE; squares: Squares of the masks. Write (fraction or MISS, normal from other to row, point [px]
+    or nan if unknown) to best_out (5,). O(pieces · pieces near).
     """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
@@ -228,7 +240,11 @@ def sweep_squares(row, other, squares, sweep_inout, best_out):
 
 @subkernel
 def first_shared(row, other, squares, sweep_inout, best_out):
-    """Write the result of impacts.first_meeting by pixels to best_out (5,)."""
+    """Write the first overlap in the step of two shapes, at least one of them a mask, to best_out (5,).
+
+    Columns as in sweep_squares, but the fraction is of the step. Each body moves along its path up to its own BODY
+    fraction of the step, and then rests.
+    """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[row].body_row, sweep_inout.shapes[other].body_row
     both = min(bodies[p].fraction, bodies[q].fraction)
@@ -250,10 +266,11 @@ def first_shared(row, other, squares, sweep_inout, best_out):
 
 @kernel
 def find_shared_areas(moving, squares, sweep_inout, best_out, impacts_out):
-    """List (candidate, fraction, normal from A to B, 0, -1, point) of the pairs with a mask that come to share area.
+    """Find the pairs with a mask that begin to overlap on their way. Return their number. O(candidates).
 
-    moving: see find_rotational_impacts. squares: Squares of all masks among the candidates. best_out (5,): scratch. No
-    body is stopped: with response these are the pairs of sensors. Return the number found. O(candidates).
+    impacts_out (n, 8), columns: candidate, fraction of the step, normal from A to B, 0 (no body is stopped), -1, point
+    x and y. moving: 0 for pairs with a resting body, 1 for pairs of two moving bodies; squares: Squares of all masks
+    among the candidates; best_out (5,): scratch.
     """
     shapes, candidates = sweep_inout.shapes, sweep_inout.candidates
     found = 0

@@ -1,4 +1,4 @@
-"""Rotational continuous collision: a hull that moves and rotates, against hulls, tiles, chains and parts."""
+"""Continuous collision of a hull that moves and rotates, with hulls, tiles, chains and shapes made of parts."""
 
 import math
 from typing import NamedTuple
@@ -38,37 +38,37 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 # ---- rotational ------------------------------------------------------------------------------------------------------
 # The sweep of a hull that moves and rotates about its centre of mass: one rule for all obstacles.
 #
-# A mover may get no deeper into a shape than it is at the start, and a slop more; otherwise it is moved back to the
-# last fraction at which it was no deeper than at the start. So resting and sliding bodies are not held, no seam between
-# two pieces of ground is hit (a flush piece is no deeper under the mover than the whole), and a body that breaks
-# through is stopped from any start. A mover that is so deep that its core, a quarter of its smallest half extent about
-# its centre of mass, would enter is swept by this core: a centre never crosses (Box2D v3's core circle). One-sided
-# ground is hit only while the mover is in front of it.
+# A mover may overlap a shape by the depth that it has at the start, plus a slop. If it gets deeper, it is moved back to
+# the last fraction at which it was no deeper than at the start. So resting and sliding bodies are not held, seams
+# between flush pieces of ground are not hit, and a body that overlaps at the start cannot break through. A very deep
+# mover is swept by its core instead, a circle about its centre of mass with a quarter of its smallest half extent as
+# radius: its centre never crosses a surface (core circle of Box2D v3). One-sided ground is hit only while the mover is
+# in front of it.
 
-BEFORE = 2.0**-20  # share of the path
-BACKWARDS = 6  # rounds of Newton's method, of which two or three are needed
-CORE_LEFT = 0.9  # share of the distance of a centre that is nearer than its core radius
-CORE = 0.25  # share of a body's smallest half extent
+BEFORE = 2.0**-20  # a fraction of the path that counts as "just before" an impact
+BACKWARDS = 6  # most iterations of Newton's method in back_to; two or three are needed
+CORE_LEFT = 0.9  # radius of a core circle that would overlap at the start, as a share of the distance of its centre
+CORE = 0.25  # radius of a core circle, as a share of the body's smallest half extent
 
 
 class RotationalWorkspace(NamedTuple):
-    """Scratch arrays of one moving shape."""
+    """Scratch arrays for the sweep of one moving shape."""
 
     advance: AdvanceWorkspace
-    mover: np.ndarray  # (16, 2) its corners from its centre of mass [px], at angle 0
+    mover: np.ndarray  # (16, 2) corners of the moving hull from its centre of mass [px], at angle 0
 
 
 class Mover(NamedTuple):
-    """The hull that moves. Its corners are in workspace.mover."""
+    """Moving hull of a sweep, with its corners in workspace.mover."""
 
-    count: int  # of its corners
+    count: int  # number of corners
     radius: float  # [px] rounding
-    half: float  # [px] smallest half extent of its body; 0 for no core
-    slack: float  # [px] depth that is allowed in addition to that at the start; 0 for rounding alone
+    half: float  # [px] smallest half extent of its body, which gives the core circle; 0 for no core circle
+    slack: float  # [px] depth allowed in addition to the depth at the start; 0: rounding errors only
 
 
 class Sweep(NamedTuple):
-    """The pairs that may meet in a step, and the paths of their bodies."""
+    """Input of the sweeps of a step: candidate pairs, and the paths of their bodies."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
@@ -90,7 +90,11 @@ def new_rotational_workspace() -> RotationalWorkspace:
 
 @subkernel
 def write_motion(motions, body_row, motion_out):
-    """Write start and change of a body's motion. motions (bodies, 6): centre [px], angle, at start and end."""
+    """Write a body's motion as start and change, instead of start and end.
+
+    motions (bodies, 6): centre of mass [px] and angle [rad] at the start, then at the end; motion_out (6,): centre and
+    angle at the start, then their changes.
+    """
     motion_out[CENTER_X] = motions[body_row, 0]
     motion_out[CENTER_Y] = motions[body_row, 1]
     motion_out[ANGLE] = motions[body_row, 2]
@@ -101,9 +105,10 @@ def write_motion(motions, body_row, motion_out):
 
 @subkernel
 def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
-    """Write the corners of a hull from its body's centre of mass [px] at angle 0. Return their number.
+    """Write the corners [px] of a hull relative to its body's centre of mass at angle 0. Return their number.
 
-    A BOUNDS does not rotate: it keeps its box at the start.
+    A shape of kind BOUNDS never rotates: its corners are those at the start angle, and the rotation in motion_inout
+    (6,) is set to 0. row: of SHAPE.
     """
     b = bodies[shapes[row].body_row]
     if shapes[row].kind != BOUNDS:
@@ -117,7 +122,10 @@ def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
 
 @subkernel
 def place_mover(count, workspace):
-    """Set up the mover and reset the state of the last pair. Return its reach [px]."""
+    """Copy the mover's corners to workspace.advance.local_a, and reset the state of GJK.
+
+    count: number of corners. Return the distance [px] of the furthest corner from the centre of mass.
+    """
     for k in range(count):
         workspace.advance.local_a[k, 0] = workspace.mover[k, 0]
         workspace.advance.local_a[k, 1] = workspace.mover[k, 1]
@@ -128,17 +136,18 @@ def place_mover(count, workspace):
 
 @subkernel
 def depth_at_start(mover, other_count, other_radius, workspace):
-    """Return the depth [px] of the mover in workspace.advance.local_b before it moves; 0 if they do not overlap."""
+    """Return how deep [px] the mover overlaps the hull in workspace.advance.local_b before they move; 0 for none."""
     place_mover(mover.count, workspace)
     return max(0.0, -separate_at(mover.count, mover.radius, other_count, other_radius, 0.0, workspace.advance))
 
 
 @subkernel
 def sweep_core(core_radius, other_count, other_radius, workspace):
-    """Return the fraction, or MISS, of the core circle against workspace.advance.local_b; MISS if its centre is inside.
+    """Return the fraction of the motion at which the mover's core circle hits a hull, or MISS.
 
-    If the circle touches at the start, it shrinks to most of the remaining distance, so that the centre never crosses.
-    With half of it, three of 768 moving rooms lost a body whose centre had come to the wall step by step.
+    The hull is in workspace.advance.local_b; MISS if the circle's centre is inside it at the start. If the circle would
+    overlap at the start, its radius is reduced to CORE_LEFT of the centre's distance, so that the centre never crosses
+    the surface. With half of the distance, 3 of 768 test rooms lost a body whose centre reached the wall step by step.
     """
     workspace.advance.local_a[0, 0] = 0.0
     workspace.advance.local_a[0, 1] = 0.0
@@ -152,9 +161,10 @@ def sweep_core(core_radius, other_count, other_radius, workspace):
 
 @subkernel
 def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
-    """Return the fraction, before one at which the mover is deeper than `depth` [px], at which it was that deep.
+    """Return the last fraction before `fraction` at which the mover was `depth` [px] deep (Newton's method).
 
-    Newton's method starts from there, so that an earlier contact with a covered side of the piece is not found.
+    At `fraction` the mover is deeper. The iteration starts at `fraction`, so that an earlier contact with another side
+    of the obstacle is not found. The obstacle is in workspace.advance.local_b; size [px]: of both shapes.
     """
     count, radius, _, _ = mover
     gap = workspace.advance.gap.gap
@@ -168,16 +178,17 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
         fraction = min(max(0.0, fraction + (separation + depth) / approach), most)
         separation = separate_at(count, radius, other_count, other_radius, fraction, workspace.advance)
     if nx * gap[NX] + ny * gap[NY] < 0.5:
-        gap[NX] = nx  # another side is nearer there, through which it did not enter
+        gap[NX] = nx  # another side is nearer at this fraction, but the mover did not enter through it
         gap[NY] = ny
     return fraction
 
 
 @subkernel
 def sweep_part(mover, other_count, other_radius, depth, workspace):
-    """Return (fraction or MISS, whether the core hit it) of the mover against a piece, workspace.advance.local_b.
+    """Return (fraction or MISS, whether the core circle was swept) of the mover against a convex piece of an obstacle.
 
-    depth [px]: depth that is allowed in any case, that of the mover in the whole of the piece.
+    The piece is in workspace.advance.local_b. depth [px]: depth of the mover in the whole obstacle at the start, which
+    is allowed.
     """
     count, radius, half, slack = mover
     reach = place_mover(count, workspace)
@@ -203,7 +214,10 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
 
 @subkernel
 def swept_box(reach, motion_a, motion_b):
-    """Return the box (min_x, min_y, max_x, max_y) [px] of a body on its path, relative to the point of the other."""
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of body A on its path relative to body B's centre of mass.
+
+    reach [px]: greatest distance of A's points from its centre of mass; motion_a, motion_b (6,): see write_motion.
+    """
     x, y = motion_a[CENTER_X] - motion_b[CENTER_X], motion_a[CENTER_Y] - motion_b[CENTER_Y]
     dx, dy = motion_a[MOVE_X] - motion_b[MOVE_X], motion_a[MOVE_Y] - motion_b[MOVE_Y]
     return (x + min(0.0, dx) - reach, y + min(0.0, dy) - reach, x + max(0.0, dx) + reach, y + max(0.0, dy) + reach)
@@ -215,7 +229,10 @@ def swept_box(reach, motion_a, motion_b):
 
 @subkernel
 def feet_of(mover, local_y, workspace):
-    """Return how far down [px] the mover reaches before it moves, seen from the origin of a grid."""
+    """Return the greatest y [px] of the mover at the start, relative to the origin of a tile grid.
+
+    local_y [px]: y of the grid's centre of mass in its body space.
+    """
     motion = workspace.advance.motion_a
     cosine, sine = math.cos(motion[ANGLE]), math.sin(motion[ANGLE])
     feet = -math.inf
@@ -227,9 +244,10 @@ def feet_of(mover, local_y, workspace):
 
 @subkernel
 def place_tile(geometry, grid, line, column, local, stood, workspace):
-    """Write the part of a tile that stops the mover to workspace.advance.local_b. Return its corners, 0 for none.
+    """Write the corners of a tile to workspace.advance.local_b. Return their number, 0 if it cannot stop the mover.
 
-    Of a one-way tile it is the top, for a mover whose feet are no lower than `stood` [px].
+    line, column: of the cell; local: see sweep_tiles; stood [px]: lowest point of the mover at the start, less its
+    slack. Of a one-way tile only the top edge is written, and only if the mover started above the tile.
     """
     g = geometry.grids[grid]
     kind = geometry.cells[g.offset + line * g.columns + column].kind
@@ -243,10 +261,11 @@ def place_tile(geometry, grid, line, column, local, stood, workspace):
 
 @subkernel
 def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
-    """Return (fraction or MISS, normal from the tiles, feature) of the mover against the tiles in its swept box.
+    """Return (fraction or MISS, normal from the tiles, feature) of the first impact of the mover with a tile grid.
 
-    local: centre of mass (x, y) [px] of the grid in its body space; a grid does not rotate. one_way: whether one-way
-    tiles take part, which stop motion from above. but: the feature to ignore, or -1. O(cells in the box).
+    grid: row of geometry.grids; local: centre of mass (x, y) [px] of the grid in its body space (a grid does not
+    rotate); one_way: whether one-way tiles stop motion from above; but: feature id to ignore, or -1. O(cells in the
+    mover's swept AABB).
     """
     local_x, local_y = local
     g = geometry.grids[grid]
@@ -294,7 +313,7 @@ def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
 
 @subkernel
 def place_link(link, local, workspace):
-    """Write the ends of a link to workspace.advance.local_b."""
+    """Write the ends of a link, relative to the body's centre of mass `local` [px], to workspace.advance.local_b."""
     workspace.advance.local_b[0, 0] = link.ax - local[0]
     workspace.advance.local_b[0, 1] = link.ay - local[1]
     workspace.advance.local_b[1, 0] = link.bx - local[0]
@@ -303,15 +322,17 @@ def place_link(link, local, workspace):
 
 @subkernel
 def ahead_of(ax, ay, bx, by, u, v):
-    """Return the distance of a point in front of the line from a to b, times the length of the line."""
+    """Return the signed distance of the point (u, v) from the line a to b, times its length; positive in front."""
     return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
 
 
 @subkernel
 def is_before(link, local, middle, fraction, core, workspace):
-    """Return whether the mover's middle [px from its centre of mass], or that centre, is in front of a link.
+    """Return whether the mover is in front of a link at a fraction of the motion.
 
-    Beyond an end where the chain bends to its front, it has to be in front of the neighbour, too.
+    The mover's point that decides is `middle` [px], relative to its centre of mass at angle 0; with `core`, the centre
+    of mass itself. If this point is beyond an end of the link, and the chain bends towards its front there, the point
+    must be in front of the neighbouring link instead. link: LINK row; local: see sweep_chain.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -339,7 +360,10 @@ def is_before(link, local, middle, fraction, core, workspace):
 
 @subkernel
 def misses_block(block, local, box):
-    """Return whether the links of a block lie beside a box [px], seen from the chain's moving point."""
+    """Return whether the AABB of a block of links is disjoint from `box` (left, top, right, bottom) [px].
+
+    The box is relative to the centre of mass of the chain's body, `local` [px].
+    """
     left, top, right, bottom = box
     x, y = local
     return block.min_x - x > right or block.max_x - x < left or block.min_y - y > bottom or block.max_y - y < top
@@ -347,7 +371,7 @@ def misses_block(block, local, box):
 
 @subkernel
 def depth_in_chain(geometry, chain, local, middle, mover, workspace):
-    """Return the depth [px] of the mover, before it moves, in the links that its middle is in front of."""
+    """Return the greatest depth [px] of the mover at the start in any link that it is in front of; see is_before."""
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -374,7 +398,10 @@ def depth_in_chain(geometry, chain, local, middle, mover, workspace):
 
 @subkernel
 def starts_across(geometry, chain, local, mover, workspace):
-    """Return whether the mover starts deeper than its slack across a one-way surface, and so passes it."""
+    """Return whether the mover lies across a one-way surface at the start by more than its slack, and so passes it.
+
+    chain: row of geometry.chains; local: see sweep_chain.
+    """
     count, radius, _, slack = mover
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -387,9 +414,10 @@ def starts_across(geometry, chain, local, mover, workspace):
 
 @subkernel
 def sweep_chain(geometry, chain, local, mover, but, workspace):
-    """Return (fraction or MISS, normal from the chain, feature) of the mover against the links near, from their front.
+    """Return (fraction or MISS, normal from the chain, feature) of the first impact of the mover with a chain's front.
 
-    but: the feature to ignore, or -1. O(links near the path).
+    chain: row of geometry.chains; local: centre of mass (x, y) [px] of the chain's body in body space; but: feature id
+    to ignore, or -1. O(links near the path).
     """
     middle = middle_of(workspace.mover, mover.count)
     return sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
@@ -397,9 +425,10 @@ def sweep_chain(geometry, chain, local, mover, but, workspace):
 
 @subkernel
 def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace):
-    """Return the result of sweep_chain for a mover that is a piece of a shape.
+    """Return (fraction or MISS, normal from the chain, feature) for a mover that is one piece of a moving shape.
 
-    The middle of the whole shape, (x, y) [px] from its centre of mass at angle 0, decides on the side of a link.
+    middle: point (x, y) [px] of the whole shape, relative to its centre of mass at angle 0, that must be in front of a
+    link. Other arguments as in sweep_chain.
     """
     span = geometry.chains[chain]
     other = workspace.advance.motion_b
@@ -436,21 +465,22 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
 
 @subkernel
 def shrink_to_middle(count, mover_inout):
-    """Reduce a hull to the mean of its corners, which is swept as a ray. Return 1, the number of corners left."""
+    """Replace the corners of a hull by their mean, a point to be swept as a ray. Return the number of corners, 1."""
     mover_inout[0, 0], mover_inout[0, 1] = middle_of(mover_inout, count)
     return 1
 
 
 @subkernel
 def sweep_hull(mover, core_b, n, radius_b, workspace):
-    """Return (fraction or MISS, normal from the other) of the mover against the hull in workspace.advance.local_b.
+    """Return (fraction or MISS, normal from the obstacle) of the first impact of the mover with another hull.
 
-    core_b [px]: radius of the other's core, 0 for none.
+    The obstacle is in workspace.advance.local_b: n corners, rounding radius_b [px], core circle of radius core_b [px]
+    (0 for none).
     """
     depth = depth_at_start(mover, n, radius_b, workspace)
     fraction, core = sweep_part(mover, n, radius_b, depth, workspace)
     if core and fraction > 1.0 and core_b > 0.0:
-        # A deep overlap: their cores must not change places.
+        # A deep overlap: sweep core circle against core circle, so that the bodies do not pass each other.
         workspace.advance.local_b[0, 0] = 0.0
         workspace.advance.local_b[0, 1] = 0.0
         fraction = sweep_core(CORE * mover.half, 1, core_b, workspace)
@@ -459,7 +489,7 @@ def sweep_hull(mover, core_b, n, radius_b, workspace):
 
 @subkernel
 def stands_deep(row, other, sweep_inout):
-    """Return whether a hull overlaps another deeper than the slack before both move. See sweep_rotational."""
+    """Return whether two hulls overlap by more than sweep_inout.slack at the start of the step; rows of SHAPE."""
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
     r = workspace.advance
@@ -473,11 +503,11 @@ def stands_deep(row, other, sweep_inout):
 
 @subkernel
 def sweep_rotational(row, other, slack, but, sweep_inout):
-    """Sweep shape `row` against shape `other`, both moving along their parts of the paths, sweep_inout.cuts.
+    """Return the first impact of two shapes whose bodies move and rotate along the paths in sweep_inout.cuts.
 
-    Return (fraction or MISS, normal from other to row, feature: index of tiles or link, -1 of a hull). row: a hull.
-    other: a hull, tiles or a chain, from its front; MISS for other kinds. slack [px]: see Mover. but: the feature of
-    tiles or links to ignore, or -1.
+    The result is (fraction of these paths or MISS, normal from other to row, feature id of the tile or link, -1 for a
+    hull). row, other: of SHAPE; row must be a hull, other a hull, tile grid or chain, else the result is MISS. slack
+    [px]: see Mover; but: feature id of tiles or links to ignore, or -1.
     """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
@@ -518,12 +548,12 @@ def sweep_rotational(row, other, slack, but, sweep_inout):
 
 
 # ---- parts -----------------------------------------------------------------------------------------------------------
-# First impact of shapes made of parts, along two motions.
+# First impact of two moving shapes made of parts.
 
 
 @subkernel
 def begin_sweep(workspace, impact_out):
-    """Reset the result of a sweep. Return the relative translation of the first [px]."""
+    """Reset impact_out (3,) to MISS, and the counters in workspace. Return the length [px] of the relative motion."""
     r = workspace.advance
     r.totals[0] = 0.0
     r.totals[1] = 0.0
@@ -535,7 +565,7 @@ def begin_sweep(workspace, impact_out):
 
 @subkernel
 def keep_first(fraction, nx, ny, impact_out):
-    """Write an impact if it is the first so far."""
+    """Write an impact to impact_out (3,) if its fraction is smaller than that of the impact stored there."""
     if fraction < impact_out[0]:
         impact_out[0] = fraction
         impact_out[1] = nx
@@ -544,7 +574,7 @@ def keep_first(fraction, nx, ny, impact_out):
 
 @subkernel
 def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
-    """Return a lower bound [px] of the gap of the hulls in local_a and local_b before they move."""
+    """Return a lower bound [px] of the gap at the start between the hulls in workspace.advance.local_a and local_b."""
     r = workspace.advance
     place_at(r.local_a, a_count, r.motion_a, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.a)
     place_at(r.local_b, b_count, r.motion_b, 0.0, r.motion_a[CENTER_X], r.motion_a[CENTER_Y], r.b)
@@ -559,10 +589,12 @@ def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
 
 @kernel
 def advance_parts(a, b, workspace, impact_out):
-    """Write (fraction or MISS, normal from A to B) of the first impact of a part of A with a part of B to impact_out.
+    """Write the first impact of any part of A with any part of B: fraction or MISS, normal from A to B.
 
-    a, b: Parts in body space. workspace: RotationalWorkspace, with both motions, and afterwards the totals. impact_out
-    (3,). Pairs that cannot meet before the first impact so far are skipped. O(parts of A · parts of B).
+    impact_out (3,): receives it.
+
+    a, b: Parts in body space; workspace: RotationalWorkspace with both motions, which receives the counters. Pairs of
+    parts that cannot meet before the first impact so far are skipped. O(parts of A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(workspace, impact_out)
@@ -580,10 +612,10 @@ def advance_parts(a, b, workspace, impact_out):
 
 @kernel
 def sweep_unions(a, b, workspace, impact_out):
-    """Write the result of advance_parts for shapes that are the union of their parts, which may lie flush: masks.
+    """Write the first impact of two shapes whose parts may lie flush, such as masks. Arguments as in advance_parts.
 
-    By the rule of "rotational" above, a motion that leads no deeper than the overlap at the start is no impact. So
-    seams between parts and grazing contacts are no impacts. O(parts of A · parts of B).
+    A motion that leads no deeper than the overlap at the start is no impact (see "rotational" above). So seams between
+    parts and grazing contacts are no impacts. O(parts of A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(workspace, impact_out)
@@ -611,9 +643,10 @@ def sweep_unions(a, b, workspace, impact_out):
 
 @kernel
 def advance_on_ground(geometry, ground, is_chain, a, workspace, impact_out):
-    """Write the result of advance_parts against the grid or chain (is_chain 1) in row `ground` of the geometry.
+    """Write the first impact of a shape made of parts with a tile grid or chain to impact_out (3,); see advance_parts.
 
-    Tiles are hit through uncovered sides, a chain from its front.
+    ground: row of geometry.grids or, with is_chain 1, of geometry.chains; a: Parts. Tiles are hit only on uncovered
+    sides, a chain only from its front.
     """
     begin_sweep(workspace, impact_out)
     for i in range(len(a.counts)):

@@ -1,4 +1,4 @@
-"""The stages of continuous collision: fast bodies stop at their first impact."""
+"""Stages of continuous collision detection: fast bodies stop at their first impact."""
 
 import math
 
@@ -37,9 +37,10 @@ from physics.tables.table import joined
 
 @kernel
 def list_paths(rows, bodies, paths_out):
-    """Write centre of mass and angle before and after the step: x0 y0 angle0 x1 y1 angle1 [px, rad]. O(rows).
+    """Write the path of each body in the step. O(rows).
 
-    A body with a sweep without rotation keeps its angle before the step.
+    rows: of BODY; paths_out (bodies, 6): centre of mass x, y [px] and angle [rad] before the step, then after it. The
+    angle of a body in mode "ray" or "swept" is that before the step, both times.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -56,24 +57,24 @@ def list_paths(rows, bodies, paths_out):
 
 @subkernel
 def asks_straight(body):
-    """Return whether the continuous mode of a body is a sweep without rotation, moving or not."""
+    """Return whether a body is dynamic, and its continuous mode, "ray" or "swept", is a sweep without rotation."""
     return body.kind == DYNAMIC and (body.continuous == RAY or body.continuous == SWEPT)
 
 
 @subkernel
 def way_of(bodies, paths, row):
-    """Return the greatest distance [px] that any point of a body moves."""
+    """Return an upper bound [px] of the distance that any point of a body moves in the step; row: of BODY."""
     moved = norm(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
     return moved + bodies[row].extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
 
 
 @kernel
 def find_fast(rows, bodies, paths, fast_out):
-    """Flag the bodies to sweep. Return (the number of bodies to look at, the number swept without rotation). O(rows).
+    """Flag the bodies to sweep. Return (number of bodies whose pairs are to be tested, number swept without rotation).
 
-    Modes "toi", "ray" and "swept" are always swept while they move; "auto" if a point may move by more than half the
-    body's size. Bodies that a kinematic body may pass through count as bodies to look at, without a flag: see outruns.
-    fast_out (bodies) bool.
+    A moving body in mode "toi", "ray" or "swept" is always flagged; in mode "auto", if a point of it may move by more
+    than the body's inradius. The first number also includes bodies without a flag that a kinematic body may pass
+    through: see impacts.is_fast. rows: of BODY; paths: see list_paths; fast_out (bodies,) bool. O(rows).
     """
     found = 0
     straight = 0
@@ -100,7 +101,10 @@ def find_fast(rows, bodies, paths, fast_out):
 
 @kernel
 def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
-    """List the shape rows of swept bodies that left their swept AABB. Return their number. O(rows)."""
+    """List the shapes of swept bodies that have left their broad-phase AABB. Return their number. O(rows).
+
+    rows, rows_out: of SHAPE; proxies: with the AABBs lower_x … upper_y [px]; fast (bodies,) bool.
+    """
     found = 0
     for k in range(len(rows)):
         row = rows[k]
@@ -119,7 +123,10 @@ def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
 
 @kernel
 def foresee_paths(rows, bodies, dt, paths_out):
-    """Write the paths (see list_paths) of the bodies in dt [s] without obstacles. O(rows)."""
+    """Write the predicted path of each body in dt [s], at its velocity and without obstacles. O(rows).
+
+    rows: of BODY; paths_out (bodies, 6): see list_paths.
+    """
     for k in range(len(rows)):
         i = rows[k]
         b = bodies[i]
@@ -136,18 +143,18 @@ def foresee_paths(rows, bodies, dt, paths_out):
 # ---- push ahead ------------------------------------------------------------------------------------------------------
 # Kinematic bodies push the bodies that stopped in their way, for the rest of the step.
 #
-# A body that was stopped waits for the next step, but a kinematic body goes on. So the rest of the step is swept once
-# more, piece by piece: wherever the kinematic surface would enter the body, it pushes it along.
+# A body that was stopped at an impact waits for the next step, but a kinematic body moves on. So the rest of the step
+# is swept again: if the surface of a kinematic body would enter a stopped body, it pushes the body along.
 
-MEETINGS = 2  # parts of one pusher in a round: the two sides of a corner
+MEETINGS = 2  # most tiles or links of one kinematic body tested per call: the two sides of a corner
 
 
 @kernel
 def push_ahead(sweep_inout, moves_inout):
-    """Extend the moves of stopped bodies so that no kinematic body overlaps them until the end of the step.
+    """Push stopped bodies out of the way of kinematic bodies for the rest of the step. Return the number of pushes.
 
-    moves_inout (bodies, 2) [px]: translation of each from where it stopped, at its body's fraction of the step. Return
-    the number of pushes. Each push is along a line, so a corner needs two, and a further call adds none. O(candidates).
+    moves_inout (bodies, 2) [px]: translation of each stopped body from the place where it stopped; each push adds to
+    it. A push is along one normal, so a corner may need a further call. Call until no push is added. O(candidates).
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     cuts, slack = sweep_inout.cuts, sweep_inout.slack
@@ -175,8 +182,8 @@ def push_ahead(sweep_inout, moves_inout):
                 fraction, nx, ny, feature = sweep_rotational(mover, other, slack, but, sweep_inout)
                 if fraction >= 1.0:
                     break
-                # The final place of the pusher's point that is now at the body's centre of mass, relative to its own
-                # motion.
+                # Displacement until the end of the step of the pusher's point that is now at the body's centre of mass,
+                # less the remaining move of the body.
                 left = 1.0 - fraction
                 x = cuts[row, 0] + fraction * moves_inout[row, 0]
                 y = cuts[row, 1] + fraction * moves_inout[row, 1]
@@ -194,23 +201,23 @@ def push_ahead(sweep_inout, moves_inout):
                     break
                 if feature < 0:
                     break
-                but = feature  # a part that pushes no further hides the next one: the other side of a corner
+                but = feature  # this tile or link pushes no further; ignore it and test the other side of a corner
     return found
 
 
 # ---- sweep -----------------------------------------------------------------------------------------------------------
 # The stages that stop fast bodies at their first impact.
 #
-# Without a stacking solver impacts are found ahead, and bodies move no further than to the first one. A stacking solver
-# moves all bodies; then each fast body is swept from its pose before to its pose after the step. It is moved back to
-# its first impact and keeps its velocity, so the contact of the next step gets the impact at full speed.
+# Without a stacking solver, impacts are predicted, and a body moves no further than to its first one. A stacking solver
+# moves all bodies first; then each fast body is swept from its pose before the step to its pose after it. It is moved
+# back to its first impact and keeps its velocity, so that the contact of the next step gets the full impact speed.
 
-SAME_FRACTION = 1e-9  # of a step
+SAME_FRACTION = 1e-9  # difference of two fractions of a step that counts as none
 NO_IMPACTS, NO_ROWS = np.zeros((0, 8)), np.zeros(0, np.int64)
 
 
 class Sweeper:
-    """Arrays for the sweeps of one world, which grow and are reused."""
+    """Reusable arrays for the sweeps of one world."""
 
     def __init__(self) -> None:
         self.paths, self.cuts = np.zeros((16, 6)), np.zeros((16, 6))
@@ -220,7 +227,7 @@ class Sweeper:
         self.squares, self.squares_in, self.best = NO_SQUARES, None, np.zeros(5)
 
     def grow(self, state: StepState) -> None:
-        """Make room for the bodies and the candidates of a step."""
+        """Enlarge the arrays for the number of bodies and candidates of a step."""
         bodies, candidates = len(state.bodies), len(state.pairs.rows)
         if len(self.fast) < bodies:
             self.paths, self.cuts = np.zeros((2 * bodies, 6)), np.zeros((2 * bodies, 6))
@@ -229,7 +236,10 @@ class Sweeper:
             self.impacts = np.full((2 * candidates, 8), np.nan)
 
     def pairs_of(self, state: StepState, strict: bool = False) -> Sweep:
-        """Return the Sweep of the candidates of a step. strict: any depth stops, as with stacking."""
+        """Return the Sweep of the candidates of a step.
+
+        strict: an impact of any depth stops a body, as in worlds with a stacking solver.
+        """
         return Sweep(
             state.library.tables,
             state.bodies,
@@ -247,7 +257,10 @@ class Sweeper:
 
 
 def _look(state, moving, strict=False) -> np.ndarray:
-    """Return impacts (n, 8) of fast bodies with resting (moving 0) or moving ones (1). strict: any depth stops."""
+    """Return the impacts (n, 8) of fast bodies with resting bodies (moving 0) or with moving ones (moving 1).
+
+    Columns: see impacts.write_impacts. strict: see Sweeper.pairs_of.
+    """
     sweeper = state.workspace.sweep
     sweeper.grow(state)
     sweep = sweeper.pairs_of(state, strict)
@@ -265,7 +278,7 @@ def _look(state, moving, strict=False) -> np.ndarray:
 
 
 def _masks_in(state) -> np.ndarray:
-    """Return the library rows of masks tested by pixels: all without response, otherwise those of sensors."""
+    """Return the library rows of all masks among the candidates, which are swept by their pixels."""
     if not state.library.masks:
         return NO_ROWS
     rows = state.pairs.rows
@@ -274,7 +287,10 @@ def _masks_in(state) -> np.ndarray:
 
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
-    """Return impacts (n, 8) of the bodies whose sweep has a closed form."""
+    """Return the impacts (n, 8) within dt [s] of bodies whose sweep has a closed form; see impacts.find_impacts.
+
+    bodies: BODY rows with the start poses and velocities.
+    """
     sweeper = state.workspace.sweep
     sweeper.grow(state)
     sweep = sweeper.pairs_of(state)._replace(bodies=bodies)
@@ -286,7 +302,10 @@ FORESEEN = ("effects", "stacks", "tolerances", "dt", "awake", "bodies", "shapes"
 
 @stage("time_of_impact", reads=FORESEEN, writes=("impacts", "library", "work", "workspace", "bodies.fraction"))
 def foresee_impacts(state: StepState) -> None:
-    """Find the impacts of the coming motion, and the part of it that is free."""
+    """Predict the impacts of the coming motion, and set the fraction of the step that each body may move.
+
+    For worlds without a stacking solver.
+    """
     sweeper, bodies, rows, dt = state.workspace.sweep, state.bodies, state.awake.bodies, state.dt
     found = _look_straight(state, bodies, dt, state.effects.rotation)
     foresee_paths(rows, bodies, dt, sweeper.paths)
@@ -307,7 +326,10 @@ def foresee_impacts(state: StepState) -> None:
     ),
 )  # fmt: skip
 def detect_moved(state: StepState) -> None:
-    """Find manifolds at the final poses, and add impacts on the way that the test at the final poses missed."""
+    """Find the contacts at the final poses, and add predicted impacts that are not among them.
+
+    For worlds without a stacking solver. Stopped bodies are first pushed on by kinematic bodies.
+    """
     rows = state.awake.bodies
     stopped = rows[state.bodies["fraction"][rows] < 1.0] if len(state.impacts) and state.effects.response else rows[:0]
     if len(stopped) and push_stopped(state, stopped):
@@ -319,23 +341,28 @@ def detect_moved(state: StepState) -> None:
     met = _written(state, state.impacts, int(state.effects.response))
     if state.effects.response:
         state.swept_sensors, met = met[met["sensor"]], met[~met["sensor"]]
-    # If a side moved on after the impact, as a kinematic one does, the final poses may show it from behind.
+    # If a body moved on after the impact, as a kinematic one does, the contact at the final poses may have the wrong
+    # side.
     passed = met["candidate"][met["separation_1"] < -state.tolerances.slop]
     manifolds = manifolds[~np.isin(manifolds["candidate"], passed)]
-    # A body that ended just behind its obstacle is near it but moves away, so the impact counts.
+    # A pair with an impact may also have a contact at the final poses. It is kept, and marked as swept, if it
+    # approaches. If it separates across a gap (the body ended just behind its obstacle), the impact replaces it.
     two = manifolds["count"] == 2
     nears = (manifolds["speed_1"] > 0.0) | (two & (manifolds["speed_2"] > 0.0))
     apart = (manifolds["separation_1"] > 0.0) & ~(two & (manifolds["separation_2"] <= 0.0))
     seen = np.isin(manifolds["candidate"], met["candidate"])
     manifolds["swept"][seen & nears] = True
-    # Without response it may have ended inside, nearer to the far side.
+    # Without response the body may have ended inside the obstacle, nearer to its far side.
     manifolds = manifolds[~(seen & ~nears & (apart | (not state.effects.response)))]
     met = met[~np.isin(met["candidate"], manifolds["candidate"])]
     state.contact_rows = in_order(joined([manifolds, met]))
 
 
 def _written(state, impacts, response) -> np.ndarray:
-    """Return CONTACT rows of the impacts that are the first of a body, with the approach speeds."""
+    """Return CONTACT rows, with approach speeds, of the impacts that bodies reached before they stopped.
+
+    impacts (n, 8), response: see impacts.write_impacts.
+    """
     workspace = np.zeros(len(impacts), CONTACT)
     found = write_impacts(state.bodies, state.shapes, state.pairs.rows, impacts, state.dt, response, workspace)
     measure_approach(state.bodies, workspace[:found])
@@ -352,7 +379,10 @@ def _written(state, impacts, response) -> np.ndarray:
     ),
 )  # fmt: skip
 def sweep_piles(state: StepState) -> None:
-    """Find the fast bodies and their first impacts in the step, and move them there."""
+    """Find the fast bodies, move each back to its first impact in the step, and add the impacts to the contacts.
+
+    For worlds with a stacking solver, after it has moved all bodies.
+    """
     bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep
     state.ghosts = None
     sweeper.grow(state)
@@ -377,7 +407,7 @@ def sweep_piles(state: StepState) -> None:
 
 
 def _cover(state):
-    """Find candidates for bodies that left their swept AABBs."""
+    """Enlarge the broad-phase AABBs of swept bodies that have left theirs, and find their new candidate pairs."""
     own, shapes, pairs = state.awake.shapes, state.shapes, state.pairs
     rows = state.workspace.rows_for(len(own))
     found = find_outgrown(own, state.bodies, shapes, pairs.proxies, state.workspace.sweep.fast, rows)
@@ -387,7 +417,7 @@ def _cover(state):
 
 
 def _sweep_straight(state) -> np.ndarray:
-    """Find impacts of bodies that are swept as a ray or without rotation, along the path that the solver found."""
+    """Return the impacts (n, 8) of bodies in mode "ray" or "swept" on their straight path in the step; stop them."""
     dt, moved = state.dt, state.bodies.copy()
     for name, velocity in (("x", "vx"), ("y", "vy")):
         moved[velocity] = (moved[name] - moved["previous_" + name]) / dt if dt > 0.0 else 0.0
@@ -399,7 +429,11 @@ def _sweep_straight(state) -> np.ndarray:
 
 
 def _sweep_rotational(state) -> np.ndarray:
-    """Find impacts with resting bodies, then, in rounds, with moving ones, which may be stopped, too."""
+    """Return the impacts (n, 8) of fast bodies along paths with rotation, and stop the bodies at their first impacts.
+
+    Impacts with resting bodies come first. Pairs of moving bodies are swept repeatedly, because a body that stops
+    changes the impacts of others.
+    """
     found = [_look(state, 0)]
     stop_at_impacts(state.shapes, state.pairs.rows, found[0], state.bodies)
     found.append(_look(state, 1))
@@ -413,7 +447,7 @@ def _sweep_rotational(state) -> np.ndarray:
 
 
 def _stop(state, impacts) -> bool:
-    """Stop the bodies of these impacts. Return whether any stops earlier than before."""
+    """Stop the bodies at these impacts (n, 8). Return whether any body stops earlier in the step than before."""
     rows = state.awake.bodies
     before = state.bodies["fraction"][rows]
     stop_at_impacts(state.shapes, state.pairs.rows, impacts, state.bodies)
@@ -422,9 +456,9 @@ def _stop(state, impacts) -> bool:
 
 
 def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
-    """Keep stopped bodies in front of kinematic ones for the rest of the step, as far as no resting body is in the way.
+    """Let kinematic bodies push stopped bodies for the rest of the step, until a resting body is in the way.
 
-    stopped: rows of bodies that were stopped at their fraction of the paths. Return whether any was pushed.
+    stopped: rows of BODY of the bodies stopped at an impact. Return whether any body was pushed.
     """
     sweeper, bodies = state.workspace.sweep, state.bodies
     moves = np.zeros((len(bodies), 2))
@@ -441,9 +475,10 @@ def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
 
 
 def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived: bool = False) -> None:
-    """Translate bodies by (n, 2) [px], each as far as no resting body is in the way.
+    """Translate bodies, each until a resting body is in the way.
 
-    arrived: also no kinematic body, which is at its final pose.
+    rows (n,): of BODY; moves (n, 2): translations [px]; arrived: whether kinematic bodies are at their final poses;
+    then they count as resting, too.
     """
     sweeper, bodies, awake = state.workspace.sweep, state.bodies, state.awake.bodies
     sweeper.grow(state)
@@ -462,7 +497,10 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
 
 
 def _tell(state, met):
-    """Add impacts to the contacts and sensed pairs: they begin in this step, the impulse follows in the next."""
+    """Add the impacts (n, 8) to the contacts and to the pairs sensed by sensors.
+
+    Such a contact begins in this step, but its impulse follows in the next one.
+    """
     if not len(met):
         return
     written = _written(state, met, 0)

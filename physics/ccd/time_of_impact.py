@@ -1,4 +1,4 @@
-"""First time of impact of two shapes: closed forms, straight motion, and conservative advancement."""
+"""Time of impact of two moving shapes: closed forms without rotation, conservative advancement with rotation."""
 
 import math
 from typing import NamedTuple
@@ -29,15 +29,15 @@ from physics.math2d import norm, rotate, unit
 # motion enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: quadratic per corner, linear
 # per edge (Ericson, Real-Time Collision Detection, 5.5).
 
-MISS = 2.0  # a fraction beyond the step
+MISS = 2.0  # in place of a fraction 0..1 of the motion: no impact
 
 
 @subkernel
 def sweep_circles(x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal to the point) of a point at (x, y) from the centre of a disc [px], moved by (dx,
-    dy).
+    """Return (fraction of the motion or MISS, normal from the first disc to the second) of two discs that meet.
 
-    radius: sum of both radii. Touching at the start is 0 if it approaches.
+    x, y [px]: centre of the second disc relative to the first; dx, dy [px]: its motion relative to the first; radius
+    [px]: sum of both radii. If the discs touch or overlap at the start, the fraction is 0 if they approach, else MISS.
     """
     nx, ny = unit(x, y, 1.0, 0.0)
     approach = x * dx + y * dy
@@ -60,10 +60,11 @@ def sweep_circles(x, y, dx, dy, radius):
 
 @subkernel
 def cast_on_polygon(corners, count, edges, x, y, dx, dy):
-    """Return (fraction or MISS, normal) of a ray from outside against a closed convex polygon [px].
+    """Return (fraction of the ray or MISS, normal) of a ray that starts outside a convex polygon.
 
-    The ray is clipped by every half plane, so that none passes between two edges (Cyrus and Beck 1978). edges: bits of
-    the edges that may be hit.
+    x, y [px]: start of the ray; dx, dy [px]: from its start to its end; edges: bits of the edges that may be hit. The
+    ray is clipped by the half plane of each edge, so that it cannot slip through between two edges (Cyrus and Beck
+    1978).
     """
     enter = -1.0
     leave = 1.0
@@ -88,10 +89,10 @@ def cast_on_polygon(corners, count, edges, x, y, dx, dy):
 
 @subkernel
 def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal from the polygon to the disc) of a disc moved by (dx, dy) against a resting
-    polygon [px].
+    """Return (fraction of the motion or MISS, normal from polygon to disc) of a moving disc and a resting polygon.
 
-    edges: bits of the edges that may be hit. A radius of 0 casts a ray.
+    x, y, radius [px]: the disc, a ray for radius 0; dx, dy [px]: its motion; edges: bits of the edges (low 16) and
+    corners (next 16) that may be hit.
     """
     hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
     if hit and separation <= 0.0:
@@ -125,11 +126,12 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 
 @subkernel
 def half_planes(a, a_count, b, b_count, side, move, slack, clip):
-    """Clip the time of overlap by the faces of one outline.
+    """Clip the interval of time in which two polygons overlap by the faces of the second one.
 
-    side: 1 for the faces of B, which A's corners cross; -1 for those of A, crossed by B's corners. move: of A (x, y)
-    [px]. A face that is crossed by less than `slack` [px] does not count. clip, and the result: (enter, leave, entering
-    face or -1 - face of A, normal from B to A).
+    a, b: corners of the two arguments; side: 1.0 if they are polygons A and B, -1.0 if they are swapped (then b is
+    polygon A). move: motion (x, y) [px] of polygon A. A face that is crossed by less than `slack` [px] does not count.
+    clip, and the result: (fraction at which the overlap begins or MISS, fraction at which it ends, face k of B entered
+    last or -1 - k for face k of A, normal from B to A).
     """
     enter, leave, entering, nx, ny = clip
     for k in range(b_count):
@@ -153,9 +155,10 @@ def half_planes(a, a_count, b, b_count, side, move, slack, clip):
 
 @subkernel
 def sweep_polygons(a, a_count, b, b_count, move, slack):
-    """Return (fraction or MISS, normal from B to A) of polygon A moved by (x, y) against B at rest [px].
+    """Return (fraction of the motion or MISS, normal from B to A) of a moving polygon A and a resting polygon B.
 
-    slack [px]: shallower overlaps do not count. A deeper overlap at the start is MISS, and left to the contact solver.
+    move: motion (x, y) [px] of A; slack [px]: an overlap up to this depth is no impact. A deeper overlap at the start
+    is MISS, because the contact solver resolves it.
     """
     clip = half_planes(a, a_count, b, b_count, 1.0, move, slack, (-1.0, 1.0, 0, 0.0, -1.0))
     if clip[0] <= 1.0:
@@ -163,7 +166,7 @@ def sweep_polygons(a, a_count, b, b_count, move, slack):
     enter, leave, _, nx, ny = clip
     if enter < 0.0 or enter > leave or enter > 1.0:
         return MISS, nx, ny
-    # From "slack deep" back to touching.
+    # Back from the fraction at which the overlap is `slack` to that of first touch.
     approach = -(nx * move[0] + ny * move[1])
     if approach <= 0.0:
         return MISS, nx, ny
@@ -180,18 +183,18 @@ def sweep_polygons(a, a_count, b, b_count, move, slack):
 # missed at any angular velocity. Source: Mirtich, Impulse-based Dynamic Simulation, 1996; Catto, Continuous Collision,
 # GDC 2013.
 
-ADVANCE_CAP = 256  # greatest number of rounds; transversal impacts take under ten, grazing ones about forty
+ADVANCE_CAP = 256  # greatest number of iterations; head-on impacts take under ten, grazing ones about forty
 LEAVING_CAP = (
-    1024  # greatest number of rounds of a pair that touches and does not approach, each at least 1 / LEAVING_CAP long
+    1024  # most iterations while a pair touches and does not approach; each advances by at least 1 / LEAVING_CAP
 )
-TOLERANCE = 2.0**-43  # share of the size of shapes and motion below which they touch
-TOUCHING_BAND = 2.0**-30  # share of the size within which corners beside the touching one touch, too
-RESTING = 2.0**-42  # share of the speed below which an approach is rounding
+TOLERANCE = 2.0**-43  # separation that counts as touching, as a share of the size of shapes and motion
+TOUCHING_BAND = 2.0**-30  # corners this near to the touching one along the normal touch, too; as a share of the size
+RESTING = 2.0**-42  # approach speed that counts as rounding error, as a share of the greatest speed
 CENTER_X, CENTER_Y, ANGLE, MOVE_X, MOVE_Y, TURN = range(6)
 
 
 class AdvanceWorkspace(NamedTuple):
-    """Scratch arrays of one moving pair."""
+    """Input and scratch arrays of `advance` for one pair of moving hulls."""
 
     local_a: np.ndarray  # (16, 2) corners from the centre of rotation of each side [px], at angle 0
     local_b: np.ndarray
@@ -199,7 +202,7 @@ class AdvanceWorkspace(NamedTuple):
     b: np.ndarray
     motion_a: np.ndarray  # (6,) centre of rotation and angle at the start, and their changes until the end
     motion_b: np.ndarray
-    totals: np.ndarray  # (2,) rounds of GJK and EPA, caps hit
+    totals: np.ndarray  # (2,) number of GJK and EPA iterations, number of times that an iteration limit was hit
     gap: GapWorkspace
 
 
@@ -218,7 +221,10 @@ def new_advance_workspace() -> AdvanceWorkspace:
 
 @subkernel
 def place_at(local, count, motion, fraction, x, y, corners_out):
-    """Write a hull's corners at a fraction of its motion, seen from (x, y)."""
+    """Write a hull's corners [px] at a fraction of its motion, relative to the world point (x, y).
+
+    local (16, 2) [px]: corners from the centre of rotation at angle 0; motion (6,): see AdvanceWorkspace.
+    """
     angle = motion[ANGLE] + fraction * motion[TURN]
     cosine, sine = math.cos(angle), math.sin(angle)
     center_x = (motion[CENTER_X] - x) + fraction * motion[MOVE_X]
@@ -231,9 +237,9 @@ def place_at(local, count, motion, fraction, x, y, corners_out):
 
 @subkernel
 def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
-    """Return the separation [px] at a fraction of the motion.
+    """Return the separation [px] of the two hulls of a workspace at a fraction of their motions.
 
-    workspace.gap.gap has the normal, workspace.a and workspace.b the corners.
+    Afterwards workspace.gap.gap holds the normal, and workspace.a and workspace.b hold the corners at that fraction.
     """
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
     place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
@@ -258,7 +264,10 @@ def reach_of(local, count):
 
 @subkernel
 def along(corners, motion, fraction, k, x, y, nx, ny):
-    """Return (place along n [px], velocity along n, curvature bound) of corner k, seen from (x, y)."""
+    """Return (position [px], velocity, bound of the acceleration) of corner k along the unit vector (nx, ny).
+
+    The time unit is the whole motion. corners (16, 2) [px]: at this fraction, relative to the world point (x, y).
+    """
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
     turn = motion[TURN]
@@ -268,7 +277,10 @@ def along(corners, motion, fraction, k, x, y, nx, ny):
 
 @subkernel
 def free_until(gap, speed, bend):
-    """Return the first root of gap + speed · t - bend / 2 · t², for gap >= 0; infinite without one."""
+    """Return the first root t of gap + speed · t - bend / 2 · t² for gap >= 0; infinite without a root.
+
+    Until then two corners cannot meet. gap [px]; speed: at which the gap grows; bend: bound of the acceleration, >= 0.
+    """
     if bend > 0.0:
         root = math.sqrt(speed * speed + 2.0 * bend * gap)
         if speed < 0.0:
@@ -281,9 +293,10 @@ def free_until(gap, speed, bend):
 
 @subkernel
 def free_motion(a_count, b_count, radii, fraction, separation, workspace):
-    """Return a lower bound of the free motion: until a pair of corners can meet along the present normal.
+    """Return a lower bound of the further fraction of the motion in which the hulls cannot meet.
 
-    separation [px]: closer pairs count as touching at 0. O(corners of A · corners of B).
+    It is the time until any two corners can meet along the present normal. separation [px]: of the hulls at `fraction`;
+    no pair of corners counts as nearer. radii [px]: sum of both. O(corners of A · corners of B).
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
@@ -317,7 +330,10 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 
 @subkernel
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
-    """Return the speed along n [px per motion] of a body's point at (x, y), from the start of another's motion."""
+    """Return the velocity [px per motion] along the unit vector (nx, ny) of a body's point at (x, y).
+
+    x, y [px]: relative to the start centre of the motion `seen_from`; motion: of the body; fraction: of the motion.
+    """
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
     return nx * (motion[MOVE_X] - motion[TURN] * arm_y) + ny * (motion[MOVE_Y] + motion[TURN] * arm_x)
@@ -325,7 +341,10 @@ def speed_of(motion, seen_from, fraction, x, y, nx, ny):
 
 @subkernel
 def touching_span(corners, count, nx, ny, side, band):
-    """Return (low, high) along the tangent (-ny, nx) of the corners furthest along side · n, within a band [px]."""
+    """Return the interval (low, high) [px] along the tangent (-ny, nx) that a hull's touching face or corner covers.
+
+    It includes the corners that are furthest in the direction side · (nx, ny), up to a difference of `band` [px].
+    """
     furthest = -math.inf
     for k in range(count):
         furthest = max(furthest, side * (nx * corners[k, 0] + ny * corners[k, 1]))
@@ -339,10 +358,10 @@ def touching_span(corners, count, nx, ny, side, band):
 
 @subkernel
 def approach_at(a_count, b_count, fraction, band, workspace):
-    """Return the greatest approach speed along the normal [px per motion] of the two surfaces where they touch.
+    """Return the greatest approach speed [px per motion] along the normal of two touching hulls.
 
-    They touch at a point, or along the common part of two faces within a band [px], where the speed is greatest at an
-    end.
+    If two faces touch, within `band` [px], the speed is greatest at an end of their common part. workspace: as
+    separate_at leaves it.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)
@@ -366,11 +385,12 @@ def approach_at(a_count, b_count, fraction, band, workspace):
 
 @subkernel
 def advance(a_count, a_radius, b_count, b_radius, workspace):
-    """Return the first fraction at which two moving hulls meet, or MISS. workspace.gap.gap has normal and points there.
+    """Return the first fraction of the motion at which two moving hulls meet, or MISS.
 
-    workspace: the caller fills in local corners and motions of both. radii [px]. Touching or overlapping at the start
-    is 0 if they approach; otherwise the search goes on until they approach. workspace.totals counts GJK's rounds and
-    caps. If ADVANCE_CAP is hit, the motion ends there, before the impact, and the cap is counted.
+    workspace: the caller fills in local_a, local_b, motion_a, motion_b; on return gap.gap holds normal and points at
+    the impact, and totals is increased. a_radius, b_radius [px]: roundings. If the hulls touch or overlap at the start,
+    the result is 0 if they approach; otherwise the search continues until they approach. If ADVANCE_CAP is hit, a
+    fraction before the impact is returned.
     """
     turn_a, turn_b = abs(workspace.motion_a[TURN]), abs(workspace.motion_b[TURN])
     reach_a, reach_b = reach_of(workspace.local_a, a_count), reach_of(workspace.local_b, b_count)

@@ -1,1 +1,1 @@
-"""Contacts as they are kept from step to step, and sensors."""
+"""Contact cache: contacts that are kept and updated from step to step."""

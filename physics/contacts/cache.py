@@ -1,4 +1,4 @@
-"""The contact cache of worlds that stack: contacts at any pose, and at the final poses of a step."""
+"""Contact cache of worlds with a stacking solver: updates contacts to moved bodies without a new narrow phase."""
 
 import math
 
@@ -16,37 +16,39 @@ from physics.tables.step_state import StepState, stage
 # ---- cache -----------------------------------------------------------------------------------------------------------
 # The contact cache: the points of a manifold in the body spaces of both sides, and the frame its normal rotates with.
 #
-# Points, normal and separations at any pose follow from it (update_contact), without a new narrow phase. They are exact
-# to second order in the motion. The normal rotates with the side that has the reference face. A point stays with its
-# corner, on whichever side that is.
+# From the cache, update_contact computes points, normal and separations at any pose, without a new narrow phase. They
+# are exact to second order in the motion. The normal rotates with the side that has the reference face. A point stays
+# with its corner, on whichever side that is. The core of a shape is its outline without the rounding, of a circle its
+# centre.
 
-FACES = 1024  # features below are points of a face, see hulls.py
-SAME = 2.0**-20  # of a body's extent: a point this near to a corner is that corner
+FACES = 1024  # smaller feature ids are of points on a face, see hulls.py
+SAME = 2.0**-20  # distance at which a point counts as a corner, as a share of the body's extent
 
 
 @subkernel
 def core_radius(shape):
-    """Return the radius [px] from the core of a shape to its surface: of a circle its own, of a hull its rounding."""
+    """Return the distance [px] from a shape's core to its surface: the radius of a circle, the rounding of a hull."""
     return shape.radius if is_hull(shape.kind) and shape.kind != BOUNDS else 0.0
 
 
 @subkernel
 def is_ground(shape):
-    """Return whether a shape is a grid or chain: the features of its manifolds begin with the run or link."""
+    """Return whether a shape is a tile grid or chain, whose feature ids include the run or link: hulls.part_feature."""
     return shape.kind == TILES or shape.kind == CHAIN
 
 
 @subkernel
 def has_corners(shape):
-    """Return whether a shape is a row of geometry.polygons."""
+    """Return whether a shape has corners in geometry.polygons: it is a hull, but no box or circle."""
     return is_hull(shape.kind) and shape.kind != BOUNDS and shape.kind != CIRCLE
 
 
 @subkernel
 def frame_of(a, b, feature, radii):
-    """Return the frame that the normal of a manifold rotates with: WITH_A, WITH_B, CORES or UPRIGHT.
+    """Return the frame that the normal of a contact rotates with as the bodies move.
 
-    a, b: SHAPE rows of its sides; feature: of its first point; radii [px]: sum of both core radii.
+    WITH_A, WITH_B: body A or B; CORES: the line from A's core to B's; UPRIGHT: the normal never rotates. a, b: SHAPE
+    rows of the contact; feature: feature id of its first point; radii [px]: sum of both core radii.
     """
     frame = WITH_B if a.kind == CIRCLE else WITH_A
     if a.kind != MASK and b.kind != MASK:
@@ -68,7 +70,11 @@ def frame_of(a, b, feature, radii):
 
 @subkernel
 def is_corner(polygons, table, body, shape, corner, local_x, local_y):
-    """Return whether a point [px] in body space is a hull core's corner; its number wraps to the first."""
+    """Return whether a point is at a given corner of a hull's core.
+
+    polygons, table: geometry.polygons and geometry.corners; corner: index, the number of corners means the first one;
+    local_x, local_y [px]: the point in body space.
+    """
     span = polygons[shape.geometry]
     c = table[span.offset + (corner if corner < span.count else 0)]
     return norm(c.x - local_x, c.y - local_y) <= SAME * body.extent
@@ -76,16 +82,21 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, turn, x, y, nx, ny, inside, behind):
-    """Return a point in body space, moved `inside` [px] along the normal, `behind` against the tangent."""
+    """Return the world point (x, y) in body space, moved first by two distances along the contact's axes.
+
+    inside [px]: along the normal (nx, ny); behind [px]: along (ny, -nx), against the tangent; turn: (cosine, sine) of
+    the body's angle.
+    """
     return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, turn[0], -turn[1])
 
 
 @subkernel
 def share_of(polygons, table, body_a, body_b, contact, a, b, second):
-    """Return the position of a manifold point between the two cores, along the face: 0 at A's, 1 at B's, 0.5 midway.
+    """Return which side a contact point follows as the sides slide along the face: 0 for A, 1 for B, 0.5 for both.
 
-    The centre of a disc, or a corner, stays over the face. A point clipped by the end of a face stays with the face.
-    contact: the CONTACT row, with the cores already written; a, b: its SHAPE rows; second: it is the second point.
+    A point at a corner, or at the centre of a disc, follows that side. A point clipped by the end of a face follows the
+    face. contact: CONTACT row whose local points are already written; a, b: its SHAPE rows; second: whether it is the
+    second point; polygons, table: geometry.polygons and geometry.corners.
     """
     part = (contact.feature_2 if second else contact.feature_1) % PART
     if a.kind == MASK or b.kind == MASK:
@@ -121,10 +132,10 @@ def share_of(polygons, table, body_a, body_b, contact, a, b, second):
 
 @subkernel
 def write_cache(polygons, table, bodies, shapes, contact_inout):
-    """Write the cache of a contact that was detected at the present poses.
+    """Write the cache fields of a CONTACT row that was detected at the present poses.
 
-    polygons, table: geometry.polygons and geometry.corners, passed separately: see placement.polygon_at. A round side
-    keeps its core, because a surface point would rotate away with its spin.
+    polygons, table: geometry.polygons and geometry.corners. The cached points of both sides are on their cores, because
+    a point on a round surface would rotate away with the spin of the body.
     """
     c = contact_inout
     a, b = bodies[c.body_row_a], bodies[c.body_row_b]
@@ -167,7 +178,7 @@ def write_cache(polygons, table, bodies, shapes, contact_inout):
 
 @subkernel
 def reset_impulses(contact_out):
-    """Clear the cached forces of a contact, and its graph colour."""
+    """Clear the cached forces, used for warm starting, and the graph colour of a CONTACT row."""
     c = contact_out
     c.color = -1
     c.rolling_force, c.normal_force_1, c.tangent_force_1 = 0.0, 0.0, 0.0
@@ -176,7 +187,7 @@ def reset_impulses(contact_out):
 
 @kernel
 def write_caches(geometry, bodies, shapes, contacts_inout):
-    """Write the cache of every contact that was detected at the present poses, without forces. O(contacts)."""
+    """Write the cache fields of contacts that were detected at the present poses, with all forces 0. O(contacts)."""
     for i in range(len(contacts_inout)):
         reset_impulses(contacts_inout[i])
         write_cache(geometry.polygons, geometry.corners, bodies, shapes, contacts_inout[i])
@@ -188,9 +199,9 @@ def write_caches(geometry, bodies, shapes, contacts_inout):
 
 @inlined
 def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
-    """Return the cores of a point at the present poses: A's [px], and B's relative to it.
+    """Return the world position [px] of a contact's point on A's core, and that of B's core relative to it [px].
 
-    a, b: BODY rows; turn: (cosine, sine) of their angles; local [px]: the cores in the body spaces.
+    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles; local_ax … local_by [px]: the points in body space.
     """
     ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
     bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])
@@ -201,12 +212,13 @@ def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
 
 @inlined
 def clipped_gap(gap, core, other, apart, with_a, normal, wander):
-    """Return (gap [px] of the cores at a point clipped by the end of a face, whether it differs from `gap`).
+    """Return (corrected gap [px] between the cores at a clipped contact point, whether it differs from `gap`).
 
-    The incident edge runs through the other side's cores of both points. As the sides slide along the face, the clipped
-    point moves on that edge. gap: from core to core at the point; core: B's core relative to A's; other: the same of
-    the other point; apart: A's core of the other point relative to this one's; with_a: the face is A's; wander [px]:
-    smaller corrections are omitted.
+    A point clipped by the end of a face moves along the incident edge as the sides slide, which changes the gap. The
+    incident edge is the line through both core points of the side without the face. gap [px]: before the correction;
+    core [px]: B's core point relative to A's; other [px]: the same for the other contact point; apart [px]: A's core
+    point of the other contact point relative to this one's; with_a: whether the face is A's; wander [px]: smaller
+    corrections are omitted.
     """
     nx, ny = normal
     edge_x = apart[0] + (other[0] - core[0] if with_a else 0.0)
@@ -222,16 +234,16 @@ def clipped_gap(gap, core, other, apart, with_a, normal, wander):
 
 @inlined
 def is_clipped(contact, share):
-    """Return whether a point of a contact, with its share, is clipped by the end of a face."""
+    """Return whether a contact point is clipped by the end of a face; share: of the point, see share_of."""
     return (contact.frame == WITH_A and share == 0.0) or (contact.frame == WITH_B and share == 1.0)
 
 
 @inlined
 def point_of(ax, ay, dx, dy, normal, gap, share, radii):
-    """Return a point of a manifold [px], x and y, and its separation.
+    """Return a contact point and its separation: (x, y, separation) [px].
 
-    ax … dy: see cores_at; gap: from core to core along the normal, with the correction of clipped_gap; radii: of both
-    sides.
+    ax, ay, dx, dy [px]: result of cores_at; gap [px]: between the cores along the normal, corrected by clipped_gap;
+    share: see share_of; radii: core radii of A and B [px].
     """
     nx, ny = normal
     radius_a, radius_b = radii
@@ -244,11 +256,11 @@ def point_of(ax, ay, dx, dy, normal, gap, share, radii):
 
 @inlined
 def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
-    """Write points, normal and separations [px] at the present poses. Return (relative motion of the points since
-    detection, along or across the face [px]; motion of a core around a corner [px]; whether a clipped point moved on).
+    """Write the points, normal and separations [px] of a contact at the present poses, from its cache.
 
-    a, b: BODY rows of the sides; turn: (cosine, sine) of their angles; wander [px]: a clipped point is corrected only
-    where this makes more of a difference, that is after a large motion; infinite: never.
+    Return (greatest relative motion of a point since detection, along the face or the normal [px]; motion of a round
+    side around a corner [px]; whether a clipped point was corrected, see clipped_gap). a, b: BODY rows; turn_a, turn_b:
+    (cosine, sine) of their angles; wander [px]: least correction of a clipped point, infinite for none.
     """
     c = contact_inout
     two = c.count == 2
@@ -292,7 +304,7 @@ def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
 
 @kernel
 def update_contacts(bodies, contacts_inout):
-    """Update separations, points and normals of all contacts to the present poses. O(contacts)."""
+    """Update the points, normals and separations of all contacts to the present poses of the bodies. O(contacts)."""
     row_a, row_b = -1, -1
     turn_a = (1.0, 0.0)
     turn_b = (1.0, 0.0)
@@ -310,8 +322,8 @@ def update_contacts(bodies, contacts_inout):
 
 
 # ---- recycle ---------------------------------------------------------------------------------------------------------
-# Contact recycling: whether a manifold of the last step can be used again. It is tested at the end of a step for the
-# next one, and at the beginning of a step for bodies that were moved in between.
+# Contact recycling: a manifold of the last step is updated and used again, without a new narrow phase. Whether it can
+# be is tested at the end of a step for the next one, and at the beginning of a step for bodies moved in between.
 #
 # Source: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 
@@ -328,10 +340,11 @@ def is_finite(contact):
 
 @inlined
 def recycle_distance(contact, distance):
-    """Return the largest relative motion [px] of a contact's points with which it can be recycled.
+    """Return the largest relative motion [px] of a contact's points since detection with which it can be recycled.
 
-    This is the distance, or RECYCLE_MOVE times it on a loaded face that is not short itself: its points are updated
-    exactly. An unloaded contact must find its own way out of an overlap.
+    It is `distance` [px]. For a loaded contact of two sharp faces it is RECYCLE_MOVE times that, because their points
+    are updated exactly, unless the face is short. An unloaded contact is detected again earlier, to find the shortest
+    way out of an overlap.
     """
     c = contact
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
@@ -346,10 +359,9 @@ def recycle_distance(contact, distance):
 def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
     """Update a contact to the present poses, and return whether it can be recycled.
 
-    No point may have moved by more than recycle_distance of `distance` [px], and neither side may have rotated relative
-    to the other by more than that. Clipped points must be right to within `wander` [px] without correction.
-
-    a, b: BODY rows of the sides; turn: (cosine, sine) of their angles.
+    It can if no point has moved by more than recycle_distance, no point by more than `distance` [px] through relative
+    rotation, and the correction of clipped points is at most `wander` [px]. a, b: BODY rows; turn_a, turn_b: (cosine,
+    sine) of their angles.
     """
     c = contact_inout
     moved, rolled, wandered = update_contact(a, turn_a, b, turn_b, wander, c)
@@ -364,30 +376,32 @@ def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
 
 @inlined
 def is_settled(body):
-    """Return whether a body, a BODY row, is at the pose where its centre of mass was last written."""
+    """Return whether a body has the pose for which its centre of mass was last computed; body: BODY row."""
     return body.x == body.settled_x and body.y == body.settled_y and body.angle == body.settled_angle
 
 
 @inlined
 def is_unmoved(body):
-    """Return whether a body, a BODY row, is at the pose to which the last step updated its contacts.
+    """Return whether a body has the pose to which the last step updated its contacts; body: BODY row.
 
-    Moving a body through the API clears the flag; a direct write to the table shows in the pose.
+    Moving a body through the API clears has_current_contacts. A direct write to the table is detected by the pose.
     """
     return body.has_current_contacts and is_settled(body)
 
 
 # ---- final poses -----------------------------------------------------------------------------------------------------
-# Final poses of a step in a world with stacking: boxes, rasters and contacts are updated to them.
+# Final poses of a step in a world with a stacking solver: AABBs, rasters and contacts are updated to them.
 #
 # Solvers, sweeps and characters move bodies one after the other. Reports, sensors and sleeping use the state after all
-# of them. Contacts are updated from the cache; nothing is detected twice.
+# of them. Contacts are updated from the cache, without a second detection.
 
 
 @subkernel
 def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
-    """Update points, normals and separations of all contacts to the present poses, and flag those that can be recycled
-    in the next step: see can_recycle. O(contacts)."""
+    """Update all contacts to the present poses, and flag those that can be recycled in the next step. O(contacts).
+
+    distance [px]: see can_recycle. has_current_contacts of their bodies is set, too.
+    """
     row_a, row_b = -1, -1
     turn_a = (1.0, 0.0)
     turn_b = (1.0, 0.0)
@@ -411,9 +425,9 @@ def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
 
 @kernel
 def update_final_poses(shape_rows, geometry, distance, bodies_inout, shapes_inout, contacts_inout):
-    """Write the boxes of these shapes, and update all contacts to the present poses. O(rows + contacts).
+    """Update the AABBs of these shapes, and all contacts, to the present poses. O(rows + contacts).
 
-    distance [px]: see can_recycle.
+    shape_rows: of SHAPE; distance [px]: see can_recycle.
     """
     refresh_boxes(shape_rows, geometry, bodies_inout, shapes_inout)
     update_and_flag(shapes_inout, distance, bodies_inout, contacts_inout)
@@ -425,7 +439,7 @@ def update_final_poses(shape_rows, geometry, distance, bodies_inout, shapes_inou
     writes=("contact_rows", "library", "bodies.has_current_contacts", *PLACED),
 )
 def update_contacts_at_final_poses(state: StepState) -> None:
-    """Update boxes, and points, normals and separations of contacts, to the final poses."""
+    """Update AABBs and contacts (points, normals, separations) to the final poses of the step."""
     rows, bodies, shapes = state.awake.shapes, state.bodies, state.shapes
     # A body rotated by the solver may be at an angle without a raster.
     add_missing_rasters(state.library, rows, bodies, shapes, 0.0)
@@ -434,7 +448,10 @@ def update_contacts_at_final_poses(state: StepState) -> None:
 
 
 def shift_center(contacts: np.ndarray, identity: int, dx: float, dy: float) -> None:
-    """Update the contact caches of a body whose centre of mass has moved by (dx, dy) [px] in it, such as by carving."""
+    """Update the contact caches of a body after a move of its centre of mass within the body, as by carving.
+
+    identity: body id; dx, dy [px]: the move, in world axes.
+    """
     for name, sign in (("body_a", -1.0), ("body_b", 1.0)):
         rows = contacts[name] == identity
         contacts["apart_x"][rows] += sign * dx

@@ -1,4 +1,4 @@
-"""The narrow phase of worlds that stack: contacts are recycled, or found anew and matched with the last step's."""
+"""Narrow phase of worlds with a stacking solver: contacts are recycled, or detected and matched with old ones."""
 
 import math
 from typing import NamedTuple
@@ -29,16 +29,16 @@ from physics.tables.table import joined, rows_of, zeros_in_lines
 NO_CONTACTS, NO_ROWS = np.zeros(0, CONTACT), np.zeros(0, np.int32)
 
 # ---- matching --------------------------------------------------------------------------------------------------------
-# Matching of contacts with those of the last step, whose impulses they take over.
+# Matching of contacts with those of the last step: a new contact takes over the impulses (warm start).
 
 LARGEST_FORCE = 1e100  # a larger or non-finite cached force is reset to 0
 
 
 @subkernel
 def transfer_impulses(previous, first, contact_inout):
-    """Copy to a new contact's points the forces of the previous points with equal features.
+    """Copy the cached forces of the last step to those points of a new contact that have the same feature id.
 
-    The previous contacts of its pair begin at row `first`.
+    previous: CONTACT rows of the last step; first: the first of these rows of the same pair.
     """
     c = contact_inout
     for point in range(c.count):
@@ -66,7 +66,7 @@ def transfer_impulses(previous, first, contact_inout):
 
 @inlined
 def touches(contact):
-    """Return whether a CONTACT row of the last step pushed, or touched without an approach in that step."""
+    """Return whether a contact of the last step had an impulse, or overlapped without approaching; a CONTACT row."""
     c = contact
     pushed = c.normal_impulse_1 + c.normal_impulse_2 > 0.0
     first = c.separation_1 <= 0.0 and c.speed_1 <= 0.0
@@ -75,9 +75,9 @@ def touches(contact):
 
 @inlined
 def begin_step(geometry, p, q, a, b, contact_inout):
-    """Write the fields that are new in every step: mixed materials and closing speeds.
+    """Prepare a contact for a new step: zero its impulses and colour, write mixed materials and closing speeds.
 
-    p, q: BODY rows of the sides; a, b: their SHAPE rows.
+    p, q: BODY rows of A and B; a, b: their SHAPE rows.
     """
     c = contact_inout
     c.normal_impulse_1, c.tangent_impulse_1 = 0.0, 0.0
@@ -96,11 +96,11 @@ def begin_step(geometry, p, q, a, b, contact_inout):
 
 @kernel
 def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_out):
-    """Write the contacts of a step in the order of the candidates: those recycled from the last step, and the found
-    ones with the impulses of equal features. Return how many there are. O(all).
+    """Merge recycled and newly detected contacts into contacts_out. Return their number. O(previous + found).
 
-    previous and found: CONTACT rows, each in that order; stale (any) int32 rows of previous that are dropped,
-    ascending. A found contact with a row of the last step is a recycled one, and keeps its cache.
+    previous, found: CONTACT rows of the last step and of this one, each in the order of the candidates, as is the
+    result; stale (any,): int32 rows of `previous` that are not recycled, ascending. A new contact takes over the forces
+    of points with the same feature id. If found.previous is not -1, the row is a recycled contact and keeps its cache.
     """
     count = 0
     kept = 0
@@ -140,7 +140,10 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
 
 @kernel
 def copy_recycled(previous, stale, contacts_out):
-    """Copy the manifolds of the recycled contacts: all but the stale ones (any, int32, ascending). O(previous)."""
+    """Copy the manifolds of all contacts of the last step except the stale ones. O(previous).
+
+    stale (any,): int32 rows of `previous`, ascending.
+    """
     count = 0
     passed = 0
     for k in range(len(previous)):
@@ -159,9 +162,10 @@ def copy_recycled(previous, stale, contacts_out):
 
 @inlined
 def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
-    """Write the fields of a recycled contact that may have changed: its rows, candidate and place in the last step.
+    """Write the fields of a recycled contact that may have changed since the last step: table rows, candidate, flags.
 
-    a, b: its SHAPE rows.
+    a, b: SHAPE rows of A and B, at the row numbers row_a and row_b; candidate: index of the pair; place: row of the
+    contact in the last step.
     """
     c = contact_inout
     c.body_row_a, c.body_row_b = a.body_row, b.body_row
@@ -175,13 +179,14 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
 
 @kernel
 def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, stale_out, work_inout):
-    """Classify the solid pairs, see classify, and recycle the contacts of the last step; distance [px]: see
-    can_recycle.
+    """Classify the pairs without sensors (see classify), and recycle the contacts of the last step where possible.
 
-    Where both bodies are as the last step left them, that step has already decided. previous_inout CONTACT rows are
-    updated to their bodies, in the order of shape ids like the candidates. A recycled pair is NOTHING in kinds_out, and
-    not counted. stale_out (previous) int32: the other rows, always including masks. Return the number of stale rows,
-    and the number of pairs left to test or with parts. O(candidates + contacts).
+    If both bodies of a contact have not moved since the last step, the flag can_recycle of that step decides. Otherwise
+    the contact is tested now, with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids
+    like the candidates; recycled ones are updated to the present poses. A pair whose contacts are recycled gets the
+    kind NOTHING in kinds_out, and is not counted. stale_out (previous,): int32 rows that are not recycled, which
+    include all contacts of masks. Return (number of stale rows, number of pairs left to test plus pairs with a part).
+    O(candidates + contacts).
     """
     bodies = batch.bodies
     shapes = batch.shapes
@@ -240,27 +245,25 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
 
 
 # ---- narrow phase ----------------------------------------------------------------------------------------------------
-# The narrow phase of worlds that stack: contacts at the start poses, with the impulses of the last step.
+# The narrow phase of worlds with a stacking solver: contacts at the start poses, with the impulses of the last step.
 
 
 class Found(NamedTuple):
-    """The contacts found in a step, and the stale ones of the last step."""
+    """Result of ContactCache.find: contacts found in a step, and rows of the last step that are not recycled."""
 
     rows: np.ndarray  # CONTACT, in the order of their candidates; valid until the next call
     stale: np.ndarray  # int32 rows of the last step that are not recycled, ascending
 
 
 class ContactCache:
-    """Reusable arrays for the contacts of one world: the present ones, and room for those of the next step."""
+    """Reusable tables for the contacts of one world: one for the present contacts, one for those of the next step."""
 
     def __init__(self) -> None:
         self.tables = [zeros_in_lines(16, CONTACT) for _ in range(2)]
         self.stale = np.zeros(64, np.int32)
 
     def room_beside(self, contacts: np.ndarray, count: int) -> np.ndarray:
-        """Return room for so many rows in a table other than that of `contacts`, which may have been replaced between
-        steps.
-        """
+        """Return a table with room for `count` rows that is not the one of `contacts`, the present contacts."""
         if contacts.base is self.tables[0].base:
             self.tables.reverse()
         if len(self.tables[0]) < count:
@@ -270,10 +273,10 @@ class ContactCache:
     def find(
         self, narrow: NarrowPhase, batch: Batch, previous: np.ndarray, distance: float, work: np.ndarray
     ) -> Found | None:
-        """Return the contacts of solid pairs, but recycle those whose points moved by at most `distance` [px].
+        """Find the contacts of pairs without sensors, but recycle those whose points moved by at most `distance` [px].
 
-        previous: the contacts of the last step; recycled ones are updated in place. Return the new contacts and the
-        stale rows, or None if there are no new ones and all are recycled.
+        previous: CONTACT rows of the last step; recycled ones are updated in place. Return the new contacts and the
+        rows of `previous` that are not recycled, or None if all are recycled and there is nothing to test.
         """
         if len(self.stale) < len(previous):
             self.stale = np.zeros(2 * len(previous), np.int32)
@@ -302,7 +305,7 @@ class ContactCache:
     writes=("contact_rows", "work", "workspace"),
 )
 def find_contacts(state: StepState) -> None:
-    """Detect contacts at the start of the step, up to the speculative distance, with the forces of the last step."""
+    """Find the contacts at the start of the step, up to the speculative distance, with cached forces."""
     if not len(state.awake.bodies):
         state.contact_rows = NO_CONTACTS
         return
@@ -331,17 +334,20 @@ def find_contacts(state: StepState) -> None:
 
 
 # ---- replaced shapes -------------------------------------------------------------------------------------------------
-# Contact forces across a shape replacement: they are transferred where the new surface coincides with the old one.
+# Contact forces when a shape is replaced: they are transferred where the new surface coincides with the old one.
 #
-# Feature ids are valid for one shape only, so no cached contact matches the new one. The new shape is tested at once.
-# Each new point takes the forces of the old point at the same place with the same normal direction.
+# Feature ids are valid for one shape only, so no cached contact matches a contact of the new shape. Contacts of the new
+# shape are detected at once. Each new point takes the forces of the old point at the same place with the same normal.
 
-# Smallest cosine between normals that count as equal: an outline that is smoothed again turns them a little.
+# Smallest cosine between normals that count as equal: smoothing the new outline may rotate them slightly.
 ALIKE = 0.9
 
 
 class KeptImpulses:
-    """The contacts of SHAPE rows that are about to be removed; empty in worlds without a contact cache."""
+    """Contacts of shapes that are about to be replaced, kept to transfer their forces to the new shapes.
+
+    rows: of SHAPE, about to be removed. In worlds without a contact cache nothing is kept.
+    """
 
     def __init__(self, tables: WorldTables, rows: np.ndarray) -> None:
         found = tables.contact_rows
@@ -349,7 +355,8 @@ class KeptImpulses:
         if len(rows) and tables.stacks and len(found):
             going = np.zeros(len(tables.shapes), bool)
             going[rows] = True
-            # Rows are those of the last step: shapes added since come after them; removed ones took their contacts.
+            # Contacts hold the SHAPE rows of the last step. They are valid: new shapes are appended after these rows,
+            # and the contacts of removed shapes are removed, too.
             at_a = going[found["row_a"]]
             kept = np.flatnonzero(at_a | going[found["row_b"]])
             if len(kept):
@@ -357,7 +364,10 @@ class KeptImpulses:
                 self.others = np.unique(np.where(at_a, found["shape_b"], found["shape_a"])[kept])
 
     def transfer(self, tables: WorldTables, new: np.ndarray) -> None:
-        """Transfer the kept forces to the contacts of new SHAPE rows, after the old rows are removed. O(pairs)."""
+        """Detect the contacts of new shapes, and give them the kept forces. O(pairs).
+
+        new: rows of SHAPE. Call it after the old shapes are removed.
+        """
         if not len(self.contacts):
             return
         shapes = tables.shapes
@@ -389,14 +399,21 @@ class KeptImpulses:
         tables.contact_rows = known[order_of(known)]
 
     def _stood_on(self, shapes, pairs):
-        """Return a contact for each new surface and each body on the old one: it stays on it, however deep."""
+        """Return CONTACT rows that count as contacts of the last step between new one-way surfaces and touching bodies.
+
+        With them a body that stood on the old surface stays on the new one, however deep it is. pairs (n, 2): SHAPE
+        rows.
+        """
         some = shapes[pairs[(shapes["kind"][pairs] == CHAIN).any(axis=1)]]
         found = np.zeros(len(some), CONTACT)
         found["shape_a"], found["shape_b"] = some["id"].T
         return found
 
     def _take(self, contact, k, reach):
-        """Copy the forces of the nearest old point, within reach [px], to point k of a new contact."""
+        """Copy the forces of the nearest kept point with a similar normal to point k (1 or 2) of a new contact.
+
+        Points further away than reach [px] do not count.
+        """
         old = self.contacts
         same = (old["body_a"] == contact["body_a"]) & (old["body_b"] == contact["body_b"])
         swapped = (old["body_a"] == contact["body_b"]) & (old["body_b"] == contact["body_a"])

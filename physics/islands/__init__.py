@@ -1,1 +1,1 @@
-"""Islands: the constraint graph, the lists of awake rows, sleeping and waking."""
+"""Islands: constraint graph, lists of awake bodies, sleeping and waking."""

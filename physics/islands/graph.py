@@ -1,10 +1,10 @@
-"""The constraint graph: islands, substep classes and graph colours of constraints of any kind.
+"""Constraint graph: islands, substep classes and graph colours of constraints.
 
-An edge names a constraint by its kind and row, and its nodes, one to four bodies. Islands are found by union-find over
-the edges in their canonical order, with the lowest node as the root. They are the same whichever broad phase found the
-edges (Catto, Box2D v3, Simulation Islands, 2023). Within one colour no two edges share a dynamic node. So their order,
-and the number of lanes or threads that process them at once, does not change a bit of the result (Catto, SIMD Matters,
-2024). Edges with a node of infinite mass get the last colours: they are solved last and prevail.
+An edge of the graph is a constraint, its nodes are the one to four bodies on which it acts. Islands are found by
+union-find over the edges, sorted by ids, with the lowest node as the root. So they do not depend on the broad phase
+(Catto, Box2D v3, Simulation Islands, 2023). No two edges of one colour share a dynamic node. So the order of the edges
+within a colour, and the number of SIMD lanes or threads, does not change a bit of the result (Catto, SIMD Matters,
+2024). Edges with a body of infinite mass get the last colours: they are solved last, and so prevail.
 """
 
 from typing import NamedTuple
@@ -15,27 +15,27 @@ from physics.jit import inlined, kernel, subkernel
 from physics.settings import COLORS
 from physics.tables.table import join_trees, root_of
 
-CONTACT_EDGE = 0  # kinds of constraints
+CONTACT_EDGE = 0  # kind of constraint: a contact
 MOST_NODES = 4  # bodies that one constraint acts on
-NO_NODE = -1
+NO_NODE = -1  # in place of a node: no body
 
 
 class Edges(NamedTuple):
-    """Constraints as edges of the graph."""
+    """Constraints as edges of the graph, an array for each property."""
 
     kinds: np.ndarray  # (edges) int32 kind of the constraint
     rows: np.ndarray  # (edges) int32 its row in the table of its kind
     nodes: np.ndarray  # (edges, MOST_NODES) int32 its bodies, NO_NODE after the last
-    impact_speeds: np.ndarray  # (edges) float64 [px/s] of an impact within the step; 0: none
-    resting: np.ndarray  # (edges) bool it carries a load without impact
+    impact_speeds: np.ndarray  # (edges) float64 [px/s] speed of an impact within the step; 0: none
+    resting: np.ndarray  # (edges) bool the constraint carries a load without impact
     keeps_awake: np.ndarray  # (edges) bool its bodies may not sleep
-    overlaps: np.ndarray  # (edges) float64 [px]
-    faces: np.ndarray  # (edges, 2) float64 normal out of a body of infinite mass that it overlaps; 0: none
+    overlaps: np.ndarray  # (edges) float64 [px] depth of overlap
+    faces: np.ndarray  # (edges, 2) float64 normal out of an overlapped body of infinite mass; 0: none
     face_speeds: np.ndarray  # (edges) float64 [px/s] of that body at the contact
 
 
 def new_edges(room: int) -> Edges:
-    """Return room for that many edges."""
+    """Return empty arrays for `room` edges."""
     return Edges(
         kinds=np.zeros(room, np.int32),
         rows=np.zeros(room, np.int32),
@@ -51,7 +51,10 @@ def new_edges(room: int) -> Edges:
 
 @inlined
 def write_pair(edge, row, node_a, node_b, edges_out):
-    """Write the edge of a contact between two nodes; NO_NODE for a side that it does not act on."""
+    """Write the edge of a contact between two nodes.
+
+    edge: index of the edge; row: of the contact; node_a, node_b: NO_NODE for a body on which the contact does not act.
+    """
     edges_out.kinds[edge] = CONTACT_EDGE
     edges_out.rows[edge] = row
     edges_out.nodes[edge, 0] = node_a
@@ -67,7 +70,10 @@ def join(
     # write
     parents_inout,
 ):
-    """Join the islands of the nodes of each edge. parents_inout: union-find parents. O(count)."""
+    """Join the islands of all nodes of each edge (union-find). O(count).
+
+    count: number of edges; parents_inout (nodes,): parent of each node.
+    """
     for i in range(count):
         for k in range(1, MOST_NODES):
             if edges.nodes[i, k] < 0:
@@ -84,9 +90,10 @@ def find_roots(
     # write
     parents_out,
 ):
-    """Write the root of its island, its lowest node, as parent of every node. O(nodes + count).
+    """Find the islands: write for each node the root of its island, which is its lowest node. O(nodes + count).
 
-    links_islands (nodes) bool: other nodes belong to no island; parents_out (nodes) int32.
+    count: number of edges; links_islands (nodes,) bool: whether a node joins the islands of its edges, otherwise it is
+    alone; parents_out (nodes,): int32 roots.
     """
     for i in range(len(parents_out)):
         parents_out[i] = i
@@ -107,8 +114,10 @@ def find_roots(
 
 @subkernel
 def share_classes(parents, classes_inout):
-    """Raise the class of every node to the greatest of its island. parents, classes_inout (nodes) int32: see
-    find_roots."""
+    """Raise the substep class of each node to the greatest in its island.
+
+    parents (nodes,): int32 root of the island of each node, from find_roots; classes_inout (nodes,): int32.
+    """
     for i in range(len(parents)):
         root = parents[i]
         classes_inout[root] = max(classes_inout[root], classes_inout[i])
@@ -116,13 +125,18 @@ def share_classes(parents, classes_inout):
         classes_inout[i] = classes_inout[parents[i]]
 
 
-KINEMATIC_RANK, STATIC_RANK = 1, 2  # of bodies of infinite mass; 0: of all others, and of characters, which give way
-STATIC_COLORS = 12  # colours that contacts with kinematic bodies leave to those with static ones
+# Rank of a body of infinite mass: contacts with a higher rank are solved later. 0: all other bodies, and characters.
+KINEMATIC_RANK, STATIC_RANK = 1, 2
+STATIC_COLORS = 12  # number of last colours that are preferred for contacts with static bodies
 
 
 @subkernel
 def free_color(taken, rank):
-    """Return the first colour whose bit is not set, from the end with a rank; -1 when all are taken."""
+    """Return a colour whose bit in `taken` is not set, or -1 if all are taken.
+
+    It is the first free colour for rank 0, and the last one for STATIC_RANK. For KINEMATIC_RANK the search begins
+    STATIC_COLORS before the end.
+    """
     last = COLORS - 1 - (STATIC_COLORS if rank == KINEMATIC_RANK else 0)
     for k in range(COLORS):
         color = k
@@ -145,12 +159,12 @@ def color_edges(
     degrees_out,
     colors_out,
 ):
-    """Assign to every edge, in order, the first colour that none of its dynamic nodes has yet.
+    """Colour the edges greedily, so that no two edges of one colour share a node of finite mass. O(nodes + count).
 
-    Later colours are solved later, so they win where contacts oppose one another: those with kinematic bodies come
-    after all others, those with static ones last. has_finite_mass (nodes) bool: an impulse changes its velocity; rank
-    (nodes) int8: KINEMATIC_RANK, STATIC_RANK. taken_out (nodes) int64 bits of the colours of a node, degrees_out
-    (nodes) int64 its number of edges; colors_out (count) int32, -1 where no colour was free. O(nodes + count).
+    Later colours are solved later, and so prevail where contacts oppose one another: edges with kinematic nodes get
+    later colours than others, edges with static nodes the last ones. count: number of edges; has_finite_mass (nodes,)
+    bool; rank (nodes,): int8, see KINEMATIC_RANK. taken_out (nodes,): int64 bits of the colours at each node;
+    degrees_out (nodes,): int64 number of edges at each node; colors_out (count,): int32, -1 where no colour was free.
     """
     for i in range(len(taken_out)):
         taken_out[i] = 0
@@ -179,7 +193,10 @@ def color_edges(
 
 @subkernel
 def slot_of(edge, edges, colors, classes):
-    """Return the slot of an edge: one for each colour of each class, edges without a colour first."""
+    """Return the sort key of an edge: by class (the greatest of its nodes), then by colour, with no colour first.
+
+    classes (nodes,): empty if there is only one class.
+    """
     slot = colors[edge] + 1
     if len(classes) > 0:
         most = 0
@@ -193,7 +210,10 @@ def slot_of(edge, edges, colors, classes):
 
 @subkernel
 def add_up(starts_inout, cursors_out):
-    """Turn counts, each stored one slot further on, into the starts of the slots; cursors_out: a copy."""
+    """Turn counts into start indices (prefix sum for a counting sort).
+
+    starts_inout: the count of key k at k + 1, then the start of key k at k; cursors_out: receives a copy.
+    """
     for i in range(1, len(starts_inout)):
         starts_inout[i] += starts_inout[i - 1]
     for i in range(len(starts_inout)):
@@ -212,10 +232,11 @@ def order_edges(
     cursors_out,
     places_out,
 ):
-    """Sort the edges by class and colour, stable within one: places_out (count) int32, the new place of each. O(count).
+    """Sort the edges by class and colour (stable counting sort). O(count).
 
-    classes (nodes) int32, 0 for a node in no island; empty if there is only one class. starts_out: start of each slot,
-    and end of the last; cursors_out: scratch of the same length.
+    count: number of edges; colors (count,): int32; classes (nodes,): int32, 0 for a node in no island, empty if there
+    is only one class. starts_out: index of the first edge with each key of slot_of, then the number of edges;
+    cursors_out: scratch of the same length; places_out (count,): int32 new index of each edge.
     """
     for i in range(len(starts_out)):
         starts_out[i] = 0
@@ -238,9 +259,10 @@ def order_nodes(
     cursors_out,
     ordered_out,
 ):
-    """Sort nodes by class, stable within one: ordered_out (nodes) int32. O(nodes).
+    """Sort nodes by class (stable counting sort). O(nodes).
 
-    starts_out: start of each class, and end of the last; cursors_out: scratch of the same length.
+    classes: int32 class of each node; starts_out: index of the first node of each class, then the number of nodes;
+    cursors_out: scratch of the same length; ordered_out (nodes,): int32, the sorted nodes.
     """
     for i in range(len(starts_out)):
         starts_out[i] = 0
