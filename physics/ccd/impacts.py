@@ -1,4 +1,4 @@
-"""The first impact of fast bodies on their path, and the pose at which they stop."""
+"""First impact of each fast body on its path in a step, and the pose at which it stops there."""
 
 import math
 

@@ -163,8 +163,8 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
 def middle_of_mask(geometry, shape, body, angle):
     """Return the centre (x, y) [px] of a mask's AABB, in body space relative to the centre of mass.
 
-    The AABB is that at an angle [rad]. The centre decides on which side of a link the mask is. shape, body: SHAPE and
-    BODY rows.
+    angle [rad]: of the mask, at which the AABB is taken; shape, body: SHAPE and BODY rows. The centre decides on which
+    side of a link the mask is.
     """
     raster = geometry.raster_of[shape.geometry, 0]
     left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)

@@ -39,11 +39,11 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 # The sweep of a hull that moves and rotates about its centre of mass: one rule for all obstacles.
 #
 # A mover may overlap a shape by the depth that it has at the start, plus a slop. If it gets deeper, it is moved back to
-# the last fraction at which it was no deeper than at the start. So resting and sliding bodies are not held, seams
-# between flush pieces of ground are not hit, and a body that overlaps at the start cannot break through. A very deep
-# mover is swept by its core instead, a circle about its centre of mass with a quarter of its smallest half extent as
-# radius: its centre never crosses a surface (core circle of Box2D v3). One-sided ground is hit only while the mover is
-# in front of it.
+# the last fraction at which it was no deeper than at the start. So resting and sliding bodies are not held, and a body
+# that overlaps at the start cannot break through. Seams between flush pieces of ground are not hit, because the mover
+# is no deeper in one piece than in the whole. A very deep mover is swept by its core instead, a circle about its centre
+# of mass with a quarter of its smallest half extent as radius: its centre never crosses a surface (core circle of Box2D
+# v3). One-sided ground is hit only while the mover is in front of it.
 
 BEFORE = 2.0**-20  # a fraction of the path that counts as "just before" an impact
 BACKWARDS = 6  # most iterations of Newton's method in back_to; two or three are needed
@@ -332,7 +332,7 @@ def is_before(link, local, middle, fraction, core, workspace):
 
     The mover's point that decides is `middle` [px], relative to its centre of mass at angle 0; with `core`, the centre
     of mass itself. If this point is beyond an end of the link, and the chain bends towards its front there, the point
-    must be in front of the neighbouring link instead. link: LINK row; local: see sweep_chain.
+    must be in front of the neighbouring link, too. link: LINK row; local: see sweep_chain.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b

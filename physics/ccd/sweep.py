@@ -154,7 +154,7 @@ def push_ahead(sweep_inout, moves_inout):
     """Push stopped bodies out of the way of kinematic bodies for the rest of the step. Return the number of pushes.
 
     moves_inout (bodies, 2) [px]: translation of each stopped body from the place where it stopped; each push adds to
-    it. A push is along one normal, so a corner may need a further call. Call until no push is added. O(candidates).
+    it. A push is along one normal, so a corner needs several calls: repeat until the result is 0. O(candidates).
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     cuts, slack = sweep_inout.cuts, sweep_inout.slack

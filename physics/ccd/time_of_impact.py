@@ -126,12 +126,12 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 
 @subkernel
 def half_planes(a, a_count, b, b_count, side, move, slack, clip):
-    """Clip the interval of time in which two polygons overlap by the faces of the second one.
+    """Clip the interval of time in which two polygons overlap by the faces of polygon b.
 
-    a, b: corners of the two arguments; side: 1.0 if they are polygons A and B, -1.0 if they are swapped (then b is
-    polygon A). move: motion (x, y) [px] of polygon A. A face that is crossed by less than `slack` [px] does not count.
-    clip, and the result: (fraction at which the overlap begins or MISS, fraction at which it ends, face k of B entered
-    last or -1 - k for face k of A, normal from B to A).
+    a, b (16, 2) [px]: corners; side: 1.0 if a is polygon A and b is B, -1.0 if a is B and b is A. move: motion (x, y)
+    [px] of polygon A. A face that is crossed by less than `slack` [px] does not count. clip, and the result: (fraction
+    at which the overlap begins or MISS, fraction at which it ends, face k of B entered last or -1 - k for face k of A,
+    normal from B to A).
     """
     enter, leave, entering, nx, ny = clip
     for k in range(b_count):
@@ -332,7 +332,8 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
     """Return the velocity [px per motion] along the unit vector (nx, ny) of a body's point at (x, y).
 
-    x, y [px]: relative to the start centre of the motion `seen_from`; motion: of the body; fraction: of the motion.
+    x, y [px]: relative to the centre of rotation at the start of the motion `seen_from`; motion: of the body; fraction:
+    of the motion.
     """
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
@@ -360,8 +361,8 @@ def touching_span(corners, count, nx, ny, side, band):
 def approach_at(a_count, b_count, fraction, band, workspace):
     """Return the greatest approach speed [px per motion] along the normal of two touching hulls.
 
-    If two faces touch, within `band` [px], the speed is greatest at an end of their common part. workspace: as
-    separate_at leaves it.
+    If two faces touch, within `band` [px], the speed is greatest at an end of their common part. workspace: with
+    normal and corners at `fraction`, from separate_at.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)

@@ -1,4 +1,4 @@
-"""Overlap areas [px2] of contacts with masks, counted in pixels.
+"""Overlap areas [px2] of contacts with masks.
 
 The solver does not use these areas, so they are computed only when the user reads the contacts.
 """

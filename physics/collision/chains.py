@@ -49,9 +49,10 @@ from physics.tables.step_state import MASK_TESTS
 #                              \
 #                               after    a convex corner: the solid side bends away
 #
-# The contact normal is the link's own or, at a convex corner, one between the normals of both links. Of two links that
-# share a corner, the earlier one reports the contact, unless the other shape is behind that link. At an open end the
-# contact normal may deviate from the link's by up to 90 degrees. Names as in physics/tables/geometry.py, LINK.
+# The contact normal is the link's own or, at a convex corner, one between the normals of both links: a corner is felt
+# only as far as it sticks out. Of two links that share a corner, the earlier one reports the contact, unless the other
+# shape is behind that link. At an open end the contact normal may deviate from the link's by up to 90 degrees. Names as
+# in physics/tables/geometry.py, LINK.
 
 STRAIGHT = 1e-9  # sine of a bend between two links that counts as straight
 ADMIT, SNAP, SKIP = (0, 1, 2)  # for a normal: use it; use the link's own instead; leave it to the neighbour

@@ -454,8 +454,9 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 def overlaps_narrowly(a, b, most, far, manifold):
     """Return whether two Hulls with a face contact overlap by at most `most` [px] along the face.
 
-    A contact patch that narrow may carry a load at rest (the edge of a card). So the width of the contact patch alone
-    counts only with `far`: whether the Hulls move far enough in this step. manifold (11,): see hulls.py.
+    Either their extents along the face overlap by that little or, with `far`, their two contact points are that close.
+    far: whether the Hulls move far in this step; at rest so narrow a contact may carry a load (the edge of a card).
+    manifold (11,): see "clipping" in hulls.py.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True
@@ -469,8 +470,8 @@ def is_grazing(a, b, batch, p, q, manifold):
     """Return whether the contact of two Hulls is to be dropped because they pass each other in this step.
 
     The path of B must miss A, up to an overlap of batch.graze [px]. Only a contact between corners, with a normal
-    mainly along the motion, or on a patch no wider than graze is dropped. Otherwise a tile that stands slightly above
-    its neighbour would stop a sliding body. p, q: BODY rows of A and B; manifold (11,): see hulls.py.
+    mainly along the motion, or on a patch no wider than graze is dropped. Without this, a tile that stands slightly
+    above its neighbour would stop a sliding body. p, q: BODY rows of A and B; manifold (11,): see hulls.py.
     """
     graze = batch.graze
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])

@@ -270,7 +270,7 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
 
 @inlined
 def always(batch, pair):
-    """Return True: every pair of the kind is tested."""
+    """Return True: the default of make_pass, with which every pair of the kind is tested."""
     return True
 
 
@@ -341,13 +341,13 @@ def drop_empty(count, manifolds_inout):
 
 @subkernel
 def is_before(contact, shape_a, shape_b):
-    """Return whether a CONTACT row sorts before the contacts of the pair (shape_a, shape_b), ids."""
+    """Return whether a CONTACT row sorts before those of the pair of shapes with the ids shape_a and shape_b."""
     return contact.shape_a < shape_a or (contact.shape_a == shape_a and contact.shape_b < shape_b)
 
 
 @subkernel
 def is_of(contact, shape_a, shape_b):
-    """Return whether a CONTACT row is of the pair (shape_a, shape_b), ids."""
+    """Return whether a CONTACT row belongs to the pair of shapes with the ids shape_a and shape_b."""
     return contact.shape_a == shape_a and contact.shape_b == shape_b
 
 

@@ -584,7 +584,7 @@ def bounds_overlap(batch, pair):
 
 
 def make_mask_pass(full: bool) -> Any:
-    """Return the pass over pairs of snapped masks.
+    """Return the kernel that collides all pairs of snapped masks.
 
     full: compute area, centroid, normal and depth. Otherwise only find the first shared pixel: the normal is then the
     direction between the centres, and the separation is -1.

@@ -264,7 +264,7 @@ NOISE = 1e-9  # rounding error of area differences, as a share of the area
 
 @subkernel
 def boxes_normal(a, b):
-    """Return (unit direction from the centre of A's AABB to that of B's, whether they differ); a, b: SHAPE rows."""
+    """Return (unit direction from A's AABB centre to B's, whether the centres differ); a, b: SHAPE rows."""
     x, y = (b.min_x - a.min_x) + (b.max_x - a.max_x), (b.min_y - a.min_y) + (b.max_y - a.max_y)
     nx, ny = unit(x, y, 1.0, 0.0)
     return nx, ny, x != 0.0 or y != 0.0
@@ -371,7 +371,7 @@ def exact_mask_area(geometry, bodies, a, b):
 
 
 def make_exact_mask_pass(full: bool) -> Any:
-    """Return the pass over pairs of masks of which at least one is not snapped.
+    """Return the kernel that collides all pairs of masks of which at least one is not snapped.
 
     full: compute area, centroid, normal and depth. Otherwise only find two overlapping pixels: the normal is then the
     direction between the centres of the AABBs, and the separation is -1.

@@ -140,8 +140,8 @@ def kind_of_pair(low, high):
 def as_snapped(kind, a, b):
     """Return the kind of pair of two SHAPE rows; kind: the result of kind_of_pair for them.
 
-    It differs for two masks of which one is not snapped (MASKS_EXACT), and for a chain that is the one-way surface of a
-    mask (SURFACE_ANY).
+    The result differs from `kind` for two masks of which one is not snapped (MASKS_EXACT), and for a chain that is the
+    one-way surface of a mask (SURFACE_ANY).
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b

@@ -235,7 +235,7 @@ def touched_run(workspace, pair, run):
 
 
 def make_grid_pass(one_way: bool) -> Any:
-    """Return the pass over pairs of a tile grid and any other shape; one_way: whether one-way tiles collide."""
+    """Return the kernel that collides tile grids with all other shapes; one_way: whether one-way tiles collide."""
 
     @inlined
     def collide_grid_pair(batch, pair, workspace, manifolds_out, found, work_inout):

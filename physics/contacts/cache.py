@@ -82,7 +82,7 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, turn, x, y, nx, ny, inside, behind):
-    """Return the world point (x, y) in body space, moved first by two distances along the contact's axes.
+    """Move the world point (x, y) by two distances along the contact's axes, and return it in body space.
 
     inside [px]: along the normal (nx, ny); behind [px]: along (ny, -nx), against the tangent; turn: (cosine, sine) of
     the body's angle.
@@ -322,15 +322,15 @@ def update_contacts(bodies, contacts_inout):
 
 
 # ---- recycle ---------------------------------------------------------------------------------------------------------
-# Contact recycling: a manifold of the last step is updated and used again, without a new narrow phase. Whether it can
-# be is tested at the end of a step for the next one, and at the beginning of a step for bodies moved in between.
+# Contact recycling: a manifold of the last step is updated and used again, without a new narrow phase. Whether this is
+# possible is tested at the end of a step for the next one, and at its beginning for bodies moved in between.
 #
 # Source: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 
 
 @inlined
 def is_finite(contact):
-    """Return whether all numbers of the manifold are finite (x - x == 0 only for finite x)."""
+    """Return whether normal, points and separations of a contact are finite (x - x == 0 only for finite x)."""
     m = contact
     total = m.normal_x + m.normal_y + m.x_1 + m.y_1 + m.separation_1
     if m.count == 2:

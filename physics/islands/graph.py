@@ -1,10 +1,10 @@
 """Constraint graph: islands, substep classes and graph colours of constraints.
 
 An edge of the graph is a constraint, its nodes are the one to four bodies on which it acts. Islands are found by
-union-find over the edges, sorted by ids, with the lowest node as the root. So they do not depend on the broad phase
-(Catto, Box2D v3, Simulation Islands, 2023). No two edges of one colour share a dynamic node. So the order of the edges
-within a colour, and the number of SIMD lanes or threads, does not change a bit of the result (Catto, SIMD Matters,
-2024). Edges with a body of infinite mass get the last colours: they are solved last, and so prevail.
+union-find over the edges in the order of shape ids, with the lowest node as the root. So they do not depend on the
+broad phase (Catto, Box2D v3, Simulation Islands, 2023). No two edges of one colour share a dynamic node. So the order
+of the edges within a colour, and the number of SIMD lanes or threads, does not change a bit of the result (Catto, SIMD
+Matters, 2024). Edges with a body of infinite mass get the last colours: they are solved last, and so prevail.
 """
 
 from typing import NamedTuple
