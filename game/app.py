@@ -1,4 +1,4 @@
-"""Main program of the window: events, fixed steps, drawing. See game/screens/stack.py for the screens."""
+"""Main loop of the windowed program: events, fixed steps, drawing. The screens are in game/screens/stack.py."""
 
 from collections.abc import Iterator
 from time import perf_counter
@@ -28,7 +28,7 @@ from game.screens.screen import Outcome
 from game.screens.stack import AnyScreen, Screens
 from game.startup import say
 
-IDLE_SECONDS = 0.002  # rest between frames when the display does not wait for its refresh
+IDLE_SECONDS = 0.002  # by which the wait for the next frame is shortened
 QUIET = 0.3  # factor of the music's volume in quiet screens
 
 
@@ -49,8 +49,8 @@ def run_app(options: Options, registry: Registry) -> int:
 
 
 class App:
-    """Main loop, which runs the top screen. `arcade` holds the state that the screens share, `screens` the screen
-    stack.
+    """Main loop of the window, which runs the top screen of the stack `screens`. `arcade`: the state that all screens
+    share.
     """
 
     def __init__(
@@ -128,7 +128,9 @@ class App:
             self._follow(self.screen.outcome)
 
     def _menu_steps(self, now: float) -> Iterator[InputState]:
-        """Yield the input of each step that is due at `now` [s]. A screen with its own clock does not read it."""
+        """Yield the player's input once for each menu step that is due at `now` [s]. A screen with its own clock
+        ignores this iterator.
+        """
         for _ in range(self.clock.advance(now)):
             self.inputs.set(self.arcade.devices.next())
             yield self.inputs
@@ -162,7 +164,9 @@ class App:
         self.before = now
 
     def _rest(self, started: float) -> None:
-        """Wait for the next picture, so that the loop does not occupy a core on an unpaced display."""
+        """Wait until the frame cap allows the next frame, so that the loop does not occupy a core where vsync does not
+        slow it.
+        """
         spent = perf_counter() - started
         self.frame_time.note(spent)
         wanted = 1.0 / self.settings.frame_cap if self.settings.frame_cap else 0.0
@@ -187,7 +191,7 @@ class App:
                 self.arcade.devices.feed(event)
 
     def _follow(self, outcome: Outcome) -> None:
-        """Perform the outcome of the top screen. The old picture is wiped away."""
+        """Perform the outcome of the top screen, such as opening the menu, with a wipe from the old picture."""
         if outcome[0] == "menu" and self.screens.played is not None:
             if self.options.scene and (self.options.is_a_run or self.options.recording):
                 self.arcade.running = False  # such a run is about one scene: leaving the scene ends the program
@@ -212,7 +216,9 @@ class App:
         self.clock.rest()
 
     def _save_what_is_open(self) -> None:
-        """Save the current run and write the requested files when the window is closed."""
+        """Enter the results, save the settings, and save the current run or the requested recording, before the program
+        ends.
+        """
         if not self.options.frames:
             self.screens.enter_results()
         self.arcade.save_settings()

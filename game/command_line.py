@@ -68,7 +68,7 @@ def _give_up_output():
 
 
 def make_parser() -> Parser:
-    """Return the parser; --help and the tests use it alone."""
+    """Return the argument parser of the program."""
     parser = Parser(prog="hitbox", description="2D collision you can feel, trust and see.", allow_abbrev=False)
     add = parser.add_argument
     add("--list", action="store_true", help="every scene: name, title, effects, features")
@@ -154,7 +154,7 @@ def _check_output(flag, name):
 
 
 def _check_advice(options):
-    """Check that --advise has no conflicting options, and set its scene. The bot plays this run."""
+    """Check that --advise has no conflicting options, and make its scene the scene of the run, which the bot plays."""
     if options.error is not None and options.advise is None:
         raise UsageError("--error needs --advise")
     if options.error is not None and not 0.0 < options.error < math.inf:
@@ -168,7 +168,9 @@ def _check_advice(options):
 
 
 def _check_report(options):
-    """Check that --report has no conflicting options, and that its own options come with --report."""
+    """Check that --report has no conflicting options, and that the report's own options (--quick ...) come with
+    --report.
+    """
     if options.report is None:
         for flag in ("quick", "workers", "dask", "only"):
             if getattr(options, flag) is not None and getattr(options, flag) is not False:
@@ -190,8 +192,10 @@ def _known(name, what, valid):
 
 
 def read_layers(text: str | None) -> tuple[str, ...] | None:
-    """Parse --overlay: "bounds,pairs" gives ("bounds", "pairs"). "all" and "none" are valid too. None stays None (the
-    scene's own layers).
+    """Return the layers that the value of --overlay names: "bounds,pairs" gives ("bounds", "pairs"), "all" gives every
+    layer, "none" gives ().
+
+    None (no --overlay) gives None: the scene's own layers are shown.
     """
     if text is None:
         return None

@@ -7,10 +7,10 @@ LONGEST = 300  # characters of a message: file names and file contents may have 
 
 
 class UsageError(Exception):
-    """Wrong use: an unknown name, a damaged file, no display. The text is the line to print; exit code 2.
+    """Error for wrong use: an unknown name, a damaged file, no display. It ends the program with exit code 2.
 
-    The line has at most LONGEST characters. `valid` holds the valid names, and `hint` the nearest of them. Both follow
-    the line and are never cut.
+    The text is printed as one line of at most LONGEST characters. `valid` (the valid names) and `hint` (a suggestion of
+    the nearest valid name) are printed after the text and are never cut.
     """
 
     exit_code = 2
@@ -26,7 +26,7 @@ class UsageError(Exception):
 
     @property
     def parts(self) -> tuple[tuple[str, str], ...]:
-        """Return (label, text) pairs for the space under the headline, where there is room for more than a line."""
+        """Return the error as (label, text) pairs, for a screen that shows `headline` and several lines under it."""
         return (("reason", brief(self)),)
 
 
@@ -44,7 +44,7 @@ class FileError(UsageError):
 
     @property
     def parts(self) -> tuple[tuple[str, str], ...]:
-        """Return the file, the place and the reason, each with its label."""
+        """Return the file, the place in it and the reason, each with its label."""
         return tuple(zip(("file", "place", "reason"), self._texts(), strict=True))
 
 
@@ -61,8 +61,8 @@ class StrictFailure(Exception):
 
 
 def brief(text: object, most: int = LONGEST) -> str:
-    """Return text for one line of at most `most` characters. A longer text loses its middle. Characters that cannot be
-    printed become question marks.
+    """Return text as one line of at most `most` characters. The middle of a longer text is cut out. Characters that
+    cannot be printed become question marks.
     """
     line = str(text)
     if len(line) > most:
@@ -72,7 +72,9 @@ def brief(text: object, most: int = LONGEST) -> str:
 
 
 def share(texts: Sequence[object], room: int) -> list[str]:
-    """Return the texts in at most `room` characters. The room that a short text does not use goes to the others."""
+    """Return the texts, shortened to `room` characters in all. Characters that a short text does not need go to the
+    longer texts.
+    """
     lines = [str(text) for text in texts]
     by_length = sorted(range(len(lines)), key=lambda number: len(lines[number]))
     for left, number in zip(range(len(lines), 0, -1), by_length, strict=True):

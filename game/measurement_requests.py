@@ -1,6 +1,6 @@
-"""Measurement requests of a scene: two sprites at every tier, or worlds to step.
+"""Measurement requests of a scene: two sprites to compare at every collision tier, or worlds whose steps are timed.
 
-The results go to the scene's `figures`, by tier or by name. They are never part of its state.
+The results are stored in the scene's `figures`, by tier or by name. They are never part of the scene's state.
 """
 
 from collections.abc import Callable, Hashable, Sequence
@@ -9,54 +9,60 @@ from typing import Any, NamedTuple
 
 from physics import PixelMask, Snapshot, World
 
-STEPS = 60  # minimum per run: one second of play. Five runs of 60 give the 300 samples of a cost
+STEPS = 60  # least number of steps in a run: one second of play. Five runs give the 300 samples of a cost
 
 
 class SpriteRequest(NamedTuple):
-    """Request to measure two sprites at every tier, again after each change. Figures: {tier: TierFigures}."""
+    """Request to measure two sprites at every collision tier, and again after either has changed. Figures: {tier:
+    TierFigures}.
+    """
 
     first: PixelMask
     second: PixelMask
 
 
 class Recipe(NamedTuple):
-    """Snapshot that is made in the measuring process, so that it costs no time in the game's frame."""
+    """Function, with its arguments, that makes a snapshot. The measuring process calls it, so that this takes no time
+    from the game.
+    """
 
     maker: str  # "module:function", which returns a Snapshot
     arguments: tuple[Any, ...]  # its arguments: JSON values
 
     def make(self) -> Snapshot:
-        """Make and return the snapshot."""
+        """Call the function and return the snapshot."""
         return resolve_name(self.maker)(*self.arguments)
 
 
 class Act(NamedTuple):
-    """Operation that is timed on a world instead of its steps."""
+    """Operation on a world that is timed in place of the world's steps."""
 
     maker: str  # "module:function": function(world, *arguments) returns a function that is called once per step
     arguments: tuple[Any, ...]  # its arguments: JSON values
 
     def made_for(self, world: World) -> Callable[[], object]:
-        """Return the function to call and time."""
+        """Return the operation on this world as a function without arguments, whose calls are timed."""
         return resolve_name(self.maker)(world, *self.arguments)
 
 
 class MeasuredRun(NamedTuple):
-    """Measured run: worlds in a given state, to be stepped. It measures the cost of `name`.
+    """Run whose time is measured: worlds that are restored from snapshots and stepped.
 
-    Figures: {name: RunFigures}.
+    The result is RunFigures, stored in the scene's `figures` under the name of the run.
     """
 
     snapshots: Sequence[Snapshot | Recipe]
-    broadphase: str  # broad phase of all of them
+    broadphase: str  # broad phase of all worlds
     steps: int = STEPS  # steps per run
     stage: str | None = None  # measure only this stage of a step; None: the whole step
     act: Act | None = None  # replaces the steps; the first call of each run is not measured
-    judged: tuple[int, int] | None = None  # steps first, last: report deepest overlap and farthest way
+    judged: tuple[int, int] | None = None  # (first, last) step at which overlap and motion are measured
 
 
 class RunRequest(NamedTuple):
-    """Request for measured runs. make(name) returns a run; it is called once per name, and the results are cached."""
+    """Request for measured runs. make(name) returns the run of a name. It is called once per name, and the results are
+    cached.
+    """
 
     names: Sequence[Hashable]  # numbers, words or tuples of them: runs with the same name cost the same
     make: Callable[[Hashable], MeasuredRun]

@@ -37,7 +37,7 @@ ASSISTS = {"invincible": False, "hit_stop": True}  # name -> initial value; they
 
 @dataclass(frozen=True)
 class Goal:
-    """Goal that a scene must reach. `due`: the frame by which it must be met. `detail`: its progress."""
+    """Goal that a scene must reach by frame `due`. `met`: whether it is reached; `detail`: the progress, as text."""
 
     name: str
     due: int
@@ -47,7 +47,7 @@ class Goal:
 
 @dataclass(frozen=True)
 class Result:
-    """Result of a game. `lines`: more lines of text about it."""
+    """Result of a game. `lines`: further lines of text for the player."""
 
     won: bool
     points: int
@@ -63,7 +63,9 @@ class Result:
 
 @dataclass(frozen=True)
 class Slider:
-    """Value that the player can change. `choices`, if given, names the whole numbers low, low + 1, ..."""
+    """Value that the player can change with a slider. `choices`, if given, holds the names of the values low, low + 1,
+    ...
+    """
 
     name: str
     low: float
@@ -74,28 +76,27 @@ class Slider:
     choices: tuple = ()
 
     def clamp(self, value: float) -> float:
-        """Return the nearest allowed value; an int if low and step are whole."""
+        """Return the value of the slider that is nearest to `value`; an int if `low` and `step` are whole."""
         steps = round((min(max(value, self.low), self.high) - self.low) / self.step)
         value = min(self.low + steps * self.step, self.high)
         return int(value) if float(self.step).is_integer() and float(self.low).is_integer() else value
 
     def show(self, value: float) -> str:
-        """Return the value as text."""
+        """Return the value as text: with its unit, or the name of the choice."""
         if self.choices:
             return plain_name(self.choices[int(value) - int(self.low)])
         return f"{value:g}{' ' + self.unit if self.unit else ''}"
 
 
 class Scene:
-    """Base class of scenes. There is one level of subclasses, which set the class attributes and define each of
-    DEFINED:
+    """Base class of scenes. A scene is a direct subclass: it sets class attributes and defines the methods in DEFINED:
 
     build(): make the worlds (add_world); called at the start and on every restart.
-    update(inputs): one fixed step.
-    draw(canvas, alpha): draw on the canvas, alpha 0..1 between the step before and the last.
-    check(): the scene's goals, a list of Goal.
-    bot(): the actions held in the next step, a frozenset of names, or a whole InputFrame.
-    state(): the scene's own state for the digest, a flat tuple of ints, floats, bools and strings.
+    update(inputs): run one fixed step.
+    draw(canvas, alpha): draw on the canvas; alpha 0..1 interpolates from the last step but one to the last step.
+    check(): return the scene's goals, a list of Goal.
+    bot(): return the actions held in the next step, a frozenset of names, or a whole InputFrame.
+    state(): return the scene's own state for the digest, a flat tuple of ints, floats, bools and strings.
     """
 
     DEFINED = ("build", "update", "draw", "check", "bot", "state")
@@ -110,19 +111,19 @@ class Scene:
     title = ""
     about = ""  # one sentence for the menu
     effects = Effects()
-    other_effects: tuple[Effects, ...] = ()  # other effects its worlds may switch to: compiled before the start
+    other_effects: tuple[Effects, ...] = ()  # that worlds may switch to; compiled before the start
     broadphase = "hash"
     solver: str | None = None  # None: the default of World
     keeps: dict[str, str] = {}  # setting that --advise would change -> reason to keep it: see docs/advice.json
-    solvers: tuple[str, ...] = ()  # all solvers its worlds may use, where there are several: compiled before the start
+    solvers: tuple[str, ...] = ()  # all solvers of the worlds, if there are several; compiled before the start
     features: tuple[str, ...] = ()  # short phrases for the menu and --list
     # Names for physics.warmup: the shape pairs and queries to compile before the start; None: all.
     pieces: tuple[str, ...] | None = None
     sliders: tuple[Slider, ...] = ()
-    # Slider, or "substeps" -> its value until the kernels are compiled, if frames would take over 0.1 s.
+    # Name of a slider, or "substeps" -> value used until the kernels are compiled, if frames would take over 0.1 s.
     lighter: dict[str, int | float] = {}
     actions: tuple[tuple[str, str], ...] = ()  # (key, effect) pairs for the help line
-    tiers: tuple[str, ...] = ()  # collision tiers of the scene's sprites; the first is the start
+    tiers: tuple[str, ...] = ()  # collision tiers of the scene's sprites; the scene starts with the first
     overlays: tuple[str, ...] = ()  # overlay layers on from the start
     filter_names: dict[int, str] = {}  # membership bit -> its meaning, for the legend of the filters
     legend_at: tuple[int, int] | None = None  # canvas (x, y) where the overlays' legend goes if it is free
@@ -164,8 +165,8 @@ class Scene:
         self.best = 0  # points of the best run so far, for display; set from outside
         self.particles = Particles(seed)
         self.drag = Drag()
-        self.pointer = (0, 0)  # at the last step; the end of the drag line
-        self.monitor: InvariantMonitor | None = None  # invariant monitor of its worlds; None: not monitored
+        self.pointer = (0, 0)  # canvas position at the last step; the drag line ends here
+        self.monitor: InvariantMonitor | None = None  # monitor of all worlds; None: invariants are not checked
         self.built: set[str] = set()  # names of the attributes that build() made
         self.restart()
 
@@ -192,7 +193,9 @@ class Scene:
         self.built = set(vars(self)) - before
 
     def _drop_last_run(self):
-        """Release the objects that build() made. Two runs at once would set the peak memory of the game."""
+        """Release the objects that the last build() made, so that the next run does not need memory for two runs at
+        once.
+        """
         if self.built:
             for name in self.built:
                 vars(self).pop(name, None)
@@ -204,8 +207,8 @@ class Scene:
     ) -> WatchedWorld:
         """Make a world with the scene's effects, broad phase, solver and seed, and append it to self.worlds.
 
-        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... A scene that is measured
-        without one of its effects has its world without the setting of this effect.
+        settings: further arguments of World: gravity, drag, substeps, pixels_per_meter ... Settings of effects that the
+        world does not have are left out, so that a scene can be measured without one of its effects.
         """
         effects = (effects or self.effects).with_(narrowphase=self.narrowphase)
         for name, acts in (
@@ -248,7 +251,7 @@ class Scene:
             self.monitor.note(self.frame, self.worlds)
 
     def watch_invariants(self, on: bool = True, strict: bool = False) -> None:
-        """Start or stop monitoring the invariants of its worlds after every step. strict: see InvariantMonitor."""
+        """Start or stop checking the invariants of all worlds after every step. strict: see InvariantMonitor."""
         self.monitor = InvariantMonitor(strict) if on else None
         for world in self.worlds:
             world.watch = None
@@ -282,22 +285,22 @@ class Scene:
             raise ValueError(f"change {name!r} to {value!r} is not possible here; changes: {valid}")
 
     def change_slider(self, name: str, value: float) -> None:
-        """Set a slider. A scene whose worlds depend on it overrides this and calls super first."""
+        """Set a slider. A scene whose worlds depend on a slider overrides this method and calls super() first."""
         slider = next(s for s in self.sliders if s.name == name)
         self.values[name] = slider.clamp(value)
         if name == "substeps":
             self.substeps = None  # the slider's value from now on
 
     def set_broadphase(self, name: str) -> None:
-        """Switch the broad phase of every world during a game."""
+        """Switch the broad phase of every world during a game. Worlds with their own keep it (switches_broadphase)."""
         self.broadphase = name
         if self.switches_broadphase:
             for world in self.worlds:
                 world.broadphase = BROADPHASES[name]()
 
     def solver_choices(self) -> tuple[str, ...]:
-        """Return the solvers that the player may switch between. Empty without the effect response, or if each world
-        has its own.
+        """Return the solvers that the player may switch between. () without the effect response, or if each world has
+        its own solver.
         """
         return () if self.solvers or not self.effects.response else self.valid_solvers()
 
@@ -329,13 +332,15 @@ class Scene:
             world.substeps = count
 
     def set_narrowphase(self, on: bool) -> None:
-        """Switch the narrow phase on or off during a game; without it contacts are between boxes."""
+        """Switch the narrow phase on or off during a game. Without it, contacts are between bounding boxes."""
         self.narrowphase = on
         for world in self.worlds:
             world.set_narrowphase(on)
 
     def set_tier(self, name: str) -> None:
-        """Switch the tier of all bodies that have one during a game. The scene adds new bodies with self.tier."""
+        """Switch the collision tier of all sprite bodies during a game. Bodies that the scene adds later must get
+        self.tier.
+        """
         self.tier = name
         for world in self.worlds:
             for identity in world.bodies["id"].tolist():
@@ -359,34 +364,34 @@ class Scene:
 
     @property
     def offer(self) -> str:
-        """Return the text that offers a new run, "" during a run. While it is shown the help line stays visible.
+        """Return the text that offers a new run after the end of a run; "" during a run.
 
-        (R restarts every scene; the scene describes the new run.)
+        While this text is shown, the help line stays visible. R restarts every scene; the text describes the new run.
         """
         return ""
 
     def views(self) -> list[tuple[WatchedWorld, Camera]]:
-        """Return (world, camera) of each picture on the canvas. Overlays draw through them, and step() begins their
-        steps.
+        """Return (world, camera) of each picture on the canvas. Overlays use these cameras, and step() calls
+        begin_step() of each.
         """
         return [(self.world, self.camera)]
 
     @property
     def chosen(self) -> tuple:
-        """Return the values of all sliders and switches. Measurements that depend on them use this tuple in their
-        names.
+        """Return the values of all sliders and switches. A measured run that depends on them has this tuple in its
+        name.
         """
         return *self.values.values(), self.broadphase, self.solver, self.substeps, self.narrowphase
 
     def measured(self) -> MeasurementRequest | None:
-        """Return the measurement request whose results go to `figures`; None: none. It runs beside the game."""
+        """Return the measurements to make beside the game, whose results go to `figures`; None for no measurements."""
         return None
 
     def finding(self) -> str:
         """Return the scene's finding: one sentence with the numbers measured in this run so far.
 
-        Before it is complete it begins with "not yet: " and names the missing measurements. "" for a scene without a
-        finding.
+        Until all numbers are measured, the sentence begins with "not yet: " and names the missing ones. "" for a scene
+        without a finding.
         """
         return ""
 
@@ -394,14 +399,14 @@ class Scene:
         """Draw at window resolution, under the overlays (curves, thin lines). Most scenes draw nothing here."""
 
     def observe(self) -> None:
-        """Record timings after a step, for curves. They are never part of the state."""
+        """Record timings after a step, for the curves that the scene draws. Timings are never part of the state."""
 
 
 def set_loaded_aside() -> None:
-    """Run a full collection, and exempt the remaining objects from collection until the next call.
+    """Run a full garbage collection, and exempt the remaining objects from collection until the next call.
 
-    A full collection with numba and a scene loaded takes 40 ms, two and a half frames. A collection of the objects made
-    during a game takes less than one frame. Call it when a scene is ready to begin.
+    Call this function when a scene is ready to begin. A full collection with numba and a scene loaded takes 40 ms, two
+    and a half frames. Afterwards, collecting the objects made during a game takes less than one frame.
     """
     gc.unfreeze()
     gc.collect()

@@ -1,4 +1,4 @@
-"""Checks that report before anything heavy is imported, in one line each.
+"""Checks at the start of the program, before any slow import. Each reports its result in one line.
 
 The syntax is old on purpose (see main.py). `*_problem` returns a line that stops the program, or "". `*_note` returns a
 line of information, or "".
@@ -66,7 +66,7 @@ def pygame_note(is_installed: "Callable[[str], bool]" = installed) -> str:
 
 
 def numba_note(jit: bool) -> str:
-    """Return a note that the kernels run uncompiled; "" if jit. `jit`: physics.JIT."""
+    """Return a note that the kernels run uncompiled; "" if they are compiled. jit: the value of physics.JIT."""
     if jit:
         return ""
     return "numba is not in use: everything works, the physics runs slower (python -m pip install numba)"
@@ -86,10 +86,12 @@ def prepare_environment() -> None:
 
 
 def end_quietly_on_interrupt() -> "object":
-    """End the program at once on Ctrl-C, with exit code 130 and without a traceback, until take_interrupts().
+    """Make Ctrl-C end the program at once, with exit code 130 and without a traceback, until take_interrupts() is
+    called.
 
-    Return the previous handler. The imports in between need no cleanup, and an exception during an import prints many
-    lines or is swallowed. A handler other than Python's default is left in place.
+    Return the previous handler, the argument of take_interrupts(). This is for the time of the imports: they need no
+    cleanup, and an exception during an import prints many lines or is swallowed. A handler other than Python's default
+    is left in place.
     """
     import signal
     import threading
@@ -109,7 +111,7 @@ def take_interrupts(handler: "object") -> None:
 
 
 def say(line: str, whole: bool = False) -> None:
-    """Print one line of at most errors.LONGEST characters on standard error, if there is one.
+    """Print one line on standard error, if the program has one, cut to errors.LONGEST characters.
 
     whole: do not cut the line. Use it for the program's own texts, and for bounded texts with a list of valid names.
     """

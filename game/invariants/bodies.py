@@ -12,7 +12,7 @@ BODY_NUMBERS = ("x", "y", "angle", "vx", "vy", "angular_velocity", "center_x", "
 
 
 class Bodies:
-    """A copy, which later steps do not change. Sums are over the dynamic bodies.
+    """Copy of the numbers of all bodies, which later steps do not change. Sums are over the dynamic bodies.
 
     Units: px, s, rad; mass in density px2. `gravity` [px/s2] is (0, 0) where the effect is not declared.
     """
@@ -32,7 +32,7 @@ class Bodies:
         return len(self.ids)
 
     def same_as(self, other: "Bodies") -> bool:
-        """Return whether all values are the same, to the bit."""
+        """Return whether all values equal those of `other`, to the bit."""
         return (
             np.array_equal(self.ids, other.ids)
             and np.array_equal(self.kind, other.kind)
@@ -42,7 +42,7 @@ class Bodies:
         )
 
     def differs_from(self, other: "Bodies | None") -> np.ndarray:
-        """Return which bodies are new or changed since `other`; all of them if it is None."""
+        """Return (n,) bool: whether each body is new or changed since `other`; all True if `other` is None."""
         if other is None:
             return np.ones(len(self), bool)
         if np.array_equal(self.ids, other.ids):
@@ -59,7 +59,7 @@ class Bodies:
 
     @cached_property
     def heights(self) -> np.ndarray:
-        """Gravity times the position along it [px2/s2]: minus the potential energy per mass."""
+        """Scalar product of gravity and position of each body [px2/s2]: minus the potential energy per mass."""
         gx, gy = self.gravity
         return gx * self.cx + gy * self.cy
 
@@ -75,12 +75,12 @@ class Bodies:
 
     @property
     def kinetic(self) -> float:
-        """Kinetic energy."""
+        """Total kinetic energy."""
         return float(self.kinetic_each.sum())
 
     @property
     def energy(self) -> float:
-        """Kinetic and potential energy."""
+        """Total kinetic and potential energy."""
         return float(self.energy_each.sum())
 
     @property
@@ -90,7 +90,7 @@ class Bodies:
 
     @property
     def weight(self) -> float:
-        """Total mass times gravity."""
+        """Total mass times the magnitude of gravity."""
         return self.total_mass * math.hypot(*self.gravity)
 
     @property
@@ -104,7 +104,9 @@ class Bodies:
         return float(self.mass @ self.speed)
 
     def spin(self, among: np.ndarray) -> float:
-        """Return the sum of the unsigned angular momenta of the flagged bodies about their common centre of mass."""
+        """Return the sum of the unsigned angular momenta of the bodies flagged in `among`, about their common centre of
+        mass.
+        """
         mass = self.mass * among
         total = float(mass.sum())
         if total == 0.0:

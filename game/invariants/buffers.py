@@ -1,4 +1,4 @@
-"""U11: every overflow of a cap is reported."""
+"""Invariant U11: no limit on iterations or substeps was hit."""
 
 import numpy as np
 
@@ -7,12 +7,14 @@ from game.invariants.step import Step
 
 
 class Caps(Invariant):
-    """U11: no cap was hit in the step: no search ended early, no island asked for more substeps than there are."""
+    """Invariant U11: no limit (cap) was hit in the step. No search ended early, and no island needed more than the
+    largest number of substeps.
+    """
 
     id, word = "U11", "caps"
 
     def look(self, step: Step) -> Answer:
-        """Check it for the last step."""
+        """Check the invariant for the last step."""
         world = step.world
         hits = world.profile.counters["cap_hits"]
         if not hits:

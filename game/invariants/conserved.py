@@ -1,7 +1,8 @@
-"""U3, U4 and U5: conserved quantities of bodies without outside influence: momentum, spin, and energy at most.
+"""Invariants U3, U4 and U5: without outside influence, bodies keep their momentum and angular momentum, and gain no
+energy.
 
-They are checked only where the tables prove that nothing acts from outside. A change by the game between two steps is
-the start of a new comparison.
+They are checked only where the tables of the world prove that nothing acts from outside. A change by the game between
+two steps starts a new comparison.
 """
 
 import math
@@ -17,13 +18,15 @@ DRIFT = 1e-10  # of the momentum's scale in LONG steps (U3) …
 TWIST = 1e-3  # … and of the spin's, which push-out changes slightly (U4)
 GAIN = 0.01  # of the energy in play (U5)
 STILL = 1e-9  # sleeping speeds: a slower motion is rounding error of a stop
-LONG = 600  # steps
+LONG = 600  # number of steps that DRIFT and TWIST refer to
 APART = 2.0  # slops that bodies may overlap by at the start: deeper overlaps are pushed out
 
 
 class OfTheAlone(Invariant):
-    """A quantity that bodies keep without outside influence. Each step counts the bodies that nothing acted on from
-    outside (Step.alone), and their gain is summed over the steps.
+    """Base class for a quantity that bodies keep without outside influence.
+
+    In each step, the gain of the quantity is taken over the bodies on which nothing acted from outside (Step.alone).
+    The gains are summed over the steps, and the sum must stay within an allowance.
     """
 
     gained: str  # sentence that reports the gain
@@ -32,7 +35,7 @@ class OfTheAlone(Invariant):
         self.drift, self.room, self.steps = np.zeros(2), 0.0, 0
 
     def look(self, step: Step) -> Answer:
-        """Check it for the last step."""
+        """Check the invariant for the last step."""
         if step.outside:
             return NotAsked(step.outside)
         alone = step.alone
@@ -48,26 +51,26 @@ class OfTheAlone(Invariant):
         return self.broken(step, most(step, np.where(alone, change, 0.0)), drift, allowed, self.gained)
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Return the reason why it is not asked, "" if it is."""
+        """Return the reason why the invariant cannot be checked in this step; "" if it can."""
         if not alone.any():
             return "all that is dynamic touches what stands, sleeps or is driven"
         return "drag acts" if step.world.effects.drag and step.world.drag > 0.0 else ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain [2], allowance in LONG steps, change of each body)."""
+        """Return (gain of the quantity in this step [2], its allowance in LONG steps, change of each body)."""
         raise TypeError(f"{type(self).__name__} must define gain")
 
 
 class Momentum(OfTheAlone):
-    """U3: the momentum of isolated bodies changes by what gravity gives, and by no more than 1e-10 of Σ m v in 600
-    steps.
+    """Invariant U3: beyond the momentum that gravity adds, the momentum of isolated bodies changes by at most 1e-10 of
+    Σ m v in 600 steps.
     """
 
     id, word = "U3", "momentum"
     gained = "momentum drifted though nothing pushes from outside"
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain [2], allowance in LONG steps, change of each body)."""
+        """Return (gain of momentum in this step [2], its allowance in LONG steps, change of each body)."""
         now, before = step.now, step.before
         mass = now.mass * alone
         fall = mass * now.felt * step.dt
@@ -78,21 +81,23 @@ class Momentum(OfTheAlone):
 
 
 class Spin(OfTheAlone):
-    """U4: the angular momentum of isolated bodies about their common centre of mass is constant to 1e-3 of Σ |r × m v|
-    + |I ω| in 600 steps, plus the rounding of U3 at their arms. The check sums the torque of the impulses about the
-    positions of the bodies in the middle of the step.
+    """Invariant U4: the angular momentum of isolated bodies about their common centre of mass is constant.
 
-    Two effects are errors of a step rather than a drift, and are not counted. Push-out moves bodies, which gives
-    momenta other arms: a column of ten that falls over under projection loses 0.9 % in a step. After an impact within
-    the step, two bodies go on moving past each other, see `slip`: 0.7 % in one hit of two stones of lab/carving, 0.1 %
-    in 214 steps of 130 bodies in lab/tumbler.
+    It may change by 1e-3 of Σ |r × m v| + |I ω| in 600 steps, plus the rounding error of U3 at the moment arms of the
+    bodies. The check sums the torques of the impulses, with each body halfway between its positions before and after
+    the step.
+
+    Two effects are errors of a step rather than a drift, and are not counted. Push-out moves bodies, which changes the
+    moment arms of their momenta: a falling column of ten boxes loses 0.9 % in a step under projection. After an impact
+    within the step, two bodies go on moving past each other (see `slip`): 0.7 % in one hit of two stones of
+    lab/carving, 0.1 % in 214 steps of 130 bodies in lab/tumbler.
     """
 
     id, word = "U4", "spin"
     gained = "angular momentum drifted though nothing turns from outside"
 
     def why_not(self, step: Step, alone: np.ndarray) -> str:
-        """Return the reason why it is not asked, "" if it is."""
+        """Return the reason why the invariant cannot be checked in this step; "" if it can."""
         why = super().why_not(step, alone)
         if why:
             return why
@@ -108,7 +113,9 @@ class Spin(OfTheAlone):
         return ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return (gain [2], allowance in LONG steps, change of each body)."""
+        """Return ([gain of angular momentum in this step beyond `slip`, 0], its allowance in LONG steps, change of each
+        body).
+        """
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
         total = float(mass.sum())
@@ -126,7 +133,11 @@ class Spin(OfTheAlone):
 
 
 def slip(step: Step, among: np.ndarray) -> float:
-    """Return Σ impulse · (relative path in the step + gap or overlap) over the contacts between flagged bodies."""
+    """Return the error of angular momentum that the contacts of a step may cause.
+
+    It is Σ impulse · (relative path of the two bodies in the step + gap or overlap), over contacts between bodies in
+    `among`.
+    """
     rows, (a, b) = step.contacts, step.sides
     pushed = np.flatnonzero(among[a] & among[b])
     if not len(pushed):
@@ -144,12 +155,12 @@ def slip(step: Step, among: np.ndarray) -> float:
 
 
 def most(step: Step, change: np.ndarray) -> tuple[int, ...]:
-    """Return the id of the body with the greatest change, () if there is none."""
+    """Return (id of the body with the greatest change,), or () if there are no bodies."""
     return (int(step.now.ids[int(np.argmax(change))]),) if len(change) else ()
 
 
 class Account:
-    """The energy of a world since a start: `start`, and the allowance of U5 above it."""
+    """Energy of a world since the start of a comparison. `start`: energy at the start; gain(): energy above it."""
 
     def __init__(self, bodies: Bodies, overlap: float = 0.0) -> None:
         self.start = self.top = bodies.energy
@@ -165,9 +176,9 @@ class Account:
     def gain(self, world: World, now: Bodies) -> tuple[float, float]:
         """Return (energy above the start, its allowance).
 
-        The allowance is 1 % of the energy in play, m g (slop + overlap at the start) of each body, and the rounding
-        error of a stop. A body stopped at its time of impact keeps the speed it would have had at the end of the step:
-        m g v dt for each of those.
+        The allowance is the sum of four terms: 1 % of the energy in play; m g (slop + overlap at the start) of each
+        body; the rounding error of bodies that come to rest; and m g v dt of each body that was stopped at its time of
+        impact.
         """
         self._span(now)
         energy = now.energy
@@ -181,10 +192,11 @@ class Account:
 
 
 class Energy(Invariant):
-    """U5: the energy of bodies without a drive never exceeds that of the start by more than Account.gain allows.
+    """Invariant U5: without a drive, the energy of bodies never exceeds their energy at the start by more than
+    Account.gain allows.
 
-    The start is the last change by the game, once no overlap is deeper than two slops: bodies placed into each other
-    are pushed out, some of them upwards.
+    The comparison starts after the last change by the game, as soon as no overlap is deeper than two slops: bodies that
+    were placed into each other are pushed apart, some of them upwards.
     """
 
     id, word = "U5", "energy"
@@ -193,7 +205,7 @@ class Energy(Invariant):
         self.account: Account | None = None
 
     def look(self, step: Step) -> Answer:
-        """Check it for the last step."""
+        """Check the invariant for the last step."""
         world = step.world
         why = step.outside or driven(step)
         if why:
@@ -213,7 +225,7 @@ class Energy(Invariant):
 
 
 def driven(step: Step) -> str:
-    """Return the drive that gives energy to bodies, "" if there is none."""
+    """Return a phrase that names the drive that adds energy to bodies; "" if there is none."""
     world, effects = step.world, step.world.effects
     if step.forced.any():
         return "forces act"

@@ -1,4 +1,4 @@
-"""Invariants, their answers (held, broken, not asked), and their display."""
+"""Base class of the invariants, and the results of their checks: holds, broken, or not checked."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -8,7 +8,9 @@ from game.invariants.step import Step
 
 @dataclass(frozen=True)
 class Broken:
-    """An invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: of at most `allowed`."""
+    """Report of an invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: measured value, which
+    may be at most `allowed`.
+    """
 
     invariant: str  # U1 ... U11
     word: str
@@ -24,7 +26,7 @@ class Broken:
 
     @property
     def brief(self) -> str:
-        """Place, quantity and amount in a line."""
+        """World and bodies, quantity and value, in one line."""
         world = [f"world {self.world}"] if self.world else []
         bodies = [f"bodies {' '.join(map(str, self.bodies))}"] if self.bodies else []
         where = ", ".join(world + bodies)
@@ -33,7 +35,7 @@ class Broken:
 
 @dataclass(frozen=True)
 class NotAsked:
-    """The invariant does not apply to this world; `why`."""
+    """Answer of an invariant that cannot be checked in this step; `reason` says why."""
 
     reason: str
 
@@ -42,13 +44,15 @@ Answer = Broken | NotAsked | None  # None: checked, and it holds
 
 
 class Invariant:
-    """One invariant; `id` and `word` label it. look() is called after every step, in the order of the steps."""
+    """Base class of the invariants; `id` and `word` label one. look() is called after every step, in the order of the
+    steps.
+    """
 
     id: str
     word: str
 
     def look(self, step: Step) -> Answer:
-        """Check it for the last step."""
+        """Check the invariant for the last step."""
         raise TypeError(f"{type(self).__name__} must define look")
 
     def broken(self, step: Step, bodies: Iterable[int], value: float, allowed: float, sentence: str) -> Broken:

@@ -1,4 +1,7 @@
-"""Invariant monitor of a scene: the state of each invariant over all its worlds. No state latches."""
+"""Invariant monitor of a scene: the state of each invariant over all worlds of the scene.
+
+No state is kept for good: AFTERGLOW frames after a break, it follows the checks again.
+"""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
@@ -13,9 +16,10 @@ NO_STEP = "no step was made yet"
 
 @dataclass
 class InvariantStatus:
-    """State of one invariant.
+    """State of one invariant: grey (not checked), green (holds), or red (broken now or shortly before).
 
-    `reason`: why it is grey; `breaks`: frames with a break since the scene began; `last`: the last break.
+    `reason`: why the state is grey; `breaks`: number of frames with a break since the scene began; `last`: the last
+    break.
     """
 
     id: str
@@ -43,20 +47,20 @@ class InvariantStatus:
 class InvariantMonitor:
     """Monitor of the invariants of a scene.
 
-    Call take(world) for each of its worlds, and note() after each of its frames.
+    Call take(world) for each world of the scene, and note() after each frame.
 
-    strict: the caller ends the run at `first`, and pairs of concave shapes are checked, too.
+    strict: check pairs of concave shapes, too; the caller ends the run at the first break, `first`.
     """
 
     def __init__(self, strict: bool = False) -> None:
         self.strict = strict
         self.statuses = tuple(InvariantStatus(each.id, each.word) for each in all_invariants())
-        self.first: tuple[int, Broken] | None = None  # (frame, what)
+        self.first: tuple[int, Broken] | None = None  # (frame, first break)
         self.frame = 0
-        self.seconds = 0.0  # of watching in the last frame
+        self.seconds = 0.0  # time of the checks in the last frame
 
     def take(self, world: WatchedWorld) -> None:
-        """Watch a world from now on."""
+        """Check the invariants of this world after each of its steps from now on."""
         world.watch = Watch(concave=self.strict)
 
     def note(self, frame: int, worlds: Iterable[WatchedWorld]) -> None:

@@ -17,7 +17,11 @@ Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, quantity
 
 
 def tables(world: World, sleeping: bool) -> list:
-    """Return (name, rows, columns) of all numbers that a world reports, except the boxes of shapes."""
+    """Return [(name, rows, names of the columns to check)] of the tables that a world reports, except the AABBs of
+    shapes.
+
+    sleeping: include the sleeping contacts.
+    """
     events = world.events
     reported = [(f"events.{name}", getattr(events, name), EVENT_NUMBERS) for name in REPORTED]
     return [
@@ -43,9 +47,10 @@ def ids_of(row: np.void) -> tuple[int, ...]:
 
 
 def not_finite(world: World, sleeping: bool = False) -> Bad | None:
-    """Return the first number that is not finite. sleeping: check sleeping contacts, too, which takes listing them.
+    """Return the first reported number that is not finite, as (ids of bodies, value, quantity); None if all are finite.
 
-    A shape without a solid part has a box from +inf to -inf, which is allowed.
+    sleeping: check sleeping contacts, too, which must be listed for this. A shape without a solid part has an AABB from
+    +inf to -inf, which is allowed.
     """
     for name, rows, columns in tables(world, sleeping):
         if not len(rows):
@@ -66,7 +71,10 @@ def not_finite(world: World, sleeping: bool = False) -> Bad | None:
 
 
 def not_unit(world: World, sleeping: bool = False) -> Bad | None:
-    """Return the first normal that is not of unit length; the value is the error of its squared length."""
+    """Return the first normal that is not of unit length, as (ids of bodies, value, quantity); None if all are.
+
+    The value is the error of the squared length.
+    """
     for name, rows, columns in tables(world, sleeping)[1:]:
         if len(rows):
             x, y = block(rows, columns)[2:4]
@@ -78,14 +86,16 @@ def not_unit(world: World, sleeping: bool = False) -> Bad | None:
 
 
 class Finite(Invariant):
-    """U1: no NaN and no Inf in poses, velocities, boxes, impulses, normals, points. A body with a number that is not
-    finite is disabled in the same step, so its numbers are never seen: that counts as a break, too.
+    """Invariant U1: no NaN and no Inf in poses, velocities, boxes, impulses, normals, points.
+
+    A body with a number that is not finite is disabled in the same step, before its numbers can be read. That counts as
+    a break, too.
     """
 
     id, word = "U1", "finite"
 
     def look(self, step: Step) -> Answer:
-        """Check it for the last step."""
+        """Check the invariant for the last step."""
         lost = step.world.events.quarantined
         if len(lost):
             return self.broken(step, lost["body"], float("nan"), 0.0, f"quarantined: {lost['reason'][0]}")
@@ -94,11 +104,11 @@ class Finite(Invariant):
 
 
 class Unit(Invariant):
-    """U2: every reported normal is of unit length, to 1e-12."""
+    """Invariant U2: every reported normal is of unit length, to 1e-12."""
 
     id, word = "U2", "normals"
 
     def look(self, step: Step) -> Answer:
-        """Check it for the last step."""
+        """Check the invariant for the last step."""
         bad = not_unit(step.world)
         return None if bad is None else self.broken(step, bad[0], bad[1], UNIT, bad[2])

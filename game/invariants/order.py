@@ -1,4 +1,4 @@
-"""U9: the order in which bodies were added changes results by no more than the rounding of sums."""
+"""Invariant U9: the order in which bodies were added changes results by no more than the rounding of sums."""
 
 import numpy as np
 
@@ -11,24 +11,26 @@ COMPARED = ("x", "y", "angle", "vx", "vy", "angular_velocity")
 
 
 class Order(Invariant):
-    """U9, which cannot be checked in one running world, because that has one order only: its indicator is never green.
-    `furthest_apart` compares two worlds, as tests do (tests/game/test_invariants.py).
+    """Invariant U9. It cannot be checked in one running world, which has one order only, so its state is never green.
 
-    It holds for bodies that do not press on each other. Loaded contacts are solved one after the other, in an order
-    that begins with the ids, and the remaining error of a step depends on it. Four columns of three boxes differ by
-    2e-7 of their positions after 60 steps with substeps by load, by 5e-5 with 4 substeps.
+    Tests compare two worlds with `furthest_apart` (tests/game/test_invariants.py). U9 holds for bodies that do not
+    press on each other. Loaded contacts are solved one after the other, in an order that begins with the ids, and the
+    remaining error of a step depends on this order. Four columns of three boxes differ by 2e-7 of their positions after
+    60 steps with substeps by load, by 5e-5 with 4 substeps.
     """
 
     id, word = "U9", "order"
 
     def look(self, step: Step) -> Answer:
-        """Return that it is not asked."""
+        """Return NotAsked: the check takes a second world."""
         return NotAsked("takes a second world: tests ask it")
 
 
 def furthest_apart(one: World, other: World, ids: np.ndarray) -> float:
-    """Return the greatest difference of two worlds, relative to the positions and speeds of bodies. ids[k]: id in
-    `other` of the k-th body of `one`.
+    """Return the greatest difference between two worlds in a number of a body (COMPARED).
+
+    A difference is divided by the greatest such number in `one`, at least 1. ids[k]: id in `other` of the k-th body of
+    `one`.
     """
     rows, twins = one.bodies, other.bodies[other.rows(ids)]
     worst = 0.0

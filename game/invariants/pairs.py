@@ -1,8 +1,8 @@
-"""U7, U8 and U10: the answer about two shapes does not depend on their order, their place, or the function that is
-called.
+"""Invariants U7, U8 and U10: the result of a collision query does not depend on the order of the two shapes, on their
+place, or on the function called.
 
-The invariants query physics about a sample of pairs: a few in a step, the next ones in the next. They take turns, one
-invariant a step.
+A sample of the pairs is checked: a few pairs in a step, other pairs in the next step. Each step checks one of the three
+invariants, in turn.
 """
 
 import math
@@ -16,14 +16,16 @@ from physics import PixelMask, World, collide, distance
 
 ULPS = 4.0  # of the poses: allowed change of a distance by a turn and a shift (U8)
 SHIFT = (16.0, -32.0)  # [px] whole, so that pixels stay on the pixel grid
-BAND = 1e-9  # of the positions and sizes of two shapes: nearer to touching, either answer is right
+BAND = 1e-9  # of the positions and sizes of two shapes: for a smaller distance or depth, both answers are right
 TURNS = 3  # invariants that take turns
 SELDOM = 4  # turns of an invariant before it checks a concave pair again: a tile map takes 5 ms
 
 
 class OfPairs(Invariant):
-    """An invariant checked on a sample of pairs in every third step; in between the last answer stays. concave: concave
-    pairs, too.
+    """Base class of an invariant that is checked on a sample of pairs in every third step. The other steps repeat the
+    last answer.
+
+    concave: check pairs with concave shapes, too.
     """
 
     turn: int
@@ -33,7 +35,7 @@ class OfPairs(Invariant):
         self.answer: Answer = NotAsked("not its turn yet")
 
     def look(self, step: Step) -> Answer:
-        """Check it for the last step."""
+        """Check the invariant for the last step."""
         if not step.world.effects.narrowphase:
             return NotAsked("no narrow phase: boxes that meet are a hit")
         if step.number % TURNS != self.turn:
@@ -48,17 +50,19 @@ class OfPairs(Invariant):
         return self.answer
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check it for one pair."""
+        """Check the invariant for one pair. Return the break, or None if the invariant holds."""
         raise TypeError(f"{type(self).__name__} must define ask")
 
 
 class Swap(OfPairs):
-    """U7: with its shapes swapped, a pair has the opposite normal and the same points and depths, to the bit."""
+    """Invariant U7: with its shapes swapped, a pair has the opposite normal and the same points and depths, to the
+    bit.
+    """
 
     id, word, turn = "U7", "swap", 0
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check it for one pair."""
+        """Check the invariant for one pair. Return the break, or None if the invariant holds."""
         if pair.same:
             return None
         margin = step.world.tolerances.speculative
@@ -77,17 +81,17 @@ class Swap(OfPairs):
 
 
 class Turn(OfPairs):
-    """U8: two shapes, rotated together by quarter turns and shifted by whole pixels, keep their distance.
+    """Invariant U8: two shapes, rotated together by quarter turns and shifted by whole pixels, keep their distance.
 
-    The tolerance is 4 ulp of the poses: of the coordinates, and of the angles at the reach of the shapes. Shapes that
-    are drawn on the pixel grid or do not rotate are only shifted. Mirrored scenes need a second world to compare with,
-    for 60 steps: tests do that.
+    The tolerance is 4 times the rounding error of the poses, see `rounding`. Shapes that are drawn on the pixel grid or
+    do not rotate are only shifted. Mirrored scenes are compared by tests, because they need a second world and 60
+    steps.
     """
 
     id, word, turn = "U8", "turn", 1
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check it for one pair."""
+        """Check the invariant for one pair. Return the break, or None if the invariant holds."""
         quarters = 1 + step.number // TURNS % 3 if pair.hulls else 0
         here = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b)
         there = distance(pair.shape_a, moved(pair.pose_a, quarters), pair.shape_b, moved(pair.pose_b, quarters))
@@ -101,7 +105,7 @@ class Turn(OfPairs):
 
 
 def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float, float]:
-    """Return a pose rotated about the origin by quarter turns, and shifted."""
+    """Return a pose rotated about the origin by `quarters` quarter turns, then shifted by SHIFT."""
     x, y, angle = pose
     for _ in range(quarters):
         x, y = -y, x
@@ -109,30 +113,33 @@ def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float
 
 
 def rounding(pair: Pair) -> float:
-    """Return an ulp of the positions, and of the angles at the reach of the shapes [px]."""
+    """Return the rounding error of the poses [px]: one ulp of the coordinates, plus one ulp of the angles times the
+    size.
+    """
     size = pair.size + max(map(abs, SHIFT))
     angle = max(abs(pair.pose_a[2]), abs(pair.pose_b[2])) + 2.0 * math.pi
     return math.ulp(size) + pair.size * math.ulp(angle)
 
 
 class Agree(OfPairs):
-    """U10: overlap, zero distance, depth and contact of two shapes are true together or not at all.
+    """Invariant U10: all queries agree whether two shapes overlap (negative distance, positive depth, contact points).
 
-    In a world without response its contacts are compared, too. With response they belong to poses that the solver has
-    moved since, and begin a little before touching.
+    In a world without response, the contacts of the world are compared, too. With response, those contacts belong to
+    poses that the solver has changed since, and begin a little before touching.
     """
 
     id, word, turn = "U10", "agree", 2
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check it for one pair."""
+        """Check the invariant for one pair. Return the break, or None if the invariant holds."""
         found = disagreement(step.world, pair)
         return None if found is None else self.broken(step, pair.bodies, *found)
 
 
 def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
-    """Return (value, allowed, sentence) if distance, depth, contact and the contacts of a world without response
-    differ.
+    """Return (value, allowed, sentence) if the queries about a pair disagree; None if they agree.
+
+    Distance, depth and contact points are compared, and the reported contacts in a world without response.
     """
     gap = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b).distance
     if math.isinf(gap) or abs(gap) <= BAND * (abs(gap) + pair.size):
@@ -154,14 +161,16 @@ def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
 
 
 def looks_only(world: World) -> bool:
-    """Return whether no body has moved since the world looked for contacts."""
+    """Return whether the world finds contacts without moving bodies afterwards: no response, no continuous
+    collision.
+    """
     effects = world.effects
     return effects.narrowphase and not effects.response and not effects.continuous
 
 
 def reports_contacts(world: World, pair: Pair) -> bool:
-    """Return whether a contact of the two is reported by their shapes: no sensor, and no mask, which is tested by its
-    pixels.
+    """Return whether the contacts of the world are found from the shapes of this pair. Sensors report none, and masks
+    are tested by their pixels.
     """
     shapes = world.shapes
     at = np.searchsorted(shapes["id"], (pair.shape_id_a, pair.shape_id_b))

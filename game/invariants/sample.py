@@ -1,4 +1,4 @@
-"""A sample of the candidate pairs of a step, other ones in every step, as shapes at poses to query physics with."""
+"""Sample of the candidate pairs of a step, another one in each step, as shapes at poses for collision queries."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -18,7 +18,9 @@ Pose = tuple[float, float, float]
 
 
 class Pair(NamedTuple):
-    """Two shapes that may touch. `size` [px]: their distance from the origin plus their size, for rounding."""
+    """Two shapes that may touch. `size` [px]: their greatest coordinate plus their extents, the scale of rounding
+    errors.
+    """
 
     body_a: int
     body_b: int
@@ -37,12 +39,12 @@ class Pair(NamedTuple):
 
     @property
     def hulls(self) -> bool:
-        """True if both are convex, and rotate."""
+        """True if both shapes are convex, and rotate with their bodies."""
         return isinstance(self.shape_a, Convex) and isinstance(self.shape_b, Convex)
 
     @property
     def small(self) -> bool:
-        """True if neither is a mask or a grid larger than LARGEST."""
+        """True if neither shape is a mask or a grid larger than LARGEST."""
         return max(extent_of(self.shape_a), extent_of(self.shape_b)) <= LARGEST
 
     @property
@@ -52,8 +54,9 @@ class Pair(NamedTuple):
 
 
 def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
-    """Yield PAIRS of the candidates of a step, chosen by its number alone. turn: number of checks so far. concave:
-    those, too.
+    """Yield up to PAIRS of the candidate pairs of a step, chosen by `turn` alone.
+
+    turn: number of checks so far. concave: yield pairs with concave shapes, too.
     """
     world = step.world
     rows = world.pairs.rows
@@ -76,7 +79,7 @@ def sample(step: Step, turn: int, concave: bool) -> Iterator[Pair]:
 
 
 def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
-    """Return the pair of two shape ids; None if one is disabled, or is not finite."""
+    """Return the Pair of two shapes, given by their ids; None if a body is disabled, or a pose is not finite."""
     found_a, found_b = placed(world, shape_a), placed(world, shape_b)
     if found_a is None or found_b is None:
         return None

@@ -1,4 +1,4 @@
-"""U6: settled bodies overlap by no more than a few slops."""
+"""Invariant U6: settled bodies overlap by no more than a few slops."""
 
 import math
 
@@ -15,14 +15,16 @@ CALM_TIME = 0.5  # [s] a pile has settled once all of it has been slower than th
 
 
 class Settled(Invariant):
-    """U6: two slops at most, five where masses differ by more than 100 : 1, between bodies that have been slow for half
-    a second, together with all that they touch.
+    """Invariant U6: bodies that have been slow for half a second, with all that they touch, overlap by at most two
+    slops.
 
-    With a fixed number of substeps, contacts are springs of 60 Hz, less stiff than their loads need: their sag is
-    added. The twelve rows of lab/pyramid, hit by its ball, settle at 0.328 px under 4 substeps; two slops are 0.320 px.
-    One of their springs sags by a tenth of a pixel.
+    Five slops are allowed where masses differ by more than 100 : 1.
 
-    It is checked in worlds with stacking: the other solvers separate the overlaps of one step and guarantee nothing for
+    With a fixed number of substeps, contacts are springs of 60 Hz, less stiff than their loads need: the overlap by
+    which they yield (`sag`) is allowed in addition. After the ball has hit the twelve rows of lab/pyramid, they settle
+    at an overlap of 0.328 px with 4 substeps; two slops are 0.320 px, and the sag of one contact is a tenth of a pixel.
+
+    U6 is checked in worlds with stacking: the other solvers separate the overlaps of one step and guarantee nothing for
     piles.
     """
 
@@ -33,7 +35,7 @@ class Settled(Invariant):
         self.calm = np.zeros(0)  # [s] for which each body has been slow
 
     def look(self, step: Step) -> Answer:
-        """Check it for the last step."""
+        """Check the invariant for the last step."""
         world, now = step.world, step.now
         self._count_calm(step)
         if not world.stacks:
@@ -67,8 +69,9 @@ class Settled(Invariant):
 
 
 def sag(step: Step, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Return the sag [px] of each contact as a spring under the force of the step: F / (m ω²), with m its effective
-    mass; 0 if the substeps follow from the loads.
+    """Return the overlap [px] by which each contact, a spring, yields to its normal force of the step.
+
+    It is F / (m ω²), with m the effective mass of the contact; 0 if the number of substeps follows from the loads.
     """
     world, rows, now = step.world, step.contacts, step.now
     substeps = world.substeps

@@ -1,4 +1,4 @@
-"""A finished step: the world after it, its bodies before and after, and the bodies with outside influence."""
+"""Finished step of a world: the bodies before and after it, its contacts, and the bodies with outside influence."""
 
 from functools import cached_property
 
@@ -9,8 +9,10 @@ from physics import DYNAMIC, KINEMATIC, World
 
 
 class Step:
-    """One step. `dt`: its length [s]; `edited`: the world was changed since the step before it. By row of the bodies
-    before it: `changed`, the changed bodies; `forced`, the bodies with applied forces.
+    """Finished step. `before`, `now`: bodies before and after it; `dt`: length [s].
+
+    `edited`: whether the game changed the world since the previous step. By row of the bodies before the step:
+    `changed`, the bodies that the game changed; `forced`, the bodies with applied forces.
     """
 
     def __init__(
@@ -24,7 +26,7 @@ class Step:
 
     @property
     def slop(self) -> float:
-        """Overlap in which a contact is kept [px]."""
+        """Overlap that the solver leaves at a contact, so that the contact persists [px]."""
         return self.world.tolerances.slop
 
     @cached_property
@@ -35,8 +37,9 @@ class Step:
 
     @cached_property
     def max_speed(self) -> np.ndarray:
-        """Speed of each body or of its displacement in the step, the greater [px/s]: push-out moves a body without
-        velocity.
+        """Speed of each body [px/s]: the greater of its velocity and its displacement in the step divided by dt.
+
+        They differ because push-out moves a body without changing its velocity.
         """
         if self.dt == 0.0 or len(self.before) != len(self.now):
             return self.now.speed
@@ -45,15 +48,15 @@ class Step:
 
     @cached_property
     def sides(self) -> tuple[np.ndarray, np.ndarray]:
-        """Rows of the two bodies of each contact."""
+        """Body rows of A and of B of each contact."""
         return (
             np.searchsorted(self.now.ids, self.contacts["body_a"]),
             np.searchsorted(self.now.ids, self.contacts["body_b"]),
         )
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Return the flagged bodies and those they touch, directly or through others; both bodies of a contact must be
-        `through`.
+        """Return (n,) bool: the bodies flagged in `rows`, and all that they touch directly or through others. Only
+        contacts between two bodies flagged in `through` count.
         """
         a, b = self.sides
         open_ones = through[a] & through[b]
@@ -65,7 +68,7 @@ class Step:
 
     @cached_property
     def moved_by_hand(self) -> np.ndarray:
-        """Kinematic bodies that move."""
+        """Flags of the kinematic bodies that moved."""
         now = self.now
         moves = (now.vx != 0.0) | (now.vy != 0.0) | (now.turn != 0.0)
         moves |= (now.numbers[:3] != self.before.numbers[:3]).any(axis=0)
@@ -73,7 +76,7 @@ class Step:
 
     @cached_property
     def outside(self) -> str:
-        """Outside influence that may act on any body and is in no table; "" if there is none."""
+        """Outside influence that may act on any body and is in no table, as a phrase; "" if there is none."""
         world, effects = self.world, self.world.effects
         if len(self.before) != len(self.now):
             return "bodies came or went"
@@ -85,9 +88,10 @@ class Step:
 
     @cached_property
     def alone(self) -> np.ndarray:
-        """Dynamic bodies on which nothing but gravity acted from outside, for the whole step: without a force, not
-        stopped within it, and without a contact, directly or through others, with a static, sleeping, kinematic or
-        stopped body.
+        """Flags of the dynamic bodies on which nothing but gravity acted from outside, for the whole step.
+
+        They have no applied force and were not stopped within the step. They have no contact, directly or through
+        others, with a static, kinematic, sleeping, stopped or forced body.
         """
         rows = self.world.bodies
         still = (self.now.kind != DYNAMIC) | ~rows["awake"] | rows["quarantined"] | self.forced

@@ -1,4 +1,4 @@
-"""The watch of one world: all invariants after every step."""
+"""Checks of all invariants around every step of one world."""
 
 from collections.abc import Callable
 from time import perf_counter
@@ -37,10 +37,10 @@ def all_invariants(concave: bool = True) -> tuple[Invariant, ...]:
 
 
 class Watch:
-    """Checks around each step of one world. `found`: the answers since the last collect(), by id.
+    """Checks of all invariants of one world; call before() and after() around each step.
 
-    Of several steps, the first that broke an invariant counts. `seconds`: time of watching since then. Call before()
-    and after() around each step.
+    `found`: answers since the last collect(), by id of the invariant: the first break if there was one, else the latest
+    answer. `seconds`: time that the checks took since then.
     """
 
     def __init__(self, concave: bool = True) -> None:
@@ -52,7 +52,7 @@ class Watch:
         self.edited, self.changed, self.forced, self.time = True, np.zeros(0, bool), np.zeros(0, bool), 0.0
 
     def before(self, world: World) -> None:
-        """Record the changes since the last step. Call it right before a step."""
+        """Record the changes that the game made since the last step. Call it right before a step."""
         started = perf_counter()
         rows, now = world.bodies, Bodies(world)
         same = self.last is not None and now.same_as(self.last)
@@ -76,14 +76,14 @@ class Watch:
         self.seconds += perf_counter() - started
 
     def collect(self) -> tuple[dict[str, Answer], float]:
-        """Return (answers since the last call, seconds that they took)."""
+        """Return (answers since the last call, by id; seconds that the checks took)."""
         found, self.found = self.found, {}
         seconds, self.seconds = self.seconds, 0.0
         return found, seconds
 
 
 class WatchedWorld(World):
-    """A World that can be watched. `watch`: the Watch of its steps, or None, which costs nothing.
+    """World whose invariants can be checked. `watch`: the checks around its steps; None: no checks, and no cost.
 
     stepped_by(world, dt): replaces World.step; None: World.step itself.
     """
@@ -92,7 +92,7 @@ class WatchedWorld(World):
     stepped_by: Callable[["WatchedWorld", float | None], None] | None = None
 
     def step(self, dt: float | None = None) -> None:
-        """Step the world between before() and after() of its watch."""
+        """Step the world, and check its invariants if `watch` is set."""
         if self.stepped_by is not None:
             return self.stepped_by(self, dt)
         watch = self.watch

@@ -1,7 +1,8 @@
-"""Advice on settings: the fastest setting within an error.
+"""Advice on the settings of a scene: the fastest setting whose error is within a limit.
 
-Settings are measured one change at a time, then the changes that pay are measured together. Advice is given only if it
-is certain: over all moments the intervals of the times are apart, by more than a tie.
+First, settings that differ from the present one by a single change are measured. Then the changes that save time are
+measured together. Advice is given only if it is certain: over all moments, the intervals of the two times do not
+overlap, and the times differ by more than 10 % (pareto_front.TIE).
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -15,14 +16,15 @@ from game.measure.setting import Setting, settings_around
 from game.measure.survey import Survey, is_sound, reported_error
 from game.measure.timing import RUNS
 
-# the groups of fields that are chosen independently
+# groups of fields of Setting that are chosen independently
 PARTS = (("broadphase",), ("tier",), ("solver", "substeps"), ("narrowphase",))
 
 
 class Advice(NamedTuple):
     """The result of `advise`.
 
-    best: the setting to use; `here` if no setting is certainly cheaper, None if no setting is within the error.
+    here: the present setting. best: the setting to use; it is `here` if no setting is certainly faster, and None if no
+    setting is within the error.
     """
 
     here: Setting
@@ -36,7 +38,7 @@ Report = Callable[[int, int], object]  # called with (runs done, runs in all)
 def measure_settings(
     survey: Survey, moments: Sequence[Moment], settings: Iterable[Setting], report: Report, seed: int
 ) -> None:
-    """Add the errors and the times of settings at all moments to a survey."""
+    """Measure the errors and times of these settings at every moment, and add them to the survey."""
     settings, chance, done = list(settings), Random(seed), 0
     survey.planned, of = survey.planned + len(settings), len(moments) * len(settings) * (RUNS + 1)
     survey.moments = len(moments)
@@ -60,7 +62,10 @@ def measure_settings(
 def advise(
     moments: Sequence[Moment], error: float, report: Report = lambda done, of: None, seed: int = 0
 ) -> tuple[Advice, Survey]:
-    """Return the advice for an error [px], and the survey that it follows from. Raises ValueError for no moments."""
+    """Measure the settings around the present one. Return the advice and the survey of all measurements.
+
+    error: largest error [px] of an advised setting. Raises ValueError for no moments.
+    """
     if not moments:
         raise ValueError("moments must be one at least (got none)")
     here, survey = moments[0].here, Survey()
@@ -78,10 +83,10 @@ def advise(
 
 
 def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | None:
-    """Return the cheapest setting within an error [px] of every kind.
+    """Return the fastest measured setting whose error of every kind is at most `error` [px].
 
-    Returns None if no setting is certainly cheaper than `here`, or if `here` is the only one within the error. Only
-    settings with enough runs at every moment are compared.
+    Return None if no setting is certainly faster than the present one (`here`), or if `here` is the only one within the
+    error. Only settings with enough runs at every moment are compared.
     """
     within = [each for each in settings_within(survey, error) if survey.dots[each].sure]
     if here not in survey.dots or not survey.dots[here].sure or not within or within[0] == here:
@@ -91,8 +96,8 @@ def advised(survey: Survey, here: Setting, error: float = VISIBLE) -> Setting | 
 
 
 def share(survey: Survey, setting: Setting, here: Setting) -> float:
-    """Return the time of `setting` as a share of the time of `here`. Raises KeyError or ValueError for a setting
-    without times.
+    """Return the time of `setting` divided by the time of `here`. Raises KeyError or ValueError for a setting without
+    times.
     """
     cost, now = survey.dots[setting].cost, survey.dots[here].cost
     if cost is None or now is None:
@@ -101,7 +106,7 @@ def share(survey: Survey, setting: Setting, here: Setting) -> float:
 
 
 def settings_within(survey: Survey, error: float) -> list[Setting]:
-    """Return the settings whose errors [px] of every kind are within a limit, the cheapest first."""
+    """Return the settings without failures whose error of every kind is at most `error` [px], the fastest first."""
     found = {}
     for setting, dot in survey.dots.items():
         errors = [dot.error(kind) for kind in survey.kinds]
@@ -111,15 +116,20 @@ def settings_within(survey: Survey, error: float) -> list[Setting]:
 
 
 def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
-    """Return whether one setting is cheaper than the other over the whole interval of its runs, not by the median
-    alone.
+    """Return whether `one` is certainly faster than `other`.
+
+    The upper quartile of its times must be below all times of `other`, and more than 10 % below the median of `other`.
     """
     a, b = survey.dots[one].cost, survey.dots[other].cost
     return a is not None and b is not None and cheaper((a.least, a.upper), b[:2])
 
 
 def _together(survey, here, error):
-    """Return `here` with the cheapest choice of every part that is certainly cheaper by itself, all combined."""
+    """Return `here` with several changes combined: for each group of fields in PARTS, the fastest setting within the
+    error.
+
+    A group is changed only if that is certainly faster by itself, or if `here` is not within the error.
+    """
     together = here
     for part in PARTS:
         alone = [

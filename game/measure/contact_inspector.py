@@ -1,7 +1,7 @@
-"""The inspector of a contact: the path of a pair through the last step, stage by stage, with numbers and times.
+"""Inspector of a contact: the result of each stage of the last step for one pair of shapes, with numbers and times.
 
-Times of stages are for the whole step. The time of the pair alone in the narrow phase is measured on request: a
-thousand copies of it, warmed up, in five runs.
+The time of a stage is for all pairs of the step. The narrow-phase time of the pair alone is measured on request: a
+thousand copies of the pair, warmed up, in five runs.
 """
 
 from math import atan2, degrees
@@ -19,7 +19,7 @@ MICRO, NANO = 1e6, 1e9
 
 
 class Part(NamedTuple):
-    """The result of one stage for the pair. stage: the name of the stage in words."""
+    """The result of one stage for the pair. stage: the name of the stage in words; text: the result in words."""
 
     stage: str
     text: str
@@ -37,7 +37,7 @@ class Touch(NamedTuple):
 
 
 def nearest(world: World, x: float, y: float, reach: float) -> Touch | None:
-    """Return the contact nearest to a place [px] within reach [px]; None if there is none."""
+    """Return the contact point nearest to (x, y) [px]; None if there is none within `reach` [px]."""
     found = world.contacts
     if not len(found):
         return None
@@ -51,15 +51,17 @@ def nearest(world: World, x: float, y: float, reach: float) -> Touch | None:
 
 
 def still_there(world: World, touch: Touch) -> bool:
-    """Return whether the pair touches in the last step too."""
+    """Return whether the two shapes of `touch` have a contact in the last step."""
     found = world.contacts
     return bool(((found["shape_a"] == touch.shape_a) & (found["shape_b"] == touch.shape_b)).any())
 
 
 def explain(world: World, touch: Touch) -> list[Part]:
-    """Return the stages of a touching pair in the last step. Raises ValueError for a pair that does not touch."""
+    """Return the result of each stage of the last step for the pair of `touch`. Raises ValueError if the pair has no
+    contact.
+    """
     rows, _ = by_parent(world.reported_rows())
-    # all contacts of their child shapes
+    # contacts of the child shapes of both shapes
     mine = rows[(rows["parent_a"] == touch.shape_a) & (rows["parent_b"] == touch.shape_b)]
     if not len(mine):
         raise ValueError(f"touch must be of a pair that touches (got {touch})")
@@ -72,7 +74,7 @@ def explain(world: World, touch: Touch) -> list[Part]:
 
 
 def cost_of(world: World, touch: Touch) -> Cost:
-    """Return the time [s] of the narrow phase for these two bodies at their present poses."""
+    """Return the time [s] of the narrow phase for the two bodies of `touch` at their present poses."""
     bodies = world.body(touch.body_a), world.body(touch.body_b)
     poses = [np.tile((*body.position, body.angle), (LEAST_PAIRS, 1)) for body in bodies]
     batch = PairBatch(bodies[0].shapes, poses[0], bodies[1].shapes, poses[1])

@@ -1,7 +1,8 @@
-"""The cost of each effect at a moment of a world: the same state stepped with and without the effect, off the frame.
+"""The cost of each effect: worlds in the same state are stepped with and without the effect, outside the game's frame.
 
-A declared effect is removed together with all effects that need it. An undeclared one is added with the effects that it
-needs, and with nothing to do (game/measure/ledger.py). Its figure is the price of declaring it.
+A declared effect is removed together with all effects that need it. An undeclared effect is added together with the
+effects that it needs, at neutral settings such as friction 0 (NEUTRAL in game/measure/ledger.py). Its cost is then the
+price of declaring the effect.
 """
 
 from collections.abc import Callable
@@ -15,7 +16,7 @@ from physics import Effects, World
 
 
 class Side(NamedTuple):
-    """The effects of one measured world. idle: the effect that has nothing to do there; "" for none."""
+    """One of the two compared worlds, by its effects. idle: the effect whose settings are made neutral; "" for none."""
 
     effects: Effects
     idle: str = ""
@@ -24,8 +25,9 @@ class Side(NamedTuple):
 class EffectCost(NamedTuple):
     """The cost of one effect.
 
-    cost, without: times of a step with and without the effect [s], None until measured. kernels: number of (kernel,
-    argument types) compiled for this effect alone. None: not counted yet, or nothing is compiled.
+    cost, without: times of a step with and without the effect [s], None until measured. kernels: number of kernels
+    compiled for this effect alone, counted once per set of argument types; None if not counted yet, or if nothing is
+    compiled.
     """
 
     effect: str
@@ -38,18 +40,18 @@ class EffectCost(NamedTuple):
     def price(self) -> float | None:
         """Time that the effect adds to a step [s]; negative if it saves time, None until measured.
 
-        The least times of both sides are subtracted, because other load only ever adds time.
+        The least times with and without the effect are subtracted, because other load only ever adds time.
         """
         return None if self.cost is None or self.without is None else self.cost.least - self.without.least
 
     @property
     def noise(self) -> float:
-        """Time by which the medians of both sides lie above their least times [s]."""
+        """Sum of (median - least time of a step) with and without the effect [s]."""
         return sum(each.median - each.least for each in (self.cost, self.without) if each is not None)
 
 
 def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
-    """Return {effect: (with it, without it)} for a world with these effects."""
+    """Return {effect: (Side with the effect, Side without it)} of all effects, for a world with these effects."""
     found = {}
     for name in EFFECTS:
         if getattr(effects, name):
@@ -61,7 +63,7 @@ def sides_of(effects: Effects) -> dict[str, tuple[Side, Side]]:
 
 
 def world_under(moment: Moment, side: Side) -> World:
-    """Return a world of the moment with the effects of a side, all bodies awake."""
+    """Return a world in the state of the moment, with the effects of `side` and all bodies awake."""
     world = moment.world(moment.here)
     world.set_effects(side.effects)
     if side.idle:
@@ -70,7 +72,7 @@ def world_under(moment: Moment, side: Side) -> World:
 
 
 def can_be(moment: Moment, side: Side) -> bool:
-    """Return whether the contents of the world are valid under the effects of a side."""
+    """Return whether a world in the state of the moment is valid with the effects of `side`."""
     try:
         world_under(moment, side)
     except ValueError:
@@ -79,14 +81,14 @@ def can_be(moment: Moment, side: Side) -> bool:
 
 
 def time_side(moment: Moment, side: Side, steps: int = STEPS) -> float:
-    """Return the seconds per step of one run from the moment. The first run also compiles: do not count it."""
+    """Return the mean time of a step [s] in one run from the moment. The first run also compiles: do not count it."""
     return seconds_a_step(world_under(moment, side).step, steps)
 
 
 def measure_effects(
     moment: Moment, report: Callable[[str, Cost, Cost], object], goes_on: Callable[[], bool], seed: int = 0
 ) -> None:
-    """Time every effect, in shuffled turns.
+    """Time a step with and without every effect, in several rounds of random order.
 
     report(effect, cost with it, cost without it) is called after each round. Nothing is reported for an effect that the
     world cannot be without (characters need response). Ends early when goes_on() is False.

@@ -1,12 +1,14 @@
 """The errors of a setting at a moment, against reference runs and exact tests.
 
-Three kinds of error, in pixels. `way`: how far bodies are from a reference run. `overlap`: how deep rigid bodies
-overlap, which is 0 in an exact solution. `verdict`: by how much a false hit misses, or a missed hit overlaps.
+There are three kinds of error, in pixels. `way`: distance of the bodies from their positions in a reference run.
+`overlap`: how deep rigid bodies overlap, which is 0 in an exact solution. `verdict`: by how much a false hit misses, or
+a missed hit overlaps.
 
-The reference of `way` has 64 times the 4 plain substeps, at the stiffness of a given number of substeps. Erez, Tassa
-and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way. The reference is used only while a
-run with 32 times the substeps agrees with it to a tenth of a pixel. Its floor is ten times that difference, or the
-difference of a third run with the stiffest contacts if that is larger. Chaotic motion has no reference.
+The reference run of `way` has 64 times the 4 plain substeps, with contacts as stiff as in any run with a fixed number
+of substeps. Erez, Tassa and Todorov (ICRA 2015) compare engines with themselves at smaller steps in this way. The
+reference is valid for the steps in which a run with 32 times the substeps agrees with it to a tenth of a pixel, so not
+for chaotic motion. Errors below a floor are not significant. The floor is the larger of ten times the difference of
+these two runs, and the difference of a third run with the stiffest contacts.
 """
 
 from collections import Counter
@@ -25,12 +27,12 @@ VISIBLE = 1.0  # [px] error that a player can see
 AGREED = 0.1  # largest uncertainty of the reference, as a share of the error and of VISIBLE
 FINE, COARSE = 64, 32  # multiples of PLAIN substeps
 PLAIN = 4
-LOOKS = 12  # steps of a run in which verdicts are compared
+LOOKS = 12  # number of steps of a run in which touching pairs are compared
 
 
 @dataclass(frozen=True)
 class Error:
-    """An error in pixels.
+    """One kind of error of a setting, in pixels.
 
     floor: errors below it are within the uncertainty of the reference. steps: number of steps after which the error was
     read. failures: counts of failures during the run.
@@ -50,7 +52,7 @@ class Error:
 
 
 class Reference(NamedTuple):
-    """A run that other runs are compared with."""
+    """Reference run, with which the runs of other settings are compared."""
 
     way: Way
     horizon: int  # number of steps for which the reference is valid
@@ -58,7 +60,7 @@ class Reference(NamedTuple):
 
 
 class References:
-    """The reference of a moment, computed at first use, and the errors of settings against it."""
+    """Reference run of a moment, computed at first use, and the errors of settings against this run."""
 
     def __init__(self, moment: Moment) -> None:
         self.moment = moment
@@ -75,7 +77,7 @@ class References:
 
     @cached_property
     def reference(self) -> Reference:
-        """The finest run, the number of steps for which it is valid, and its floor."""
+        """Run with the finest steps, the number of steps for which it is a valid reference, and the floor [px]."""
         if self.moment.effects.stacking:
             fine = self.moment.way(self.truth)
             coarse = self.moment.way(self.truth._replace(substeps=COARSE * PLAIN))
@@ -99,8 +101,10 @@ class References:
         }
 
     def _verdict(self, setting) -> Error:
-        """Compare the pairs that meet with those of the exact world in some steps. Both worlds move alike: nothing is
-        pushed.
+        """Return the "verdict" error: compare the touching pairs of a world with those of an exact world, in LOOKS
+        steps.
+
+        Bodies move alike in both worlds, because there is no collision response.
         """
         world, true = self.moment.world(setting), self.moment.world(self.truth)
         wrong = missed = hits = reports = 0
@@ -121,8 +125,9 @@ class References:
 
 
 def pairs_of(world: World) -> set[tuple[int, int]]:
-    """Return the pairs of body ids that meet, the smaller id first: shapes decide which body is A, and a tier replaces
-    them.
+    """Return the pairs of ids of touching bodies, the smaller id first.
+
+    So pairs of worlds at different tiers can be compared: which body of a contact is A depends on the shapes.
     """
     contacts = world.contacts[world.contacts["separation"] <= 0.0]  # contacts include pairs about to meet
     ids = np.sort(np.stack([contacts["body_a"], contacts["body_b"]], axis=1), axis=1)
@@ -130,7 +135,9 @@ def pairs_of(world: World) -> set[tuple[int, int]]:
 
 
 def gap(world: World, first: int, second: int) -> float:
-    """Return the separation [px] of two bodies, the least over their shapes; negative if they overlap."""
+    """Return the separation [px] of two bodies, given by their ids: the least over their shapes, negative if they
+    overlap.
+    """
     a, b = world.body(first), world.body(second)
     poses = [(body.position.x, body.position.y, body.angle) for body in (a, b)]
     return min(distance(s, poses[0], t, poses[1]).distance for s in a.shapes for t in b.shapes)

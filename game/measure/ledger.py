@@ -1,9 +1,9 @@
-"""The ledger of a scene's effects: the change that each makes in a run of the bot, and its time per step.
+"""Ledger of a scene's effects: the change that each effect makes in a run of the bot, and the time it adds to a step.
 
-Two copies of the scene run side by side with the same input, one of them without one effect, or with one added. An
-effect is removed with all that need it, and added with all that it needs. An added effect has nothing to do: gravity 0,
-friction 0 and so on apply to both copies. The run must then stay the same, and the time is the price of declaring the
-effect.
+Two copies of the scene run side by side with the same input, one with the effect and one without it. A declared effect
+is removed together with all effects that need it. An undeclared effect is added to one copy, after the effects that it
+needs were added to both. Both copies then have neutral settings (gravity 0, friction 0 and so on), so that the added
+effect has nothing to do. The run must stay the same, and the extra time is the price of declaring the effect.
 """
 
 from collections.abc import Callable
@@ -29,7 +29,7 @@ NEVER_NEUTRAL = ("narrowphase", "response", "stacking", "rotation", "sleeping")
 
 
 class Entry(NamedTuple):
-    """One effect of one scene. Frames count from 1; None: never in the run."""
+    """Result for one effect of one scene. Frames count from 1; None: the copies never differ in this respect."""
 
     effect: str
     declared: bool
@@ -47,7 +47,7 @@ class Entry(NamedTuple):
 
     @property
     def matters(self) -> bool:
-        """True if the effect changes the run; for sleeping, if it saves work."""
+        """True if the effect changes the run, or if the scene cannot run without it; for sleeping, if it saves work."""
         if self.refused:
             return True
         if self.effect == "sleeping":
@@ -56,10 +56,10 @@ class Entry(NamedTuple):
 
 
 def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER, seed: int = 1) -> Entry:
-    """Run a scene for so many frames, with an effect and without it.
+    """Run a scene with and without an effect, for `frames` frames at most, and return the differences.
 
-    after: frames to continue once the change is known. Raises ValueError for a scene that cannot be built with all its
-    declared effects.
+    after: number of frames to continue once the two copies differ. Raises ValueError for a scene that cannot be built
+    with all its declared effects.
     """
     declared = getattr(scene_class.effects, effect)
     if declared:
@@ -79,7 +79,7 @@ def entry(scene_class: type[Scene], effect: str, frames: int, after: int = AFTER
 
 
 def _compared(one, other_class, found, frames, after):
-    """Return the Entry after running the other side next to the first."""
+    """Run both copies frame by frame. Return `found`, an Entry, with the measured fields filled in."""
     try:
         other = Side(other_class, one.scene.seed)
     except ValueError as error:
@@ -110,7 +110,7 @@ def _compared(one, other_class, found, frames, after):
 
 
 class Side:
-    """A running scene. `seconds`: time of its last step; `worked`: total of the WORK counters so far."""
+    """Running copy of the scene. `seconds`: time of the last step; `worked`: total of the WORK counters so far."""
 
     def __init__(self, scene_class: type[Scene], seed: int) -> None:
         self.scene = scene_class(seed)
@@ -155,7 +155,9 @@ class Side:
 
 
 def root_mean_square(one: Scene, other: Scene) -> float:
-    """Return the root mean square distance [px] of bodies present in both scenes, by world and id; 0 for none."""
+    """Return the root mean square distance [px] between each body and the body with the same world and id in the other
+    scene. Return 0 if there are no such bodies.
+    """
     squares = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):
         a, b = ours.bodies, theirs.bodies
@@ -167,7 +169,9 @@ def root_mean_square(one: Scene, other: Scene) -> float:
 
 
 def variant(scene_class: type[Scene], effects: Effects, idle: str | None = None) -> type[Scene]:
-    """Return the scene class with other declared effects. idle: an effect that has nothing to do in its worlds."""
+    """Return a subclass of the scene with other declared effects. idle: effect whose settings are made neutral before
+    each step.
+    """
     defined: dict[str, Any] = {"effects": effects}
     neutral = NEUTRAL.get(idle or "")
     if neutral is not None:

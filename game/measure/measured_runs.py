@@ -1,4 +1,4 @@
-"""The cost of a step of several measured runs: warmed up, in shuffled turns, five runs of 60 steps or more."""
+"""Times of several measured runs: each is warmed up, then timed five times over 60 steps or more, in random order."""
 
 from collections.abc import Callable, Sequence
 from random import Random
@@ -17,8 +17,8 @@ WARM_STEPS = 2  # steps before the first run, which compile
 class RunFigures(NamedTuple):
     """The figures of one measured run.
 
-    cost: seconds per step over the runs so far. overlap: the deepest overlap in the judged steps [px]. farthest: the
-    farthest that a body moved in one step [px]. Both are None if not requested.
+    cost: seconds per step over the repetitions so far. overlap: the deepest overlap in the judged steps [px]. farthest:
+    the farthest that a body moved in one step [px]. `overlap` and `farthest` are None if not requested.
     """
 
     cost: Cost
@@ -27,7 +27,7 @@ class RunFigures(NamedTuple):
 
     @property
     def sure(self) -> bool:
-        """True if it has enough runs."""
+        """True once the run was repeated RUNS times."""
         return self.cost.runs >= RUNS
 
 
@@ -36,10 +36,10 @@ def measure_runs(
     report: Callable[[int, float, float | None, float | None], object],
     goes_on: Callable[[], bool],
 ) -> None:
-    """Measure run by run while goes_on(): report(number, seconds per step, overlap, farthest) is called after each run.
+    """Time the runs in RUNS rounds, each in another order, while goes_on() is True.
 
-    The first turn keeps the given order. Overlaps and distances are measured before the first run, outside the timed
-    part.
+    report(index of the run, seconds per step, overlap, farthest) is called after each run. The first round keeps the
+    given order. Overlaps and distances are measured before the first timed run.
     """
     made: dict[str, Snapshot] = {}  # by recipe: several runs start from the same world
     moments = [

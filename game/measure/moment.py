@@ -17,7 +17,9 @@ from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
 
 
 class Moment:
-    """A snapshot and its settings (`here`). broadphase: the name of the strategy at that moment."""
+    """Snapshot of a world, and the setting that the world had (`here`). broadphase: name of the broad phase at that
+    moment.
+    """
 
     def __init__(self, snapshot: Snapshot, broadphase: str) -> None:
         facts = snapshot.facts
@@ -28,7 +30,7 @@ class Moment:
         self.here = setting_of(self.effects, broadphase, facts["solver"], facts["substeps"], tier)
 
     def world(self, setting: Setting) -> World:
-        """Return the world of this moment under a setting."""
+        """Return a new world in the state of the snapshot, under a setting."""
         facts = self.snapshot.facts
         strategy = BROADPHASES[setting.broadphase]()
         world = World(self.effects, strategy, pixels_per_meter=facts["pixels_per_meter"])
@@ -63,13 +65,13 @@ class Moment:
         return seconds_a_step(do, steps)
 
     def way(self, setting: Setting, steps: int = STEPS, divided: int = 1) -> "Way":
-        """Return the motion of the bodies from this moment. divided: number of steps that replace one step."""
+        """Return the motion of the bodies from this moment. divided: number of shorter steps that replace each step."""
         world = self.world(setting)
         return follow(world, steps, divided)
 
 
 class Way(NamedTuple):
-    """The positions of all bodies after each step, with overlaps and failures."""
+    """Motion of the bodies of a world: their positions after each step, with overlaps and failures."""
 
     places: np.ndarray  # (steps, bodies, 2) centres of mass [px], in the order of ids
     moves: np.ndarray  # (bodies,) bool: dynamic
@@ -77,7 +79,7 @@ class Way(NamedTuple):
     failures: dict[str, int]  # cap hits, quarantined bodies, steps with a non-finite position
 
     def apart(self, other: "Way") -> np.ndarray:
-        """Return (steps,) root mean square distance to another run over the dynamic bodies [px]."""
+        """Return (steps,) root mean square distance [px] of the dynamic bodies from their positions in another run."""
         gaps = self.places[:, self.moves] - other.places[: len(self.places), self.moves]
         if not gaps.size:
             return np.zeros(len(self.places))
@@ -85,7 +87,7 @@ class Way(NamedTuple):
 
 
 def follow(world: World, steps: int, divided: int = 1) -> Way:
-    """Step a world and record the motion of its bodies."""
+    """Step a world and return the motion of its bodies. divided: number of shorter steps that replace each step."""
     places, overlap = [], []
     failures = Counter()
     dt = world.dt / divided
@@ -111,11 +113,11 @@ def failures_of(world: World) -> Counter[str]:
 
 
 def here_of(world: World, tier: str | None) -> Setting:
-    """Return the setting of a running world. tier: of its sprites, None if it has none."""
+    """Return the setting of a running world. tier: collision tier of the sprites, None if there are none."""
     return setting_of(world.effects, world.broadphase.name, world.solver, world.substeps, tier)
 
 
 def setting_of(effects: Effects, broadphase: str, solver: str, substeps: int | str, tier: str | None) -> Setting:
-    """Return a Setting without the fields that the effects do not use."""
+    """Return a Setting. Solver and substeps are None if the effects do not use them."""
     used = solver if effects.response else None
     return Setting(broadphase, effects.narrowphase, used, substeps if used in SUBSTEPPED else None, tier)

@@ -1,7 +1,7 @@
-"""A batch of collision tests: many pairs of the same two things at individual poses, without a world.
+"""Batch of narrow-phase tests without a world: many pairs of the same two bodies, each pair at its own poses.
 
-A thing is one shape or the union of several. The overlap test of the boxes, which a broad phase would do, runs once
-when the batch is made. `test` is the narrow phase alone, so its time is the time of that many tests.
+A body is one shape or the union of several. The AABB test, which a broad phase would do, runs once when the batch is
+made. test() runs the narrow phase alone, so its time divided by the number of pairs is the time of one test.
 """
 
 from collections.abc import Sequence
@@ -21,10 +21,10 @@ from physics.tables.shape import SHAPE
 
 
 class PairBatch:
-    """A batch of `len()` pairs. poses: (n, 3) x, y [px], angle [rad].
+    """Batch of n pairs of a body A and a body B. poses_a, poses_b: (n, 3) rows x, y [px], angle [rad].
 
     The rows of the bodies are in a random order drawn from `seed`, as in a world after some play. Raises TypeError or
-    ValueError.
+    ValueError for invalid shapes or poses.
     """
 
     def __init__(
@@ -69,7 +69,9 @@ class PairBatch:
         self.bodies["id"][who] = who
 
     def _near(self, rows_a, rows_b, rng):
-        """Return (candidates (m, 2) SHAPE rows whose boxes overlap, the pair of each), in random order."""
+        """Return the pairs of shapes whose AABBs overlap, in random order: (m, 2) SHAPE rows, and the (m,) index of the
+        pair of bodies.
+        """
         candidates, pairs = [], []
         for a in rows_a:
             for b in rows_b:

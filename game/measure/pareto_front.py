@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import TypeVar
 
 Name = TypeVar("Name")
-TIE = 0.1  # costs that differ by less than this share are a tie, whatever their intervals
+TIE = 0.1  # costs that differ by less than this share count as equal, whatever their intervals
 
 
 def pareto_front(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
@@ -20,5 +20,9 @@ def pareto_front(points: Mapping[Name, tuple[float, float]]) -> list[Name]:
 
 
 def cheaper(a: tuple[float, float], b: tuple[float, float]) -> bool:
-    """Return whether cost a is certainly below b, both (least, median): the intervals are apart, by more than a tie."""
+    """Return whether cost a is certainly below cost b, each given as (least, median).
+
+    The median of a must be below the least of b, and more than TIE below the median of b. An upper bound in place of
+    the median of a makes the test stricter.
+    """
     return a[1] < b[0] and a[1] < (1.0 - TIE) * b[1]

@@ -5,14 +5,14 @@ from typing import NamedTuple
 
 
 class PowerLaw(NamedTuple):
-    """exponent, its standard error, and factor: the cost at size 1 [unit of the costs]."""
+    """Fitted power law. error: standard error of the exponent; factor: cost at size 1 [unit of the costs]."""
 
     exponent: float
     error: float
     factor: float
 
     def at(self, size: float) -> float:
-        """Return the cost at a size."""
+        """Return the cost at a size, by the fitted law."""
         return self.factor * size**self.exponent
 
 

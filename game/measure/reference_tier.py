@@ -1,7 +1,7 @@
-"""A comparison of all sprite tiers with the exact pixels, in a running world.
+"""Comparison of all collision tiers of sprites with the exact pixels, in a running world.
 
-A moment is taken, and each of the following calls tests one tier at it. The test runs in a separate world, so it does
-not affect the scene. One tier per call keeps each call short.
+ask() tests one tier per call, which keeps each call short. All tiers are tested at one snapshot, then a new one is
+taken. The tests run in a separate world, so they do not affect the scene.
 """
 
 from collections.abc import Sequence
@@ -19,10 +19,11 @@ Pairs = set[tuple[int, int]]  # ids of bodies
 
 
 class ReferenceTier:
-    """The reference tier against all others; call ask(world) once per step.
+    """Comparison of all tiers with the tier "mask"; call ask(world) once per step.
 
-    `wrong`, `missed`: rates by tier, over all moments at which every tier was tested. lit: the tier whose errors are
-    drawn. `seen`: the errors of that tier at the last moment, (True for a false hit, False for a missed hit; outlines).
+    `wrong`, `missed`: rates of false and of missed hits, by tier, over all snapshots at which every tier was tested.
+    lit: the tier whose errors are drawn. `seen`: the errors of that tier at the last snapshot, each (True for a false
+    hit, False for a missed hit; outlines of both bodies).
     """
 
     def __init__(self, lit: str, tiers: Sequence[str] = TIERS) -> None:
@@ -35,8 +36,8 @@ class ReferenceTier:
         self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Test one more tier, at a new moment if all tiers are done. Return whether this was the last tier of the
-        moment.
+        """Test one more tier; take a new snapshot of the world first if all tiers were tested. Return whether this was
+        the last tier of the snapshot.
         """
         if self._moment is None:
             self._moment, self._hits = Moment(world.snapshot(), world.broadphase.name), {}
@@ -63,7 +64,7 @@ class ReferenceTier:
         return hits
 
     def state(self) -> tuple[int, ...]:
-        """Return the numbers that belong to the digest of the scene."""
+        """Return the counts so far, as part of the scene's state for the digest."""
         rates = [*self.wrong.values(), *self.missed.values()]
         return self.moments, len(self._hits), *(number for rate in rates for number in rate)
 

@@ -1,4 +1,4 @@
-"""The settings of a world, and the settings to try: one change at a time."""
+"""Setting of a world, and the list of settings to measure, which differ from the present one by one change each."""
 
 from collections.abc import Iterator
 from typing import NamedTuple
@@ -11,7 +11,7 @@ SUBSTEPPED = ("soft_step", "sequential_impulse")  # solvers that use substeps, o
 
 
 class Setting(NamedTuple):
-    """The settings of a world that trade accuracy for time. None: not applicable."""
+    """The settings of a world that trade accuracy for time. None: the world does not use this setting."""
 
     broadphase: str
     narrowphase: bool
@@ -20,7 +20,7 @@ class Setting(NamedTuple):
     tier: str | None = None
 
     def differs(self, other: "Setting") -> tuple[str, ...]:
-        """Return the names of the fields that differ."""
+        """Return the names of the fields that differ from another setting."""
         return tuple(name for name in self._fields if getattr(self, name) != getattr(other, name))
 
     def label(self, other: "Setting") -> str:
@@ -43,8 +43,10 @@ _WORDS = {
 
 
 def settings_around(here: Setting, effects: Effects) -> list[Setting]:
-    """Return `here`, then settings with one change each; solvers with every number of substeps. Kinds of change
-    alternate.
+    """Return the settings to measure: `here`, then those that differ from it by one change.
+
+    A change is another broad phase, narrow phase or tier, or another solver with each number of substeps. The kinds of
+    change alternate.
     """
     rows = [list(_solvers(here, effects)), list(_tiers(here)), list(_broadphases(here)), list(_narrow(here))]
     found = [here]

@@ -1,4 +1,4 @@
-"""Traces of separating axes, GJK and EPA, step by step, for drawing."""
+"""Iterations of the separating axis test, GJK and EPA, as data for drawing."""
 
 import numpy as np
 
@@ -43,13 +43,14 @@ AXIS = np.dtype(
         ("owner", np.int64),  # 0: an edge of A, 1: of B
         ("edge", np.int64),
     ]
-)  # edge: its first corner; -1: no edge, the direction between the nearest corners
+)  # edge: index of its first corner; -1: the axis is the direction between the nearest corners, no edge normal
 
 
 def sat_axes(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> np.ndarray:
-    """Return (n,) AXIS rows of two shapes at poses (x, y) or (x, y, angle), the largest separation first.
+    """Return the axes that the separating axis test tries, as (n,) AXIS rows, the largest separation first.
 
-    The largest separation is the distance, or minus the depth. Raises TypeError for a shape that is not convex.
+    Poses are (x, y) or (x, y, angle). The largest separation is the distance of the two shapes, or minus their depth.
+    Raises TypeError for a shape that is not convex.
     """
     a, b = _core("shape_a", shape_a, "pose_a", pose_a), _core("shape_b", shape_b, "pose_b", pose_b)
     rows = []
@@ -91,13 +92,15 @@ def _core(name, shape, pose_name, pose):
 
 
 # ---- trace -----------------------------------------------------------------------------------------------------------
-# GJK and EPA round by round, for drawing: one call per round of the functions that the physics runs.
+# GJK and EPA, one iteration at a time, for drawing. Each iteration calls the functions that the physics runs.
 
 
 def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> list[dict]:
-    """Return the rounds of GJK between the cores of two convex shapes, and of EPA if they overlap, as steps_of does.
+    """Return the iterations of GJK for two convex shapes without their radii, then those of EPA if they overlap (see
+    steps_of).
 
-    Points are relative to the origin of A. Raises TypeError for shapes that are not convex, ValueError.
+    Points are relative to the origin of A. Raises TypeError for shapes that are not convex, ValueError for invalid
+    poses.
     """
     pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
     pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
@@ -109,11 +112,11 @@ def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> lis
 
 
 def steps_of(a: np.ndarray, b: np.ndarray) -> list[dict]:
-    """Return the state after each round for two hulls of corners (n, 2) [px], without radii.
+    """Return the state after each iteration of GJK and EPA, as dicts, for two convex polygons of corners (n, 2) [px].
 
-    "phase": gjk or epa. "simplex" (k, 2) and, in epa, "polytope" (k, 2): points of the difference A - B. "witness": the
-    nearest points so far on A and on B. "direction": the unit direction of the next search. "distance": so far,
-    negative if they overlap.
+    "phase": "gjk" or "epa". "simplex" (k, 2) and, in EPA, "polytope" (k, 2): points of the Minkowski difference A - B.
+    "witness": the nearest points so far on A and on B. "direction": the unit direction of the next search. "distance":
+    the separation so far [px], negative if the polygons overlap.
     """
     a, b = (np.ascontiguousarray(each, np.float64) for each in (a, b))
     workspace = new_gap_workspace()
@@ -125,7 +128,7 @@ def steps_of(a: np.ndarray, b: np.ndarray) -> list[dict]:
         if status == TOUCHING:
             found.append(_step("gjk", before, workspace, 0.0))
             break
-        # The round may have added a corner after its measurement; that corner belongs to the next round.
+        # walk_on may have added a corner after measuring the distance; this corner belongs to the next iteration.
         kept = workspace.simplex.copy(), workspace.state.copy()
         if status == SEARCHING:
             workspace.state[COUNT] -= 1.0

@@ -1,4 +1,4 @@
-"""A world's step run from outside, stage by stage: stages can be replaced, and each is timed by processor time.
+"""Step of a world that is run stage by stage: a stage can be replaced, and the processor time of each is measured.
 
 `world.profile` uses wall-clock time, which includes the time of other processes.
 """
@@ -13,15 +13,17 @@ from physics.tables.step_state import Stage
 
 
 def stages_of(world: World, *instead: Stage) -> tuple[Stage, ...]:
-    """Return the stages of a world without characters; a stage of `instead` replaces the stage of the same name."""
+    """Return the stages of a step of the world, which has no characters. A stage in `instead` replaces the stage of the
+    same name.
+    """
     others = {stage.stage: stage for stage in instead}
     own = plan(world.effects, world.solver, characters=False).stages
     return tuple(others.get(stage.stage, stage) for stage in own)
 
 
 def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, Any] | None = None) -> None:
-    """Step the world as `world.step(dt)` does, with these stages. The time of each stage [s] is added to spent, if
-    given.
+    """Run one step with these stages, as `world.step(dt)` does. spent: {name of the stage: seconds}, to which the times
+    are added.
     """
     world.profile.begin([stage.stage for stage in stages])
     state = begin(world, dt)
@@ -34,7 +36,7 @@ def advance(world: World, stages: Sequence[Stage], dt: float, spent: dict[str, A
 
 
 def seconds_of_stage(world: World, name: str, steps: int) -> float:
-    """Return the mean time of a stage per step [s]. Raises KeyError if the world has no stage of that name."""
+    """Return the mean time of a stage [s] over `steps` steps. Raises KeyError if the world has no such stage."""
     stages, spent = stages_of(world), {}
     with undisturbed():
         for _ in range(steps):

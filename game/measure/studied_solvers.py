@@ -1,6 +1,6 @@
 """Variants of the stacking solvers with a part repeated or left out, to measure the effect of each part.
 
-No world is set to a variant: a stage made here replaces the solver's own in a list of stages.
+A variant is a stage for staged.stages_of(), where it replaces the stage of the solver. It has no name for World.solver.
 """
 
 from collections.abc import Mapping
@@ -14,7 +14,7 @@ from physics.tables.step_state import Stage, StepState, stage
 
 
 def sequential_impulse(passes: int, warm: bool = True) -> Stage:
-    """Return the stage with a number of passes per step. warm=False: each step starts from zero impulses."""
+    """Return the solver's stage with `passes` passes per step. warm=False: each step starts from zero impulses."""
     solve = partial(solve_in_passes, passes=passes, warm=warm)
 
     @stage("sequential_impulse", reads=READS, writes=WRITES)
@@ -25,10 +25,11 @@ def sequential_impulse(passes: int, warm: bool = True) -> Stage:
 
 
 def soft_step(iterations: int = 1, warm: bool = True, relaxed: bool = True) -> Stage:
-    """Return the stage with a number of solve passes per substep.
+    """Return the solver's stage with `iterations` solve passes per substep.
 
-    warm=False: each substep starts from zero impulses. relaxed=False: the velocity that separates overlaps is kept, and
-    friction is solved in the solve pass. Raises ValueError for several passes without relaxing.
+    warm=False: each substep starts from zero impulses. relaxed=False: without the relax pass, so the velocity that
+    separates overlaps is kept, and friction is solved in the solve pass. Raises ValueError for several passes without
+    relaxing.
     """
     if iterations > 1 and not relaxed:
         raise ValueError(f"impulses are counted once: without relaxing there is one iteration (got {iterations})")

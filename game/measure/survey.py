@@ -1,4 +1,4 @@
-"""The measured settings of a scene: a dot of cost and error each, gathered run by run and moment by moment."""
+"""Survey: the measured costs and errors of a scene's settings, a dot of the plot each, collected run by run."""
 
 from collections import Counter
 from dataclasses import dataclass, field
@@ -13,10 +13,10 @@ from game.measure.timing import RUNS, Cost
 
 @dataclass
 class Dot:
-    """The measurements of one setting.
+    """Measurements of one setting, drawn as a dot in the plot of cost and error.
 
-    spent: seconds per step, by moment and run. errors: by moment. Pooled values are cached, because the plot reads each
-    several times per frame.
+    spent: {number of the moment: seconds per step of each run}. errors: {number of the moment: {kind: Error}}. Values
+    pooled over the moments are cached, because the plot reads each several times per frame.
     """
 
     setting: Setting
@@ -26,12 +26,12 @@ class Dot:
     _known: dict[Any, Any] = field(default_factory=dict)  # cached results: "cost", and ("error", kind)
 
     def took(self, moment: int, seconds: float) -> None:
-        """Add a run of a moment, in seconds per step."""
+        """Add the seconds per step of one run from a moment."""
         self.spent.setdefault(moment, []).append(seconds)
         self._known.clear()
 
     def erred(self, moment: int, errors: dict[str, Error]) -> None:
-        """Set the errors of a moment."""
+        """Set the errors at a moment, by kind."""
         self.errors[moment] = errors
         self._known.clear()
 
@@ -43,7 +43,7 @@ class Dot:
         return self._known["cost"]
 
     def error(self, kind: str) -> Error | None:
-        """Return the error over all moments; None before the first."""
+        """Return the error of a kind, pooled over all moments; None before the first moment."""
         if ("error", kind) not in self._known:
             self._known["error", kind] = self._pooled_error(kind)
         return self._known["error", kind]
@@ -58,7 +58,7 @@ class Dot:
 
     @property
     def sure(self) -> bool:
-        """True if every moment has enough runs."""
+        """True if the setting has RUNS runs or more at every moment."""
         return bool(self.spent) and all(len(runs) >= RUNS for runs in self.spent.values())
 
     def _pooled_error(self, kind):
@@ -89,7 +89,7 @@ def _decided(error):
 
 
 class Survey:
-    """The dots of one scene in order of arrival, and the conclusions from them."""
+    """Measurements of one scene, a Dot for each setting in order of arrival, and the conclusions from them."""
 
     def __init__(self) -> None:
         self.dots: dict[Setting, Dot] = {}
@@ -102,7 +102,7 @@ class Survey:
         return self.dots.setdefault(setting, Dot(setting))
 
     def known(self, kind: str) -> dict[Setting, tuple[Cost, Error]]:
-        """Return the settings with a cost and an error of this kind."""
+        """Return {setting: (cost, error)} of the settings with a cost and an error of this kind."""
         found = {}
         for setting, dot in self.dots.items():
             cost, error = dot.cost, dot.error(kind)
@@ -117,7 +117,7 @@ class Survey:
         return pareto_front({s: (cost.median, reported_error(error)) for s, (cost, error) in self.known(kind).items()})
 
     def finding(self, kind: str, here: Setting) -> str:
-        """Return one sentence about the present setting from the measurements; "" if there are too few."""
+        """Return one sentence that compares the setting `here` with the others; "" if too few are measured."""
         known = {s: each for s, each in self.known(kind).items() if self.dots[s].sure}
         if here not in known or len(known) < 2:
             return ""
@@ -160,5 +160,5 @@ def shown(error: Error) -> str:
 
 
 def is_sound(error: Error) -> bool:
-    """Return whether the run had no failures."""
+    """Return whether the runs behind an error had no failures."""
     return not any(error.failures.values())

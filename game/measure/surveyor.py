@@ -1,4 +1,4 @@
-"""The measuring process as seen from the game: it takes moments and fills a Survey."""
+"""Client of the measuring process: the game orders measurements and receives the results in a Survey."""
 
 import contextlib
 import json
@@ -30,10 +30,10 @@ from physics.jit.workers import end_all, start_module
 
 
 class Surveyor:
-    """The client of the measuring process: measure() sends a moment, turn() moves the results into `survey`.
+    """Client of the measuring process: the measure methods send orders, turn() stores the results that have arrived.
 
-    `trouble`: the reason why nothing is measured. The process starts with the first order, and again with the first
-    order after stop().
+    `trouble`: the reason why nothing is measured, or "". The process starts with the first order, and again with the
+    first order after stop().
     """
 
     def __init__(self) -> None:
@@ -53,7 +53,9 @@ class Surveyor:
         self.process: subprocess.Popen[str] | None = None
 
     def measure(self, snapshot: Snapshot, broadphase: str) -> None:
-        """Measure this moment too; it replaces an unfinished earlier order."""
+        """Order measurements of all settings at this moment, which go to `survey`. The order replaces an unfinished
+        earlier one.
+        """
         if not self._started():
             return
         self.survey.moments += 1
@@ -112,12 +114,12 @@ class Surveyor:
         self._hand_on_beside(order, partial(snapshot.save, order["snapshot"]))
 
     def knows(self, name: Hashable) -> bool:
-        """Return whether the measured run of this name has enough runs."""
+        """Return whether the measured run of this name was repeated often enough."""
         figures = self.figures.get(name)
         return isinstance(figures, RunFigures) and figures.sure
 
     def _started(self):
-        """Start the process if there is none and mark it busy. Return whether it runs."""
+        """Start the measuring process if it does not run, and mark it as busy. Return whether it runs."""
         if self.process is None:
             try:
                 self.process = start_module(f"{__package__}.worker")
@@ -134,7 +136,9 @@ class Surveyor:
         return True
 
     def _hand_on_beside(self, order, save):
-        """Send an order from a thread: compressing the pixels of a level takes longer than a frame."""
+        """Save the files of an order and send it, in a thread: compressing the pixels of a level takes longer than a
+        frame.
+        """
         args = self.process, order, save, self.found
         threading.Thread(target=_hand_on, args=args, name="hand on", daemon=True).start()
 
@@ -143,13 +147,13 @@ class Surveyor:
         return str(Path(self.folder.name) / name)
 
     def turn(self) -> None:
-        """Take the results since the last turn; call once per frame."""
+        """Store the results that arrived since the last call. Call it once per frame."""
         with contextlib.suppress(queue.Empty):
             while True:
                 self._take(self.found.get_nowait())
 
     def wait(self, seconds: float) -> None:
-        """Take results until the moment is done, for so many seconds at most."""
+        """Store results until the last order is done, for at most `seconds`."""
         end = monotonic() + seconds
         with contextlib.suppress(queue.Empty):
             while self.busy:
@@ -195,7 +199,7 @@ class Surveyor:
         self.figures[name] = RunFigures(Cost.of(seconds, steps), overlap, farthest)
 
     def stop(self) -> None:
-        """End the process; the results stay."""
+        """End the measuring process. The results are kept."""
         process, self.process = self.process, None
         folder, self.folder = self.folder, None
         self.busy = False

@@ -1,7 +1,7 @@
-"""The cost and the error rates of every tier of two sprites, over random relative poses.
+"""Costs and error rates of every collision tier for two sprites, over random relative poses.
 
-Poses are drawn uniformly from a disc of offsets and all angles. The disc is so large that about half of them are hits:
-error rates mean nothing without the share of hits among the tested poses. The reference is the exact test of pixel
+Offsets are drawn uniformly from a disc, and angles from a full turn. The radius of the disc is chosen so that about
+half of the poses are hits, because error rates depend on the share of hits. The reference is the exact test of pixel
 squares. Hits and misses are timed separately, each on a batch of real pairs.
 """
 
@@ -23,7 +23,7 @@ REPEATS = 3  # tests of a batch per run: 40 us alone would be short for a clock
 
 
 class TierFigures(NamedTuple):
-    """One tier compared with the exact mask. Costs are seconds per pair."""
+    """Figures of one collision tier against the exact mask. Costs are seconds per pair."""
 
     tier: str
     shapes: int  # number of shapes that represent the first sprite
@@ -36,7 +36,7 @@ class TierFigures(NamedTuple):
 
 
 class Poses(NamedTuple):
-    """(n, 3) poses of two sprites, and whether each pair truly meets."""
+    """(n, 3) poses x, y [px], angle [rad] of two sprites; `met`: (n,) bool, whether the pixels of each pair touch."""
 
     first: np.ndarray
     second: np.ndarray
@@ -44,8 +44,8 @@ class Poses(NamedTuple):
 
 
 def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: int = 0) -> Poses:
-    """Return poses of which about half are hits. Raises ValueError for a sprite without pixels, which never meets
-    anything.
+    """Return `count` random poses of two sprites, of which about half are hits. Raises ValueError for a sprite without
+    pixels.
     """
     exact = [fit(mask, "mask") for mask in (first, second)]
     for name, mask in (("first", first), ("second", second)):
@@ -80,7 +80,9 @@ def measure_tiers(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers over random relative poses and report each. Raises ValueError for a sprite without pixels."""
+    """Measure the tiers over random relative poses. report(figures) is called for each tier. Raises ValueError for a
+    sprite without pixels.
+    """
     measure_at(first, second, poses_around(first, second, seed=seed), report, tiers, seed)
 
 
@@ -92,7 +94,7 @@ def measure_at(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers at poses, which include hits and misses, in shuffled turns, and report each."""
+    """Measure the tiers at given poses, which must include hits and misses. report(figures) is called for each tier."""
     shapes = {tier: (fit(first, tier), fit(second, tier)) for tier in tiers}
     verdicts, batches = {tier: np.zeros(len(poses.met), bool) for tier in tiers}, {}
     for tier, (a, b) in shapes.items():
@@ -115,7 +117,7 @@ def measure_at(
 
 
 def _build(mask, tier):
-    """Fit the shapes again: a new PixelMask avoids the fit that is cached with a mask."""
+    """Fit the shapes of a tier once more. A new PixelMask is made for this, because each mask caches its fits."""
     return fit(PixelMask(mask.solid, mask.origin), tier)
 
 

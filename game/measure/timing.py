@@ -1,7 +1,7 @@
-"""Times of named work: warmed up, in shuffled turns, as the least and the median of several runs.
+"""Times of named functions: warmed up, called in random order, given as the least and the median of several runs.
 
-Other load on the machine only ever adds time. So the least time is the cost of the work, and the distance of the median
-from it is the noise. All works run in every turn, so that load affects them alike.
+Other load on the machine only ever adds time. So the least time is the cost of the function, and the distance of the
+median from the least time is the noise. All functions run in every round, so that load affects them alike.
 """
 
 import gc
@@ -22,11 +22,11 @@ clock = time.thread_time if time.get_clock_info("thread_time").resolution <= FIN
 
 
 class Cost(NamedTuple):
-    """Seconds per piece over several runs, with their spread."""
+    """Seconds per piece of work (a step, a pair) over several runs, with their spread."""
 
     least: float
     median: float
-    upper: float  # quartile
+    upper: float  # upper quartile
     runs: int
     pieces: int  # in each run
 
@@ -41,7 +41,7 @@ class Cost(NamedTuple):
 
     @property
     def noise(self) -> float:
-        """The distance of the median run from the least, as a share of the least."""
+        """Distance of the median run from the least, as a share of the least."""
         return self.median / self.least - 1.0 if self.least > 0.0 else 0.0
 
 
@@ -58,7 +58,7 @@ def undisturbed() -> Iterator[None]:
 
 
 def seconds_a_step(step: Callable[[], object], steps: int) -> float:
-    """Return the mean seconds of so many steps, each timed by itself."""
+    """Return the mean time [s] of `steps` calls of step(), each timed by itself."""
     spent = 0.0
     with undisturbed():
         for _ in range(steps):
@@ -69,8 +69,8 @@ def seconds_a_step(step: Callable[[], object], steps: int) -> float:
 
 
 def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, runs: int = RUNS) -> dict[Name, Cost]:
-    """Return the seconds per step by name. Each run times `count` steps of every entry in turn: 300 steps each by
-    default.
+    """Return the time per step by name. Each run times `count` steps of every entry, one entry after the other: 300
+    steps each by default.
     """
     spent: dict[Name, list[float]] = {name: [] for name in steps}
     for _ in range(runs):
@@ -82,7 +82,9 @@ def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, run
 def timed_in_turns(
     works: Mapping[str, Callable[[], object]], pieces: Mapping[str, int], runs: int = RUNS, seed: int = 0
 ) -> dict[str, Cost]:
-    """Return {name: Cost} of works with `pieces[name]` pieces per call; the first call is not counted."""
+    """Return {name: Cost} of the functions `works`, called in random order. A call of works[name] does pieces[name]
+    pieces of work. The first call is not counted.
+    """
     order, spent = list(works), {name: [] for name in works}
     chance = Random(seed)
     for work in works.values():

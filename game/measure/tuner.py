@@ -1,7 +1,7 @@
-"""The tuner: applies the advice on settings automatically while the player plays.
+"""Tuner: applies the advice on settings automatically while the player plays.
 
-It changes the settings only if the whole interval of the runs is cheaper, at every measured moment. So noise does not
-undo its decisions.
+A setting is applied only if it is certainly faster over the whole interval of its runs (advice.is_cheaper), so that
+noise does not undo decisions.
 """
 
 from collections.abc import Callable
@@ -34,7 +34,9 @@ class Tuner:
         self.decisions: list[Decision] = []
 
     def step(self, frame: int, here: Setting) -> Decision | None:
-        """Apply the present advice, unless the scene refused it before. Return the decision made now, if any."""
+        """Apply the present advice, unless the scene refused it before. Return the decision, or None if nothing was
+        decided.
+        """
         if not self.on:
             return None
         best = advised(self.survey, here)

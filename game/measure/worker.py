@@ -32,7 +32,7 @@ NICE = 19  # of 0 to 19: the game has priority
 
 
 class Orders:
-    """The order that is to be done now."""
+    """Latest order, which a thread reads from standard input."""
 
     def __init__(self) -> None:
         self.latest: dict[str, Any] | None = None
@@ -47,7 +47,7 @@ class Orders:
         os._exit(0)
 
     def next(self, after: dict[str, Any] | None) -> dict[str, Any]:
-        """Return the first order after another one; blocks until there is one."""
+        """Return the latest order as soon as it differs from `after`; block until then."""
         with self.changed:
             self.changed.wait_for(lambda: self.latest is not after)
             assert self.latest is not None
@@ -59,7 +59,9 @@ class Orders:
 
 
 def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure a moment: the errors of every setting and a first run, then run by run in shuffled turns."""
+    """Measure every setting at a moment: first the errors and one timed run of each, then run by run in random
+    order.
+    """
     number = order["moment"]
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
     settings = settings_around(moment.here, moment.effects)
@@ -94,7 +96,11 @@ def measure_sprites(order: dict[str, Any], report: Callable[[str], object]) -> N
 
 
 def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure runs, each a dict with file names in place of its snapshots; recipes and acts are lists."""
+    """Measure the runs of an order.
+
+    Each is a dict of the fields of MeasuredRun, with file names in place of snapshots, and lists in place of Recipe and
+    Act.
+    """
     loaded = cache(Snapshot.load)  # a snapshot that several runs share is read once
 
     def begun(given):
@@ -134,7 +140,7 @@ def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_o
         threading.Thread(target=_listen, args=(counting.stdout, counted), daemon=True).start()
 
         def send_counts(wait):
-            """Report the counts so far. wait: report all."""
+            """Report the kernel counts that have arrived. wait: wait for all of them."""
             while wait or not counted.empty():
                 line = counted.get()
                 if line is None:
@@ -156,14 +162,14 @@ def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_o
 
 
 def _listen(lines, heard):
-    """Put each line into a queue, and None after the last."""
+    """Put each line into a queue, and None after the last line."""
     for line in lines:
         heard.put(line)
     heard.put(None)
 
 
 def main() -> None:
-    """Do orders until standard input closes."""
+    """Carry out orders until standard input closes."""
     with contextlib.suppress(OSError, AttributeError):
         os.nice(NICE)
     orders, order = Orders(), None
