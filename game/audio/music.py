@@ -13,13 +13,13 @@ from game.places import MUSIC
 
 FADE = 0.4  # [s] for each of fade-out and fade-in: a change takes 0.8 s
 QUICK = 0.12  # [s] fade-out before a jingle
-DUCKED = 0.5  # -6 dB under a loud moment
-DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] from full to ducked and back
+DUCKED = 0.5  # factor on the volume behind a loud effect: -6 dB
+DUCK_DOWN, DUCK_UP = 0.05, 0.35  # [s] to lower the volume, and to raise it again
 
 
 class Music:
-    """Player of tunes and jingles. `playing`: the one that is heard, None in silence. `report` is called once per
-    unusable file.
+    """Player of tunes and jingles. `playing`: the name of the one that is heard, None in silence. report(line) is
+    called once per unusable file.
     """
 
     def __init__(self, report: Callable[[str], object], folder: Path = MUSIC) -> None:
@@ -35,7 +35,7 @@ class Music:
         self.unusable = set()
 
     def tune(self, name: str | None) -> None:
-        """Choose a tune, or None for silence. It starts when a jingle that plays has ended."""
+        """Choose the tune to play, or None for silence. A jingle that plays ends first."""
         if name != self.wanted:
             self.wanted = name
             self.resume()
@@ -46,11 +46,11 @@ class Music:
         self.jingle_due = name
 
     def duck_for(self, seconds: float) -> None:
-        """Lower the volume for so long [s], behind a loud effect."""
+        """Lower the volume for `seconds`, behind a loud effect."""
         self.ducked_for = max(self.ducked_for, seconds)
 
     def pause(self) -> None:
-        """Fall silent from the next step on.
+        """Make the music silent from the next step on.
 
         The mixer's own pause and unpause are not called, because they deadlock: they wait for the sound thread with the
         interpreter's lock held, while that thread waits for this lock when an effect has just ended.
@@ -58,11 +58,11 @@ class Music:
         self.paused = True
 
     def resume(self) -> None:
-        """Play on. Another tune or a jingle also ends the pause."""
+        """Continue the music after pause(). Choosing another tune or playing a jingle also ends the pause."""
         self.paused = False
 
     def step(self, seconds: float, volume: float) -> None:
-        """Fade, duck and change tunes. volume: 0..1 of all music."""
+        """Advance fades, lowered volume and changes of tune by `seconds`. volume: 0..1 of all music."""
         if not self.paused:
             self._advance(seconds)
         pygame.mixer.music.set_volume(0.0 if self.paused else volume * self.level * self.duck)
@@ -82,7 +82,7 @@ class Music:
         self.duck = min(1.0, max(DUCKED, self.duck + way * (1.0 - DUCKED)))
 
     def _leave_for(self, name, share):
-        """Fade out by a share of the whole, then start `name`."""
+        """Lower the volume by `share` of the full volume. When it reaches 0, start `name`."""
         self.level = max(0.0, self.level - share)
         if self.level == 0.0 or self.playing is None:
             self._start(name)

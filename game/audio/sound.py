@@ -1,7 +1,7 @@
 """Sound: effects with a few voices each, panned and varied in pitch, over music; silence without a device.
 
-Scenes read nothing back from it, and its variation has its own random numbers. The buffer has 512 samples (12 ms):
-larger ones are heard as lag, smaller ones pop.
+Scenes read nothing back from the player, and the choice of pitches has its own random numbers. The buffer has 512
+samples (12 ms): larger ones are heard as lag, smaller ones pop.
 """
 
 import math
@@ -24,7 +24,7 @@ Cue = tuple[str, float | None, float]  # name, canvas x or None, volume
 
 RATE = 44_100  # [Hz] of effects and mixer
 CHANNELS = 24
-VOICES = 3  # of one sound at once; more would only be louder
+VOICES = 3  # of one sound at once: more of them would only be louder
 SPACING = 0.03  # [s] between two starts of one sound: ten hits in a step sound as one
 PAN_WIDTH = 0.6  # of full left-right; full panning is tiring on headphones
 PITCHES = (1.0, 0.96, 1.04)  # playing speed of the variants, +-4 %, so that repeated sounds differ
@@ -41,7 +41,7 @@ STEADY = {
 }  # melodies stay in tune
 DUCK_SECONDS = 0.5
 DUCKING = {"bomb", "big_explosion", "hurt", "warning", "life", "secret", "goal"}  # effects that lower the music
-FIRST, LAST = 2, 0  # ranks if all channels are taken; others have 1
+FIRST, LAST = 2, 0  # ranks, which decide when all channels are taken; other sounds have 1
 RANKS = {
     **dict.fromkeys(DUCKING | {"confirm", "back", "blip", "checkpoint", "powerup"}, FIRST),
     **dict.fromkeys(("laser", "enemy_shot", "graze", "hit", "land", "ladder", "crate"), LAST),
@@ -50,7 +50,7 @@ RANKS = {
 
 @dataclass
 class Voice:
-    """One channel of the mixer and its last sound. `started`: the number of that start."""
+    """One channel of the mixer and its last sound. `started`: number of sounds started up to this one."""
 
     channel: "pygame.mixer.Channel"  # in quotes: a pygame without its mixer has no such name
     name: str = ""
@@ -59,7 +59,7 @@ class Voice:
 
 
 class Sounds:
-    """Player of effects and music by file name. `silent_because`: the reason for silence, or "".
+    """Player of effects and music by file name. `silent_because`: the reason for silence; "" if sound is played.
 
     master, effects and music are volumes 0..1 and may be set at any time. Call step() once per drawn frame.
     """
@@ -99,7 +99,9 @@ class Sounds:
         return ""
 
     def play_cues(self, cues: Iterable[Cue]) -> None:
-        """Play the cues of one step, (name, canvas x or None, volume) each; of equal names the loudest."""
+        """Play the cues of one step, (name, canvas x or None, volume) each. Of cues with equal names only the loudest
+        is played.
+        """
         loudest = {}
         for name, x, volume in cues:
             if name not in loudest or volume > loudest[name][1]:
@@ -108,8 +110,10 @@ class Sounds:
             self.play(name, x, volume)
 
     def play(self, name: str, x: float | None = None, volume: float = 1.0) -> bool:
-        """Start a sound; it replaces the oldest voice of the same sound if there are VOICES. Return whether it is
-        heard.
+        """Start a sound, and return whether it is heard.
+
+        x: canvas x for the pan, None for the centre. If VOICES voices of this sound play already, the oldest is
+        replaced.
         """
         loudness = min(1.0, volume) * self.effects * self.master
         now = self.clock()
@@ -145,9 +149,10 @@ class Sounds:
         self.report(f"{self.silent_because}; the game goes on in silence")
 
     def _voice_for(self, name, rank):
-        """Return the voice to start on: a free one, the oldest of this sound, or one of the lowest rank up to `rank`.
+        """Return the voice to start a sound on; None if all voices are busy with sounds of higher ranks.
 
-        Return None if all busy voices have higher ranks.
+        That is the oldest voice of the same sound if VOICES of them play, else a free voice, else the oldest of the
+        lowest rank.
         """
         busy = [voice for voice in self.voices if voice.channel.get_busy()]
         same = [voice for voice in busy if voice.name == name]
@@ -159,7 +164,7 @@ class Sounds:
         return least if least.rank <= rank else None
 
     def _variant(self, name):
-        """Return the sound at one of its pitches, never the same twice in a row; None for an unusable file."""
+        """Return the sound at one of its pitches, never at the same pitch twice in a row; None for an unusable file."""
         if name not in self.samples:
             self.samples[name] = self._read(name)
         samples = self.samples[name]
@@ -189,7 +194,7 @@ class Sounds:
         return None
 
     def tune(self, name: str | None) -> None:
-        """Choose a tune, faded in, or None for silence. It costs little if the tune is unchanged."""
+        """Choose a tune, which is faded in, or None for silence. A call with the present tune costs little."""
         if not self.silent_because:
             self.player.tune(name)
 
@@ -209,7 +214,7 @@ class Sounds:
             self.player.resume()
 
     def step(self, seconds: float) -> None:
-        """Advance fades and ducking. seconds: since the last call."""
+        """Advance fades and lowered volume. seconds: time since the last call."""
         if self.silent_because:
             return
         try:

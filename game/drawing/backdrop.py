@@ -13,7 +13,7 @@ CLOUD_TOP = 18
 
 
 class Backdrop:
-    """Parallax layers that repeat in x."""
+    """Sky and parallax layers, which repeat in x."""
 
     def __init__(self, layers: Sequence[tuple[str, float, int | None]] = DUSK, sky: str = "sky_dusk") -> None:
         self.sky = load_backdrop(sky)

@@ -1,4 +1,4 @@
-"""Blit of many pictures in one call, with either pygame."""
+"""Blits of many pictures in one call, with pygame-ce or pygame."""
 
 from collections.abc import Iterable
 from typing import Any, cast
@@ -9,7 +9,9 @@ import pygame
 def blit_many(
     surface: pygame.Surface, pairs: Iterable[tuple[pygame.Surface, tuple[float, float]]], flags: int = 0
 ) -> None:
-    """Blit (image, (x, y)) pairs. fblits, which pygame 2.6.1 lacks, skips its checks: 0.4 instead of 0.5 µs each."""
+    """Blit (image, (x, y)) pairs. fblits, which pygame 2.6.1 lacks, skips checks and takes 0.4 instead of 0.5 µs a
+    pair.
+    """
     if hasattr(surface, "fblits"):
         surface.fblits(pairs, flags)
     elif flags:

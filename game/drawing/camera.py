@@ -1,4 +1,4 @@
-"""Camera: world to canvas by a position, a zoom and a viewport on the canvas."""
+"""Camera: maps world points to canvas points by a position, a zoom and a viewport."""
 
 from math import exp, sin
 
@@ -13,8 +13,8 @@ SHAKE_DECAY = 0.75  # [1/s] trauma lost per second: a full shake ends after 1.3 
 class Camera:
     """Camera. `x, y`: the world point at the top left of `viewport` (a canvas Rect); `zoom`: canvas px per world px.
 
-    Call begin_step() once per step before moving it. view(alpha) returns the drawn top left. At zoom 1 it is rounded
-    once, so that all drawn objects move together.
+    Call begin_step() once per step, before moving the camera. view(alpha) returns the world point that is drawn at the
+    top left. At zoom 1 this point is rounded once, so that all drawn objects move together.
     """
 
     def __init__(
@@ -29,7 +29,7 @@ class Camera:
         self.x = self.previous_x = float(x)
         self.y = self.previous_y = float(y)
         self.trauma = 0.0
-        self.shake_share = 1.0  # drawn share of the shake
+        self.shake_share = 1.0  # 0..1, share of the shake that is drawn
         self.clock = 0.0
         self.limits = None
 
@@ -39,16 +39,16 @@ class Camera:
         return self.viewport.width / self.zoom, self.viewport.height / self.zoom
 
     def keep_within(self, left: float, top: float, right: float, bottom: float) -> None:
-        """Limit the view to these world limits (a level's edges)."""
+        """Keep the view within a rectangle of the world [px], such as the edges of a level."""
         self.limits = (left, top, right, bottom)
 
     def place(self, x: float, y: float) -> None:
-        """Jump to a top left without interpolation (a restart, a door)."""
+        """Move the top left of the view to a world point at once, without interpolation (a restart, a door)."""
         self.x, self.y = self._limited(x, y)
         self.previous_x, self.previous_y = self.x, self.y
 
     def center_on(self, x: float, y: float) -> None:
-        """Jump so that the world point is in the middle."""
+        """Move the view at once, so that a world point is in its middle."""
         width, height = self.size
         self.place(x - width / 2, y - height / 2)
 
@@ -61,7 +61,10 @@ class Camera:
     def follow(
         self, x: float, y: float, dt: float, rate: float = 8.0, dead_zone: tuple[float, float] = (0.0, 0.0)
     ) -> None:
-        """Move towards centring the world point, at `rate` [1/s]. Inside the dead zone it does not move."""
+        """Move the view towards centring a world point, at `rate` [1/s].
+
+        The view does not move while the point is within `dead_zone` (x, y) [world px] of the middle.
+        """
         width, height = self.size
         share = 1.0 - exp(-rate * dt)
         off_x = _outside(x - (self.x + width / 2), dead_zone[0])
@@ -69,11 +72,11 @@ class Camera:
         self.x, self.y = self._limited(self.x + off_x * share, self.y + off_y * share)
 
     def shake(self, trauma: float) -> None:
-        """Add trauma 0..1. The offset is proportional to its square, so small hits stay small."""
+        """Add trauma 0..1. The drawn offset is proportional to the square of the trauma, so small hits stay small."""
         self.trauma = min(1.0, self.trauma + trauma)
 
     def view(self, alpha: float = 1.0) -> tuple[float, float]:
-        """Return the drawn world top left (x, y); whole numbers at zoom 1."""
+        """Return the world point (x, y) that is drawn at the top left, with shake; whole numbers at zoom 1."""
         x = self.previous_x + (self.x - self.previous_x) * alpha
         y = self.previous_y + (self.y - self.previous_y) * alpha
         if self.trauma > 0.0 and self.shake_share > 0.0:

@@ -27,9 +27,9 @@ def whole(value: float) -> int:
 
 
 class Canvas:
-    """A surface with text. `boxes` lists (rect, text) of this picture, `reserved` the rects that text keeps out of.
+    """Surface with text. `boxes`: (rect, text) of each line of text in this picture; `reserved`: rects without text.
 
-    `fixed`: the reserved rects that show an icon, a bar or a plot; they and the text stay on top of overlays.
+    `fixed`: the reserved rects that show an icon, a bar or a plot. Overlays cover neither the text nor these rects.
     """
 
     edge = 1  # [px] by which an outline extends over its text's box
@@ -39,7 +39,7 @@ class Canvas:
         self.boxes = []
         self.reserved = []
         self.fixed = []
-        self.palette = "standard"  # of the overlays, from the player's settings
+        self.palette = "standard"  # name of the overlays' palette, from the player's settings
 
     def tone(self, color: Color) -> Color:
         """Return an overlay's colour in this picture's palette."""
@@ -51,7 +51,7 @@ class Canvas:
         return self.surface.get_rect()
 
     def begin(self, color: Color | None = None) -> None:
-        """Start a picture: clear the text boxes of the last one; fill with `color` if it is given."""
+        """Start a new picture: clear the lists of boxes and rects, and fill the surface with `color` if it is given."""
         self.boxes.clear()
         self.reserved.clear()
         self.fixed.clear()
@@ -86,7 +86,9 @@ class Canvas:
         align: str = "left",
         outline: bool = False,
     ) -> pygame.Rect:
-        """Draw one line of text with its top at y, and return its rect. The caller keeps it clear of other text."""
+        """Draw one line of text with its top at y, and return its rect. The caller must keep other text away from this
+        rect.
+        """
         rect = self.text_rect(text, x, y, font, scale, align)
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
         self.boxes.append((rect, text))
@@ -105,7 +107,8 @@ class Canvas:
     ) -> bool:
         """Draw the line only if it is on the canvas and touches no other text. Return whether it was drawn.
 
-        It is for labels that follow things. The caller counts the labels left out and shows the count in a fixed place.
+        This is for labels that follow moving objects. The caller counts the labels that were not drawn, and shows the
+        count in a fixed place.
         """
         rect = self.text_rect(text, x, y, font, scale, align)
         if not self.is_free(rect.inflate(2 * scale, 2 * scale) if outline else rect):
@@ -122,7 +125,9 @@ class Canvas:
         return [box for box, _ in self.boxes] + self.reserved
 
     def reserve(self, rect: Box) -> None:
-        """Keep text_if_free and free_place out of a rect (a graph, a panel, a life bar)."""
+        """Exclude a rect (a graph, a panel, a life bar) from the places where text_if_free and free_place allow
+        text.
+        """
         self.reserved.append(pygame.Rect(rect))
 
     def fix(self, rect: Box) -> None:
@@ -131,8 +136,9 @@ class Canvas:
         self.fixed.append(pygame.Rect(rect))
 
     def lift(self) -> list[tuple[pygame.Surface, tuple[int, int]]]:
-        """Return copies of the text and the fixed rects: (picture, top left) each. put_back() draws them over what was
-        painted since.
+        """Return copies of the text and of the fixed rects, as (picture, top left) each.
+
+        put_back() draws them again, over anything that was drawn after the call of lift().
         """
         rects = [box.inflate(2 * self.edge, 2 * self.edge) for box, _ in self.boxes] + self.fixed
         inside = [rect.clip(self.rect) for rect in rects]
@@ -144,7 +150,7 @@ class Canvas:
             self.surface.blit(picture, place)
 
     def free_place(self, size: tuple[int, int], places: Iterable[tuple[float, float]]) -> tuple[int, int] | None:
-        """Return the first (x, y) of `places` where a box of that size is free, or None."""
+        """Return the first (x, y) of `places` where a box of `size` is free, or None."""
         inside, taken = self.rect, self._taken()
         for x, y in places:
             rect = pygame.Rect(whole(x), whole(y), *size)

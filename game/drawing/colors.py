@@ -1,4 +1,6 @@
-"""Colours of the shell. Overlay hues are close to the Okabe-Ito set; the settings may choose others (see toned)."""
+"""Colours of text, panels and overlays. Overlay hues are close to the Okabe-Ito set; the settings may choose others
+(see toned).
+"""
 
 Color = tuple[int, ...]  # red, green, blue and perhaps alpha, 0..255
 
@@ -46,7 +48,7 @@ BROADPHASE_COLORS = {"brute": RED, "sweep": YELLOW, "hash": SKY, "tree": GREEN}
 
 
 def toned(color: Color, palette: str) -> Color:
-    """Return an overlay's colour in a palette of game.files.accessibility.PALETTES; alpha, if any, is kept."""
+    """Return an overlay's colour in a palette (a name in game.files.accessibility.PALETTES); alpha, if any, is kept."""
     plain = tuple(color[:3])
     found = TONES[palette].get(plain)
     if found is None:
@@ -55,5 +57,5 @@ def toned(color: Color, palette: str) -> Color:
 
 
 def faded(color: Color, amount: float) -> Color:
-    """Return `color` mixed towards the night ground; amount 0 keeps it, 1 gives the ground."""
+    """Return `color` mixed towards NIGHT, the dark ground: amount 0 gives `color`, 1 gives NIGHT."""
     return tuple(round(c + (n - c) * amount) for c, n in zip(color[:3], NIGHT, strict=True))

@@ -1,4 +1,4 @@
-"""Cracks: jagged lines of pixels across a raster, carved out of a shape as a mask."""
+"""Cracks: jagged lines of pixels across a raster, by which a shape is carved."""
 
 from math import cos, hypot, sin
 
@@ -9,9 +9,10 @@ FINE = 0.25  # [px] between the points that are drawn
 
 
 def draw_crack(solid: np.ndarray, at: tuple[float, float], heading: float, random: np.random.Generator) -> None:
-    """Set the pixels of a crack in solid[row, column], through a point (x, y) [px], along a heading [rad] on average.
+    """Set the pixels of a crack in `solid`[row, column] to True.
 
-    It runs from side to side of the raster and is two pixels wide, so that no corners touch across it.
+    The crack passes through the point `at` (x, y) [px], along `heading` [rad] on average, from side to side of the
+    raster. It is two pixels wide, so that the pixels on both sides of it do not touch at corners.
     """
     height, width = solid.shape
     reach = JAG * (1 + int(hypot(height, width) // JAG))

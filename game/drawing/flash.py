@@ -1,16 +1,16 @@
-"""Flashes of the whole picture, in one place, so that they can be limited and switched off.
+"""Flashes of the whole picture, in one module, so that they can be limited and switched off.
 
-At most two begin within a second, and none adds more than a third of white: half of the limit of WCAG 2.3.1 (three
-general flashes a second).
+At most two flashes begin within a second, and none adds more than a third of white: half of the limit of WCAG 2.3.1
+(three general flashes a second).
 """
 
 import pygame
 
 from game.drawing.colors import Color
 
-MOST = 2  # flashes that may begin within SPAN
+MOST = 2  # number of flashes that may begin within SPAN
 SPAN = 60  # [steps] one second
-BRIGHTEST = 85  # [0..255] added at full strength
+BRIGHTEST = 85  # [0..255] added to each colour channel at full strength
 FADE = 0.88  # factor on the light per step
 FAINTEST = 0.02  # of the full light; less counts as none
 

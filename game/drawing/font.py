@@ -45,7 +45,7 @@ class Font:
         surface.blit(self.line(text, tuple(color), scale, outline), (x - edge, y - edge))
 
     def _line(self, text, color, scale, outline):
-        """Return a picture of the whole line, with an outline around it if one is asked for."""
+        """Return a picture of the whole line, with an outline around the letters if `outline`."""
         glyphs = self._glyphs(color, scale, outline)
         width, height = self.measure(text, scale)
         edge = 2 * scale if outline else 0

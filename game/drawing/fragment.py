@@ -1,4 +1,4 @@
-"""Pictures of fragments: the pixels of a fragment, cut out of the picture that it was a part of."""
+"""Pictures of fragments: the pixels of a fragment, cut out of the picture of the whole body."""
 
 from math import cos, pi, sin
 
@@ -14,10 +14,11 @@ ANGLES = 64  # pictures cached per full turn: a 40 px piece moves by 2 px at its
 def cut_out(
     source: pygame.Surface, mask: PixelMask, left: int, top: int, edge: tuple[int, int, int], share: float = 0.75
 ) -> pygame.Surface:
-    """Return the solid pixels of a mask, whose raster begins at (left, top) in a picture, and no others.
+    """Return the part of the picture `source` under the solid pixels of a mask; all other pixels are transparent.
 
-    Pixels on a fracture, where the picture continues beside the mask, are mixed with `edge`: by `share` of their
-    colour, 0..1, and the pixels behind them by half as much.
+    The top left of the mask lies at (left, top) of the picture. At a fracture, where the picture continues beyond the
+    mask, the outermost pixels are mixed with the colour `edge` by `share` 0..1, and the next pixels inwards by half of
+    it.
     """
     width, height = mask.size
     wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)
@@ -39,7 +40,7 @@ def cut_out(
 
 
 class FragmentPicture:
-    """A fragment at any angle, about its body's origin."""
+    """Picture of a fragment, drawn at any angle about the origin of its body."""
 
     def __init__(self, image: pygame.Surface, mask: PixelMask) -> None:
         # From the body's origin to the centre of the picture.
@@ -47,7 +48,7 @@ class FragmentPicture:
         self.image, self.kept = image, {0: image}
 
     def at(self, angle: float) -> pygame.Surface:
-        """Return the picture rotated clockwise by the nearest cached angle [rad]."""
+        """Return the picture rotated clockwise by the cached angle that is nearest to `angle` [rad]."""
         number = round(angle / (2.0 * pi) * ANGLES) % ANGLES
         if number not in self.kept:
             self.kept[number] = pygame.transform.rotate(self.image, -360.0 * number / ANGLES)
@@ -59,7 +60,7 @@ class FragmentPicture:
         return x + c * self.off[0] - s * self.off[1], y + s * self.off[0] + c * self.off[1]
 
     def draw(self, surface: pygame.Surface, x: float, y: float, angle: float) -> None:
-        """Draw it with the body's origin at a point of the surface."""
+        """Draw the fragment with its body's origin at the point (x, y) of the surface."""
         image = self.at(angle)
         across, down = self.middle(x, y, angle)
         width, height = image.get_size()
@@ -67,6 +68,6 @@ class FragmentPicture:
 
 
 def _beside(pixels):
-    """Return the pixels that have one of these on one of their four sides."""
+    """Return the flags of the pixels with a flagged pixel on one of their four sides."""
     padded = np.pad(pixels, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

@@ -32,5 +32,5 @@ def _box(name, width, height):
 
 
 def _place(index, length):
-    """Return the place and length of the first, middle or last slice along a side."""
+    """Return (start, length) [px] of the first, middle or last slice (index 0, 1, 2) along a side of this length."""
     return ((0, EDGE), (EDGE, max(length - 2 * EDGE, 0)), (length - EDGE, EDGE))[index]

@@ -23,7 +23,7 @@ def points_text(points: int) -> str:
 
 
 def plain_name(name: str) -> str:
-    """Return the text of a solver, a stage or a counter: sequential_impulse is "sequential impulse"."""
+    """Return the name of a solver, stage or counter with spaces: sequential_impulse is "sequential impulse"."""
     return name.replace("_", " ")
 
 

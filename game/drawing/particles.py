@@ -33,7 +33,7 @@ class Particles:
         self.random, self.colors, self.newest, alive, self.rows[:, alive], self.ramps[alive] = state
 
     def clear(self) -> None:
-        """Remove all."""
+        """Remove all particles."""
         self.rows[5] = 0.0  # life 0: not alive
         self.rows[4] = 1.0
         self.newest = 0
@@ -61,7 +61,7 @@ class Particles:
         """Throw `count` particles from (x, y) [world px].
 
         ramp: colours from hot to cold. speed [px/s], life [s] and size [px] are (low, high) ranges. angle and spread
-        [rad] aim the cone. carry is a velocity added to all, such as the wreck's.
+        [rad] aim the cone. carry: velocity [px/s] that is added to all, such as the velocity of a wreck.
         """
         if ramp not in self.colors:
             self.colors.append(ramp)
@@ -84,7 +84,7 @@ class Particles:
         self.ramps[rows] = self.colors.index(ramp)
 
     def step(self, dt: float) -> None:
-        """Move all by dt [s]."""
+        """Move all particles by a step of dt [s]."""
         x, y, vx, vy, age, _, _, drag, gravity = self.rows
         slow = 1.0 / (1.0 + drag * dt)
         vx *= slow
@@ -95,7 +95,9 @@ class Particles:
         age += dt
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Draw those in view: one array write per particle size, no loop over particles."""
+        """Draw the particles in view: nine array writes, one for each pixel of the largest size, and no loop over
+        particles.
+        """
         x, y, _, _, age, life, size, _, _ = self.rows
         alive = np.flatnonzero(age < life)
         if len(alive) == 0:

@@ -16,7 +16,10 @@ GRID = (52, 46, 76)
 
 
 class Axis:
-    """An axis from `low` to `high`, both above 0, widened to the reach of whole ticks."""
+    """Logarithmic axis over all values above 0. `low`, `high`: logarithms to base 10 of its ends.
+
+    The axis extends beyond the values by PAD, and spans at least LEAST_SPAN.
+    """
 
     def __init__(self, values: Iterable[float]) -> None:
         found = [value for value in values if value > 0.0] or [1.0]
@@ -29,7 +32,7 @@ class Axis:
         return (log10(value) - self.low) / (self.high - self.low)
 
     def ticks(self, most: int) -> list[float]:
-        """Return round values within the axis, at most about `most`."""
+        """Return round values within the axis, about `most` at most."""
         decades = range(floor(self.low), ceil(self.high) + 1)
         for steps in (STEPS, (1,)):
             found = [step * 10.0**decade for decade in decades for step in steps]
@@ -75,7 +78,9 @@ class LogPlot:
         pygame.draw.rect(surface, SLATE, area, 1)
 
     def draw_level(self, frame: Frame, value: float, color: Color, name: str) -> None:
-        """Draw a dashed, named line at a y; draw nothing if it lies outside."""
+        """Draw a dashed horizontal line at y = `value`, with its name. Draw nothing if the value lies outside the
+        axis.
+        """
         if not self.y.low <= log10(value) <= self.y.high:
             return
         top = round(self.place(1.0, value)[1])

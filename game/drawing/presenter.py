@@ -1,4 +1,4 @@
-"""From the 480 x 270 canvas to the window: integer scale, letterbox, and the frame that overlays draw on.
+"""Presentation of the 480 x 270 canvas in the window: integer scale, letterbox, and the frame that overlays draw on.
 
 It replaces pygame.SCALED: SCALED and OpenGL fail under SDL's dummy driver, and SCALED fullscreen has no integer scale.
 """
@@ -15,7 +15,9 @@ SCREENSHOT_SCALE = 3  # 1440 x 810
 
 
 class Lens:
-    """Transform from world to frame for one view: X = x * scale + dx, Y = y * scale + dy; `clip` is the viewport."""
+    """Transform from world (x, y) to frame (X, Y): X = x * scale + dx, Y = y * scale + dy. `clip`: the viewport on the
+    frame.
+    """
 
     def __init__(self, scale: float, dx: float, dy: float, clip: pygame.Rect) -> None:
         self.scale, self.dx, self.dy, self.clip = scale, dx, dy, clip
@@ -25,7 +27,7 @@ class Lens:
         return x * self.scale + self.dx, y * self.scale + self.dy
 
     def seen(self, rows: np.ndarray) -> np.ndarray:
-        """Return which (n, 4) world boxes reach into the view, as a bool array."""
+        """Return (n,) bool: whether each world box (min x, min y, max x, max y) of (n, 4) reaches into the view."""
         clip = self.clip
         left, top = (clip.left - self.dx) / self.scale, (clip.top - self.dy) / self.scale
         right, bottom = (clip.right - self.dx) / self.scale, (clip.bottom - self.dy) / self.scale
@@ -33,7 +35,9 @@ class Lens:
 
 
 class Frame(Canvas):
-    """The presented picture at window resolution: a Canvas with the place of the game canvas on it."""
+    """Picture at window resolution, a Canvas. `area`: rect of the game canvas on it; `scale`: frame px per canvas
+    px.
+    """
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface)
@@ -47,16 +51,18 @@ class Frame(Canvas):
 
     @property
     def edge(self) -> int:
-        """Extent of an outline over its text's box, on the canvas or on the frame [frame px]."""
+        """Pixels by which the outline of a text extends beyond its box, the most on the canvas or the frame [frame
+        px].
+        """
         return max(self.scale, self.text_scale)
 
     @property
     def plot_scale(self) -> int:
-        """Scale of small text in a plot inside the game's picture: no larger than the picture's own."""
+        """Scale of small text in a plot inside the game's picture: no larger than the scale of the picture."""
         return min(self.text_scale, self.scale)
 
     def scale_for(self, width: int) -> int:
-        """Return the whole-number scale at which `width` text px fit over the game."""
+        """Return the whole-number scale at which a text of `width` font px is no wider than the game's picture."""
         return max(1, min(self.text_scale, self.area.width // width))
 
     def lens(self, camera: View) -> Lens:

@@ -1,7 +1,7 @@
-"""Pictures of rotating bodies: small pixel art at any angle, with sharp edges, and the bodies' assignment to pictures.
+"""Pictures of rotating bodies: small pixel art at any angle, with sharp edges, and the picture of each body (Cast).
 
-A picture is enlarged eight times by Scale2x, which keeps its edges, and then sampled at each pixel of the rotated one
-(the idea of RotSprite). Rotated pictures are cached.
+A picture is enlarged eight times by Scale2x, which keeps edges sharp, and then sampled at each pixel of the rotated
+picture (the idea of RotSprite). Rotated pictures are cached.
 """
 
 from collections.abc import Mapping
@@ -32,13 +32,13 @@ class RotatedPicture:
         self.large = None
 
     def draw(self, surface: pygame.Surface, x: float, y: float, angle: float) -> None:
-        """Draw it centred on the surface point (x, y)."""
+        """Draw the picture, rotated by `angle` [rad], centred on the surface point (x, y)."""
         turned = self.at(angle)
         width, height = turned.get_size()
         surface.blit(turned, (floor(x - width / 2 + 0.5), floor(y - height / 2 + 0.5)))
 
     def at(self, angle: float) -> pygame.Surface:
-        """Return the picture rotated clockwise to the nearest cached angle [rad]."""
+        """Return the picture rotated clockwise by the cached angle that is nearest to `angle` [rad]."""
         bucket = round(angle / (2 * pi) * BUCKETS) % BUCKETS
         if bucket not in self.kept:
             self.kept[bucket] = self.image if bucket == 0 else self._turn(2 * pi * bucket / BUCKETS)
@@ -88,12 +88,12 @@ class Cast:
         self.looks = {}  # body id -> name
 
     def add(self, body: BodyOrId, name: str) -> BodyOrId:
-        """Give a body (or its id) the picture of that name; return the body."""
+        """Assign the picture `name` to a body, or to a body's id. Return this first argument."""
         self.looks[getattr(body, "id", body)] = name
         return body
 
     def picture(self, name: str) -> RotatedPicture:
-        """Return the rotated picture of a name."""
+        """Return the RotatedPicture of a name, made at its first use."""
         if name not in self.turned:
             self.turned[name] = RotatedPicture(self.atlas[name])
         return self.turned[name]

@@ -19,24 +19,24 @@ from physics import PixelMask
 
 @dataclass(frozen=True)
 class Animation:
-    """Frames at a constant rate."""
+    """Images shown one after the other at a constant rate."""
 
     images: tuple
     names: tuple
     fps: float
 
     def index_at(self, seconds: float, loop: bool = True) -> int:
-        """Return the index of the frame after so many seconds. Without loop the last frame stays."""
+        """Return the index of the image that is shown `seconds` after the start. Without loop the last image stays."""
         number = int(seconds * self.fps)
         return number % len(self.images) if loop else min(number, len(self.images) - 1)
 
     def at(self, seconds: float, loop: bool = True) -> pygame.Surface:
-        """Return the image after so many seconds."""
+        """Return the image that is shown `seconds` after the start."""
         return self.images[self.index_at(seconds, loop)]
 
     @property
     def seconds(self) -> float:
-        """Length of one round [s]."""
+        """Duration of one cycle [s]."""
         return len(self.images) / self.fps
 
 
@@ -109,11 +109,11 @@ class RotatedSprites:
         self.cache = {}
 
     def __deepcopy__(self, memo):
-        """Return itself: a copy of a scene draws with the same pictures."""
+        """Return this object itself: a copy of a scene draws with the same pictures."""
         return self
 
     def draw(self, canvas: Canvas, camera: Camera, x: float, y: float, angle: float, alpha: float = 1.0) -> None:
-        """Draw with the mask's origin at world (x, y), as the physics places it on the pixel grid."""
+        """Draw the sprite with its mask's origin at world (x, y), as the physics places the mask on the pixel grid."""
         image, origin = self.at(angle)
         left, top = camera.view(alpha)
         place_x = floor(x - origin[0] + 0.5) - left + camera.viewport.x
@@ -121,7 +121,7 @@ class RotatedSprites:
         canvas.surface.blit(image, (place_x, place_y))
 
     def at(self, angle: float) -> tuple[pygame.Surface, tuple[float, float]]:
-        """Return (image, origin in it) at the angle bucket nearest to `angle` [rad]."""
+        """Return (image, origin in the image [px]) at the cached angle that is nearest to `angle` [rad]."""
         bucket = self.mask.bucket_at(angle)
         if bucket not in self.cache:
             turned = self.mask.turned_to(bucket)
@@ -130,7 +130,9 @@ class RotatedSprites:
 
 
 def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
-    """Return a surface of the rotated mask's size, with each solid pixel taken from its source pixel."""
+    """Return the picture of a rotated mask: each solid pixel has the colour of the pixel of `image` that it comes
+    from.
+    """
     height, width = turned.solid.shape
     out = pygame.Surface((max(width, 1), max(height, 1)), pygame.SRCALPHA)
     rows, columns = np.nonzero(turned.solid)
@@ -146,7 +148,7 @@ def pick_pixels(image: pygame.Surface, turned: Any) -> pygame.Surface:
 
 
 def lit(image: pygame.Surface, amount: int = 110) -> pygame.Surface:
-    """Return a copy made brighter by `amount` 0..255, the flash of a hit."""
+    """Return a copy made brighter by `amount` 0..255, for the flash of a hit."""
     copy = image.copy()
     copy.fill((amount, amount, amount, 0), special_flags=pygame.BLEND_RGBA_ADD)
     return copy

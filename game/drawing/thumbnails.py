@@ -1,4 +1,4 @@
-"""The menu's small picture of each scene, and an empty frame if a picture is missing."""
+"""The menu's small picture of each scene, or the scene's title in a frame if the picture is missing."""
 
 from functools import cache
 
@@ -13,7 +13,7 @@ SIZE = (160, 90)
 
 
 def draw_picture(canvas: Canvas, name: str, title: str, x: int, y: int) -> pygame.Rect:
-    """Draw a scene's picture with a thin frame at (x, y) and return the frame's rect."""
+    """Draw the picture of the scene `name`, with a thin frame, at (x, y) and return the frame's rect."""
     rect = pygame.Rect((x, y), SIZE)
     picture = _load(name)
     if picture is not None:

@@ -1,4 +1,8 @@
-"""A tile layer as pictures: drawn once in chunks, then blitted, so that the cost does not grow with the level."""
+"""Pictures of a tile layer, which are drawn once and then blitted.
+
+One picture shows a square of CHUNK x CHUNK tiles, a chunk. Only chunks in view are blitted, so that the cost does not
+grow with the level.
+"""
 
 import pygame
 
@@ -19,7 +23,7 @@ class TilePicture:
         self.chunks = {}
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Blit the chunks in view."""
+        """Blit the pictures of the chunks in view."""
         left, top = camera.view(alpha)
         size = CHUNK * self.map.tile_size
         view = camera.viewport
@@ -35,7 +39,7 @@ class TilePicture:
         return self.chunks[column, row]
 
     def _paint(self, first_column, first_row):
-        """Return one chunk's picture, or None if it has no tile."""
+        """Return the picture of the chunk that begins at this column and row, or None if it has no tile."""
         numbers, flips = self.map.layers[self.layer], self.map.flips[self.layer]
         if first_column < 0 or first_row < 0:
             return None

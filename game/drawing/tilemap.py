@@ -1,9 +1,9 @@
 """Levels made with Tiled (.tmj): tile layers, tile properties, objects. An error names file, place and reason.
 
-It reads finite orthogonal maps of one embedded tileset, with layer data as CSV or base64 (plain, zlib, gzip), layers in
-groups, and the offsets of both: for objects any, for tiles a number of whole tiles. It refuses infinite maps, external
-tilesets, other encodings, and keys that move or hide what is drawn (parallax, opacity, tint, rotation ...), by name.
-Packed data is unpacked only up to the bytes that the map can hold.
+Finite orthogonal maps of one embedded tileset are read, with layer data as CSV or base64 (plain, zlib, gzip), layers in
+groups, and offsets of layers and groups: any offset for objects, a number of whole tiles for tiles. Infinite maps,
+external tilesets, other encodings, and keys that move or hide what is drawn (parallax, opacity, tint, rotation ...) are
+refused. Packed data is unpacked only up to the bytes that the map can hold.
 """
 
 import base64
@@ -27,7 +27,7 @@ LARGEST_PICTURE = 4096  # [px] of a tileset's picture each way: 64 MB
 PACKINGS = {"zlib": zlib.MAX_WBITS, "gzip": zlib.MAX_WBITS | 16}  # compression -> zlib window bits: the header
 OFFSETS = ("offsetx", "offsety")  # [px] of a layer or a group
 DEEPEST = 20  # groups within groups
-# Keys that move, turn or hide what is drawn, which are not read: only these values are.
+# Keys that move, turn or hide what is drawn. They are not supported: only these values are accepted.
 LAYER_DEFAULTS = {"visible": True, "opacity": 1, "parallaxx": 1, "parallaxy": 1, "tintcolor": None, "x": 0, "y": 0}
 OBJECT_DEFAULTS = {"visible": True, "opacity": 1, "rotation": 0, "template": None}
 TILESET_DEFAULTS = {"tileoffset": None, "margin": 0, "spacing": 0}
@@ -36,7 +36,9 @@ KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 @dataclass(frozen=True)
 class Thing:
-    """An object of the map: kind, name, rect in world pixels, own properties; `place` names it in its file."""
+    """An object of the map: kind, name, rect in world pixels, own properties; `place`: its place in the file, for
+    errors.
+    """
 
     kind: str
     name: str
@@ -138,7 +140,9 @@ def load_tilemap(path: Path, largest: tuple[int, int] = (LARGEST, LARGEST)) -> T
 
 
 def map_picture(tilemap: TileMap) -> Path:
-    """Return the path of the tileset's picture, beside the map or among the game's own. Raises FileError."""
+    """Return the path of the tileset's picture, beside the map or among the game's own. Raises FileError if it is
+    missing or too small.
+    """
     path = picture_of(tilemap.path, "tilesets[0].image", tilemap.image, IMAGES)
     width, height = png_size(path, LARGEST_PICTURE)
     most = max((int(layer.max()) for layer in tilemap.layers.values() if layer.size), default=-1)
@@ -149,9 +153,10 @@ def map_picture(tilemap: TileMap) -> Path:
 
 
 def unpacked(packed: bytes, packing: int, most: int) -> bytes:
-    """Unpack data up to `most` bytes, plus one byte if there are more. Raises zlib.error, ValueError.
+    """Unpack data, and return at most `most` + 1 bytes: the last one shows that there is more data than expected.
 
-    packing: one of PACKINGS. Bytes behind the packed data count as more.
+    packing: one of PACKINGS. Bytes behind the packed data count as more data. Raises zlib.error, or ValueError for data
+    that is cut off.
     """
     reader = zlib.decompressobj(packing)
     content = reader.decompress(packed, most + 1)
@@ -207,7 +212,9 @@ class _Reader:
         )
 
     def flat_layers(self, data, place, prefix, offset, depth=0):
-        """Yield (place, name, layer, offset [px]) of the tile and object layers, also of those in groups, in order."""
+        """Yield (place, name, layer, offset [px]) of the tile and object layers in order, those inside groups
+        included.
+        """
         for index, layer in enumerate(self.listing(data, place, "layers")):
             here = f"{prefix}layers[{index}]"
             if not isinstance(layer, dict):
@@ -225,7 +232,7 @@ class _Reader:
                 yield from self.flat_layers(layer, here, f"{here}.", (x, y), depth + 1)
 
     def refuse(self, data, place, defaults):
-        """Raise FileError for a key that moves, turns or hides what is drawn, at another value than its default."""
+        """Raise FileError if a key that moves, turns or hides what is drawn has another value than its default."""
         for name, default in defaults.items():
             value = data.get(name, default)
             if type(value) not in (type(default), int, float) or value != default:
@@ -233,7 +240,9 @@ class _Reader:
                 self.fail(f"{place}.{name}", f"is not supported: must be {usual} (got {value!r:.60})")
 
     def shifted(self, found, place, offset, size):
-        """Return (tiles, flips) moved by the offset [px] of their layer, which is a number of whole tiles."""
+        """Return (tiles, flips) moved by the offset [px] of their layer. Raise FileError for an offset that is not in
+        whole tiles.
+        """
         if offset == (0.0, 0.0):
             return found
         for name, each in zip(OFFSETS, offset, strict=True):

@@ -33,8 +33,10 @@ def open_window(settings: Settings) -> pygame.Surface:
 
 
 def has_screen(platform: str, environment: Mapping[str, str]) -> bool:
-    """Return whether SDL can find a display. It is False on Linux without X, Wayland or a driver by name, where SDL
-    would print errors of its own.
+    """Return whether SDL can find a display.
+
+    On Linux, that takes X, Wayland or a video driver named in the environment: without them SDL would print errors of
+    its own.
     """
     names = ("DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER")
     return not platform.startswith("linux") or any(environment.get(name) for name in names)
@@ -68,7 +70,7 @@ def _open(size, flags, vsync):
 
 
 def copy_text(text: str) -> bool:
-    """Copy text to the clipboard. Return whether it is there."""
+    """Copy text to the clipboard. Return whether the clipboard now holds the text."""
     try:
         pygame.scrap.put_text(text)
         return pygame.scrap.get_text() == text

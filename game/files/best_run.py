@@ -1,4 +1,4 @@
-"""The path of a scene's fastest won run, kept as a file, and shown as a ghost beside later runs.
+"""Ghost of a scene: the player's positions in the fastest won run, kept in a file, and drawn beside later runs.
 
 A trail is a list of (x, y, frame name, way) rows, one per step. An unusable ghost file is kept and not shown: it never
 stops a game.
@@ -13,17 +13,20 @@ from game.files.data_folder import data_folder, is_there, refusal, write_atomica
 from game.files.json_file import read_json
 
 FORMAT, VERSION = "hitbox ghost", 1
-LONGEST = 60 * 60 * 60  # rows: an hour
+LONGEST = 60 * 60 * 60  # number of rows: an hour of steps
 FARTHEST = 1e7  # [px] from the origin; drawing rounds positions to integers
 
 
 def ghost_path(table: str) -> Path:
-    """Return the file of a table's ghost (see records.table_of)."""
+    """Return the path of the ghost file of a high-score table (see records.table_of)."""
     return data_folder() / "ghosts" / f"{table.replace('/', '-')}.json"
 
 
 def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
-    """Return (rows or None, seconds or None, message) of the best run so far."""
+    """Return (trail, seconds, message) of the best run so far. Trail and seconds are None if there is no usable file.
+
+    The message reports an unusable file; it is "" otherwise.
+    """
     path = ghost_path(table)
     if not is_there(path):
         return None, None, ""
@@ -37,7 +40,9 @@ def load_ghost(table: str) -> tuple[list[tuple] | None, float | None, str]:
 
 
 def keep_ghost(table: str, trail: Sequence[tuple], seconds: float) -> bool:
-    """Save a trail if it is the fastest; return whether it is. Raises OSError if it cannot be written."""
+    """Save the trail of a run if the run was faster than the saved one. Return whether it was saved. Raises OSError if
+    it cannot be written.
+    """
     best = load_ghost(table)[1]
     if not trail or (best is not None and best <= seconds):
         return False

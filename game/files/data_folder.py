@@ -13,7 +13,7 @@ from game.errors import LONGEST, UsageError, share
 from game.files.leftovers import remove_parts_of
 
 LONGEST_NAME = 200  # bytes of a file name, which leave room for a suffix; most systems allow 255
-OVERRIDE = "HITBOX_DATA"  # a folder; set by tests, or by a player with the game on a USB stick
+OVERRIDE = "HITBOX_DATA"  # variable with a folder; set by tests, or by a player with the game on a USB stick
 
 
 def data_folder(environment: Mapping[str, str] | None = None, platform: str | None = None) -> Path:
@@ -39,7 +39,7 @@ def _home():
 
 
 def is_there(path: Path) -> bool:
-    """Return whether the file exists. It is True, too, if permissions forbid the check: reading then reports the
+    """Return whether the file exists. True, too, if permissions forbid the check: reading the file then reports the
     reason.
     """
     try:
@@ -52,7 +52,7 @@ def is_there(path: Path) -> bool:
 
 
 def free_name(folder: Path, scene_name: str, suffix: str = ".json") -> Path:
-    """Return the path of a new file, named by the scene and the time."""
+    """Return the path of a new file, named after the scene and the time. No file of this name exists yet."""
     name = f"{scene_name.replace('/', '-')}-{strftime('%Y%m%d-%H%M%S')}"
     path, number = folder / f"{name}{suffix}", 2
     while path.exists():
@@ -88,8 +88,8 @@ def write_atomically(path: str | Path, content: str | bytes, makes_folder: bool 
 
 
 def part_of(path: Path, process: int) -> Path:
-    """Return the path under which a process writes a file that will replace `path`. A long name is replaced by its
-    digest.
+    """Return the path of the partial file that a process writes before it replaces `path`. A long file name is replaced
+    by its digest.
     """
     name = (
         path.name if len(os.fsencode(path.name)) <= LONGEST_NAME else blake2b(os.fsencode(path.name)).hexdigest()[:32]
@@ -98,11 +98,11 @@ def part_of(path: Path, process: int) -> Path:
 
 
 def keep_beside(path: str | Path, why: str = "damaged") -> Path:
-    """Copy an unusable file to the first free `name.damaged-N` (or another word), and return that path.
+    """Copy an unusable file to the first free name of the form `name.damaged-N`, and return the path of the copy.
 
-    The name is claimed with exclusive creation, so an earlier copy is never overwritten. A copy with the same content
-    is reused, or every start would add another. An unreadable file is renamed instead, because the next save would
-    overwrite it. Raises OSError if that fails, too.
+    why: the word in place of "damaged". The name is claimed with exclusive creation, so an earlier copy is never
+    overwritten. A copy with the same content is reused, or every start would add another. An unreadable file is renamed
+    instead, because the next save would overwrite it. Raises OSError if that fails, too.
     """
     path = Path(path)
     names = (path.with_name(f"{path.name}.{why}-{number}") for number in count(1))
@@ -124,7 +124,10 @@ def keep_beside(path: str | Path, why: str = "damaged") -> Path:
 
 
 def refusal(path: Path, place: str, reason: str, instead: str, why: str = "damaged") -> str:
-    """Keep an unusable file. Return a line with the error, the replacement and the name of the copy."""
+    """Keep a copy of an unusable file. Return one line with the error, with `instead`, and with the name of the copy.
+
+    instead: what the game uses in place of the file's content. why: word in the name of the copy, see keep_beside.
+    """
     try:
         kept = f"the old file is kept as {keep_beside(path, why).name}"
     except OSError as error:

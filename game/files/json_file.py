@@ -8,7 +8,7 @@ from typing import Any
 from game.errors import FileError
 
 LARGEST = 256 * 2**20  # bytes: ten hours of a recording in which every frame differs
-CHUNK = 2**20  # bytes that are checked before more is read
+CHUNK = 2**20  # bytes that are read and checked at a time
 
 
 def read_json(path: str | Path) -> Any:
@@ -28,7 +28,7 @@ def read_json(path: str | Path) -> Any:
 
 
 def _texts(path):
-    """Yield the text of a file in chunks, so that a device of zeros or noise is recognised by its first chunk."""
+    """Yield the text of a file in parts of CHUNK bytes, so that an endless device is recognised by its first part."""
     decoder, read = codecs.getincrementaldecoder("utf-8")(), 0
     with open(path, "rb") as file:
         while chunk := file.read(CHUNK):

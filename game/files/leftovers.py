@@ -1,7 +1,7 @@
-"""Partial files of killed processes, beside the files that they were to replace.
+"""Partial files that killed processes left beside the files that they were writing.
 
-Their name is <file>.<process>.part (see data_folder.part_of). They are removed once they are old. The age decides, not
-the process id, because the process may run on another machine that shares the folder.
+A partial file is named <file>.<process>.part (see data_folder.part_of). It is removed once it is old. Its age decides,
+not its process id, because the process may run on another machine that shares the folder.
 """
 
 import contextlib
@@ -28,8 +28,8 @@ def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
 
 
 def remove_parts_of(part: Path) -> None:
-    """Remove the partial files that earlier processes left of one file. part: the name that this process writes it
-    under.
+    """Remove the old partial files of one file, which earlier processes left. part: path of the partial file that this
+    process writes.
     """
     file = _file_of(part.name)
     with contextlib.suppress(OSError, ValueError):
@@ -39,7 +39,7 @@ def remove_parts_of(part: Path) -> None:
 
 
 def _file_of(name):
-    """Return the name of the file that a part belongs to, None if it is no partial file of the game."""
+    """Return the name of the file that a partial file belongs to; None if `name` is not the name of a partial file."""
     found = NAME.fullmatch(name)
     return found and found[1]
 

@@ -12,7 +12,9 @@ SIGNATURE, FIRST = b"\x89PNG\r\n\x1a\n", (13, b"IHDR")
 
 
 def png_size(path: str | Path, most: int) -> tuple[int, int]:
-    """Return (width, height) of a PNG from its header. Raises FileError for another file, or one of over `most` px."""
+    """Return (width, height) of a PNG file from its header. Raises FileError for another file, or for a side of over
+    `most` px.
+    """
     try:
         with open(path, "rb") as file:
             head = file.read(HEADER.size)
@@ -33,7 +35,8 @@ def picture_of(level: Path, place: str, name: str, own: Path) -> Path:
 
     name: relative to the folder, with slashes or backslashes. If there is no such file, or it lies outside the folder,
     the file of the same name in the folder `own` is used: editors write paths from where a level was made. Raises
-    FileError with the place in the level if that does not exist, either: no path leads out of the folder.
+    FileError with `place`, the place in the level, if neither file exists. A path that leads out of the folder is never
+    followed.
     """
     parts = PurePosixPath(name.replace("\\", "/"))
     leads_out = parts.is_absolute() or ".." in parts.parts or PureWindowsPath(name).anchor != ""

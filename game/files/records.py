@@ -36,7 +36,7 @@ class Records:
     def __init__(self, path: Path | None = None) -> None:
         self.path = path or records_path()
         self.tables = {}
-        self.ranking = {}  # key -> ranked_by, of the tables that got entries here
+        self.ranking = {}  # key -> ranked_by, of the tables that got entries in this process
 
     def entries(self, key: str | None) -> list[Entry]:
         """Return the entries of a table, best first."""
@@ -90,7 +90,9 @@ def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
 
 
 def table_of(scene_name: str, level: Path | None = None) -> str:
-    """Return the key of a scene's table. A level of the player has its own table, by its content."""
+    """Return the key of a scene's table. A level of the player has its own table, with a digest of the level in its
+    key.
+    """
     return scene_name if level is None else f"{scene_name}@{level_digest(level)}"
 
 
@@ -136,7 +138,7 @@ def _check_head(path, data):
 
 
 def _refusal_of(row):
-    """Return the reason why an entry is unusable, or ""."""
+    """Return the reason why an entry is unusable; "" if it is usable."""
     names = [entry.name for entry in fields(Entry)]
     if not isinstance(row, dict) or set(row) != set(names):
         return f"must have {', '.join(names)}"

@@ -1,7 +1,8 @@
-"""Settings: JSON with a version, written atomically, read leniently.
+"""Settings of the player: JSON with a version, written atomically, read leniently.
 
 A damaged file never stops the game: unusable values fall back to their defaults, the file is kept under another name,
-and one line names place and reason. The file of a newer version is not interpreted; it is kept, too.
+and one line names the place and the reason of the damage. A file of a newer version is not interpreted; it is kept,
+too.
 """
 
 import json
@@ -25,7 +26,7 @@ LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789.-"  # of initials
 
 @dataclass
 class Settings:
-    """Choices of the player. Shares and volumes 0..1."""
+    """Choices of the player. Shares and volumes are 0..1."""
 
     master: float = 0.8
     music: float = 0.6
@@ -92,7 +93,9 @@ def save_settings(settings: Settings, path: Path | None = None) -> None:
 
 
 def _upgraded(path, data):
-    """Return the entries of a file of this version or the first. Raises FileError for any other."""
+    """Return the content of a settings file in the form of this version. Raises FileError if it is neither of this
+    version nor of version 1.
+    """
     version = data.get("version") if isinstance(data, dict) else None
     if version not in (1, VERSION) or isinstance(version, bool):
         raise FileError(path, "version", f"{version!r:.40} cannot be read here; this program reads 1 to {VERSION}")
@@ -116,7 +119,7 @@ def _upgraded(path, data):
 
 
 def _refusal_of(name, value):
-    """Return the reason why a value is unusable, or ""."""
+    """Return the reason why a value is unusable; "" if it is usable."""
     if name in ("keys", "buttons"):
         return _table_refusal(name, value)
     if name == "labs_seen":

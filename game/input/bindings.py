@@ -135,7 +135,7 @@ def _turned(names, read):
 
 
 def _code(key: str) -> int:
-    """Return the key code of a key name. The table is pygame's constants, so it needs no display."""
+    """Return the key code of a key name. It is read from pygame's constants, so no display is needed."""
     name = SPELLED.get(key, key)
     for spelling in (name.upper(), name.lower()):
         code = getattr(pygame, f"K_{spelling}", None)
@@ -151,7 +151,7 @@ def _button(name):
 
 
 def key_name(code: int) -> str | None:
-    """Return the name of a key code in the settings, or None for a key without a plain name."""
+    """Return the name of a key code, as in the settings; None for a key without a plain name."""
     if not _NAMES:
         spelled = {constant: name for name, constant in SPELLED.items()}
         for constant in dir(pygame):
@@ -161,12 +161,15 @@ def key_name(code: int) -> str | None:
 
 
 def shown(control: str) -> str:
-    """Return the name of a key or button on screen."""
+    """Return the text that stands for a key or button on screen."""
     return PICTURED.get(control, control.capitalize())
 
 
 def help_pairs(actions: Iterable[tuple[str, str]], table: Table) -> list[tuple[str, str]]:
-    """Return (control, effect) of Scene.actions with the player's bindings; table {action: names}."""
+    """Return the (control, effect) pairs of the help line, with the player's bindings.
+
+    actions: as Scene.actions. table: {action: names of keys or buttons}.
+    """
     pairs = []
     steering = [table[action][0] for action in ("left", "right", "up", "down")]
     for key, what in actions:

@@ -60,7 +60,7 @@ class DeviceSource:
         self.menu_buttons = {**self.buttons, **button_actions(DEFAULT_BUTTONS)}
 
     def change(self, name: str, value: object) -> None:
-        """Queue a change of the simulation (panel, keys) for the next step."""
+        """Queue a change of the simulation, made in the panel or by a key, for the next step."""
         self.changes.append((name, value))
 
     def next(self, scene: object | None = None) -> InputFrame:
@@ -74,7 +74,7 @@ class DeviceSource:
         return frame
 
     def release_all(self) -> None:
-        """Clear what is held: the window lost focus, or another screen opened."""
+        """Clear all held actions: the window lost focus, or another screen opened."""
         self.held.clear()
         self.tapped.clear()
         self.pointer_down = self.pointer_tapped = False
@@ -102,7 +102,10 @@ class DeviceSource:
             self._feed_pad(event)
 
     def button_of(self, event: pygame.event.Event) -> tuple[int, str, bool] | None:
-        """Return (pad, name of the button, down) of a pad event, or None. A trigger counts as a button past PULLED."""
+        """Return (pad, name of the button, whether it is down) of a pad event; None for other events.
+
+        A trigger counts as a button, which is down beyond PULLED.
+        """
         kind = event.type
         if kind in (pygame.CONTROLLERBUTTONDOWN, pygame.CONTROLLERBUTTONUP) and event.button in CONTROLLER_NAMES:
             return event.instance_id, CONTROLLER_NAMES[event.button], kind == pygame.CONTROLLERBUTTONDOWN
@@ -167,8 +170,10 @@ class DeviceSource:
         self._axis(pad, f"axis {axis}", 0 if abs(value) < DEAD_ZONE else value, actions)
 
     def _axis(self, pad, axis, value, actions):
-        """Set the held action of an axis, one of two. It taps only when the stick enters a side: a held stick does not
-        repeat.
+        """Set the action that an axis holds: actions[0] for a negative value, actions[1] for a positive one, none for
+        0.
+
+        An action is tapped only when the stick moves to its side, so a held stick does not repeat.
         """
         control = (pad, axis)
         action = () if value == 0 else (actions[1],) if value > 0 else (actions[0],)

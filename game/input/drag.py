@@ -41,7 +41,10 @@ class View(Protocol):
 
 @dataclass(frozen=True)
 class Hold:
-    """A held body. `grip`: the grabbed point in body space [px]; `before`: the velocity to continue with, or None."""
+    """A held body. `grip`: the grabbed point in body space [px].
+
+    `before`: velocity [px/s] that the body gets back when it is released; None: it keeps its velocity.
+    """
 
     body: Body
     world: World
@@ -56,7 +59,7 @@ class Hold:
         return x + c * self.grip[0] - s * self.grip[1], y + s * self.grip[0] + c * self.grip[1]
 
     def is_there(self) -> bool:
-        """Return whether the world has the body."""
+        """Return whether the world still has the body."""
         return bool((self.world.bodies["id"] == self.body.id).any())
 
 
@@ -73,17 +76,22 @@ class Drag:
 
     @property
     def held(self) -> int:
-        """Id of the held body, -1 for none."""
+        """Id of the held body, -1 if none is held."""
         return -1 if self.hold is None else self.hold.body.id
 
     def release(self) -> None:
-        """Let go. In a world without forces the body continues with its velocity of before."""
+        """Release the held body, if any. In a world without forces it gets back the velocity that it had when it was
+        grabbed.
+        """
         hold, self.hold = self.hold, None
         if hold is not None and hold.before is not None and hold.is_there():
             hold.body.velocity = hold.before
 
     def step(self, inputs: InputState, views: Sequence[tuple[World, View]]) -> None:
-        """Grab, pull or let go; once per step, before the worlds step. views: (world, camera) of each picture."""
+        """Grab, pull or release a body, as the pointer's button is. Call it once per step, before the worlds step.
+
+        views: (world, camera) of each picture on the canvas.
+        """
         if inputs.pointer_pressed:
             self._grab(inputs.pointer, views)
         elif not inputs.pointer_down:
@@ -145,13 +153,15 @@ def has_forces(effects: Effects) -> bool:
 
 
 def can_be_held(body: Body) -> bool:
-    """Return whether it is an enabled dynamic body with a finite mass."""
+    """Return whether the body is dynamic, enabled, and of finite mass."""
     row = body.world.bodies[body.world.rows([body.id])[0]]
     return body.kind == "dynamic" and bool(row["inverse_mass"] > 0.0 and not row["quarantined"])
 
 
 def body_at(world: World, point: tuple[float, float], reach: float) -> Body | None:
-    """Return the body to grab at a world point: the uppermost one there, else the nearest within reach, or None."""
+    """Return the body to grab at a world point: the uppermost body there, else the nearest within `reach` [px], or
+    None.
+    """
     held = [body for body in world.query_point(point) if can_be_held(body)]
     if held:
         return held[-1]
@@ -163,10 +173,11 @@ def body_at(world: World, point: tuple[float, float], reach: float) -> Body | No
 def spring_force(
     row: np.void, point: tuple[float, float], target: tuple[float, float], dt: float, turns: bool
 ) -> tuple[float, float]:
-    """Return the force at `point` of a spring to `target`, implicit over the step [mass px/s2].
+    """Return the force [mass px/s2] on a body at `point` from a spring to `target`, implicit over a step of dt.
 
-    row: the body's row. With K the inverse effective mass at the point, J = -s K^-1 (v + b (point - target)); s and b
-    are the soft constraint's factors for one step of dt.
+    row: BODY row of the body. turns: whether the body can rotate. The impulse is J = -s K^-1 (v + b (point - target)).
+    K is the inverse effective mass matrix and v the velocity at the point; s and b are the factors of the soft
+    constraint for dt.
     """
     omega = 2.0 * pi * HERTZ
     first = 2.0 * DAMPING_RATIO + dt * omega

@@ -36,8 +36,8 @@ class InputState:
         self.before, self.now = self.now, frame
 
     def held(self, action: str) -> bool:
-        """Return whether the action is held. Raises ValueError for an unknown action: a typo never reads as "not
-        held".
+        """Return whether the action is held. Raises ValueError for an unknown action, so that a typo never reads as
+        "not held".
         """
         return _known(action) in self.now.actions
 

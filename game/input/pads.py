@@ -15,7 +15,7 @@ def controller_module() -> ModuleType | None:
 
 
 class Pads:
-    """The open pads. SDL sends events only of open pads, so each is opened when it is connected."""
+    """The open pads. SDL sends events of open pads only, so each pad is opened when it is connected."""
 
     def __init__(self) -> None:
         self.controllers, self.joysticks = {}, {}
@@ -25,7 +25,7 @@ class Pads:
             self.module.init()
 
     def added(self, device_index: int) -> None:
-        """Open the pad at this device index. A pad that both modules announce is opened once."""
+        """Open the pad at this device index. A pad that is announced as joystick and as controller is opened once."""
         try:
             joystick = pygame.joystick.Joystick(device_index)
             instance = joystick.get_instance_id()
@@ -39,7 +39,7 @@ class Pads:
             return  # disconnected since the event; its removal follows
 
     def removed(self, instance_id: int) -> None:
-        """Remove a pad."""
+        """Forget a pad that was disconnected."""
         self.controllers.pop(instance_id, None)
         self.joysticks.pop(instance_id, None)
 

@@ -1,4 +1,4 @@
-"""Rebinding of keys and buttons: fixed ones are refused, those of another action are swapped."""
+"""Rebinding of keys and buttons: a fixed control is refused, a control of another action is swapped."""
 
 from string import ascii_lowercase
 
@@ -20,10 +20,10 @@ SPARE = {"keys": tuple(ascii_lowercase), "buttons": BUTTON_NAMES}
 
 
 def rebind(table: dict[str, list[str]], device: str, action: str, control: str | None) -> str:
-    """Make `control` the first of the action's, in table {action: [names]}. Return a line to show.
+    """Make `control` the first control of `action` in table {action: [names]}. Return a line for the player.
 
-    device: "keys" or "buttons". A rival action that had it gets the control that this action gives up. No action is
-    left without one.
+    device: "keys" or "buttons". control: None for a key without a name. Another action that had the control, and cannot
+    share it (bindings.rivals), gets the control that `action` gives up. No action is left without a control.
     """
     if control is None:
         return "That key has no name here. Choose another."
@@ -48,7 +48,10 @@ def rebind(table: dict[str, list[str]], device: str, action: str, control: str |
 
 
 def _make_room(table, device, other, control, given_up):
-    """Take a control from an action. Return the line to show, or None if no control would be left for it."""
+    """Take `control` away from the action `other`, and give it another one if possible.
+
+    Return the line for the player; None if `other` would be left without a control.
+    """
     place = table[other].index(control)
     rest = [each for each in table[other] if each != control]
     choices = (given_up,) if rest else (given_up, *DEFAULTS[device][other], *SPARE[device])
@@ -63,13 +66,17 @@ def _make_room(table, device, other, control, given_up):
 
 
 def _is_free(table, device, action, control):
-    """Return whether the control is free: not held by a rival of the action, the action itself, or the shell."""
+    """Return whether a control is free for an action: not fixed, not a control of the action, and not of an action that
+    cannot share it (bindings.rivals).
+    """
     taken = FIXED[device].union(*(controls for name, controls in table.items() if rivals(action, name)), table[action])
     return control not in taken
 
 
 def clash(table: Table) -> tuple[str, str, str] | None:
-    """Return the first two rivals with a common control, as (action, other, control), or None."""
+    """Return (action, other, control) of the first two actions that have a common control and cannot share it
+    (bindings.rivals), or None.
+    """
     for action in table:
         for other in table:
             if rivals(action, other):
@@ -80,13 +87,13 @@ def clash(table: Table) -> tuple[str, str, str] | None:
 
 
 def default_table(device: str) -> dict[str, list[str]]:
-    """Return a new copy of the default table."""
+    """Return a new copy of the default bindings of a device."""
     return {action: list(controls) for action, controls in DEFAULTS[device].items()}
 
 
 def completed(table: Table, device: str) -> dict[str, list[str]]:
-    """Return the table with the missing actions, which an older file may lack. Controls that would clash are left
-    out.
+    """Return the table with the actions added that an older file may lack. Their default controls are left out where
+    they clash.
     """
     full = {}
     for action in DEFAULTS[device]:
