@@ -49,9 +49,7 @@ def run_app(options: Options, registry: Registry) -> int:
 
 
 class App:
-    """Main loop of the window, which runs the top screen of the stack `screens`. `arcade`: the state that all screens
-    share.
-    """
+    """Main loop, which runs the top screen of the stack `screens`. `arcade`: the state that all screens share."""
 
     def __init__(
         self,
@@ -164,9 +162,7 @@ class App:
         self.before = now
 
     def _rest(self, started: float) -> None:
-        """Wait until the frame cap allows the next frame, so that the loop does not occupy a core where vsync does not
-        slow it.
-        """
+        """Wait until the frame cap allows the next frame: without vsync, the loop would occupy a whole core."""
         spent = perf_counter() - started
         self.frame_time.note(spent)
         wanted = 1.0 / self.settings.frame_cap if self.settings.frame_cap else 0.0
@@ -191,7 +187,7 @@ class App:
                 self.arcade.devices.feed(event)
 
     def _follow(self, outcome: Outcome) -> None:
-        """Perform the outcome of the top screen, such as opening the menu, with a wipe from the old picture."""
+        """Perform the outcome of the top screen, for example open the menu, with a wipe from the old picture."""
         if outcome[0] == "menu" and self.screens.played is not None:
             if self.options.scene and (self.options.is_a_run or self.options.recording):
                 self.arcade.running = False  # such a run is about one scene: leaving the scene ends the program
@@ -216,9 +212,7 @@ class App:
         self.clock.rest()
 
     def _save_what_is_open(self) -> None:
-        """Enter the results, save the settings, and save the current run or the requested recording, before the program
-        ends.
-        """
+        """Enter the results, and save the settings and the current run or its recording, before the program ends."""
         if not self.options.frames:
             self.screens.enter_results()
         self.arcade.save_settings()

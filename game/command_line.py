@@ -168,9 +168,7 @@ def _check_advice(options):
 
 
 def _check_report(options):
-    """Check that --report has no conflicting options, and that the report's own options (--quick ...) come with
-    --report.
-    """
+    """Check that --report has no conflicting options, and that its own options (--quick ...) come with --report."""
     if options.report is None:
         for flag in ("quick", "workers", "dask", "only"):
             if getattr(options, flag) is not None and getattr(options, flag) is not False:

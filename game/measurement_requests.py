@@ -22,9 +22,7 @@ class SpriteRequest(NamedTuple):
 
 
 class Recipe(NamedTuple):
-    """Function, with its arguments, that makes a snapshot. The measuring process calls it, so that this takes no time
-    from the game.
-    """
+    """Function and arguments that make a snapshot. The measuring process calls it, so that the game does not wait."""
 
     maker: str  # "module:function", which returns a Snapshot
     arguments: tuple[Any, ...]  # its arguments: JSON values

@@ -63,9 +63,7 @@ class Result:
 
 @dataclass(frozen=True)
 class Slider:
-    """Value that the player can change with a slider. `choices`, if given, holds the names of the values low, low + 1,
-    ...
-    """
+    """Value that the player can change with a slider. `choices`, if given: the names of the values low, low + 1, ..."""
 
     name: str
     low: float
@@ -193,9 +191,7 @@ class Scene:
         self.built = set(vars(self)) - before
 
     def _drop_last_run(self):
-        """Release the objects that the last build() made, so that the next run does not need memory for two runs at
-        once.
-        """
+        """Release the objects that the last build() made, so that the memory never has to hold two runs at once."""
         if self.built:
             for name in self.built:
                 vars(self).pop(name, None)

@@ -35,7 +35,7 @@ class Music:
         self.unusable = set()
 
     def tune(self, name: str | None) -> None:
-        """Choose the tune to play, or None for silence. A jingle that plays ends first."""
+        """Choose the tune to play, or None for silence. It starts when a jingle that plays has ended."""
         if name != self.wanted:
             self.wanted = name
             self.resume()

@@ -99,9 +99,7 @@ class Sounds:
         return ""
 
     def play_cues(self, cues: Iterable[Cue]) -> None:
-        """Play the cues of one step, (name, canvas x or None, volume) each. Of cues with equal names only the loudest
-        is played.
-        """
+        """Play the cues (name, canvas x or None, volume) of one step. Of equal names only the loudest is played."""
         loudest = {}
         for name, x, volume in cues:
             if name not in loudest or volume > loudest[name][1]:
@@ -110,10 +108,9 @@ class Sounds:
             self.play(name, x, volume)
 
     def play(self, name: str, x: float | None = None, volume: float = 1.0) -> bool:
-        """Start a sound, and return whether it is heard.
+        """Start a sound at canvas x (None: the centre), and return whether it is heard.
 
-        x: canvas x for the pan, None for the centre. If VOICES voices of this sound play already, the oldest is
-        replaced.
+        If VOICES voices of this sound play already, the oldest is replaced.
         """
         loudness = min(1.0, volume) * self.effects * self.master
         now = self.clock()
@@ -151,8 +148,8 @@ class Sounds:
     def _voice_for(self, name, rank):
         """Return the voice to start a sound on; None if all voices are busy with sounds of higher ranks.
 
-        That is the oldest voice of the same sound if VOICES of them play, else a free voice, else the oldest of the
-        lowest rank.
+        It is the oldest voice of this sound if VOICES of them play, else a free voice, else the oldest of the lowest
+        rank.
         """
         busy = [voice for voice in self.voices if voice.channel.get_busy()]
         same = [voice for voice in busy if voice.name == name]

@@ -86,9 +86,7 @@ class Canvas:
         align: str = "left",
         outline: bool = False,
     ) -> pygame.Rect:
-        """Draw one line of text with its top at y, and return its rect. The caller must keep other text away from this
-        rect.
-        """
+        """Draw one line of text with its top at y, and return its rect. The caller must keep it clear of other text."""
         rect = self.text_rect(text, x, y, font, scale, align)
         load_font(font).draw(self.surface, text, rect.x, rect.y, color, scale, outline)
         self.boxes.append((rect, text))

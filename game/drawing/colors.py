@@ -1,6 +1,4 @@
-"""Colours of text, panels and overlays. Overlay hues are close to the Okabe-Ito set; the settings may choose others
-(see toned).
-"""
+"""Colours of text, panels and overlays. Overlay hues are near the Okabe-Ito set; the settings may choose others."""
 
 Color = tuple[int, ...]  # red, green, blue and perhaps alpha, 0..255
 

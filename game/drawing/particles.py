@@ -95,9 +95,7 @@ class Particles:
         age += dt
 
     def draw(self, canvas: Canvas, camera: Camera, alpha: float = 1.0) -> None:
-        """Draw the particles in view: nine array writes, one for each pixel of the largest size, and no loop over
-        particles.
-        """
+        """Draw the particles in view. One array write per pixel of the largest size replaces a loop over particles."""
         x, y, _, _, age, life, size, _, _ = self.rows
         alive = np.flatnonzero(age < life)
         if len(alive) == 0:

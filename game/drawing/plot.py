@@ -32,7 +32,7 @@ class Axis:
         return (log10(value) - self.low) / (self.high - self.low)
 
     def ticks(self, most: int) -> list[float]:
-        """Return round values within the axis, about `most` at most."""
+        """Return round values within the axis, not many more than `most`."""
         decades = range(floor(self.low), ceil(self.high) + 1)
         for steps in (STEPS, (1,)):
             found = [step * 10.0**decade for decade in decades for step in steps]
@@ -78,9 +78,7 @@ class LogPlot:
         pygame.draw.rect(surface, SLATE, area, 1)
 
     def draw_level(self, frame: Frame, value: float, color: Color, name: str) -> None:
-        """Draw a dashed horizontal line at y = `value`, with its name. Draw nothing if the value lies outside the
-        axis.
-        """
+        """Draw a dashed horizontal line at y = `value`, with its name; draw nothing if it lies outside the axis."""
         if not self.y.low <= log10(value) <= self.y.high:
             return
         top = round(self.place(1.0, value)[1])

@@ -35,9 +35,7 @@ class Lens:
 
 
 class Frame(Canvas):
-    """Picture at window resolution, a Canvas. `area`: rect of the game canvas on it; `scale`: frame px per canvas
-    px.
-    """
+    """Picture at window resolution. `area`: rect of the game canvas on it; `scale`: frame px per canvas px."""
 
     def __init__(self, surface: pygame.Surface) -> None:
         super().__init__(surface)
@@ -51,9 +49,7 @@ class Frame(Canvas):
 
     @property
     def edge(self) -> int:
-        """Pixels by which the outline of a text extends beyond its box, the most on the canvas or the frame [frame
-        px].
-        """
+        """Width of a text outline around its box: the larger of those on the canvas and on the frame [frame px]."""
         return max(self.scale, self.text_scale)
 
     @property

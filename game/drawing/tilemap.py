@@ -140,9 +140,7 @@ def load_tilemap(path: Path, largest: tuple[int, int] = (LARGEST, LARGEST)) -> T
 
 
 def map_picture(tilemap: TileMap) -> Path:
-    """Return the path of the tileset's picture, beside the map or among the game's own. Raises FileError if it is
-    missing or too small.
-    """
+    """Return the path of the tileset's picture, beside the map or among the game's own. Raises FileError."""
     path = picture_of(tilemap.path, "tilesets[0].image", tilemap.image, IMAGES)
     width, height = png_size(path, LARGEST_PICTURE)
     most = max((int(layer.max()) for layer in tilemap.layers.values() if layer.size), default=-1)
@@ -153,7 +151,7 @@ def map_picture(tilemap: TileMap) -> Path:
 
 
 def unpacked(packed: bytes, packing: int, most: int) -> bytes:
-    """Unpack data, and return at most `most` + 1 bytes: the last one shows that there is more data than expected.
+    """Return unpacked data of up to `most` bytes. Longer data is cut after `most` + 1 bytes, so that its excess shows.
 
     packing: one of PACKINGS. Bytes behind the packed data count as more data. Raises zlib.error, or ValueError for data
     that is cut off.
@@ -212,9 +210,7 @@ class _Reader:
         )
 
     def flat_layers(self, data, place, prefix, offset, depth=0):
-        """Yield (place, name, layer, offset [px]) of the tile and object layers in order, those inside groups
-        included.
-        """
+        """Yield (place, name, layer, offset [px]) of all tile and object layers in order, also of those in groups."""
         for index, layer in enumerate(self.listing(data, place, "layers")):
             here = f"{prefix}layers[{index}]"
             if not isinstance(layer, dict):
@@ -240,9 +236,7 @@ class _Reader:
                 self.fail(f"{place}.{name}", f"is not supported: must be {usual} (got {value!r:.60})")
 
     def shifted(self, found, place, offset, size):
-        """Return (tiles, flips) moved by the offset [px] of their layer. Raise FileError for an offset that is not in
-        whole tiles.
-        """
+        """Return (tiles, flips) moved by the offset [px] of their layer, which must be a number of whole tiles."""
         if offset == (0.0, 0.0):
             return found
         for name, each in zip(OFFSETS, offset, strict=True):

@@ -20,5 +20,5 @@ class Typical:
 
     @property
     def value(self) -> float:
-        """Median now; the upper of the middle two for an even number of values."""
+        """Median of the stored values (of two middle ones the upper); 0 before the first value."""
         return sorted(self.last)[len(self.last) // 2] if self.last else 0.0

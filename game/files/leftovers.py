@@ -28,8 +28,9 @@ def remove_leftovers(folder: Path, inside: Iterable[str] = FOLDERS) -> None:
 
 
 def remove_parts_of(part: Path) -> None:
-    """Remove the old partial files of one file, which earlier processes left. part: path of the partial file that this
-    process writes.
+    """Remove the old partial files that earlier processes left of one file.
+
+    part: path of the partial file that this process writes.
     """
     file = _file_of(part.name)
     with contextlib.suppress(OSError, ValueError):

@@ -15,8 +15,9 @@ def levels_folder() -> Path:
 
 
 def own_levels(suffixes: Sequence[str]) -> tuple[Path, ...]:
-    """Return the paths of the player's level files with one of these suffixes, sorted (see Scene.level_suffixes); ()
-    without a levels folder.
+    """Return the paths of the player's level files with one of these suffixes (see Scene.level_suffixes), by name.
+
+    Return () if there is no levels folder.
     """
     try:
         return tuple(sorted(path for path in levels_folder().iterdir() if path.suffix in suffixes and path.is_file()))

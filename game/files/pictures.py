@@ -12,9 +12,7 @@ SIGNATURE, FIRST = b"\x89PNG\r\n\x1a\n", (13, b"IHDR")
 
 
 def png_size(path: str | Path, most: int) -> tuple[int, int]:
-    """Return (width, height) of a PNG file from its header. Raises FileError for another file, or for a side of over
-    `most` px.
-    """
+    """Return (width, height) of a PNG file from its header. Raises FileError for other files, and sides over `most`."""
     try:
         with open(path, "rb") as file:
             head = file.read(HEADER.size)

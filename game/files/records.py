@@ -48,8 +48,8 @@ class Records:
         return found[0] if found else None
 
     def place(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Return the place 1..10 that an entry would take, or None. Of equal entries the earlier one keeps the higher
-        place.
+        """Return the place 1..10 that an entry would take, or None. Of equal entries, the earlier one is placed
+        higher.
         """
         better = sum(1 for each in self.entries(key) if order(each, ranked_by) <= order(entry, ranked_by))
         return better + 1 if better < PLACES else None
@@ -90,9 +90,7 @@ def order(entry: Entry, ranked_by: str | None) -> tuple[float, float]:
 
 
 def table_of(scene_name: str, level: Path | None = None) -> str:
-    """Return the key of a scene's table. A level of the player has its own table, with a digest of the level in its
-    key.
-    """
+    """Return the key of a scene's table. A level of the player has its own table, keyed by a digest of the level."""
     return scene_name if level is None else f"{scene_name}@{level_digest(level)}"
 
 

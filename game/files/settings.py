@@ -55,7 +55,7 @@ class Settings:
         return Accessibility(self.shake, not self.reduced_flashing, self.palette)
 
     def assists(self) -> dict[str, bool]:
-        """Return the settings that a scene's rules need, by the names of game.scene.ASSISTS."""
+        """Return the settings that a scene's rules need, with the names in game.scene.ASSISTS as keys."""
         return {"invincible": self.invincible, "hit_stop": self.hit_stop}
 
 
@@ -93,9 +93,7 @@ def save_settings(settings: Settings, path: Path | None = None) -> None:
 
 
 def _upgraded(path, data):
-    """Return the content of a settings file in the form of this version. Raises FileError if it is neither of this
-    version nor of version 1.
-    """
+    """Return the content of a settings file of version 1 or 2 in the form of version 2. Raises FileError for others."""
     version = data.get("version") if isinstance(data, dict) else None
     if version not in (1, VERSION) or isinstance(version, bool):
         raise FileError(path, "version", f"{version!r:.40} cannot be read here; this program reads 1 to {VERSION}")

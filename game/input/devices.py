@@ -170,8 +170,7 @@ class DeviceSource:
         self._axis(pad, f"axis {axis}", 0 if abs(value) < DEAD_ZONE else value, actions)
 
     def _axis(self, pad, axis, value, actions):
-        """Set the action that an axis holds: actions[0] for a negative value, actions[1] for a positive one, none for
-        0.
+        """Set the held action of an axis: actions[0] if the value is negative, actions[1] if positive, none for 0.
 
         An action is tapped only when the stick moves to its side, so a held stick does not repeat.
         """

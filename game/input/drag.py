@@ -35,7 +35,7 @@ class View(Protocol):
     viewport: pygame.Rect
 
     def view(self, alpha: float = 1.0) -> tuple[float, float]:
-        """Return the world point at its left top corner as drawn, with shake."""
+        """Return the world point at the camera's left top corner as drawn, with shake."""
         ...
 
 
@@ -80,8 +80,9 @@ class Drag:
         return -1 if self.hold is None else self.hold.body.id
 
     def release(self) -> None:
-        """Release the held body, if any. In a world without forces it gets back the velocity that it had when it was
-        grabbed.
+        """Release the held body, if any.
+
+        In a world without forces, the body gets back the velocity that it had when it was grabbed.
         """
         hold, self.hold = self.hold, None
         if hold is not None and hold.before is not None and hold.is_there():

@@ -66,16 +66,17 @@ def _make_room(table, device, other, control, given_up):
 
 
 def _is_free(table, device, action, control):
-    """Return whether a control is free for an action: not fixed, not a control of the action, and not of an action that
-    cannot share it (bindings.rivals).
+    """Return whether a control is free for an action.
+
+    It must not be fixed, belong to the action already, or belong to an action that cannot share it (bindings.rivals).
     """
     taken = FIXED[device].union(*(controls for name, controls in table.items() if rivals(action, name)), table[action])
     return control not in taken
 
 
 def clash(table: Table) -> tuple[str, str, str] | None:
-    """Return (action, other, control) of the first two actions that have a common control and cannot share it
-    (bindings.rivals), or None.
+    """Return (action, other, control) of the first two actions with a common control that one game uses together; else
+    None.
     """
     for action in table:
         for other in table:
@@ -92,9 +93,7 @@ def default_table(device: str) -> dict[str, list[str]]:
 
 
 def completed(table: Table, device: str) -> dict[str, list[str]]:
-    """Return the table with the actions added that an older file may lack. Their default controls are left out where
-    they clash.
-    """
+    """Return the table with actions added that an older file lacks, without default controls that would clash."""
     full = {}
     for action in DEFAULTS[device]:
         full[action] = list(table[action]) if action in table else []

@@ -1,4 +1,4 @@
-"""The bodies of a world at one moment, as columns, and their conserved quantities: momentum, spin, energy."""
+"""The bodies of a world at one moment, as columns, with their momentum, angular momentum and energy."""
 
 import math
 from functools import cached_property
@@ -104,8 +104,9 @@ class Bodies:
         return float(self.mass @ self.speed)
 
     def spin(self, among: np.ndarray) -> float:
-        """Return the sum of the unsigned angular momenta of the bodies flagged in `among`, about their common centre of
-        mass.
+        """Return the sum of the unsigned angular momenta of some bodies about their common centre of mass.
+
+        among: (n,) bool, flags of these bodies.
         """
         mass = self.mass * among
         total = float(mass.sum())

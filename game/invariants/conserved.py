@@ -1,5 +1,4 @@
-"""Invariants U3, U4 and U5: without outside influence, bodies keep their momentum and angular momentum, and gain no
-energy.
+"""Invariants U3, U4 and U5: without outside influence, bodies keep momentum and angular momentum and gain no energy.
 
 They are checked only where the tables of the world prove that nothing acts from outside. A change by the game between
 two steps starts a new comparison.
@@ -62,9 +61,7 @@ class OfTheAlone(Invariant):
 
 
 class Momentum(OfTheAlone):
-    """Invariant U3: beyond the momentum that gravity adds, the momentum of isolated bodies changes by at most 1e-10 of
-    Σ m v in 600 steps.
-    """
+    """Invariant U3: isolated bodies keep their momentum, but for gravity, to 1e-10 of Σ m v in 600 steps."""
 
     id, word = "U3", "momentum"
     gained = "momentum drifted though nothing pushes from outside"
@@ -113,9 +110,7 @@ class Spin(OfTheAlone):
         return ""
 
     def gain(self, step: Step, alone: np.ndarray) -> tuple[np.ndarray, float, np.ndarray]:
-        """Return ([gain of angular momentum in this step beyond `slip`, 0], its allowance in LONG steps, change of each
-        body).
-        """
+        """Return ([gain of angular momentum in this step, 0], its allowance in LONG steps, change of each body)."""
         now, before = step.now, step.before
         mass, inertia = now.mass * alone, now.inertia * alone
         total = float(mass.sum())
@@ -192,8 +187,7 @@ class Account:
 
 
 class Energy(Invariant):
-    """Invariant U5: without a drive, the energy of bodies never exceeds their energy at the start by more than
-    Account.gain allows.
+    """Invariant U5: without a drive, the energy of bodies never rises above the start by more than Account.gain allows.
 
     The comparison starts after the last change by the game, as soon as no overlap is deeper than two slops: bodies that
     were placed into each other are pushed apart, some of them upwards.

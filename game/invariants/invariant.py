@@ -8,9 +8,7 @@ from game.invariants.step import Step
 
 @dataclass(frozen=True)
 class Broken:
-    """Report of an invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: measured value, which
-    may be at most `allowed`.
-    """
+    """An invariant that does not hold. `bodies`: ids of the bodies concerned; `value`: measured, `allowed` at most."""
 
     invariant: str  # U1 ... U11
     word: str
@@ -44,9 +42,7 @@ Answer = Broken | NotAsked | None  # None: checked, and it holds
 
 
 class Invariant:
-    """Base class of the invariants; `id` and `word` label one. look() is called after every step, in the order of the
-    steps.
-    """
+    """Base class of the invariants; `id` and `word` label one. look() is called once after every step."""
 
     id: str
     word: str

@@ -17,8 +17,7 @@ Bad = tuple[tuple[int, ...], float, str]  # ids of bodies, value, quantity
 
 
 def tables(world: World, sleeping: bool) -> list:
-    """Return [(name, rows, names of the columns to check)] of the tables that a world reports, except the AABBs of
-    shapes.
+    """Return [(name, rows, columns to check)] of the tables that a world reports, except the AABBs of shapes.
 
     sleeping: include the sleeping contacts.
     """

@@ -29,8 +29,8 @@ class Order(Invariant):
 def furthest_apart(one: World, other: World, ids: np.ndarray) -> float:
     """Return the greatest difference between two worlds in a number of a body (COMPARED).
 
-    A difference is divided by the greatest such number in `one`, at least 1. ids[k]: id in `other` of the k-th body of
-    `one`.
+    A difference is divided by the greatest such number in `one`, or by 1 if that is less. ids[k]: id in `other` of the
+    k-th body of `one`.
     """
     rows, twins = one.bodies, other.bodies[other.rows(ids)]
     worst = 0.0

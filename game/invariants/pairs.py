@@ -1,5 +1,4 @@
-"""Invariants U7, U8 and U10: the result of a collision query does not depend on the order of the two shapes, on their
-place, or on the function called.
+"""Invariants U7, U8 and U10: collision queries about two shapes agree in either order, at any place, among each other.
 
 A sample of the pairs is checked: a few pairs in a step, other pairs in the next step. Each step checks one of the three
 invariants, in turn.
@@ -22,10 +21,9 @@ SELDOM = 4  # turns of an invariant before it checks a concave pair again: a til
 
 
 class OfPairs(Invariant):
-    """Base class of an invariant that is checked on a sample of pairs in every third step. The other steps repeat the
-    last answer.
+    """Base class of an invariant that is checked on a sample of pairs, in every third step.
 
-    concave: check pairs with concave shapes, too.
+    In the other steps, look() returns the last answer. concave: check pairs with concave shapes, too.
     """
 
     turn: int
@@ -55,9 +53,7 @@ class OfPairs(Invariant):
 
 
 class Swap(OfPairs):
-    """Invariant U7: with its shapes swapped, a pair has the opposite normal and the same points and depths, to the
-    bit.
-    """
+    """Invariant U7: a pair with swapped shapes has the opposite normal and the same points and depths, to the bit."""
 
     id, word, turn = "U7", "swap", 0
 
@@ -113,9 +109,7 @@ def moved(pose: tuple[float, float, float], quarters: int) -> tuple[float, float
 
 
 def rounding(pair: Pair) -> float:
-    """Return the rounding error of the poses [px]: one ulp of the coordinates, plus one ulp of the angles times the
-    size.
-    """
+    """Return the rounding error of the poses [px]: an ulp of the coordinates, and of the angles times the size."""
     size = pair.size + max(map(abs, SHIFT))
     angle = max(abs(pair.pose_a[2]), abs(pair.pose_b[2])) + 2.0 * math.pi
     return math.ulp(size) + pair.size * math.ulp(angle)
@@ -161,16 +155,15 @@ def disagreement(world: World, pair: Pair) -> tuple[float, float, str] | None:
 
 
 def looks_only(world: World) -> bool:
-    """Return whether the world finds contacts without moving bodies afterwards: no response, no continuous
-    collision.
-    """
+    """Return whether no body moves after the world has found its contacts: no response, no continuous collision."""
     effects = world.effects
     return effects.narrowphase and not effects.response and not effects.continuous
 
 
 def reports_contacts(world: World, pair: Pair) -> bool:
-    """Return whether the contacts of the world are found from the shapes of this pair. Sensors report none, and masks
-    are tested by their pixels.
+    """Return whether the contacts of the world are found from the shapes of this pair.
+
+    Sensors report no contacts, and masks are tested by their pixels.
     """
     shapes = world.shapes
     at = np.searchsorted(shapes["id"], (pair.shape_id_a, pair.shape_id_b))

@@ -18,9 +18,7 @@ Pose = tuple[float, float, float]
 
 
 class Pair(NamedTuple):
-    """Two shapes that may touch. `size` [px]: their greatest coordinate plus their extents, the scale of rounding
-    errors.
-    """
+    """Two shapes that may touch. `size` [px]: their distance from the origin plus extents, for rounding errors."""
 
     body_a: int
     body_b: int
@@ -91,7 +89,7 @@ def pair_of(world: World, shape_a: int, shape_b: int) -> Pair | None:
 
 
 def extent_of(shape: Shape) -> int:
-    """Return the number of pixels of a mask or tiles of a grid, clear ones included."""
+    """Return the number of pixels of a mask or tiles of a grid, clear ones included; 1 for other shapes."""
     if isinstance(shape, PixelMask):
         return shape.size[0] * shape.size[1]
     return shape.solid.size if isinstance(shape, TileGrid) else 1

@@ -15,10 +15,9 @@ CALM_TIME = 0.5  # [s] a pile has settled once all of it has been slower than th
 
 
 class Settled(Invariant):
-    """Invariant U6: bodies that have been slow for half a second, with all that they touch, overlap by at most two
-    slops.
+    """Invariant U6: bodies that have been slow for half a second, with all that they touch, hardly overlap.
 
-    Five slops are allowed where masses differ by more than 100 : 1.
+    Two slops are allowed, five where masses differ by more than 100 : 1.
 
     With a fixed number of substeps, contacts are springs of 60 Hz, less stiff than their loads need: the overlap by
     which they yield (`sag`) is allowed in addition. After the ball has hit the twelve rows of lab/pyramid, they settle

@@ -55,8 +55,9 @@ class Step:
         )
 
     def spread(self, rows: np.ndarray, through: np.ndarray) -> np.ndarray:
-        """Return (n,) bool: the bodies flagged in `rows`, and all that they touch directly or through others. Only
-        contacts between two bodies flagged in `through` count.
+        """Return (n,) bool: the bodies flagged in `rows`, and all that they touch, directly or through others.
+
+        Only contacts between two bodies flagged in `through` count.
         """
         a, b = self.sides
         open_ones = through[a] & through[b]

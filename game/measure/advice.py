@@ -38,7 +38,10 @@ Report = Callable[[int, int], object]  # called with (runs done, runs in all)
 def measure_settings(
     survey: Survey, moments: Sequence[Moment], settings: Iterable[Setting], report: Report, seed: int
 ) -> None:
-    """Measure the errors and times of these settings at every moment, and add them to the survey."""
+    """Measure the errors and times of these settings at every moment, and add them to the survey.
+
+    moments: snapshots of a world. report(number of runs done, number of all runs) is called after each run.
+    """
     settings, chance, done = list(settings), Random(seed), 0
     survey.planned, of = survey.planned + len(settings), len(moments) * len(settings) * (RUNS + 1)
     survey.moments = len(moments)
@@ -62,7 +65,7 @@ def measure_settings(
 def advise(
     moments: Sequence[Moment], error: float, report: Report = lambda done, of: None, seed: int = 0
 ) -> tuple[Advice, Survey]:
-    """Measure the settings around the present one. Return the advice and the survey of all measurements.
+    """Measure the settings around the present one, at some moments. Return the advice and the survey of measurements.
 
     error: largest error [px] of an advised setting. Raises ValueError for no moments.
     """
@@ -125,8 +128,7 @@ def is_cheaper(survey: Survey, one: Setting, other: Setting) -> bool:
 
 
 def _together(survey, here, error):
-    """Return `here` with several changes combined: for each group of fields in PARTS, the fastest setting within the
-    error.
+    """Return `here` with several changes combined: the fastest setting of each group of fields in PARTS.
 
     A group is changed only if that is certainly faster by itself, or if `here` is not within the error.
     """

@@ -57,9 +57,7 @@ def still_there(world: World, touch: Touch) -> bool:
 
 
 def explain(world: World, touch: Touch) -> list[Part]:
-    """Return the result of each stage of the last step for the pair of `touch`. Raises ValueError if the pair has no
-    contact.
-    """
+    """Return the result of each stage of the last step for a pair. Raises ValueError if the pair does not touch."""
     rows, _ = by_parent(world.reported_rows())
     # contacts of the child shapes of both shapes
     mine = rows[(rows["parent_a"] == touch.shape_a) & (rows["parent_b"] == touch.shape_b)]

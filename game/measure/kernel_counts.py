@@ -20,9 +20,7 @@ from physics.warmup import run_warmup
 
 
 def called(effects: Effects, broadphase: str, pieces: tuple[str, ...] | None) -> frozenset:
-    """Return (kernel, argument types) of all kernel calls that a world with these effects can make. pieces: as in
-    physics.warmup.
-    """
+    """Return the (kernel, argument types) of all kernel calls that a world with these effects can make."""
     with tiers.collecting(all_calls=True) as found:
         run_warmup(effects, broadphase, pieces=pieces)
     return frozenset(found)

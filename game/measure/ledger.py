@@ -130,7 +130,7 @@ class Side:
         self.worked += sum(world.profile.counters[name] for world in self.scene.worlds for name in WORK)
 
     def moved(self) -> list[Any]:
-        """Return the ids, poses and velocities of all bodies, as bytes."""
+        """Return the ids, poses and velocities of all bodies, as bytes to compare."""
         return [
             world.bodies[name].tobytes()
             for world in self.scene.worlds
@@ -155,8 +155,8 @@ class Side:
 
 
 def root_mean_square(one: Scene, other: Scene) -> float:
-    """Return the root mean square distance [px] between each body and the body with the same world and id in the other
-    scene. Return 0 if there are no such bodies.
+    """Return the root mean square distance [px] of equal bodies (by world and id) in both scenes; 0 if there are
+    none.
     """
     squares = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):
@@ -169,8 +169,9 @@ def root_mean_square(one: Scene, other: Scene) -> float:
 
 
 def variant(scene_class: type[Scene], effects: Effects, idle: str | None = None) -> type[Scene]:
-    """Return a subclass of the scene with other declared effects. idle: effect whose settings are made neutral before
-    each step.
+    """Return a subclass of the scene with other declared effects.
+
+    idle: effect whose settings are made neutral before each step, so that it has nothing to do.
     """
     defined: dict[str, Any] = {"effects": effects}
     neutral = NEUTRAL.get(idle or "")

@@ -70,10 +70,9 @@ def _snapshot(given, made):
 
 
 def _judge(moment, judged):
-    """Return the deepest overlap and the farthest motion of a body in one step [px], over the steps `judged` (both
-    inclusive).
+    """Return (deepest overlap, farthest motion of a body in one step) [px] over the steps `judged`, (first, last).
 
-    Returns (None, None) if `judged` is None.
+    Return (None, None) if `judged` is None.
     """
     if judged is None:
         return None, None

@@ -17,9 +17,7 @@ from physics import BROADPHASES, DYNAMIC, Effects, Snapshot, World
 
 
 class Moment:
-    """Snapshot of a world, and the setting that the world had (`here`). broadphase: name of the broad phase at that
-    moment.
-    """
+    """Snapshot of a world, with its setting at that moment (`here`). broadphase: name of its broad phase."""
 
     def __init__(self, snapshot: Snapshot, broadphase: str) -> None:
         facts = snapshot.facts

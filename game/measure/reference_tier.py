@@ -36,8 +36,9 @@ class ReferenceTier:
         self._hits: dict[str, Pairs] = {}
 
     def ask(self, world: World) -> bool:
-        """Test one more tier; take a new snapshot of the world first if all tiers were tested. Return whether this was
-        the last tier of the snapshot.
+        """Test one more tier, at a new snapshot of the world if all tiers were tested.
+
+        Return whether this was the last tier of the snapshot.
         """
         if self._moment is None:
             self._moment, self._hits = Moment(world.snapshot(), world.broadphase.name), {}

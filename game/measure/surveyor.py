@@ -74,8 +74,9 @@ class Surveyor:
         _hand_on(self.process, order, partial(np.savez, order["sprites"], **arrays), self.found)
 
     def measure_runs(self, request: RunRequest) -> None:
-        """Measure the runs of a request that have no figures yet; the results go to `figures`. Replaces an earlier
-        order.
+        """Order the runs of a request that have no figures yet; the results go to `figures`.
+
+        The order replaces an unfinished earlier one.
         """
         names = [name for name in request.names if not self.knows(name)]
         if not names or not self._started():
@@ -136,7 +137,7 @@ class Surveyor:
         return True
 
     def _hand_on_beside(self, order, save):
-        """Save the files of an order and send it, in a thread: compressing the pixels of a level takes longer than a
+        """Save the files of an order and send it, in a thread: compressing a level's pixels takes longer than a
         frame.
         """
         args = self.process, order, save, self.found

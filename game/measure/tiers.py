@@ -44,9 +44,7 @@ class Poses(NamedTuple):
 
 
 def poses_around(first: PixelMask, second: PixelMask, count: int = POSES, seed: int = 0) -> Poses:
-    """Return `count` random poses of two sprites, of which about half are hits. Raises ValueError for a sprite without
-    pixels.
-    """
+    """Return random poses, of which about half are hits. Raises ValueError for a sprite without pixels."""
     exact = [fit(mask, "mask") for mask in (first, second)]
     for name, mask in (("first", first), ("second", second)):
         if not mask.area:

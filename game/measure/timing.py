@@ -69,9 +69,7 @@ def seconds_a_step(step: Callable[[], object], steps: int) -> float:
 
 
 def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, runs: int = RUNS) -> dict[Name, Cost]:
-    """Return the time per step by name. Each run times `count` steps of every entry, one entry after the other: 300
-    steps each by default.
-    """
+    """Return {name: Cost} of a step. Each run times `count` steps of every entry in turn: 300 steps each by default."""
     spent: dict[Name, list[float]] = {name: [] for name in steps}
     for _ in range(runs):
         for name, step in steps.items():
@@ -82,8 +80,9 @@ def timed_steps(steps: Mapping[Name, Callable[[], object]], count: int = 60, run
 def timed_in_turns(
     works: Mapping[str, Callable[[], object]], pieces: Mapping[str, int], runs: int = RUNS, seed: int = 0
 ) -> dict[str, Cost]:
-    """Return {name: Cost} of the functions `works`, called in random order. A call of works[name] does pieces[name]
-    pieces of work. The first call is not counted.
+    """Return {name: Cost} of functions, called in random order.
+
+    A call of works[name] does pieces[name] pieces of work. The first call is not counted.
     """
     order, spent = list(works), {name: [] for name in works}
     chance = Random(seed)

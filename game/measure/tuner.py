@@ -34,9 +34,7 @@ class Tuner:
         self.decisions: list[Decision] = []
 
     def step(self, frame: int, here: Setting) -> Decision | None:
-        """Apply the present advice, unless the scene refused it before. Return the decision, or None if nothing was
-        decided.
-        """
+        """Apply the present advice, unless the scene refused it before. Return the decision, None if there is none."""
         if not self.on:
             return None
         best = advised(self.survey, here)

@@ -59,9 +59,7 @@ class Orders:
 
 
 def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure every setting at a moment: first the errors and one timed run of each, then run by run in random
-    order.
-    """
+    """Measure every setting at a moment: its errors and one timed run, then further timed runs in random order."""
     number = order["moment"]
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
     settings = settings_around(moment.here, moment.effects)
