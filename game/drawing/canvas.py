@@ -123,9 +123,7 @@ class Canvas:
         return [box for box, _ in self.boxes] + self.reserved
 
     def reserve(self, rect: Box) -> None:
-        """Exclude a rect (a graph, a panel, a life bar) from the places where text_if_free and free_place allow
-        text.
-        """
+        """Keep the text of text_if_free and the places of free_place out of a rect (a graph, a panel, a life bar)."""
         self.reserved.append(pygame.Rect(rect))
 
     def fix(self, rect: Box) -> None:

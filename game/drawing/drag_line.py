@@ -8,8 +8,8 @@ from game.input.drag import Drag, to_world
 
 
 def draw_drag(frame: Frame, drag: Drag, pointer: tuple[float, float]) -> None:
-    """Draw a line from the grabbed point to the pointer [canvas px], with a ring and a dot at its ends. Draw nothing if
-    no body is held.
+    """Draw a line from the grabbed point to the pointer (canvas px), with a ring and a dot; nothing if no body is
+    held.
     """
     hold = drag.hold
     if hold is None:

@@ -17,8 +17,8 @@ def cut_out(
     """Return the part of the picture `source` under the solid pixels of a mask; all other pixels are transparent.
 
     The top left of the mask lies at (left, top) of the picture. At a fracture, where the picture continues beyond the
-    mask, the outermost pixels are mixed with the colour `edge` by `share` 0..1, and the next pixels inwards by half of
-    it.
+    mask, the outermost pixels are mixed with the colour `edge` by `share` 0..1, and the next pixels inwards by share /
+    2.
     """
     width, height = mask.size
     wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)

@@ -27,8 +27,8 @@ def label(
 def icons(
     canvas: Canvas, image: pygame.Surface, count: int, x: int, y: int, gap: int = 2, most: int = 8
 ) -> pygame.Rect:
-    """Draw a row of pictures, one per life, and return its rect. Above `most` pictures, the count is written
-    instead.
+    """Draw a row of pictures, one per life, and return its rect. `most` pictures are drawn at most, then also the
+    count.
     """
     width, height = image.get_size()
     shown = min(count, most)

@@ -36,9 +36,7 @@ KINDS = ("solid", "one_way", "slope", "spikes", "decor")
 
 @dataclass(frozen=True)
 class Thing:
-    """An object of the map: kind, name, rect in world pixels, own properties; `place`: its place in the file, for
-    errors.
-    """
+    """An object of the map: kind, name, rect in world pixels, own properties. `place`: where it is in the file."""
 
     kind: str
     name: str
@@ -117,7 +115,7 @@ class TileMap:
     def _refuse_turned(self, layer, turned):
         """Raise FileError for a rotated or upside-down slope.
 
-        Slopes may be mirrored left and right only: the collision shape of any other would not match its picture.
+        Slopes may be mirrored left and right only. The collision shape of any other slope would not match its picture.
         """
         for row, column in np.argwhere(turned)[:1].tolist():
             raise FileError(

@@ -48,9 +48,7 @@ class Records:
         return found[0] if found else None
 
     def place(self, key: str, ranked_by: str | None, entry: Entry) -> int | None:
-        """Return the place 1..10 that an entry would take, or None. Of equal entries, the earlier one is placed
-        higher.
-        """
+        """Return the place 1..10 that an entry would take, or None. Of equal entries, the earlier one comes first."""
         better = sum(1 for each in self.entries(key) if order(each, ranked_by) <= order(entry, ranked_by))
         return better + 1 if better < PLACES else None
 

@@ -6,7 +6,7 @@ import pygame
 
 
 def controller_module() -> ModuleType | None:
-    """Return pygame._sdl2.controller (uniform button names), or None if SDL has none, as in pygame 2.6.1."""
+    """Return pygame._sdl2.controller, with uniform button names, or None if pygame lacks it, as pygame 2.6.1 does."""
     try:
         from pygame._sdl2 import controller
     except ImportError:

@@ -48,7 +48,7 @@ class OfPairs(Invariant):
         return self.answer
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check the invariant for one pair. Return the break, or None if the invariant holds."""
+        """Check the invariant for one pair. Return Broken, or None if the invariant holds."""
         raise TypeError(f"{type(self).__name__} must define ask")
 
 
@@ -58,7 +58,7 @@ class Swap(OfPairs):
     id, word, turn = "U7", "swap", 0
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check the invariant for one pair. Return the break, or None if the invariant holds."""
+        """Check the invariant for one pair. Return Broken, or None if the invariant holds."""
         if pair.same:
             return None
         margin = step.world.tolerances.speculative
@@ -87,7 +87,7 @@ class Turn(OfPairs):
     id, word, turn = "U8", "turn", 1
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check the invariant for one pair. Return the break, or None if the invariant holds."""
+        """Check the invariant for one pair. Return Broken, or None if the invariant holds."""
         quarters = 1 + step.number // TURNS % 3 if pair.hulls else 0
         here = distance(pair.shape_a, pair.pose_a, pair.shape_b, pair.pose_b)
         there = distance(pair.shape_a, moved(pair.pose_a, quarters), pair.shape_b, moved(pair.pose_b, quarters))
@@ -125,7 +125,7 @@ class Agree(OfPairs):
     id, word, turn = "U10", "agree", 2
 
     def ask(self, step: Step, pair: Pair) -> Answer:
-        """Check the invariant for one pair. Return the break, or None if the invariant holds."""
+        """Check the invariant for one pair. Return Broken, or None if the invariant holds."""
         found = disagreement(step.world, pair)
         return None if found is None else self.broken(step, pair.bodies, *found)
 

@@ -150,14 +150,12 @@ class Side:
         return self.scene.state()
 
     def parted(self) -> list[Any]:
-        """Return the digests of the worlds, the scene's state and its random state."""
+        """Return the digests of the worlds, the scene's state, and the state of its random numbers."""
         return [*(world.digest() for world in self.scene.worlds), self.scene.state(), self.scene.random.getstate()]
 
 
 def root_mean_square(one: Scene, other: Scene) -> float:
-    """Return the root mean square distance [px] of equal bodies (by world and id) in both scenes; 0 if there are
-    none.
-    """
+    """Return the root mean square distance [px] of equal bodies (by world and id) in both scenes; 0 without any."""
     squares = []
     for ours, theirs in zip(one.worlds, other.worlds, strict=False):
         a, b = ours.bodies, theirs.bodies

@@ -17,7 +17,7 @@ class PowerLaw(NamedTuple):
 
 
 def fit_power_law(points: list[tuple[float, float]]) -> PowerLaw:
-    """Fit a power law to (size, cost) points.
+    """Return the power law through (size, cost) points.
 
     Raises ValueError for fewer than three sizes (two leave no error), or for a value <= 0.
     """

@@ -96,11 +96,10 @@ def _core(name, shape, pose_name, pose):
 
 
 def gjk_steps(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> list[dict]:
-    """Return the iterations of GJK for two convex shapes without their radii, then those of EPA if they overlap (see
-    steps_of).
+    """Return the iterations of GJK for two convex shapes without their radii, then of EPA if they overlap.
 
-    Points are relative to the origin of A. Raises TypeError for shapes that are not convex, ValueError for invalid
-    poses.
+    Each is a dict, see steps_of. Points are relative to the origin of A. Raises TypeError for shapes that are not
+    convex, ValueError for invalid poses.
     """
     pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
     pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)

@@ -78,8 +78,9 @@ def measure_tiers(
     tiers: Sequence[str] = TIERS,
     seed: int = 0,
 ) -> None:
-    """Measure the tiers over random relative poses. report(figures) is called for each tier. Raises ValueError for a
-    sprite without pixels.
+    """Measure the tiers over random relative poses, and call report(figures) for each tier.
+
+    Raises ValueError for a sprite without pixels.
     """
     measure_at(first, second, poses_around(first, second, seed=seed), report, tiers, seed)
 

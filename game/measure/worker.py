@@ -59,7 +59,10 @@ class Orders:
 
 
 def measure(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure every setting at a moment: its errors and one timed run, then further timed runs in random order."""
+    """Measure every setting at a moment, which is a snapshot of a world.
+
+    First, the errors and one timed run of each setting are reported, then further timed runs in random order.
+    """
     number = order["moment"]
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
     settings = settings_around(moment.here, moment.effects)
@@ -122,7 +125,7 @@ def measure_stored_runs(order: dict[str, Any], report: Callable[[str], object], 
 
 
 def measure_costs(order: dict[str, Any], report: Callable[[str], object], goes_on: Callable[[], bool]) -> None:
-    """Measure the cost of each effect at a moment, and count the kernels that are compiled for it."""
+    """Measure the cost of each effect at a moment, and count the kernels that are compiled for this effect."""
     moment = Moment(Snapshot.load(order["snapshot"]), order["broadphase"])
 
     def send(**found):
