@@ -170,7 +170,7 @@ def wrap(text: str, width: int, font: str = TEXT, scale: int = 1) -> list[str]:
 
 
 def shorten(text: str, width: int, font: str = TEXT, scale: int = 1) -> str:
-    """Return the text, or its longest beginning that fits in `width` pixels with two dots behind."""
+    """Return the text if it fits in `width` pixels, else its longest beginning that fits, followed by two dots."""
     measure = load_font(font).measure
     if measure(text, scale)[0] <= width:
         return text

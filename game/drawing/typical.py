@@ -15,7 +15,7 @@ class Typical:
         self.last: deque[float] = deque(maxlen=kept)
 
     def note(self, value: float) -> None:
-        """Add a value."""
+        """Add the value of this step."""
         self.last.append(float(value))
 
     @property

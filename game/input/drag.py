@@ -89,7 +89,8 @@ class Drag:
             hold.body.velocity = hold.before
 
     def step(self, inputs: InputState, views: Sequence[tuple[World, View]]) -> None:
-        """Grab, pull or release a body, as the pointer's button is. Call it once per step, before the worlds step.
+        """Grab, pull or release a body, depending on the pointer's button. Call it once per step, before the worlds
+        step.
 
         views: (world, camera) of each picture on the canvas.
         """

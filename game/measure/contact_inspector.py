@@ -72,7 +72,7 @@ def explain(world: World, touch: Touch) -> list[Part]:
 
 
 def cost_of(world: World, touch: Touch) -> Cost:
-    """Return the time [s] of the narrow phase for the two bodies of `touch` at their present poses."""
+    """Return the narrow-phase time [s] of one pair: the two bodies of `touch` at their present poses."""
     bodies = world.body(touch.body_a), world.body(touch.body_b)
     poses = [np.tile((*body.position, body.angle), (LEAST_PAIRS, 1)) for body in bodies]
     batch = PairBatch(bodies[0].shapes, poses[0], bodies[1].shapes, poses[1])

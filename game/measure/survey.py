@@ -160,5 +160,5 @@ def shown(error: Error) -> str:
 
 
 def is_sound(error: Error) -> bool:
-    """Return whether the runs behind an error had no failures."""
+    """Return whether no failures occurred in the runs that gave this error."""
     return not any(error.failures.values())
