@@ -1,1 +1,1 @@
-"""Shapes as values, and the flat geometry of them that kernels read."""
+"""Shapes as immutable values, and their geometry in flat arrays, which kernels read."""

@@ -1,4 +1,4 @@
-"""Simpler shapes in place of a mask, tier by tier, and their accuracy: fit, hull, decompose, measure."""
+"""Simpler shapes that replace a pixel mask, from a circle to its exact pixels, and how accurate each of them is."""
 
 import math
 from collections.abc import Sequence
@@ -27,9 +27,9 @@ from physics.tables.shape import BOUNDS, MASK, SHAPE
 def hull(points: Points) -> Polygon:
     """Return the convex hull of points (n, 2) [px], with 16 corners at most.
 
-    Of a larger hull, the edges whose removal adds least area are removed and their neighbours extended. The polygon
-    contains all points, up to rounding. Raises ValueError for fewer than three points and for points on a line,
-    TypeError.
+    If the hull has more corners, edges are removed and their neighbours extended until they meet, where this adds the
+    least area. The polygon contains all points, up to rounding errors. Raises ValueError for fewer than three points
+    and for points on one line; TypeError if points is no array of numbers.
     """
     points = checks.columns("points", points)
     corners = distinct(convex_hull(points)) if len(points) > 2 else points[:0]
@@ -44,11 +44,11 @@ def hull(points: Points) -> Polygon:
 def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0.0) -> tuple[Polygon, ...]:
     """Return the convex decomposition of a simple polygon, points (n, 2) [px] in either winding.
 
-    The parts have 3 to 16 corners. holes: polygons inside that are cut out; they may touch at corners. tolerance [px]:
-    bumps and notches up to that depth are ignored, which saves parts; 0: exactly the polygon, cut between its corners.
-    Without holes and with at most 40 corners the number of parts is minimal for cuts between corners, as long as each
-    part needs at most 16 corners. Raises ValueError for edges that cross or touch (it names both), for zero area, for a
-    hole that is not inside; TypeError.
+    The parts have 3 to 16 corners. holes: polygons inside the outer one that are cut out; they may touch at corners.
+    tolerance [px]: bumps and notches up to that depth are ignored, which saves parts; 0: the parts are exactly the
+    polygon, cut along lines between its corners. For a polygon of at most 40 corners without holes, no such cuts give
+    fewer parts, unless a part would need more than 16 corners. Raises ValueError for edges that cross or touch (the
+    message names both), for zero area, and for a hole that is not inside; TypeError if points or holes are no numbers.
     """
     outer = checks.columns("points", points)
     if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
@@ -60,7 +60,7 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
 
 
 def distinct(corners: np.ndarray) -> np.ndarray:
-    """Return convex corners (n, 2) without those that Polygon rejects: equal and collinear corners."""
+    """Return the corners (n, 2) of a convex polygon without equal and collinear ones, which Polygon rejects."""
     size = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
     k = 0
     while len(corners) > 2 and k < len(corners):
@@ -76,19 +76,20 @@ def distinct(corners: np.ndarray) -> np.ndarray:
 
 
 # ---- approximate -----------------------------------------------------------------------------------------------------
-# Simpler shapes for a sprite's mask, tier by tier: a cheaper tier is less accurate.
+# Simpler shapes for a sprite's mask, in tiers (levels of accuracy): a cheaper tier is less accurate.
 
 TIERS = ("circle", "aabb", "obb", "capsule", "hull", "parts", "outline", "pixels", "mask")
 
 
 def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
-    """Return the shapes that replace a mask in a tier; () for a mask without pixels.
+    """Return the shapes that replace a mask at one tier (level of accuracy); () for a mask without pixels.
 
-    circle: the smallest circle around all pixels; aabb: the bounds at each pose; obb: the smallest oriented box;
-    capsule: the smallest capsule around all pixels; hull: the convex hull, with 16 corners at most; parts: convex
-    polygons that ignore bumps and notches of up to tolerance [px], in addition to the smoothing of the outline;
-    outline: mask.outline, in convex parts, rounded where the sprite is round; pixels: the mask as drawn, snap=True;
-    mask: exactly, snap=False. The shapes have the mask's own values. Raises TypeError, ValueError.
+    tier "circle": the smallest circle around all pixels; "aabb": the AABB of the pixels at each pose; "obb": the
+    smallest oriented box; "capsule": the smallest capsule around all pixels; "hull": the convex hull, with 16 corners
+    at most; "parts": convex polygons that ignore bumps and notches of up to tolerance [px], in addition to the
+    smoothing of the outline; "outline": mask.outline, in convex parts, rounded where the sprite is round; "pixels": the
+    mask as it is drawn (snap=True); "mask": the pixels at the exact pose (snap=False). The shapes keep the mask's
+    material, filter and sensor. Raises TypeError for no PixelMask, ValueError for an unknown tier or a tolerance <= 0.
     """
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
@@ -128,7 +129,7 @@ def _fit(mask, tier, tolerance):
 
 
 def _snapped(mask, snap):
-    """Return the mask with this `snap`: the mask itself where it has it already."""
+    """Return a mask with its `snap` set to this value: the mask itself if it has that value already."""
     if mask.snap == snap:
         return mask
     if snap not in mask.fitted:
@@ -141,7 +142,7 @@ def _snapped(mask, snap):
 
 
 class Fit(NamedTuple):
-    """Accuracy and cost of shapes in place of a mask; the fields are described in measure."""
+    """Accuracy and cost of shapes that replace a mask, as `measure` returns and describes them."""
 
     over: float
     missed: float
@@ -155,20 +156,20 @@ class Fit(NamedTuple):
 
 
 def measure(mask: PixelMask, shapes: Shape | Sequence[Shape]) -> Fit:
-    """Return how well shapes represent a mask, in its body space; overlapping shapes count as their union.
+    """Return how well shapes in the mask's body space represent a mask; overlapping shapes count as their union.
 
     over: area of the shapes outside the mask's pixels [px²]; missed: area of the pixels outside the shapes [px²]; iou:
     intersection over union of the areas; hausdorff: Hausdorff distance of the two boundaries [px], at most 1e-6 too
-    small; area_error: difference of the areas over the pixels' area; center_error: distance of the centres of area
-    [px]; inertia_error: difference of the moments of inertia, each about its own centre, over the pixels' moment;
-    corners: 1 of a Circle, 2 of a Capsule, all of a Polygon, 4 of Bounds, those of the pixels' edges of a PixelMask;
-    bytes: size of the shapes in a world: their rows of `shapes`, and their corners and pixels (at one angle) in its
-    library.
+    small; area_error: difference of the areas, divided by the pixels' area; center_error: distance of the centres of
+    area [px]; inertia_error: difference of the moments of inertia, each about its own centre, divided by that of the
+    pixels; corners: number of corners, summed over the shapes: 1 per Circle, 2 per Capsule, 4 per Bounds, and for a
+    PixelMask those of its pixels' edges; bytes: memory of the shapes in a world: their table rows, corners and pixels
+    (at one angle).
 
-    Areas, centres and moments are exact up to rounding. A PixelMask counts as the union of its pixel squares, Bounds as
-    its box at the angle 0. Errors are never negative. Without shapes or without pixels iou is 0, and hausdorff,
-    center_error and the errors relative to nothing are inf. Without either iou is 1 and all errors are 0. Raises
-    TypeError for a mask that is no PixelMask and for shapes without an area.
+    Areas, centres and moments are exact up to rounding. A PixelMask counts as the union of its pixel squares, a Bounds
+    as its box at the angle 0. Errors are never negative. If only the shapes or only the pixels are missing, iou is 0,
+    and hausdorff, center_error and errors divided by 0 are inf. If both are missing, iou is 1 and all errors are 0.
+    Raises TypeError for a mask that is no PixelMask and for shapes without an area.
     """
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")

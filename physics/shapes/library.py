@@ -1,4 +1,4 @@
-"""The geometry of all shapes of a world in flat arrays that kernels read, and the table rows of shapes."""
+"""Library: the geometry of all shapes of a world in flat arrays, which kernels read; and the SHAPE rows of shapes."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -45,14 +45,14 @@ from physics.tables.table import Table
 # Corners, tiles and pixels of all shapes of a world, in flat arrays that kernels read.
 #
 # A shape used by a thousand bodies is stored once. Masks are rasterised per angle on demand. Unused geometry stays
-# until it may be half of the whole; then the used part is copied to a new library.
+# until it may be half of the whole; then the geometry in use is copied to a new library.
 
-SLACK = 1 << 16  # [bytes] of geometry, and …
-FEW = 64  # … shapes: below these limits unused geometry is kept
+SLACK = 1 << 16  # [bytes] of added geometry, and …
+FEW = 64  # … number of removed shapes, up to which unused geometry is always kept
 
 
 class Geometries(NamedTuple):
-    """Shapes of a library by kind and row, as lists. Shapes are immutable."""
+    """All shapes of a library, one list per kind, in the order of their geometry rows. Shapes are immutable."""
 
     outlines: list  # convex shapes
     chains: list
@@ -61,7 +61,10 @@ class Geometries(NamedTuple):
 
 
 class Library:
-    """Flat geometry arrays with their shapes. The same grid or mask, and equal other shapes, are added once."""
+    """Flat arrays with the geometry of shapes, each stored once.
+
+    Convex shapes and chains are recognised by equal values, tile grids and masks by identity of the object.
+    """
 
     def __init__(self) -> None:
         self.polygons, self.corners = Table(SPAN), Table(CORNER)
@@ -69,16 +72,16 @@ class Library:
         self.grids, self.cells = Table(GRID), Table(CELL)
         self.rasters, self.words = Table(RASTER), Table(np.uint64, 64)
         self.raster_of = np.full((4, MASK_ANGLE_BUCKETS), -1, np.int64)
-        self.shapes: dict[Shape, int] = {}  # the row of each shape, without values of its own
+        self.shapes: dict[Shape, int] = {}  # the geometry row of each shape, stored without material, filter and sensor
         self.masks, self.tile_grids = [], []
         self.outlines, self.chain_shapes = [], []  # convex shapes by row, without circles; chains by row
-        self.gone = 0  # number of shape rows removed since its creation
-        self.least = 0  # [bytes] at its creation
+        self.gone = 0  # number of SHAPE rows removed from the world since this library was created
+        self.least = 0  # [bytes] size when it was created
         self.tables = self._tables()
 
     @property
     def grown(self) -> tuple[Table, ...]:
-        """The tables that grow when a shape is added."""
+        """The tables to which adding a shape may append rows."""
         return (
             self.polygons,
             self.corners,
@@ -93,18 +96,18 @@ class Library:
 
     @property
     def size(self) -> int:
-        """Used size [bytes]."""
+        """Size [bytes] of all rows in use."""
         return sum(table.count * table.data.itemsize for table in self.grown)
 
     def may_be_half_unused(self, shapes: int) -> bool:
-        """Return whether half of the geometry may be unused.
+        """Return whether half of the geometry may be unused, so that a copy without it is worth its time.
 
-        This is so if more rows were removed than are left, or if the size has more than doubled.
+        True if more SHAPE rows were removed than `shapes`, the number left, or if the size has more than doubled.
         """
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
     def without_unused(self, shapes: np.ndarray) -> "Library":
-        """Return a library of the geometry that these SHAPE rows use, and write its rows to them."""
+        """Return a library of only the geometry that these SHAPE rows use; renumber their `geometry` and `raster`."""
         fresh = Library()
         kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
         rasters = np.zeros(self.rasters.count + 1, np.int64)
@@ -127,7 +130,7 @@ class Library:
                         if fresh.raster_of[new, bucket] < 0:
                             fresh.add_raster(new, bucket)
                         rasters[self.raster_of[old, bucket]] = fresh.raster_of[new, bucket]
-        # Rasters drawn for a query are removed with it (visited); the next query draws its own.
+        # A raster drawn for a query is removed after it (see visited), so its row may lie beyond the table: row 0.
         shapes["raster"] = rasters[np.minimum(shapes["raster"], self.rasters.count)]
         fresh.least = fresh.size
         return fresh
@@ -136,13 +139,16 @@ class Library:
         return Geometry._make((*(table.data for table in self.grown), self.raster_of))
 
     def add(self, shape: Shape) -> tuple[int, int, int]:
-        """Return (kind, geometry row, kind inside a Bounds) of a shape, and add its geometry where it is new."""
+        """Add the geometry of a shape unless it is present; return (kind, geometry row, kind of the shape in a Bounds).
+
+        The geometry row is -1 for a circle, which needs none; the last is -1 for a shape other than a Bounds.
+        """
         inner = shape._inner.bare
         row = -1 if isinstance(inner, Circle) else self._row_of(inner)
         return shape._kind, row, inner._kind if shape._inner is not shape else -1
 
     def _row_of(self, shape):
-        """Return the geometry row of a shape, added where it is new."""
+        """Return the geometry row of a shape; add its geometry if the shape is new."""
         if shape not in self.shapes:
             add = {TILES: self._add_grid, MASK: self._add_mask, CHAIN: self._add_chain}.get(shape._kind)
             self.shapes[shape] = add(shape) if add else self._add_hulls([shape])[0]
@@ -160,7 +166,10 @@ class Library:
         return rows
 
     def _add_known_hulls(self, library, rows):
-        """Add the hulls in some rows of another library at once; `add` finds those that it found there."""
+        """Add the convex shapes in these rows of another library at once and return their new rows.
+
+        `add` recognises the shapes that it recognised in the other library.
+        """
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
         for shape, row in library.shapes.items():
@@ -232,7 +241,10 @@ class Library:
         return row
 
     def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
-        """Return (n, 3), the result of `add` for each shape, without a search for equal convex shapes."""
+        """Add shapes, such as the parts of a mask's outline, and return the results of `add` as an array (n, 3).
+
+        Faster than `add`: a convex shape is stored even if an equal one is present.
+        """
         kinds = [shape._kind for shape in shapes]
         if CHAIN in kinds:
             return np.array([self.add(shape) for shape in shapes], np.int64)
@@ -246,7 +258,7 @@ class Library:
 
     @classmethod
     def of(cls, shapes: Geometries) -> "Library":
-        """Return a library with these shapes in these rows."""
+        """Return a library in which each shape has the same geometry row as its index in its list."""
         library = cls()
         library.add_parts(shapes.outlines)
         for row, shape in reversed([*enumerate(shapes.outlines)]):
@@ -256,11 +268,12 @@ class Library:
         return library
 
     def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
-        """Return the row of a mask that replaces another in one of the SHAPE rows.
+        """Store a mask that replaces another mask in one of the SHAPE rows, and return its geometry row.
 
-        changed: the tiles in which the masks differ, None: any. If no other row uses a large mask, only these tiles are
-        written and its hull is kept; at other angles its box may then be larger than the remaining pixels. O(words that
-        change), otherwise as add.
+        changed: numbers of the tiles in which the two masks differ; None: unknown. If the mask is large and snapped,
+        and no other SHAPE row uses the old one, only these tiles are written, in place: O(changed words). The old hull
+        is kept then, so the AABB at other angles may be larger than the pixels. Otherwise the mask is added as by
+        `add`.
         """
         row = self.shapes[old]
         users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
@@ -284,9 +297,10 @@ class Library:
         return row
 
     def _add_exact(self, shape):
-        """Add the data for the exact test of a mask that is not snapped and for its tight box, read at the angle 0.
+        """Add the hull of a mask, for its tight AABB, and with snap=False its halo words, for tests at the exact pose.
 
-        Returns (first word of the halo, its stride, first corner of the hull, number of corners).
+        Returns (first word of the halo or -1, words per row, first corner of the hull, number of corners), which the
+        raster at the angle 0 holds.
         """
         hull = _hull_of(shape)
         around = np.zeros((0, 0), np.uint64) if shape.snap else halo(shape.solid)
@@ -297,7 +311,7 @@ class Library:
         return first
 
     def add_raster(self, mask: int, bucket: int) -> None:
-        """Add the raster of a mask at an angle bucket, rotated from its source."""
+        """Draw a mask (by geometry row) at an angle bucket, one of the 128 angles of masks, and add this raster."""
         shape = self.masks[mask]
         words, (width, height), origin, box = _drawn(shape, bucket)
         self.raster_of[mask, bucket] = self.rasters.count
@@ -318,11 +332,11 @@ class Library:
         self.tables = self._tables()
 
     def shapes_by_row(self) -> Geometries:
-        """Return its shapes. Added in this order to another library, they get the same rows there."""
+        """Return the shapes of the library for a snapshot: `of` gives each of them the same geometry row again."""
         return Geometries([*self.outlines], [*self.chain_shapes], [*self.tile_grids], [*self.masks])
 
     def shape_of(self, row: np.void) -> Shape:
-        """Return the shape of a SHAPE row."""
+        """Return the shape that a SHAPE row describes, without material, filter and sensor."""
         kind, geometry = int(row["kind"]), int(row["geometry"])
         inner = int(row["wrapped"]) if kind == BOUNDS else kind
         if geometry < 0:
@@ -334,7 +348,7 @@ class Library:
 
     @contextmanager
     def visited(self) -> Iterator[None]:
-        """Remove all geometry added inside the with block at its end: for shapes of a query."""
+        """At the end of the with block, remove all geometry added inside it: for shapes that only a query uses."""
         kept = [(table, table.count) for table in self.grown]
         lists = [(each, len(each)) for each in (self.masks, self.tile_grids, self.outlines, self.chain_shapes)]
         known = len(self.shapes)
@@ -351,7 +365,7 @@ class Library:
             self.tables = self._tables()
 
     def raster(self, mask: int, angle: float) -> np.void:
-        """Return the raster of a mask at an angle, added where it is missing."""
+        """Return the RASTER row of a mask (by geometry row) at an angle [rad]; draw it if it is missing."""
         bucket = bucket_of(angle, MASK_ANGLE_BUCKETS)
         if self.raster_of[mask, bucket] < 0:
             self.add_raster(mask, bucket)
@@ -359,7 +373,7 @@ class Library:
 
 
 def _drawn(shape, bucket):
-    """Return (words, size, origin, box of the solid pixels or None) of a mask at an angle bucket; at 0 unrotated."""
+    """Return (packed words, size, origin, box of the solid pixels or None) of a mask rotated to an angle bucket."""
     if bucket == 0:
         return shape.words, shape.size, shape.origin, shape.solid_box
     turned = shape.turned_to(bucket)
@@ -369,7 +383,7 @@ def _drawn(shape, bucket):
 
 
 def _hull_of(shape):
-    """Return the corners of a mask's hull; of a large one those of its box, which need no pass over its pixels."""
+    """Return the corners (n, 2) [px] of a mask's convex hull; for a large snapped mask, to save time, of its box."""
     if shape.area and is_tiled(shape) and shape.snap:
         left, top, right, bottom = shape.bounds
         return np.array([(left, top), (right, top), (right, bottom), (left, bottom)])
@@ -377,23 +391,26 @@ def _hull_of(shape):
 
 
 # ---- rasters ---------------------------------------------------------------------------------------------------------
-# Rasters of masks: one per angle bucket, added before a kernel needs it.
+# Rasters of masks: the pixels at one of 128 angles (angle buckets), added before a kernel needs them.
 #
 # The columns raster, left and top of a SHAPE row with the role PIXELS are valid for one test. Every reader, such as the
-# narrow phase, first writes them with `draw_masks`. A mask that is not snapped is tested by its unrotated pixels,
+# narrow phase, first writes them with `draw_masks`. A mask with snap=False is tested by its unrotated pixels,
 # transformed with its body; its rasters at other angles are for pictures only.
 
 
 def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Draw the snapped PIXELS among these SHAPE rows at the present poses of their bodies.
+    """Rasterise masks at the present poses of their bodies: of these SHAPE rows, those of role PIXELS with snap=True.
 
-    Writes their columns raster, left and top. A body beyond POSITION_LIMIT is skipped.
+    Writes the columns raster, left and top of these rows. A mask whose body is beyond POSITION_LIMIT is skipped.
     """
     _draw(library, rows[(shapes["role"][rows] == PIXELS) & shapes["snap"][rows]], bodies, shapes)
 
 
 def draw_pictures(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Draw the PIXELS and the masks that are not snapped among these SHAPE rows, for pictures; else as draw_masks."""
+    """Rasterise masks for a picture: of these SHAPE rows, all masks of role PIXELS or with snap=False.
+
+    Writes the columns raster, left and top of these rows at the present poses of their bodies.
+    """
     pictured = (shapes["role"][rows] == PIXELS) | ~shapes["snap"][rows]
     _draw(library, rows[(shapes["kind"][rows] == MASK) & pictured], bodies, shapes)
 
@@ -419,14 +436,14 @@ def _draw(library, rows, bodies, shapes):
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
-    """Return (radius, centre of a circle in body space) [px] of a shape, or of that inside a Bounds."""
+    """Return (rounding radius, x, y of a circle's centre in body space) [px] of a shape, or of that in a Bounds."""
     inner = shape._inner
     x, y = inner.points[0] if inner._kind == CIRCLE else (0.0, 0.0)
     return inner.radius if inner._is_convex else 0.0, x, y
 
 
 def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
-    """Return the mass of a body's shapes, including sensors. mass: replaces that of the densities unless 0."""
+    """Return the mass of a body with these shapes, sensors included. mass: the total; 0: computed from densities."""
     found = mass_of(tuple(shapes), density)
     if mass == 0.0:
         return found
@@ -434,7 +451,10 @@ def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
 
 
 def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
-    """Write mass, inertia and size of BODY rows of one kind of body. in_parts: response uses the parts of masks."""
+    """Write mass, inertia and size of BODY rows whose bodies have the same shapes.
+
+    in_parts: whether masks collide by the convex parts of their outlines; then `inradius` is that of the thinnest part.
+    """
     in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # only moving bodies need the thinnest part
     rows["mass"], rows["inertia"] = mass.mass, mass.inertia
     rows["local_center_x"], rows["local_center_y"] = mass.center
@@ -451,7 +471,7 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
 def place(
     library: Library, shape: Shape, bodies: np.ndarray, shapes: np.ndarray, row: int, pose: Sequence[float]
 ) -> None:
-    """Fill a BODY and a SHAPE row for a shape at a pose outside a world, as queries need them."""
+    """Fill the BODY row and the SHAPE row at index `row` for the shape of a query, which has no body in the world."""
     b = bodies[row : row + 1]
     describe(library, shape, shapes[row : row + 1], row, row, pose[2:3])
     b["id"], b["x"], b["y"], b["angle"] = row, *pose
@@ -461,7 +481,10 @@ def place(
 def describe(
     library: Library, shape: Shape, rows: np.ndarray, ids: ArrayLike, body_rows: ArrayLike, angles: Sequence[float]
 ) -> None:
-    """Fill SHAPE rows, a view, for one shape at several poses outside a world; angles [rad]: those of its bodies."""
+    """Fill SHAPE rows, a view, with one shape of a query at several poses; angles [rad]: those of the poses.
+
+    ids, body_rows: one number for all rows or one each. A snapped mask is rasterised at each of the angles.
+    """
     kind, geometry, wrapped = library.add(shape)
     rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows
     rows["kind"], rows["geometry"], rows["wrapped"] = kind, geometry, wrapped
@@ -473,11 +496,14 @@ def describe(
 
 
 # ---- part rows -------------------------------------------------------------------------------------------------------
-# SHAPE rows of a large mask's parts: the rows in some of its tiles, and the rows equal to new parts.
+# SHAPE rows of a large mask's parts: those in given tiles of it, and those equal to given polygons.
 
 
 def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndarray:
-    """Return the rows (n,) int64 of the parts of a shape, by id, in the wanted tiles: (tiles,) bool. O(shapes)."""
+    """Return the indices (n,) int64 of the SHAPE rows of a mask's parts that lie in the wanted tiles. O(shapes).
+
+    owner: id of the mask's SHAPE row; wanted (tiles,) bool: by number of the tile.
+    """
     found = np.empty(len(shapes), np.int64)
     return found[: list_parts(shapes, owner, wanted, found)]
 
@@ -485,10 +511,10 @@ def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndar
 def find_equal(
     geometry: Geometry, shapes: np.ndarray, rows: np.ndarray, corners: np.ndarray, counts: np.ndarray
 ) -> np.ndarray:
-    """Return the index (k,) int64 among rows (n,) of the row equal to each polygon, -1 without one.
+    """Return for each of k polygons the index in rows (n,) of the SHAPE row with an equal polygon; -1: none.
 
-    Equal polygons have the same corners in the same order. corners (m, 2) [px], one polygon after another; counts (k,):
-    corners of each. O(k n).
+    Equal polygons have the same corners in the same order. corners (m, 2) [px]: of all polygons, one after another;
+    counts (k,): number of corners of each. O(k n).
     """
     found = np.empty(len(counts), np.int64)
     find_polygons(geometry, shapes, rows, corners, counts, found)
@@ -497,7 +523,10 @@ def find_equal(
 
 @kernel
 def list_parts(shapes, owner, wanted, rows_out):
-    """Write the rows of the parts of rows_in_tiles. Returns their number. O(shapes)."""
+    """Write the indices of the SHAPE rows of a mask's parts that lie in the wanted tiles. O(shapes).
+
+    Returns their number. owner: id of the mask's SHAPE row; wanted (tiles,) bool; rows_out (shapes,) int64.
+    """
     count = 0
     for k in range(len(shapes)):
         s = shapes[k]
@@ -509,7 +538,10 @@ def list_parts(shapes, owner, wanted, rows_out):
 
 @kernel
 def find_polygons(geometry, shapes, rows, corners, counts, found_out):
-    """Write the index of each polygon among the rows, see find_equal. O(k n)."""
+    """Write for each polygon the index in rows of the SHAPE row with an equal polygon, -1 if none. O(k n).
+
+    Arguments as in find_equal; found_out (k,) int64.
+    """
     first = 0
     for k in range(len(counts)):
         found_out[k] = -1

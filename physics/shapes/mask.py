@@ -29,18 +29,19 @@ TURNED_KEPT = 1 << 20  # [px] of rotated copies that a mask caches: 5 MB, all an
 
 
 class PixelMask(Shape):
-    """The solid pixels of a sprite: pixel (i, j) is the square [i, i+1) x [j, j+1), minus the origin.
+    """The solid pixels of a sprite as a shape: pixel (i, j) is the square [i, i+1) x [j, j+1), minus the origin.
 
-    snap=True: tested as it is drawn, on the pixel grid and at angles in buckets, by AND of packed 64-bit words.
-    snap=False: the union of its squares at the exact pose. Two snapped masks are tested as drawn, any other two
-    exactly. Response, sweeps and characters use its outline, smoothed by up to `smooth` [px].
+    snap=True: the mask is tested as it is drawn, at a whole pixel and at the nearest of 128 angles, by AND of packed
+    64-bit words. snap=False: the mask is the union of its squares at the exact pose. Two masks are tested as drawn if
+    both are snapped, else exactly. Response, sweeps and characters use the outline of the mask, smoothed by up to
+    `smooth` [px].
 
-    one_way=True: open from below. Response uses only the upper side of the outline, and only for bodies that were above
-    it. Bodies that come from below or from a side, or overlap it, pass. As with one-way tiles, there is no response
-    without the effect `one_way`. Tests by pixels are unaffected. For static and kinematic bodies.
+    one_way=True: the mask is open from below. It pushes only with the upper side of its outline, and only bodies that
+    were above that side; bodies that come from below or from a side, or overlap it, pass. As with one-way tiles, there
+    is no response without the effect `one_way`. Tests by pixels are unaffected. For static and kinematic bodies.
 
-    Raises ValueError and TypeError for solid that is no grid of bools, for a smooth that is not a number >= 0, and for
-    snap and one_way that are no bools.
+    Raises ValueError or TypeError if solid is no grid of bools, if smooth is no number >= 0, and if snap or one_way is
+    no bool.
     """
 
     _kind, _has_mass = MASK, True
@@ -60,7 +61,7 @@ class PixelMask(Shape):
         self.one_way = checks.flag("one_way", one_way)
         self.size = (width, height)
         self.origin = Vec2(width / 2.0, height / 2.0) if origin is None else checks.vector("origin", origin)
-        self.carved = False  # whether it is the remainder of a carved mask
+        self.carved = False  # whether this mask is the remainder of a carved one
         solid.flags.writeable = False
         self._solid: np.ndarray | None = solid
         self._forget()
@@ -68,10 +69,10 @@ class PixelMask(Shape):
     def _forget(self):
         """Clear all values derived from the pixels."""
         self._turned, self._blocks = {}, {}
-        self.fitted = {}  # (tier, tolerance) -> the shapes that replace it, cached by fit
+        self.fitted = {}  # (tier, tolerance) -> the shapes that replace the mask, cached by approximate.fit
 
     def with_tiles(self, tiles: PixelTiles) -> "PixelMask":
-        """Return the same mask with other pixels in a raster of the same size, as after carving."""
+        """Return a mask of other pixels, in a raster of the same size; all else as in this mask. Used by carving."""
         found = object.__new__(PixelMask)
         kept = {name: vars(self)[name] for name in ("snap", "smooth", "one_way", "size", "origin")}
         vars(found).update(kept, tiles=tiles, carved=True, _solid=None)
@@ -85,9 +86,9 @@ class PixelMask(Shape):
         sensor: bool | None = None,
         one_way: bool | None = None,
     ) -> "PixelMask":
-        """Return the same mask with values of its own; None: the body's. one_way: open from below; None: unchanged.
+        """Return the mask with its own material, filter and sensor; None: those of the body that has the mask.
 
-        Raises TypeError.
+        one_way: whether the mask is open from below; None: unchanged. Raises TypeError.
         """
         wanted = self.one_way if one_way is None else checks.flag("one_way", one_way)
         if wanted == self.one_way:
@@ -95,8 +96,11 @@ class PixelMask(Shape):
         return self._opened(wanted).with_(material, filter, sensor)
 
     def _opened(self, wanted):
-        """Return the bare mask with this one_way: one object for all, so that a library stores it once."""
-        # Both masks share the values derived from their pixels, and so this entry.
+        """Return the mask with one_way = wanted, and without own material, filter and sensor.
+
+        The result is always the same object, so that a library stores it once.
+        """
+        # Both masks share `fitted`, the values derived from their pixels.
         self.fitted.setdefault("one way", {})[self.one_way] = self.bare
         pair = self.fitted["one way"]
         if wanted not in pair:
@@ -105,12 +109,12 @@ class PixelMask(Shape):
         return pair[wanted]
 
     def with_values_of(self, other: Shape) -> "PixelMask":
-        """Return this mask with the own values of another shape, including the one_way of a mask."""
+        """Return this mask with the material, filter and sensor of another shape, and the one_way of another mask."""
         one_way = other.one_way if isinstance(other, PixelMask) else None
         return self.with_(other.material, other.filter, other.sensor, one_way)
 
     def like(self, solid: np.ndarray, origin: Pair) -> "PixelMask":
-        """Return a mask of other pixels with the snap, smooth and own values of this one."""
+        """Return a mask of other pixels with the snap, smooth, one_way, material, filter and sensor of this one."""
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     @property
@@ -123,11 +127,11 @@ class PixelMask(Shape):
 
     @cached_property
     def tiles(self) -> PixelTiles:
-        """The same pixels in tiles that can be replaced one by one."""
+        """The pixels in square tiles, which carving replaces one by one."""
         return PixelTiles.of(self.solid)
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
-        """Return its pixels from column left and row top on, (size, size) bool, clear outside the mask."""
+        """Return the pixels of a square from column left and row top on, (size, size) bool; clear outside the mask."""
         if self._solid is None:
             return self.tiles.window(left, top, size)
         found = np.zeros((size, size), bool)
@@ -192,9 +196,9 @@ class PixelMask(Shape):
         return cls(np.ascontiguousarray(pygame.surfarray.array_alpha(drawn).T > 0), origin, snap, smooth, one_way)
 
     def flipped(self, x: bool = False, y: bool = False) -> "PixelMask":
-        """Return the mask mirrored left to right (x) and top to bottom (y), with its origin and own values.
+        """Return the mask mirrored left to right (x) and top to bottom (y); its origin is mirrored with the pixels.
 
-        Raises TypeError.
+        snap, smooth, one_way, material, filter and sensor are kept. Raises TypeError.
         """
         x, y = checks.flag("x", x), checks.flag("y", y)
         width, height = self.size
@@ -203,10 +207,10 @@ class PixelMask(Shape):
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     def scaled(self, factor: float) -> "PixelMask":
-        """Return the mask scaled with its origin and own values, by nearest-neighbour sampling at pixel centres.
+        """Return the mask scaled together with its origin, by nearest-neighbour sampling at pixel centres.
 
-        A side of n px becomes n · factor, rounded, at least 1. Raises TypeError, and ValueError for a factor that is
-        not > 0, or that makes a side longer than 32768 px.
+        A side of n px becomes n · factor, rounded, at least 1. snap, smooth, one_way, material, filter and sensor are
+        kept. Raises TypeError, and ValueError for a factor <= 0 or one that makes a side longer than 32768 px.
         """
         factor = checks.number("factor", factor, above=0.0)
         if max(self.size) * factor > LARGEST:
@@ -216,14 +220,15 @@ class PixelMask(Shape):
         return PixelMask(self.solid[np.ix_(rows, columns)], origin, self.snap, self.smooth).with_values_of(self)
 
     def turned(self, angle: float = 0.0) -> Turned:
-        """Return the mask at the angle bucket nearest to `angle` [rad], always rotated from the source.
+        """Return the pixels rotated to the angle bucket (one of 128 angles) nearest to `angle` [rad].
 
-        Cached; of large masks only the latest angles are. Raises TypeError and ValueError for an invalid angle.
+        The unrotated pixels are the source each time, so errors do not add up. Results are cached, of large masks only
+        the latest ones. Raises TypeError or ValueError for an angle that is no finite number.
         """
         return self.turned_to(self.bucket_at(angle))
 
     def bucket_at(self, angle: float) -> int:
-        """Return the angle bucket (of 128 in a full turn) nearest to `angle` [rad]. Raises as `turned`."""
+        """Return the number of the angle bucket (128 in a full turn) nearest to `angle` [rad]. Raises as `turned`."""
         return bucket_of(checks.number("angle", angle), MASK_ANGLE_BUCKETS)
 
     def turned_to(self, bucket: int) -> Turned:
@@ -236,19 +241,19 @@ class PixelMask(Shape):
         return known[bucket]
 
     def blocks(self, bucket: int) -> list[tuple[int, int, int, int]]:
-        """Return blocks (left, top, right, bottom) of its solid pixels at an angle bucket."""
+        """Return rectangles (left, top, right, bottom) that cover the solid pixels rotated to an angle bucket."""
         if bucket not in self._blocks:
             self._blocks[bucket] = solid_blocks(self.turned_to(bucket).solid)
         return self._blocks[bucket]
 
     @cached_property
     def words(self) -> np.ndarray:
-        """Packed pixels, (h, ceil(w/64)) uint64: bit b of word k in a row is x = 64k + b."""
+        """Pixels as bits, (h, ceil(w/64)) uint64: bit b of word k in a row is the pixel in column 64k + b."""
         return self.tiles.packed[: self.size[1]] if "tiles" in vars(self) else packed(self.solid)
 
     @cached_property
     def _sums(self):
-        """Exact sums: (pixels, sum of columns, sum of rows, sum of the squares of both)."""
+        """Integer sums over the solid pixels: (number, sum of columns, sum of rows, sum of column² + row²)."""
         if "tiles" in vars(self):
             return self.tiles.sums
         rows, columns = np.nonzero(self.solid)
@@ -261,13 +266,13 @@ class PixelMask(Shape):
 
     @cached_property
     def centroid(self) -> Vec2 | None:
-        """Mean of the solid pixels' centres in body space [px]; None for a mask without any."""
+        """Mean of the solid pixels' centres in body space [px]; None for a mask without solid pixels."""
         count, x, y, _ = self._sums
         return Vec2(x / count + 0.5 - self.origin[0], y / count + 0.5 - self.origin[1]) if count else None
 
     @cached_property
     def solid_box(self) -> tuple[int, int, int, int] | None:
-        """Box (left, top, right, bottom) of the solid pixels, the last two exclusive; None without any."""
+        """Box (left, top, right, bottom) of the solid pixels, right and bottom exclusive; None if there are none."""
         if "tiles" in vars(self):
             return self.tiles.bounds
         columns, rows = (np.flatnonzero(self.solid.any(axis=axis)).tolist() for axis in (0, 1))
@@ -275,7 +280,7 @@ class PixelMask(Shape):
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """Bounds (min_x, min_y, max_x, max_y) of the solid pixels in body space [px]; None without any."""
+        """Bounds (min_x, min_y, max_x, max_y) of the solid pixels in body space [px]; None for a mask without any."""
         if self.solid_box is None:
             return None
         left, top, right, bottom = self.solid_box
@@ -284,19 +289,19 @@ class PixelMask(Shape):
 
     @cached_property
     def fingerprint(self) -> bytes:
-        """Hash of its pixels: 16 bytes."""
+        """Hash of the pixels: 16 bytes."""
         return blake2b(self.words.tobytes(), digest_size=16).digest()
 
     @cached_property
     def outline(self) -> tuple[Circle | Capsule | Polygon, ...]:
-        """Convex shapes in body space whose union is the mask's outline; () for a mask without pixels.
+        """Convex shapes in body space whose union has the mask's outline; () for a mask without pixels.
 
-        Response, sweeps and characters use it, at the exact pose. Each point of the outline is within `smooth` px of
-        the pixels' edges, and each point of those within smooth + 0.21 px of the outline; smooth = 0: the edges
-        themselves. Pieces and holes are kept. Every solid pixel's centre is inside and every clear one's outside. A
-        corner between straight runs of 3 px and more stays sharp. A round piece is one Circle or Capsule, or a Polygon
-        with a radius; then a Circle and the edges may be 0.13 px further apart, and clear centres 0.2 px inside it. A
-        full rectangle is its box. Two shapes share at most their sides.
+        Response, sweeps and characters use these shapes, at the exact pose. Each point of the outline is within
+        `smooth` px of the pixels' edges, and each point of the edges within smooth + 0.21 px of the outline; smooth =
+        0: the outline is the edges. Separate pieces and holes are kept. Every solid pixel's centre is inside, every
+        clear pixel's centre outside. A corner between two straight edges of 3 px or more stays sharp. A round piece
+        becomes one Circle, Capsule or Polygon with a radius; a Circle may be 0.13 px further from the edges, and clear
+        pixels' centres up to 0.2 px inside it. A full rectangle becomes a box. The shapes overlap at most in sides.
         """
         return tuple(part.shape for part in outline_of(self))
 
@@ -307,7 +312,7 @@ class PixelMask(Shape):
         return min(self.bounds[2] - self.bounds[0], self.bounds[3] - self.bounds[1]) / 2.0
 
     def mass_of(self, density: float) -> Mass:
-        """Return the mass of the union of pixel squares: each adds 1/6 to the second moment about its own centre."""
+        """Return the mass of the union of pixel squares; a unit square has the moment of area 1/6 about its centre."""
         if self.centroid is None:
             return NOTHING
         count, x, y, squares = self._sums
@@ -317,11 +322,11 @@ class PixelMask(Shape):
 
     @property
     def _thinnest_half(self) -> float:
-        """Inradius at its thinnest part [px].
+        """Smallest inradius [px] of the outline's convex parts: a body that moves further in a step needs a sweep.
 
-        A thin arm would be beyond a wall before the middle of the sprite is. Measured: sprites of 3 px blocks passed
-        1 px walls at half their size per step. Parts thinner than a pixel count as 1 px, because they lie beside a
-        thicker one.
+        A thin arm passes a wall before the middle of the sprite does: sprites of 3 px blocks passed 1 px walls at half
+        their size per step (measured). A part thinner than 1 px counts as 1 px thick, because it lies beside a thicker
+        part.
         """
         return min((max(0.5, part.shape.min_half_extent) for part in outline_of(self)), default=self.min_half_extent)
 
@@ -367,7 +372,7 @@ class PixelMask(Shape):
         return parts_of([rectangle(dx + left, dy + top, dx + right, dy + down) for left, top, right, down in blocks])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence[OutlinePart | Stretch]]]:
-        """Return the parts of its outline by tile; the upper side of a one-way mask is one part."""
+        """Return [(tile number, outline parts)] that collide in place of the mask; if one-way, only its upper side."""
         return [(WHOLE_MASK, surfaces_of(self))] if self.one_way else outline_by_tile(self)
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
@@ -382,6 +387,6 @@ class PixelMask(Shape):
 
 
 def _nearest(size: int, factor: float) -> np.ndarray:
-    """Return the source pixel of each pixel of a scaled side, the one that contains its centre."""
+    """Return for each column (or row) of a scaled mask the source column that contains its centre: (n,) int64."""
     wanted = max(1, math.floor(size * factor + 0.5)) if size else 0
     return np.minimum(((np.arange(wanted) + 0.5) / factor).astype(np.int64), size - 1)

@@ -1,4 +1,4 @@
-"""Masses of plane figures, and the mass of a body, in which overlapping area counts once."""
+"""Mass, centre of mass and inertia of plane figures, and of a body, in which area that shapes share counts once."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -32,7 +32,7 @@ from physics.outline.measure import (
 
 @dataclass(frozen=True)
 class Mass:
-    """Mass, centre of mass in body space [px], and inertia about that centre."""
+    """Mass, centre of mass in body space [px], and inertia about that centre [mass · px²]."""
 
     mass: float
     center: Vec2
@@ -43,7 +43,7 @@ NOTHING = Mass(0.0, Vec2(0.0, 0.0), 0.0)
 
 
 def together(parts: Iterable[Mass]) -> Mass:
-    """Return the mass of several parts, with the inertia about the common centre (parallel axis theorem)."""
+    """Return the total mass of several parts, with the inertia about their common centre (parallel axis theorem)."""
     parts = [part for part in parts if part.mass > 0.0]
     if not parts:
         return NOTHING
@@ -116,7 +116,10 @@ def disc_mass(center: Pair, radius: float, density: float) -> Mass:
 
 
 def capsule_mass(a: Pair, b: Pair, r: float, density: float) -> Mass:
-    """Return the mass of a rectangle and two half discs, whose centres of mass lie 4r/3π beyond the line's ends."""
+    """Return the mass of a capsule of radius r [px] about the line from a to b: a rectangle and two half discs.
+
+    The centre of mass of a half disc lies 4r/3π beyond the end of the line.
+    """
     length = math.hypot(b[0] - a[0], b[1] - a[1])
     middle, ends = density * 2.0 * r * length, density * math.pi * r * r
     inertia = middle * (length * length + 4.0 * r * r) / 12.0 + ends * (
@@ -127,7 +130,7 @@ def capsule_mass(a: Pair, b: Pair, r: float, density: float) -> Mass:
 
 
 def convex_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of the convex hull of corners, clockwise on the screen, rounded by a radius."""
+    """Return the mass of a convex hull rounded by a radius [px]; points: 1 or more corners, clockwise on the screen."""
     if len(points) < 3:
         if len(points) == 2:
             return capsule_mass(points[0], points[1], radius, density)
@@ -138,13 +141,13 @@ def convex_mass(points: Points, radius: float, density: float) -> Mass:
 # ---- overlapping -----------------------------------------------------------------------------------------------------
 # Mass of the shapes of one body: overlapping area counts once, with the density of the densest shape.
 #
-# This holds for convex shapes and for pixel masks, as the union of their pixel squares. Tile grids and lines have no
-# mass. Shapes are grouped by overlaps, and each group is weighed as a union. Shapes that only touch keep their own
-# mass, to the bit.
+# This holds for convex shapes and for pixel masks, which are the union of their pixel squares. Tile grids and lines
+# have no mass. Shapes connected by overlaps form a group, whose mass is that of its union. Shapes that only touch are
+# weighed alone, with the same result to the bit as if each were the body's only shape.
 
 
 class Hull(NamedTuple):
-    """A convex shape with a density [mass per px2]."""
+    """A convex shape to be weighed: corners in body space [px], rounding radius, and density [mass per px2]."""
 
     corners: tuple
     radius: float  # [px]
@@ -152,7 +155,7 @@ class Hull(NamedTuple):
 
 
 class Pixels(NamedTuple):
-    """A mask with a density [mass per px2]."""
+    """A pixel mask to be weighed, with its density [mass per px2]."""
 
     mask: Any  # a PixelMask, which stands further right in the import order
     density: float
@@ -162,7 +165,7 @@ Weighed = Hull | Pixels
 
 
 def weighed_once(parts: Sequence[tuple]) -> Mass:
-    """Return the mass of shapes with their densities: [(shape, density)]; overlapping area counts once."""
+    """Return the mass of shapes, given as [(shape, density)]; shared area counts once, at the highest density."""
     if len(parts) < 2:
         return together(shape.mass_of(density) for shape, density in parts)
     figures = [_figure_of(shape, density) for shape, density in parts]
@@ -191,7 +194,7 @@ def _box_of(figure: Weighed) -> Box:
 
 
 def _groups(figures):
-    """Return the sets of figures connected by overlaps. Equal figures count as one that overlaps."""
+    """Return the sets of figures connected by overlaps. Equal figures overlap: they are one member of their set."""
     groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
     different = list(dict.fromkeys(figures))
     for i, k in _near(different):
@@ -233,7 +236,7 @@ def overlap(a: Hull, b: Hull) -> bool:
 
 
 def _shares_pixels(a: Weighed, b: Weighed) -> bool:
-    """Return whether two figures share area, one or both of them a mask."""
+    """Return whether two figures, of which at least one is a mask, share area."""
     window = _common(_box_of(a), _box_of(b))
     cells = cells_of([_placed(each) for each in (a, b) if isinstance(each, Pixels)], window)
     base = (window[0], window[1])
@@ -243,7 +246,7 @@ def _shares_pixels(a: Weighed, b: Weighed) -> bool:
 
 
 def _placed(figure: Pixels):
-    """Return (solid, left, top) of a mask in body space."""
+    """Return (solid pixels, left, top) of a mask: its array [row, col] and its top left corner in body space [px]."""
     return figure.mask.solid, -figure.mask.origin[0], -figure.mask.origin[1]
 
 
@@ -252,7 +255,7 @@ def _outline(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def _common(a: Box, b: Box) -> Box:
-    """Return the intersection of two boxes; if it is empty, the right side lies left of the left one."""
+    """Return the intersection of two boxes; if they do not overlap, its right < left or its bottom < top."""
     return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
 
 
@@ -273,9 +276,10 @@ def _mass_of_group(group: set) -> Mass:
 
 
 def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> Mass:
-    """Return the mass of a group, summed by layers of density.
+    """Return the mass of overlapping shapes, so that shared area has the density of the densest shape.
 
-    Each layer is the moments, from found_of, of all shapes with at least that density.
+    The mass is a sum of layers: for each density in ascending order, the union of all shapes with at least that density
+    is weighed with the increase over the density before. found_of(shapes): returns the area moments of their union.
     """
     densities = sorted({each.density for each in group})
     layers = []
@@ -287,12 +291,12 @@ def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> M
 
 @lru_cache(maxsize=256)
 def _union_mass(group: tuple[Hull, ...]) -> Mass:
-    """Return the mass of overlapping hulls."""
+    """Return the mass of overlapping hulls, in which shared area counts once; cached."""
     return _layered(group, lambda hulls: moments(_outline(hulls)))
 
 
 def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
-    """Return the mass of overlapping masks and hulls: masks plus hulls minus the shared area."""
+    """Return the mass of overlapping masks and hulls: that of the masks plus that of the hulls minus shared area."""
     base = _box_of(masks[0])[:2]
 
     def union(dense):
@@ -309,7 +313,7 @@ def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
 
 
 def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
-    """Return the sums of the union of masks: the sum of all, minus the area counted more than once."""
+    """Return the area sums about base of the union of masks: the sum over all masks minus area counted repeatedly."""
     sums = NO_SUMS
     for each in masks:
         weight: Mass = each.mask.mass_of(1.0)

@@ -1,4 +1,4 @@
-"""The outline of a mask as convex shapes, whole or tile by tile, and its upper side if the mask is one-way."""
+"""The outline of a pixel mask as convex shapes, whole or tile by tile; the upper side of a one-way mask as chains."""
 
 import math
 from collections import defaultdict
@@ -31,14 +31,14 @@ from physics.tables.shape import SHARPEST, WHOLE_MASK
 # ---- outline tiles ---------------------------------------------------------------------------------------------------
 # Tiled outline of a large mask: carving recomputes only the tiles that it touches.
 #
-# Tiles lie at multiples of MASK_TILE pixels from the mask's first pixel, row by row. Results per tile are cached in
-# `fitted`. A mask that differs in a few pixels takes them over (keep_tiles).
+# A tile is a square of MASK_TILE pixels per side. Tiles are numbered row by row from the mask's top left pixel. Results
+# per tile are cached in `fitted`. A mask that differs from another in a few pixels reuses its tiles (keep_tiles).
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom [px]
 
 
 class Sprite(Protocol):
-    """Interface of the source of an outline, implemented by shapes.mask.PixelMask."""
+    """Interface that outlines need of a mask. PixelMask implements it."""
 
     @property
     def solid(self) -> np.ndarray: ...  # bool [row, col]
@@ -57,14 +57,14 @@ class Sprite(Protocol):
 
 
 class OutlinePart(NamedTuple):
-    """A convex part of an outline in body space, with flags of its edges and corners inside the outline."""
+    """A convex part of an outline in body space, with flags of its edges and corners inside the whole outline."""
 
     shape: Circle | Capsule | Polygon
-    inner: int  # as in SHAPE
+    inner: int  # flags in the format of the column `inner` of SHAPE
 
 
 class Tile:
-    """The part of an outline in one tile; it depends on the tile's pixels and a halo around them."""
+    """The outline inside one tile of a mask. It depends on the pixels of the tile and HALO px around the tile."""
 
     def __init__(self, mask: Sprite, number: int) -> None:
         down, across = divmod(number, tiles_of(mask)[1])
@@ -74,7 +74,7 @@ class Tile:
         self.parts = tile_parts(window, mask.smooth, self.at)  # in raster pixels
 
     def has_parts_of(self, other: "Tile") -> bool:
-        """Return whether its parts equal those of another tile, to the bit."""
+        """Return whether the parts of both tiles are equal, to the bit."""
         return all(mine.tobytes() == its.tobytes() for mine, its in zip(self.parts, other.parts, strict=True))
 
     @cached_property
@@ -87,9 +87,9 @@ class Tile:
 
 
 def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None = None) -> list[Polygon]:
-    """Return the polygons of corners (n, 2), one after another, with counts (k,) of corners each.
+    """Return Polygons with the corners (n, 2) [px], listed polygon after polygon; counts (k,): corners of each.
 
-    which: indices of the wanted polygons, None: all.
+    which: indices of the wanted polygons; None: all.
     """
     points, ends = corners.tolist(), [0, *np.cumsum(counts).tolist()]
     some = range(len(counts)) if which is None else which.tolist()
@@ -97,16 +97,16 @@ def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None =
 
 
 class TiledParts(NamedTuple):
-    """The parts of some tiles, one after another, in body space."""
+    """The convex parts of one or more tiles of an outline, one after another, in body space."""
 
     corners: np.ndarray  # (n, 2) float64 [px], of each part clockwise on the screen
     counts: np.ndarray  # (k,) int64: corners of each part
-    inner: np.ndarray  # (k,) int64, as in SHAPE
+    inner: np.ndarray  # (k,) int64, flags in the format of the column `inner` of SHAPE
     tiles: np.ndarray  # (k,) int64: the number of the tile
 
 
 def is_tiled(mask: Sprite) -> bool:
-    """Return whether a mask's outline is tiled: that of a large mask that is no full rectangle."""
+    """Return whether a mask's outline is stored in tiles: a side exceeds LARGE_MASK px and not all pixels are solid."""
     width, height = mask.size
     return max(width, height) > LARGE_MASK and mask.area < width * height
 
@@ -118,13 +118,13 @@ def tiles_of(mask: Sprite) -> tuple[int, int]:
 
 
 def tile_outlines(mask: Sprite, numbers: Sequence[int]) -> list[tuple[OutlinePart, ...]]:
-    """Return the parts of a mask's outline in each of some tiles, numbered row by row; () for an empty tile."""
+    """Return the outline parts of each tile in `numbers` (tiles are numbered row by row); () for an empty tile."""
     found = zip(_tiles(mask, numbers), _inner(mask, numbers), strict=True)
     return [tuple(map(OutlinePart, tile.shapes, inner.tolist())) for tile, inner in found]
 
 
 def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
-    """Return the parts of one or more tiles, in their order, as arrays."""
+    """Return the outline parts of the tiles in `numbers`, in this order, as arrays."""
     tiles, inner = _tiles(mask, numbers), _inner(mask, numbers)
     return TiledParts(
         np.concatenate([each.known.corners for each in tiles]),
@@ -135,12 +135,12 @@ def tiled_parts(mask: Sprite, numbers: Sequence[int]) -> TiledParts:
 
 
 def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
-    """Take over the cached tiles of a mask that differs only in the pixels of some boxes.
+    """Copy the cached outline tiles of `old`, a mask that differs from `mask` only inside boxes; recompute the others.
 
     Both masks have the same size, origin and smooth; old may be the mask itself with changed pixels. boxes: left, top,
-    right, bottom [px] in the raster, the last two exclusive. Only tiles within HALO of those pixels are recomputed.
-    Returns the sorted numbers of all tiles whose outline may differ: those with different parts, and their neighbours
-    if corners on the common border changed.
+    right, bottom [px] in the raster, right and bottom exclusive. Only tiles within HALO px of a box are recomputed.
+    Returns the sorted numbers of the tiles whose outline may differ: tiles with other parts, and a neighbour of such a
+    tile if corners on their common border changed.
     """
     tiles, inner = (_known(old, name).copy() for name in KEPT)
     mask.fitted.update(tiles=tiles, inner=inner)
@@ -165,7 +165,7 @@ def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
     return sorted(changed)
 
 
-KEPT = ("tiles", "inner")  # cached per tile, by number: Tile, and `inner` of its parts; else None
+KEPT = ("tiles", "inner")  # lists in `fitted`, by tile number: the Tile, and `inner` of its parts; None: not known
 
 
 def _known(mask, name) -> list:
@@ -176,7 +176,7 @@ def _known(mask, name) -> list:
 
 
 def _tiles(mask, numbers) -> list[Tile]:
-    """Return some tiles, computed once."""
+    """Return the tiles of these numbers; a tile is computed at its first use."""
     known = _known(mask, "tiles")
     for number in numbers:
         if known[number] is None:
@@ -185,7 +185,7 @@ def _tiles(mask, numbers) -> list[Tile]:
 
 
 def _inner(mask, numbers) -> list[np.ndarray]:
-    """Return the flags of inner edges and corners of the parts of some tiles, as in SHAPE, computed once."""
+    """Return for each tile the flags of its parts' inner edges and corners (see SHAPE), computed at their first use."""
     known, (rows, columns) = _known(mask, "inner"), tiles_of(mask)
     missing = [number for number in numbers if known[number] is None]
     if missing:
@@ -197,7 +197,7 @@ def _inner(mask, numbers) -> list[np.ndarray]:
 
 
 def _near(number, rows, columns):
-    """Return the numbers of a tile and its existing neighbours, in their order."""
+    """Return the numbers of a tile and of its up to 8 neighbours, ascending."""
     row, column = divmod(number, columns)
     across = range(max(column - 1, 0), min(column + 2, columns))
     return [y * columns + x for y in range(max(row - 1, 0), min(row + 2, rows)) for x in across]
@@ -208,7 +208,7 @@ def _near(number, rows, columns):
 
 
 def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
-    """Return the parts of a mask's outline, computed once; () for a mask without pixels."""
+    """Return the convex parts of a mask's outline, computed at the first call; () for a mask without pixels."""
     if "outline" not in mask.fitted:
         if is_tiled(mask):
             mask.fitted["outline"] = tuple(part for _, tile in outline_by_tile(mask) for part in tile)
@@ -222,9 +222,9 @@ def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
 
 
 def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
-    """Return (number of the tile, its parts) of each tile of a mask's outline.
+    """Return (tile number, its outline parts) for each tile of a mask.
 
-    For an outline that is not tiled the result is [(WHOLE_MASK, all parts)].
+    If the outline is not tiled, the result is [(WHOLE_MASK, all parts)].
     """
     if not is_tiled(mask):
         return [(WHOLE_MASK, outline_of(mask))]
@@ -233,7 +233,7 @@ def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
 
 
 def _placed(part, outline_turns, origin):
-    """Return a part in body space with one edge per straight side; a side is inner if neighbours cover all of it."""
+    """Return a part in body space, its collinear edges merged; a merged edge is inner if neighbours cover all of it."""
     turns = np.flatnonzero(np.array(_angles(part.corners)) < HALF_TURN)
     corners, inner = part.corners - np.array(origin), np.asarray(part.inner, bool)
     if len(corners) == 1:
@@ -251,10 +251,11 @@ def _bits(sides, turns):
 
 
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
-    """Return for each part the turn of the outline at each corner [rad]: pi where no other part meets it.
+    """Return for each part the angle [rad] by which the whole outline turns at each corner of the part.
 
-    The turn is COVERED where the parts that meet leave no convex corner. Otherwise the first of them with a side of the
-    outline there gets the turn, the others COVERED. Corners are the same if their coordinates are equal.
+    The angle is pi where no other part meets the corner. Where several parts share a corner (equal
+    coordinates), only one of them gets the turn: the first that has a side of the outline at it. The others get
+    COVERED. All get COVERED if together they leave no convex corner.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
     for part in parts:
@@ -274,7 +275,7 @@ def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
 
 
 def _angles(corners):
-    """Return the interior angle at each corner of a convex outline [rad]."""
+    """Return the interior angle [rad] at each corner of a convex polygon."""
     before, after = np.roll(corners, 1, axis=0) - corners, np.roll(corners, -1, axis=0) - corners
     cross = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0])
     return np.arctan2(cross, (before * after).sum(axis=1)).tolist()
@@ -285,19 +286,19 @@ def _angles(corners):
 
 
 class Stretch(NamedTuple):
-    """A stretch of an upper side in body space."""
+    """One chain along the upper side of a one-way mask, in body space."""
 
     shape: Chain
-    inner: int = 0  # as in OutlinePart: no link lies inside
+    inner: int = 0  # flags as in OutlinePart; 0: no link lies inside the outline
 
 
 def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
-    """Return chains in body space along the upper side of a mask's outline, computed once; () without pixels.
+    """Return chains in body space along the upper side of a mask's outline; () for a mask without pixels.
 
-    Each chain is a run of edges that lead to the right, from left to right: the edges whose outward normals point
-    upwards in the mask's own space, including floors of holes. Vertical edges and undersides are left out and separate
-    the runs. Steps of at most `smooth` [px] between two such edges are joined in their middle, so that characters do
-    not catch on them. The outline is that of outline.contour. O(pixels).
+    A chain runs from left to right along consecutive edges whose outward normals point upwards in body space, which
+    includes floors of holes. It ends at a vertical edge or an underside. A vertical step of at most `smooth` [px]
+    between two such edges is replaced by one point in its middle, so that characters do not catch on it. The outline is
+    that of outline.contour. O(pixels) at the first call, then cached.
     """
     if "surfaces" not in mask.fitted:
         rings = [ring for piece in outline(mask.solid, mask.smooth) for ring in (piece.outer, *piece.holes)]
@@ -307,7 +308,7 @@ def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
 
 
 def _joined(ring, most):
-    """Return a ring without the vertical steps of at most `most` px between two edges that lead to the right."""
+    """Return a closed outline in which each vertical step of at most `most` px between two upper edges is one point."""
     way = np.roll(ring, -1, axis=0) - ring
     right = way[:, 0] > 0.0
     step = (way[:, 0] == 0.0) & (np.abs(way[:, 1]) <= most) & np.roll(right, 1) & np.roll(right, -1)
@@ -316,7 +317,7 @@ def _joined(ring, most):
 
 
 def _runs(ring):
-    """Return the points of the stretches of a ring, its inside to the right, that lead to the right [px]."""
+    """Return the points (k, 2) [px] of each run of edges that lead right; the ring has the solid on its right."""
     right = np.roll(ring[:, 0], -1) > ring[:, 0]
     first = int(np.flatnonzero(~right)[0])  # starts at an edge that leads back: no stretch crosses it
     ring, right = np.roll(ring, -first, axis=0), np.roll(right, -first)

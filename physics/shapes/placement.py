@@ -1,4 +1,4 @@
-"""Shapes at a pose: corners, raster, AABB, and the pose of a mask that is not snapped."""
+"""Shapes at a pose: their corners, rasters and AABBs, and the pose of a mask that is not snapped to pixels."""
 
 import math
 from typing import Any
@@ -11,18 +11,19 @@ from physics.settings import DRAWN, MASK_ANGLE_BUCKETS
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, POLYGON, SEGMENT, TILES
 
 # ---- mask pose -------------------------------------------------------------------------------------------------------
-# Pose of a mask that is not snapped: its raster at the angle 0, rotated and moved with its body.
+# Pose of a mask with snap=False: its raster at the angle 0, rotated and moved with its body.
 #
-# Other shapes are transformed into its raster, where its pixels are [i, i + 1) x [j, j + 1). There x and y [px] run
-# from the raster's top left corner, along its rows and columns. Differences of positions are taken first, for precision
-# far from the world's origin. Quarter turns are exact.
+# Other shapes are transformed into the raster space of the mask: x and y [px] run from the top left corner along rows and
+# columns, so that its pixels are [i, i + 1) x [j, j + 1). Differences of positions are taken first, for
+# precision far from the world's origin. Quarter turns are exact.
 
 
 @subkernel
 def exact_aabb(rasters, corners, raster, x, y, angle):
-    """Return the tight AABB [px] of a mask's solid pixels at a pose of its body; for an empty mask the point itself.
+    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels with its body at a pose.
 
-    corners: geometry.corners; raster: of the angle 0. O(corners of its hull).
+    For an empty mask all is the point (x, y). rasters, corners: tables of the geometry; raster: row of the mask's
+    raster at the angle 0. O(corners of the mask's hull).
     """
     r = rasters[raster]
     if r.hull_count == 0:
@@ -41,29 +42,29 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
 
 @subkernel
 def into_raster(raster, body, cosine, sine, x, y):
-    """Return a world point [px] in the raster of a mask; cosine, sine: rotation of its body."""
+    """Return a world point (x, y) [px] in the raster space of a mask. cosine, sine: rotation of the mask's body."""
     u, v = rotate(x - body.x, y - body.y, cosine, -sine)
     return u + raster.origin_x, v + raster.origin_y
 
 
 @subkernel
 def out_of_raster(raster, body, cosine, sine, x, y):
-    """Return a point of the raster in the world [px]; cosine, sine: rotation of the mask's body."""
+    """Return the world point [px] of a point (x, y) in the raster space of a mask. cosine, sine: of the mask's body."""
     u, v = rotate(x - raster.origin_x, y - raster.origin_y, cosine, sine)
     return body.x + u, body.y + v
 
 
 @subkernel
 def raster_of_shape(geometry, shape):
-    """Return the raster row by which a MASK is tested: as drawn, or that of the angle 0 if not snapped."""
+    """Return the row of the raster by which a MASK is tested: as drawn if it is snapped, else at the angle 0."""
     return shape.raster if shape.snap else geometry.raster_of[shape.geometry, 0]
 
 
 @subkernel
 def box_as_tested(geometry, shape):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of the solid pixels by which a MASK row is tested.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a MASK row's solid pixels as its tests place them.
 
-    The pixels are as drawn if the mask is snapped, else at its exact pose.
+    A snapped mask is tested as drawn, at whole pixels; any other mask at its exact pose.
     """
     r = geometry.rasters[shape.raster]
     if not shape.snap or r.area == 0:
@@ -74,9 +75,9 @@ def box_as_tested(geometry, shape):
 
 @subkernel
 def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
-    """Return the pose of another mask's raster, snapped or not, in that of a mask that is not snapped.
+    """Return the pose of one mask's raster in the raster space of another mask (the frame), which is not snapped.
 
-    The result is (x, y of its top left corner [px], cosine and sine of its angle).
+    The result is (x, y of the top left corner [px], cosine, sine of the angle). The first mask may be snapped or not.
     """
     frame = geometry.rasters[raster_of_shape(geometry, frame_shape)]
     cosine, sine = cosine_and_sine(frame_body.angle, frame_body.angle)
@@ -93,24 +94,24 @@ def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
 
 @kernel
 def turn_of_mask(angle):
-    """Return (cosine, sine) of the angle [rad] of a mask that is not snapped."""
+    """Return (cosine, sine) of an angle [rad] as exact tests of masks compute them."""
     return cosine_and_sine(angle, angle)
 
 
 # ---- placement -------------------------------------------------------------------------------------------------------
 # Placement of shapes at a pose: corners, raster on the pixel grid, AABB.
 
-# The fields that a stage writes with refresh_boxes.
+# The fields that a stage of the step writes if it calls refresh_boxes.
 PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 TAU = math.tau
-WHOLE = 2.0**62  # floats below convert to int64; larger ones are undefined if compiled, an error if not
-NOWHERE = -(1 << 62)  # [px] pixel column or row of a non-finite or too large coordinate
-BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] largest difference of an angle and its bucket's
+WHOLE = 2.0**62  # below this a float converts to int64; above, the result is undefined if compiled, an error if not
+NOWHERE = -(1 << 62)  # pixel column or row that stands for a coordinate that is not finite or too large
+BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] largest difference between an angle and that of its bucket
 
 
 @subkernel
 def bucket_at(angle, buckets):
-    """Return the angle bucket nearest to an angle [rad]."""
+    """Return the angle bucket nearest to an angle [rad]: k of `buckets` equal steps of a full turn; 0 if not finite."""
     turn = angle * buckets / TAU + 0.5
     if not abs(turn) < WHOLE:
         return 0
@@ -120,15 +121,16 @@ def bucket_at(angle, buckets):
 
 @subkernel
 def raster_at(geometry, mask, angle):
-    """Return the raster row of a mask at an angle [rad]. The calling stage has added the raster."""
+    """Return the row of a mask's raster at an angle [rad]. mask: its geometry row. The raster must have been added."""
     return geometry.raster_of[mask, bucket_at(angle, geometry.raster_of.shape[1])]
 
 
 @subkernel
 def snapped(coordinate, origin):
-    """Return the pixel column (or row) of a raster's edge for its body at `coordinate` [px], rounded half up.
+    """Return the pixel column at which a raster's left edge is drawn; likewise the row of its top edge.
 
-    NOWHERE for a coordinate that is not finite or too large.
+    It is coordinate - origin, rounded half up; NOWHERE if not finite or too large. coordinate [px]: x (or y) of the
+    body; origin [px]: of the body in the raster.
     """
     at = coordinate - origin + 0.5
     return math.floor(at) if abs(at) < WHOLE else NOWHERE
@@ -136,19 +138,22 @@ def snapped(coordinate, origin):
 
 @subkernel
 def is_drawn_when_asked(shape):
-    """Return whether a SHAPE row is tested as drawn, but drawn only for a test: its AABB is that of its exact pose."""
+    """Return whether a SHAPE row is a snapped mask that is drawn only when a test needs it.
+
+    Its AABB is then that of the exact pose.
+    """
     return shape.snap and shape.role == PIXELS
 
 
 @subkernel
 def drawn_beyond(body, shape):
-    """Return how far [px] the pixels of a SHAPE row may be drawn beyond its AABB; 0 if it is the drawing's."""
+    """Return how far [px] the drawn pixels of a mask may lie outside the AABB in its SHAPE row; 0: never outside."""
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel
 def raster_aabb(geometry, raster, x, y):
-    """Return the AABB [px] of a raster's solid pixels with its body at (x, y), which an empty one gets."""
+    """Return the AABB [px] of a raster's solid pixels as drawn with the body at (x, y); of an empty one, that point."""
     r = geometry.rasters[raster]
     if r.area == 0:
         return x, y, x, y
@@ -158,7 +163,10 @@ def raster_aabb(geometry, raster, x, y):
 
 @subkernel
 def upright_aabb(raster, x, y):
-    """Return the AABB [px] of the solid pixels of an unrotated mask at its exact pose: as raster_aabb, unrounded."""
+    """Return the AABB [px] of an unrotated mask's solid pixels with its body exactly at (x, y), not at whole pixels.
+
+    For an empty mask all is the point (x, y).
+    """
     if raster.area == 0:
         return x, y, x, y
     left, top = x - raster.origin_x, y - raster.origin_y
@@ -181,10 +189,10 @@ def box_corners(min_x, min_y, max_x, max_y, corners_out):
 
 @subkernel
 def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
-    """Write the world corners [px] of a row of geometry.polygons at a pose to corners_out (16, 2).
+    """Write the world corners [px] of a polygon at a pose to corners_out (16, 2). Return their number.
 
-    Returns their number. polygons, table: geometry.polygons and geometry.corners as single arguments, because passing a
-    whole Geometry costs more than the corners.
+    polygon: row of geometry.polygons. polygons, table: geometry.polygons and geometry.corners, passed alone because
+    passing the whole Geometry takes longer than this function.
     """
     span = polygons[polygon]
     for k in range(span.count):
@@ -197,9 +205,9 @@ def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
 
 @subkernel
 def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
-    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a row of geometry.polygons, enlarged by a radius.
+    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a polygon at a pose, enlarged by a radius [px].
 
-    Tables as polygon_at.
+    polygon: row of polygons; polygons, table: geometry.polygons and geometry.corners.
     """
     span = polygons[polygon]
     first = table[span.offset]
@@ -215,19 +223,19 @@ def polygon_aabb(polygons, table, polygon, radius, x, y, cosine, sine):
 
 @subkernel
 def is_hull(kind):
-    """Return whether a kind of shape is a convex hull with a rounding radius: all but TILES, MASK and CHAIN."""
+    """Return whether shapes of a kind are one convex hull with a rounding radius: all but TILES, MASK and CHAIN."""
     return kind != TILES and kind != MASK and kind != CHAIN
 
 
 @subkernel
 def rounding(shapes, row):
-    """Return the rounding radius [px] of a hull; 0 for a BOUNDS, whatever it wraps."""
+    """Return the rounding radius [px] of a SHAPE row that is a hull; 0 for a BOUNDS, even one of a round shape."""
     return 0.0 if shapes[row].kind == BOUNDS else shapes[row].radius
 
 
 @subkernel
 def chain_aabb(geometry, chain, cosine, sine):
-    """Return the AABB [px] of a chain's links rotated about its body's origin. O(links); at angle 0 O(blocks)."""
+    """Return the AABB [px] of a chain in a rotated body at (0, 0). O(links); without rotation O(blocks of links)."""
     span = geometry.chains[chain]
     min_x, min_y = math.inf, math.inf
     max_x, max_y = -math.inf, -math.inf
@@ -248,9 +256,9 @@ def chain_aabb(geometry, chain, cosine, sine):
 
 @subkernel
 def aabb_at(geometry, shapes, row, x, y, angle):
-    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape at a pose of its body. O(corners).
+    """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    The AABB of a mask is that of its solid pixels, as drawn if it is snapped; that of an empty mask is its origin.
+    For a mask it is the AABB of the solid pixels, as drawn if the mask is snapped; for an empty mask the point (x, y).
     """
     s = shapes[row]
     kind = s.kind
@@ -277,9 +285,9 @@ def aabb_at(geometry, shapes, row, x, y, angle):
 
 @subkernel
 def hull_at(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of any hull, clockwise on the screen, to corners_out (16, 2).
+    """Write the world corners [px] of a hull at a pose, clockwise on the screen, to corners_out (16, 2).
 
-    A circle has one corner, its centre. See `rounding` for the radius. Returns the number of corners.
+    A circle has one corner, its centre. `rounding` returns the radius. Returns the number of corners.
     """
     s = shapes[row]
     if s.kind == CIRCLE:
@@ -292,9 +300,9 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @subkernel
 def corners_at(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or a BOUNDS' AABB, clockwise on the screen.
+    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or BOUNDS at a pose, clockwise on the screen.
 
-    Returns their number.
+    Those of a BOUNDS are the corners of its AABB. Returns the number of corners. corners_out (16, 2).
     """
     if shapes[row].kind != BOUNDS:
         cosine, sine = rotation_of(angle)
@@ -305,23 +313,23 @@ def corners_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def write_hull(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a hull to corners_out (16, 2). Return their number and the rounding [px]."""
+    """Write the world corners [px] of a hull to corners_out (16, 2). Return (their number, rounding radius [px])."""
     return hull_at(geometry, shapes, row, x, y, angle, corners_out), rounding(shapes, row)
 
 
 @kernel
 def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
-    """List (mask, bucket) of the masks at an angle not drawn yet, now or at the end of the step.
+    """List the rasters that snapped masks need now or at the end of the step and that are not drawn yet.
 
-    rows: of shapes; bodies: BODY rows, shapes: SHAPE rows; dt [s]; missing_out (capacity, 2) int64. Returns the number;
-    the list may contain duplicates. O(rows).
+    rows: indices of SHAPE rows; dt [s]: of the step; missing_out (capacity, 2) int64: (geometry row of the mask, angle
+    bucket), possibly with duplicates. Returns the number found, which may exceed the capacity. O(rows).
     """
     found = 0
     buckets = raster_of.shape[1]
     for k in range(len(rows)):
         s = shapes[rows[k]]
         if s.role == PIXELS or (s.kind != MASK and not (s.kind == BOUNDS and s.wrapped == MASK)):
-            continue  # drawn on demand, see library.draw_masks
+            continue  # drawn when a test needs it, see library.draw_masks
         b = bodies[s.body_row]
         if b.angle == 0.0 and b.angular_velocity == 0.0:
             continue  # unrotated, drawn when it was added
@@ -341,9 +349,9 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
 
 @subkernel
 def place_mask(rasters, raster_of, body, shape_inout):
-    """Write the raster of a snapped MASK at its body's pose, its pixel column and row, and the AABB of its pixels.
+    """Place a snapped MASK at its body's pose: write its raster, pixel column and row, and the AABB of its pixels.
 
-    rasters, raster_of: those of the geometry, as single arguments; see polygon_at.
+    rasters, raster_of: tables of the geometry, passed alone because passing the whole Geometry takes longer.
     """
     s = shape_inout
     s.raster = raster_of[s.geometry, bucket_at(body.angle, raster_of.shape[1])]
@@ -359,7 +367,7 @@ def place_mask(rasters, raster_of, body, shape_inout):
 
 @kernel
 def place_masks(rows, geometry, bodies, shapes_inout):
-    """Write the raster of the masks in these rows at their bodies' poses, and its pixel column and row. O(rows)."""
+    """Write raster, pixel column (left) and row (top) of masks at their bodies' poses. rows: of SHAPE. O(rows)."""
     for k in range(len(rows)):
         s = shapes_inout[rows[k]]
         b = bodies[s.body_row]
@@ -371,7 +379,10 @@ def place_masks(rows, geometry, bodies, shapes_inout):
 
 @subkernel
 def refresh_boxes(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of the shapes in these rows, and the raster of a snapped mask. O(rows)."""
+    """Write the tight AABBs of shapes at their bodies' poses, of snapped masks also the raster, left and top. O(rows).
+
+    rows: indices of SHAPE rows.
+    """
     polygons = geometry.polygons
     table = geometry.corners
     rasters = geometry.rasters
@@ -406,12 +417,12 @@ def refresh_boxes(rows, geometry, bodies, shapes_inout):
 
 @kernel
 def refresh_aabbs(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of the shapes in these rows, see refresh_boxes. O(rows)."""
+    """Write the tight AABBs of the shapes in these SHAPE rows: refresh_boxes for callers outside kernels. O(rows)."""
     refresh_boxes(rows, geometry, bodies, shapes_inout)
 
 
 def add_missing_rasters(library: Any, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
-    """Draw the snapped masks of these shape rows at their present angles and those after dt [s], where missing."""
+    """Draw missing rasters of the snapped masks in these SHAPE rows, at their angles now and after dt [s]."""
     if not library.masks:
         return
     missing = np.zeros((2 * len(rows), 2), np.int64)

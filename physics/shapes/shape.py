@@ -1,4 +1,4 @@
-"""The protocol of all shapes, the values that a shape may have of its own, and the convex parts of a shape."""
+"""Base class of all shapes; Filter and Material, which a shape may have of its own; and the convex parts of a shape."""
 
 import copy
 import math
@@ -20,9 +20,9 @@ from physics.tables.geometry import Geometry
 
 @dataclass(frozen=True)
 class Filter:
-    """Collision filter: shapes collide if a.membership & b.mask and b.membership & a.mask; 32 bits each.
+    """Collision filter of 32-bit sets: shapes collide if a.membership & b.mask and b.membership & a.mask are not 0.
 
-    Raises ValueError.
+    Raises ValueError for a value outside 0..0xFFFFFFFF.
     """
 
     ALL: ClassVar["Filter"]  # collides with every shape
@@ -36,7 +36,7 @@ class Filter:
 
     @classmethod
     def from_packed(cls, bits: int) -> "Filter":
-        """Return the filter with the low 16 bits as membership and the high 16 bits as mask."""
+        """Return the filter packed in 32 bits: membership is the low 16 bits, mask the high 16 bits."""
         bits = checks.whole("bits", bits, 0, 0xFFFFFFFF)
         return cls(bits & 0xFFFF, bits >> 16)
 
@@ -52,8 +52,8 @@ Filter.ALL = Filter(0xFFFFFFFF, 0xFFFFFFFF)
 class Material:
     """Material of a shape: density [mass per px2] > 0; friction, restitution and rolling_resistance >= 0.
 
-    surface_speed [px/s]: speed of its surface, as of a conveyor belt. rolling_resistance: share of the radius; the
-    torque against rolling is at most that times radius and load. Raises ValueError.
+    surface_speed [px/s]: speed of the surface along its tangent, as of a conveyor belt. rolling_resistance: the torque
+    against rolling is at most rolling_resistance · radius · load. Raises ValueError for a value out of range.
     """
 
     density: float = 1.0
@@ -70,22 +70,23 @@ class Material:
 
 
 # ---- parts -----------------------------------------------------------------------------------------------------------
-# Convex decomposition of shapes into rounded hulls, between which distance and time of impact are measured.
+# Convex decomposition of shapes into hulls with a rounding radius, between which distance and time of impact are
+# measured.
 
-NEAR = 1e-9  # relative to the coordinates: margin of a query box, since casts round as well
+NEAR = 1e-9  # margin of a query box relative to its coordinates: casts have rounding errors of this size
 
 
 class Parts(NamedTuple):
-    """Convex parts of one shape."""
+    """Convex parts of one shape: polygons, each enlarged by a rounding radius."""
 
     corners: np.ndarray  # (n, 16, 2) [px]
-    counts: np.ndarray  # (n,) corners of each
-    boxes: np.ndarray  # min_x min_y max_x max_y of each part, rounding included
-    radii: np.ndarray  # (n,) rounding of each [px]
+    counts: np.ndarray  # (n,) number of corners of each part
+    boxes: np.ndarray  # (n, 4) AABB of each part with its rounding: min_x, min_y, max_x, max_y [px]
+    radii: np.ndarray  # (n,) rounding radius of each part [px]
 
 
 def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
-    """Return the Parts of outlines of 1 to 16 corners (n, 2), clockwise on the screen, with their rounding [px]."""
+    """Return Parts of convex outlines, each of 1 to 16 corners clockwise on the screen. radii [px]: one or one each."""
     corners, counts = np.zeros((len(outlines), 16, 2)), np.zeros(len(outlines), np.int64)
     for k, outline in enumerate(outlines):
         counts[k] = len(outline)
@@ -94,20 +95,20 @@ def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
 
 
 def with_boxes(corners: np.ndarray, counts: np.ndarray, radii: np.ndarray) -> Parts:
-    """Return Parts of corners (n, 16, 2), counts and roundings, with their bounding boxes."""
+    """Return Parts of these arrays with the AABBs, which are computed here. Shapes and units as in Parts."""
     used = (np.arange(16)[None, :] < counts[:, None])[:, :, None]
     low, high = np.where(used, corners, np.inf).min(axis=1), np.where(used, corners, -np.inf).max(axis=1)
     return Parts(corners, counts, np.concatenate([low - radii[:, None], high + radii[:, None]], axis=1), radii)
 
 
 def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -> Parts:
-    """Return parts in body space moved to the pose of their body: (x, y) [px], cosine and sine of its angle."""
+    """Return parts in body space moved to a pose of the body: position (x, y) [px], cosine and sine of the angle."""
     corners = parts.corners @ np.array([[cosine, sine], [-sine, cosine]]) + (x, y)
     return with_boxes(corners, parts.counts, parts.radii)
 
 
 def parts_near(parts: Parts, left: float, top: float, right: float, bottom: float) -> Parts:
-    """Return the parts whose boxes meet a closed box [px], enlarged by a rounding margin."""
+    """Return the parts whose AABBs overlap or touch a box [px], enlarged by a margin for rounding errors."""
     reach = NEAR * max(map(abs, (left, top, right, bottom)))
     low, high = parts.boxes[:, :2], parts.boxes[:, 2:]
     keep = (low <= (right + reach, bottom + reach)).all(axis=1) & (high >= (left - reach, top - reach)).all(axis=1)
@@ -120,20 +121,20 @@ def rectangle(left: float, top: float, right: float, bottom: float) -> list[tupl
 
 
 class Placed(NamedTuple):
-    """A shape at the pose of its SHAPE row, seen from a point, to which its parts are relative."""
+    """A shape of a world at its pose, and the point to which coordinates of its parts are relative, for precision."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
     shapes: np.ndarray  # SHAPE
     row: int  # of shapes
-    x: float  # [px] the point
+    x: float  # [px] (x, y): the point
     y: float
     feet: float  # [px] lowest point of the other shape: a one-way tile is present only for shapes wholly above it
     swept: bool = False  # a mask is represented by its outline at the exact pose, as in sweeps, not by its pixels
 
     @property
     def body(self) -> Any:
-        """The BODY row."""
+        """The BODY row of the shape's body."""
         return self.bodies[self.shapes[self.row]["body_row"]]
 
     @property
@@ -143,7 +144,7 @@ class Placed(NamedTuple):
 
     @property
     def offset(self) -> tuple[float, float]:
-        """Position of the body, seen from the point [px]."""
+        """Position of the body relative to the point [px]."""
         body = self.body
         return float(body["x"]) - self.x, float(body["y"]) - self.y
 
@@ -152,27 +153,27 @@ class Placed(NamedTuple):
 
 
 class Shape:
-    """Protocol of all shapes: immutable values in body space [px], x right, y down, without a pose.
+    """Base of all shapes: immutable values in body space [px], x right, y down, without a pose.
 
-    Callers ask the shape, never for its type. The answers given here are those of ground: without mass, its pieces
-    turned with its body. Convex (values.py) answers all from corners and a radius; SHAPES (kinds.py) lists the types.
+    Callers use these methods and never test the type. The defaults here suit ground: no mass, and hulls that rotate
+    with the body. Convex (values.py) computes all from corners and a radius. SHAPES (kinds.py) lists the types.
     """
 
-    material: Material | None = None  # values of its own; None, for all three: the body's value
+    material: Material | None = None  # own material, filter and sensor of the shape; None: that of its body
     filter: Filter | None = None
     sensor: bool | None = None
 
     points: Points  # of a convex shape: its 1 to 16 corners, clockwise on the screen; of a chain: the ends of its links
     radius: float  # rounding of a shape with points [px]
     snap: bool = False  # whether it is a mask that is tested as drawn
-    _kind: int  # of its SHAPE row, which decides how it collides: CIRCLE, POLYGON, …
-    _is_convex: bool = False  # one rounded hull at each pose
-    _has_mass: bool = False  # it has an area, which weighs and can be carved with or wrapped in a Bounds
-    _is_ground: bool = False  # static or kinematic, and it never meets other ground
-    _may_turn: bool = True  # a body that has it may have an angle
+    _kind: int  # kind of the SHAPE row: CIRCLE, POLYGON, …; it decides how the shape collides
+    _is_convex: bool = False  # at each pose the shape is one convex hull with a rounding radius
+    _has_mass: bool = False  # the shape has an area: it weighs, and it can carve and be wrapped in a Bounds
+    _is_ground: bool = False  # only for static and kinematic bodies, and never tested against other ground
+    _may_turn: bool = True  # a body with this shape may have an angle other than 0
 
     def mass_of(self, density: float) -> Mass:
-        """Return its mass; density [mass per px2]."""
+        """Return the mass of the shape; density [mass per px2]."""
         return NOTHING
 
     @property
@@ -182,16 +183,16 @@ class Shape:
 
     @property
     def min_half_extent(self) -> float:
-        """Inradius [px]: from the centre of mass to the nearest point of its surface; 0 of lines."""
+        """Inradius [px]: distance from the centre of mass to the nearest point of the surface; 0 for lines."""
         return 0.0
 
     @property
     def _thinnest_half(self) -> float:
-        """Inradius at its thinnest part [px], where it responds by parts."""
+        """Smallest inradius [px] of the parts by which the shape collides; min_half_extent if it has no parts."""
         return self.min_half_extent
 
     def reach(self, x: float, y: float) -> float:
-        """Return the distance [px] from (x, y) to its furthest point."""
+        """Return the distance [px] from (x, y) to the furthest point of the shape, both in body space."""
         return max(math.hypot(px - x, py - y) for px, py in self.points) + self.radius
 
     @property
@@ -201,50 +202,50 @@ class Shape:
 
     @property
     def _key(self) -> tuple:
-        """Numbers and bytes that order the shapes of one type."""
+        """Sort key among shapes of the same type: numbers and bytes."""
         return (self.radius, len(self.points), *(each for point in self.points for each in point))
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
-        """Return the convex hulls [(corners (n, 2), radius)] in body space that make it up; of a mask its pixels."""
+        """Return [(corners (n, 2), radius)], convex hulls in body space that make up the shape (a mask: its pixels)."""
         return []
 
     @property
     def _pixel_parts(self) -> Parts:
-        """Its hulls as Parts in body space."""
+        """The hulls of `_hulls` as Parts in body space; for a mask rectangles of pixels."""
         hulls = self._hulls()
         return parts_of([corners for corners, _ in hulls], [radius for _, radius in hulls])
 
     @property
     def _parts(self) -> Parts:
-        """Its convex parts in body space, for sweeps: its hulls; of a mask those of its outline."""
+        """Convex parts of the shape in body space, for sweeps: its hulls, or for a mask the parts of its outline."""
         return self._pixel_parts
 
     def _box_at(self, angle: float) -> Parts:
-        """Return its AABB in a body at an angle [rad], as one part; no part if it is empty."""
+        """Return the shape's AABB at an angle [rad] of a body at (0, 0), as one part; no part if the shape is empty."""
         boxes = turned_parts(self._pixel_parts, 0.0, 0.0, math.cos(angle), math.sin(angle)).boxes
         return parts_of([rectangle(*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))] if len(boxes) else [])
 
     def _rotation(self, angle: float) -> tuple[float, float]:
-        """Return (cosine, sine) of the angle [rad] of its body."""
+        """Return (cosine, sine) of an angle [rad] as the kernels compute them for this type of shape."""
         return math.cos(angle), math.sin(angle)
 
     def _parts_at(self, placed: Placed) -> Parts:
-        """Return its convex parts at the pose of its SHAPE row."""
+        """Return the convex parts of the shape at the pose of its body, relative to the point of `placed`."""
         cosine, sine = self._rotation(placed.angle)
         turn = np.array([[cosine, sine], [-sine, cosine]])
         return parts_of([corners @ turn + placed.offset for corners, _ in self._hulls()])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence]]:
-        """Return [(tile, parts)] that respond in place of the shape, each with a SHAPE row; (): it responds."""
+        """Return [(tile, parts)] that collide in place of the shape, a SHAPE row per part; () if it collides itself."""
         return ()
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
-        """Raise ValueError where a body of a kind at angles [rad] cannot have it."""
+        """Raise ValueError if bodies of this kind at these angles [rad] cannot have the shape."""
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return the same shape with values of its own; None: the body's. Its density counts in the body's mass.
+        """Return the shape with its own material, filter and sensor; None: those of the body that has the shape.
 
-        Changing the body's material, filter or sensor leaves these values unchanged. Raises TypeError.
+        A change of the body's values does not change them. The own density counts in the body's mass. Raises TypeError.
         """
         for name, value, wanted in (("material", material, Material), ("filter", filter, Filter)):
             if value is not None and not isinstance(value, wanted):
@@ -259,11 +260,11 @@ class Shape:
 
     @property
     def bare(self) -> Self:
-        """The shape without values of its own, as a library stores it: one for all shapes that differ only in them."""
+        """The shape without own material, filter and sensor, stored once in a library for all that differ in them."""
         return vars(self).get("_bare", self)
 
     def with_values_of(self, other: "Shape") -> Self:
-        """Return this shape with the own values of another one."""
+        """Return this shape with the own material, filter and sensor of another shape."""
         return self.with_(other.material, other.filter, other.sensor)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:
@@ -272,7 +273,7 @@ class Shape:
 
 @dataclass(frozen=True)
 class EqualByValue(Shape):
-    """Base of the shapes that are equal when their geometry and their own values are."""
+    """Base of shapes that are equal if their geometry, material, filter and sensor are equal."""
 
     material: Material | None = field(default=None, init=False, repr=False)
     filter: Filter | None = field(default=None, init=False, repr=False)

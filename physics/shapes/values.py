@@ -28,7 +28,7 @@ from physics.tables.shape import CAPSULE, CHAIN, CIRCLE, POLYGON, SEGMENT, TILES
 STRAIGHT = 1e-12  # [rad] smaller turns count as straight
 CORNER_OF = partial(tuple.__new__, Vec2)  # from two numbers; Vec2._make would count them first
 PHYSICS = __name__.removesuffix(".shapes.values")  # the package that a user imports
-SHORTEST = 1e-9  # relative to a hull's size: a shorter edge loses its direction by rounding when the hull moves
+SHORTEST = 1e-9  # [hull sizes] the direction of a shorter edge is lost to rounding errors when the hull moves
 
 
 class Convex(EqualByValue):
@@ -74,12 +74,12 @@ class Convex(EqualByValue):
         return parts_of([corners[:count]], radius)
 
     def _facts(self) -> dict[str, Any]:
-        """Return the arguments of its constructor but `points`, for a snapshot: values that JSON can hold."""
+        """Return the constructor's arguments except `points`, by name, for a snapshot: values that JSON can hold."""
         return {each.name: getattr(self, each.name) for each in fields(self) if each.init and each.name != "points"}
 
     @classmethod
     def _load(cls, points: Points, facts: dict[str, Any]) -> Self:
-        """Return the shape of a snapshot. Raises TypeError, ValueError."""
+        """Return the shape stored in a snapshot; facts: the result of `_facts`. Raises TypeError, ValueError."""
         given = {"points": points} if any(each.name == "points" for each in fields(cls)) else {}
         return cls(**given, **facts)
 
@@ -104,7 +104,7 @@ class Circle(Convex):
 class Capsule(Convex):
     """All points within a radius of the line from a to b.
 
-    Raises ValueError for a radius that is not > 0, or no length.
+    Raises ValueError for a radius <= 0, and for a and b so close that the line has no direction.
     """
 
     a: Pair
@@ -164,9 +164,9 @@ class Polygon(Convex):
 
     @classmethod
     def known(cls, points: list[list[float]]) -> "Polygon":
-        """Return the polygon of valid corners [px], convex and clockwise on the screen, without a check.
+        """Return a polygon without checking its corners [px], which must be convex and clockwise on the screen.
 
-        For the outlines of masks, which have thousands.
+        For the outlines of masks, which have thousands of polygons.
         """
         found = object.__new__(cls)
         vars(found).update(points=tuple(map(CORNER_OF, points)), radius=0.0)
@@ -174,7 +174,7 @@ class Polygon(Convex):
 
     @classmethod
     def box(cls, width: float, height: float, center: Pair = (0.0, 0.0), angle: float = 0.0) -> "Polygon":
-        """Return a box of full sizes, rotated by `angle` [rad] about its centre."""
+        """Return a box of full width and height [px], rotated by `angle` [rad] about its centre."""
         half_width = checks.number("width", width, above=0.0) / 2.0
         half_height = checks.number("height", height, above=0.0) / 2.0
         x, y = checks.vector("center", center)
@@ -194,7 +194,10 @@ class Polygon(Convex):
 
 
 def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
-    """Return rectangles (left, top, right, bottom) that cover solid[row, col]: runs along rows, equal runs merged."""
+    """Return disjoint rectangles (left, top, right, bottom) that cover the solid cells of solid[row, col].
+
+    Right and bottom are exclusive. Each is a run of cells in a row, extended down over rows with the same run.
+    """
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
     for row, line in enumerate(edges):
@@ -210,11 +213,12 @@ def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
 
 
 class TileGrid(Shape):
-    """Solid tiles of one size; origin at the top left corner of tile (0, 0).
+    """A grid of square tiles of one size; the origin is the top left corner of tile (0, 0).
 
-    solid[row, col] bool; one_way[row, col] bool: open from below; slopes[row, col] = (left, right): height of the
-    surface above the tile's bottom as a fraction 0..1, (0, 1) rises to the right, (0, 0) is no slope. Raises ValueError
-    when the arrays differ in shape, a slope is out of range, or a cell is of two kinds.
+    solid[row, col] bool; one_way[row, col] bool: platforms that are open from below; slopes[row, col] = (left, right):
+    height of the surface at the tile's left and right side above its bottom, as a fraction 0..1 of the tile. (0, 1)
+    rises to the right, (0, 0) is no slope. Raises ValueError if the arrays differ in shape, a slope is out of range, or
+    a cell is more than one of solid, one-way and slope.
     """
 
     _kind, _is_ground, _may_turn = TILES, True, False
@@ -249,7 +253,10 @@ class TileGrid(Shape):
 
     @cached_property
     def blocks(self) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
-        """Blocks (left, top, right, bottom) of solid cells, cells with a slope, and blocks of one-way cells."""
+        """(rectangles of solid cells, [row, column] of cells with a slope, rectangles of one-way cells), in cells.
+
+        A rectangle is (left, top, right, bottom), right and bottom exclusive.
+        """
         return (
             solid_blocks(self.solid),
             np.argwhere((self.slopes > 0.0).any(axis=2)).tolist(),
@@ -277,10 +284,10 @@ class TileGrid(Shape):
         return (*self.solid.shape, self.tile_size, *cells)
 
     def _outlines(self, x: float, y: float, feet: float) -> list:
-        """Return the outlines of its tiles with its origin at (x, y) [px].
+        """Return the convex outlines of the tiles, with the grid's origin at (x, y) [px].
 
-        feet [px]: the lowest point of the other shape, relative to the grid's origin. A one-way tile is present, as its
-        top edge, only for shapes wholly above it.
+        feet [px]: y of the lowest point of the other shape, relative to the grid's origin. A one-way tile is listed, as
+        its top edge, only if that point is not below this edge.
         """
         size = self.tile_size
         solid, slopes, one_way = self.blocks
@@ -319,7 +326,7 @@ class TileGrid(Shape):
 
 
 def bools(name: str, value: ArrayLike) -> np.ndarray:
-    """Return a C-ordered bool array [row, col]. Raises TypeError, ValueError."""
+    """Return an array [row, col] of bools or integers as C-ordered bools. Raises TypeError, ValueError."""
     _refuse_pixels_of_pygame(name, value)
     try:
         array = np.array(value)
@@ -333,7 +340,7 @@ def bools(name: str, value: ArrayLike) -> np.ndarray:
 
 
 def _refuse_pixels_of_pygame(name: str, value: Any) -> None:
-    """Reject pygame masks and surfaces: NumPy would misread the words of a Mask, packed by columns, as pixels."""
+    """Raise TypeError for a pygame Mask or Surface: NumPy would misread the packed words of a Mask as pixels."""
     pygame = sys.modules.get("pygame")  # a caller with a Mask has imported it; physics does not
     for kind, way_in in (("Mask", "from_mask(mask)"), ("Surface", "from_surface(surface)")):
         known = getattr(pygame, kind, None)
@@ -357,7 +364,7 @@ def _check_length(name, a, b):
 
 @dataclass(frozen=True)
 class Segment(Convex):
-    """The line from a to b, solid from both sides; no mass. Raises ValueError for one without length."""
+    """The line from a to b, solid from both sides, without mass. Raises ValueError if a and b coincide."""
 
     a: Pair
     b: Pair
@@ -375,11 +382,13 @@ class Segment(Convex):
 
 @dataclass(frozen=True)
 class Chain(EqualByValue):
-    """One-sided links from point to point, solid from the side of (dy, -dx). No mass; for static and kinematic bodies.
+    """Connected one-sided lines (links) from point to point, without mass; for static and kinematic bodies.
 
-    A floor is listed left to right, a solid island clockwise on the screen, a room counter-clockwise. ghosts: (before,
-    after), neighbours of the first and last point that only smooth the ends, either may be None. materials: one
-    Material per link (None: the body's). Raises ValueError for too few points, a link without length, ghosts of a loop.
+    A link of direction (dx, dy) is solid from the side to which (dy, -dx) points: a floor is listed left to right, a
+    solid island clockwise on the screen, a room counter-clockwise. loop: whether the last point is linked to the first.
+    ghosts: (before, after), neighbours of the first and last point that only smooth collisions at the ends; each may be
+    None. materials: one Material per link; None: the body's. Raises ValueError for too few points, a link without
+    length, and ghosts of a loop.
     """
 
     points: Points
@@ -446,7 +455,7 @@ class Chain(EqualByValue):
         return len(self.points) if self.loop else len(self.points) - 1
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
-        """Return its links."""
+        """Return the links as hulls of two corners with radius 0."""
         points = list(self.points) + ([self.points[0]] if self.loop else [])
         return [(np.array(each, np.float64), 0.0) for each in pairwise(points)]
 
