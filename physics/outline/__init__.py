@@ -1,1 +1,1 @@
-"""Outlines around pixels: contours, simple shapes, convex decomposition."""
+"""From pixels to shapes: contours, smooth outlines, simple enclosing shapes, convex decomposition."""

@@ -1,4 +1,4 @@
-"""From pixels to outlines: crack contours, straight runs, and the smooth outline of a raster."""
+"""From pixels to outlines: the contours along pixel edges, and the smooth outline of a raster in straight lines."""
 
 import math
 from typing import NamedTuple
@@ -15,7 +15,8 @@ from physics.outline.paths import SHARP
 # for the whole raster at once, linked at the corners where one ends and the next starts, and returned as loops. Source:
 # Rosenfeld and Kak 1982, section 11.1, here without a scan per step.
 #
-# At a pinch two solid pixels touch only diagonally. Four runs meet there, and there are two ways to continue:
+# A pinch is a corner at which two solid pixels touch only diagonally. Four runs meet there, and a loop can continue in
+# two ways:
 #
 #     joined: the loop passes on both sides      apart: it stays with the pixel
 #       # |                                        # |
@@ -24,10 +25,10 @@ from physics.outline.paths import SHARP
 
 
 class Loop(NamedTuple):
-    """Corners where a crack loop turns, in raster pixels, x first."""
+    """A closed loop of cracks, given by the corners at which it turns: (x, y) in raster pixels."""
 
     corners: np.ndarray  # (n, 2) int64
-    joined: np.ndarray  # (n,) bool: the corner is a joined pinch
+    joined: np.ndarray  # (n,) bool: the corner is a pinch at which two diagonal pixels are joined
 
 
 class Contour(NamedTuple):
@@ -38,12 +39,12 @@ class Contour(NamedTuple):
 
 
 def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
-    """Return the pieces of solid[row, col] bool, ordered by their topmost (then leftmost) corner.
+    """Return the connected pieces of solid[row, col] bool, ordered by their topmost, then leftmost corner.
 
-    Corners are only where the direction changes. joined [px] 0: pinches are apart. Then pieces are 4-connected, no loop
-    visits a corner twice, and loops touch at most in pinches. Otherwise a pinch is joined unless two of its runs, one
-    of either direction, have at least this length. Then the pieces are 8-connected through it and a loop may pass it
-    twice. Linear in pixels (vectorised) and corners.
+    A loop lists only the corners at which it turns. joined sets whether solid pixels that touch only diagonally (at a
+    pinch) are connected. joined = 0: they never are, so pieces are 4-connected, no loop visits a corner twice, and
+    loops touch at most in pinches. joined > 0 [px]: they are, and a loop may pass the pinch twice, unless a horizontal
+    and a vertical run of at least this length meet there. Linear in pixels (vectorised) and corners.
     """
     runs = _Runs(np.ascontiguousarray(solid, dtype=bool), joined)
     outers, holes = [], []
@@ -55,7 +56,7 @@ def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
     for loop, points in outers:
         piece_of[loop] = len(pieces)
         pieces.append(Contour(Loop(points, runs.joined[loop]), []))
-    # The solid left of a hole is bounded on its left by the piece's outer loop, or by a hole further left.
+    # The solid pixels left of a hole are bounded on the left by their piece's outer loop or by a hole further left.
     holes.sort(key=lambda each: each[1][:, 0].min())
     for loop, points in holes:
         piece = piece_of[runs.left_of(points)]
@@ -77,7 +78,7 @@ def _first(points):
 
 
 class _Runs:
-    """All runs of a raster: the horizontal ones first, then the vertical; corner k is the start of run k."""
+    """All runs (straight rows of cracks) of a raster, horizontal ones first; corner k is the start of run k."""
 
     def __init__(self, solid, joined):
         height, width = solid.shape
@@ -94,14 +95,14 @@ class _Runs:
         lower = np.where(falls > 0, bottoms, tops)
         self.corners = np.concatenate([np.stack([first, lines], 1), np.stack([columns, upper], 1)])
         stops = np.concatenate([np.stack([last, lines], 1), np.stack([columns, lower], 1)])
-        # left_of: vertical runs are in order of column, then row.
+        # For left_of: vertical runs are in order of column, then row.
         self.tall = height + 1
         self.order = columns * self.tall + tops
         self.cracks = padded[1:, :-1] != padded[1:, 1:]
         self._follow(stops, np.concatenate([signs, falls]), np.concatenate([ends - starts, bottoms - tops]), joined)
 
     def _follow(self, stops, signs, lengths, joined):
-        """Link each run to the run that follows. Each corner has one horizontal and one vertical run, a pinch two."""
+        """Link each run to the run after it. A corner has one horizontal and one vertical run, a pinch two of each."""
         count = self.horizontal
         wide = max(int(self.corners[:, 0].max(initial=0)), 0) + 1
         start, stop = self.corners[:, 1] * wide + self.corners[:, 0], stops[:, 1] * wide + stops[:, 0]
@@ -132,7 +133,7 @@ class _Runs:
             self.next[rows] = (order[at] if len(keys) else at) + (others.start or 0)
 
     def loops(self):
-        """Yield the rows of runs, loop by loop. A loop that visits an apart pinch twice is split there."""
+        """Yield the indices of the runs of each loop. A loop that visits a pinch twice is split there if not joined."""
         following, apart, unseen = self.next.tolist(), self.apart.tolist(), bytearray(b"\1") * len(self.next)
         places = self.corners
         for begin in range(self.horizontal):
@@ -153,7 +154,7 @@ class _Runs:
                 yield np.array(loop)
 
     def left_of(self, points):
-        """Return the run on the other side of the solid pixels left of a hole."""
+        """Return the vertical run that bounds the solid pixels left of a hole on their left. points: of the hole."""
         k = int(points[:, 0].argmin())
         # At the hole's leftmost column one of the two runs at that corner is vertical.
         x, y = points[k].tolist()
@@ -164,7 +165,7 @@ class _Runs:
 
 
 def _runs_of(cracks):
-    """Return (line, start, end, sign) of each straight row of equal cracks (-1, 1) in cracks[line, place]."""
+    """Return (line, start, end, sign), one array each, of all runs of equal cracks (-1 or 1) in cracks[line, place]."""
     before = np.zeros((cracks.shape[0], cracks.shape[1] + 1), np.int8)
     before[:, 1:] = cracks
     after = np.zeros_like(before)
@@ -178,15 +179,15 @@ def _runs_of(cracks):
 # ---- outline ---------------------------------------------------------------------------------------------------------
 # Smooth outline of pixels: staircases become straight lines, all else is unchanged.
 #
-# A line may replace a stretch of a crack loop with at most one horizontal and one vertical direction, a staircase, if
-# for each corner c within it
+# A line may replace a staircase, a stretch of a crack loop with at most one horizontal and one vertical direction, if
+# for each corner c of the stretch
 #
 #     |cross(d, c - start)| <= reach * (|dx| + |dy|)        with reach = min(smooth, just under 0.5)
 #
-# This inequality is the whole contract. Between two legs that meet at c, the line is at most `reach` from the nearer
-# leg, and c at most sqrt(2) * reach <= smooth + 0.21 from the line. A pixel's centre lies (0.5, 0.5) from a corner, so
-# below 0.5 every solid centre stays inside and every clear one outside. Lines that separate the same centres as their
-# cracks never cross each other: outlines are simple, and pieces touch only in pinches.
+# All guarantees follow from this inequality. Of the two runs that meet at c, the line is at most `reach` from the
+# nearer one, and c is at most sqrt(2) * reach <= smooth + 0.21 from the line. A pixel's centre lies (0.5, 0.5) from a
+# corner, so with reach below 0.5 every solid centre stays inside and every clear one outside. Lines that separate the
+# same centres as the cracks that they replace never cross: outlines are simple, and pieces touch only in pinches.
 #
 # For a fixed start the inequality bounds the direction to an interval, so lines are found in one pass (as in O'Rourke
 # 1981, "An on-line algorithm for fitting straight lines between data ranges"). The fewest lines are found by dynamic
@@ -196,39 +197,41 @@ LARGEST_REACH = 0.5 - 2.0**-20  # [px] less than the distance from a crack to a 
 
 
 class Outline(NamedTuple):
-    """One piece: simple polygons in raster pixels that touch at most in single points."""
+    """Outline of one connected piece: simple polygons in raster pixels, which touch each other at most in points."""
 
     outer: np.ndarray  # (n, 2) float64: corners, clockwise on the screen
     holes: list[np.ndarray]  # each (n, 2) float64: corners, counter-clockwise on the screen
 
 
 def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
-    """Return the outlines of the pieces of solid[row, col] bool in straight lines, in the order of contours.
+    """Return the outline of each connected piece of solid[row, col] bool, smoothed into straight lines.
 
-    smooth [px] >= 0: each point of an outline is within it of the pixels' edges, and each point of those within smooth
-    + 0.21 of the outline; 0: the edges themselves. Solid pixels' centres are inside, clear ones' outside. A corner
-    between straight runs of 3 px and more is kept, as are all corners of a rectangle. Pieces are 8-connected where the
-    outline can pass between two diagonal pixels: not at such a corner, nor for smooth < 0.25. The number of corners is
-    near the least possible on corners and middles of runs. O(corners * corners per line).
+    smooth [px] >= 0: each point of an outline is within `smooth` of the pixels' edges, and each point of the edges
+    within smooth + 0.21 of the outline; 0: the outline is the edges. Solid pixels' centres are inside, clear pixels'
+    centres outside. A corner between straight edges of 3 px or more is kept, as are all corners of a rectangle. Two
+    diagonal pixels belong to one piece if the outline can pass between them: not at such a corner, nor for smooth <
+    0.25. The number of corners is near the least possible for corners at ends and middles of edges. Pieces are ordered
+    by their topmost, then leftmost corner. O(corners * corners per line).
     """
     return [smoothed_piece(piece, smooth) for piece in pieces_of(solid, smooth)]
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """Return the crack loops of outlines, with pinches joined where a line can pass."""
+    """Return the pieces as crack loops; two diagonal pixels are joined where a line of the outline can pass between."""
     return contours(solid, SHARP if smooth >= JOINING else 0)
 
 
 def smoothed_piece(piece: Contour, smooth: float) -> Outline:
-    """Return the outline of one piece."""
+    """Return the smoothed outline of one piece. smooth [px] as in outline."""
     reach = min(smooth, LARGEST_REACH)
     return Outline(smoothed(piece.outer, reach), [smoothed(hole, reach) for hole in piece.holes])
 
 
 def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
-    """Return the corners (n, 2) float64 of a crack loop in straight lines; reach [px] as above.
+    """Return the corners (n, 2) float64 [px] of straight lines that replace a crack loop.
 
-    curves: whether lines follow the curves of a drawing; else they are the fewest.
+    reach [px]: largest distance of the lines from the cracks; 0: the loop itself. curves: whether lines follow round
+    curves of the drawing (see curves.py); else the lines are the fewest.
     """
     if reach <= 0.0:
         return loop.corners.astype(float)
@@ -251,7 +254,7 @@ def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
 
 
 def sharp(loop: Loop) -> np.ndarray:
-    """Return the fixed corners of a crack loop, (n,) bool: those between runs of 3 px and more, and of rectangles."""
+    """Return which corners (n,) bool of a crack loop smoothing keeps: between runs of 3 px or more, of rectangles."""
     runs = np.roll(loop.corners, -1, axis=0) - loop.corners
     lengths, signs = np.abs(runs).sum(axis=1), np.sign(runs)
     before = np.roll(signs, 1, axis=0)

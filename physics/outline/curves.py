@@ -1,4 +1,4 @@
-"""Lines along the curves of a drawing."""
+"""Outline lines along round curves of a drawing, whose directions are those of the curve."""
 
 import math
 from typing import NamedTuple
@@ -20,37 +20,36 @@ from physics.outline.paths import (
 )
 
 # ---- curves ----------------------------------------------------------------------------------------------------------
-# Lines along the curves of a drawing, whose directions are those of the curve.
+# The fewest lines within `reach` of the cracks (pixel edges) have wrong directions on a round curve, by up to half a
+# right angle where the curve is level, upright or diagonal, because a line ends beside a single pixel there. So
+# two or more consecutive lines that turn like an arc are computed again. Candidate corners (places) are moved from the
+# cracks to a smooth curve, the least-squares parabola through the middles of the cracks around each place (Savitzky and
+# Golay 1964), and the cost of a line grows with its angles to that curve. The inequality of contour.outline holds for
+# these lines too, since places stay within `reach` of their cracks.
 #
-# The fewest lines keep to the cracks, but their directions are off by up to half a right angle where a curve is level,
-# upright or diagonal: there a line ends beside a single pixel. A stretch of two and more lines that turn as an arc
-# would is therefore laid anew. Its places are moved from the cracks to a smooth curve, the least-squares parabola of
-# the cracks' middles around each (Savitzky and Golay 1964), and a line costs the more the larger its angles with that
-# curve. The inequality of `outline` holds for these lines too, from places within `reach` of their cracks.
-#
-# Long lines, lines that turn far, and those at fixed corners between them stay as they are to the bit: walls, slopes
-# and the corners of boxes.
+# Long lines, lines that turn far, and lines at fixed corners between them are unchanged to the bit: walls, slopes and
+# the corners of boxes.
 
-FIT = 12  # [cracks] on either side of a place to which the curve is fitted: SEEN in tiles. Fewer: coarser directions
-NARROW_FIT = 6  # [cracks] … below which a curve is too narrow and stays as it is: radii of less than 6 px
-LEAST_FIT = 3  # [cracks] … at the ends of a curve
-FIT_TURN = 0.95  # [rad] … at most this turn of the curve on either side, because an arc is no parabola
-RISE = 0.9  # [px] greatest height of a line as an arc with its turns; straight lines of the same turns are longer
+FIT = 12  # [cracks] on either side of a place that the fit uses; SEEN in tiles. Fewer: coarser directions
+NARROW_FIT = 6  # [cracks] a curve with a smaller fit is too narrow and stays as it is: radii of less than 6 px
+LEAST_FIT = 3  # [cracks] on either side at the ends of a curve
+FIT_TURN = 0.95  # [rad] largest turn of the curve on either side within a fit, because an arc is no parabola
+RISE = 0.9  # [px] greatest height over its chord of an arc that a line replaces; higher: a long straight line
 TURN = 1.0  # [rad] greatest turn from a curve's line to the next one
 CLEAR = 3.0  # [px] least length of two lines of a curve
-GENTLE = 0.12  # [rad] greatest turn of a stretch that is smooth enough
+GENTLE = 0.12  # [rad] a stretch whose turns are all smaller is smooth enough as it is
 SPIKE = 1.5  # [px] shorter lines have no direction, …
-LOOKED = 3  # number of lines looked at for a turn
-SPIKE_SHARE = 0.25  # … nor have those shorter than this share of a line for its turns
+LOOKED = 3  # number of neighbouring lines examined to find the turn at a line's end
+SPIKE_SHARE = 0.25  # … nor have lines shorter than this share of the line whose turn is sought
 DENT = 6.0  # [px] greatest length of a line in a curve that turns to either side at its ends, …
 WAVE = 0.2  # [px] … or greatest height of such a line as an arc with its larger turn
 ANGLE_PRICE = 4.5  # [corners / (rad2 px)]: a turn of about 8 degrees at a radius of 60 px, 14 at 10 px, 5 at 200 px
 CURVE_PRICES = Prices(0.0, ANGLE_PRICE)
-JOINING = 0.25  # [px] from this smoothing on a line can pass a pinch, so that pieces are 8-connected; below no curves
+JOINING = 0.25  # [px] least `smooth` at which lines pass between diagonal pixels (8-connected pieces) and follow curves
 INSIDE = 0.96  # largest distance of a place from its crack as a share of `reach`
 GRAINS = 1024.0  # [1/px]
 GRAIN = 1.0 / GRAINS  # [px] grid of places: sums and products with whole pixels are exact
-LEVEL = 0.3  # least share of a curve's direction along a run with which places ahead on it are corrected
+LEVEL = 0.3  # least cosine between curve and run at which a fitted point is moved along the curve to its place's normal
 APART = 0.75  # [cracks] least distance of a place from the ends of a curve
 
 STRAIGHT_LINE, CURVED_LINE, SPIKE_LINE = 0, 1, 2
@@ -60,7 +59,7 @@ VERTEX = np.dtype(
         ("x", np.float64),
         ("y", np.float64),
         ("at", np.float64),  # [cracks] along the path
-        ("anchor", np.bool_),  # no curve passes it
+        ("anchor", np.bool_),  # a fixed corner: no curve passes it
         ("broken", np.bool_),  # the next line passes a corner where no line may end
         ("along_x", np.float64),  # direction of the next line
         ("along_y", np.float64),
@@ -74,7 +73,7 @@ FITTED = np.dtype([(name, np.float64) for name in ("x", "y", "along_x", "along_y
 
 
 class Lines(NamedTuple):
-    """Scratch arrays for the longest possible path."""
+    """Scratch arrays of the line search, large enough for the longest possible path."""
 
     runs: np.ndarray  # RUN
     places: np.ndarray  # PLACE
@@ -85,31 +84,31 @@ class Lines(NamedTuple):
 
 
 class Path(NamedTuple):
-    """A path of cracks."""
+    """Parameters of a path of cracks (pixel edges), whose runs are in Lines.runs."""
 
     count: int  # runs
     cracks: int
     closed: bool
     reach: float  # [px] as in outline
     low: float  # [px] least and …
-    high: float  # … greatest coordinate of its lines
-    begin: float  # [cracks] lines may end after it …
-    end: float  # … and before it, besides its ends
-    curves: bool  # whether curves are laid anew
+    high: float  # … greatest coordinate that lines may have
+    begin: float  # [cracks] along the path: lines end only after this place …
+    end: float  # … and before this one, or at the ends of the path
+    curves: bool  # whether lines along round curves are computed again
 
 
 class Curve(NamedTuple):
-    """A stretch of a path."""
+    """A stretch of a path that is round, and the range of cracks to which the curve is fitted."""
 
     start: float  # [cracks] along the path
     end: float
     low: float  # [cracks] the curve is fitted to the path from here …
     high: float  # … to here
-    half: int  # largest number of cracks on either side
+    half: int  # largest number of cracks on either side of a place in a fit; 0: too narrow for a fit
 
 
 def room_for_lines(cracks: int) -> Lines:
-    """Return scratch arrays for paths of some cracks."""
+    """Return scratch arrays for paths of up to `cracks` cracks."""
     return Lines(
         np.zeros(cracks, RUN),
         np.zeros(4 * cracks + 8, PLACE),
@@ -122,7 +121,10 @@ def room_for_lines(cracks: int) -> Lines:
 
 @subkernel
 def read_vertices(found, path, workspace):
-    """Write the vertices from the chain of `found` places, reversed. Returns the number of lines between them."""
+    """Write the vertices (ends of lines) found by the line search. Returns the number of lines between them.
+
+    found: number of places in workspace.chain, which lists them from last to first.
+    """
     vertices, places = workspace.vertices, workspace.places
     count = found - 1
     turns = places[workspace.chain[found - 1]].at // path.cracks if path.closed else 0.0
@@ -151,7 +153,7 @@ def read_vertices(found, path, workspace):
 
 @subkernel
 def turn_between(first, second):
-    """Return the turn from the line of one vertex to that of another [rad]: > 0 clockwise on the screen."""
+    """Return the angle [rad] from the line after one vertex to that after another: > 0 clockwise on the screen."""
     return math.atan2(
         first.along_x * second.along_y - first.along_y * second.along_x,
         first.along_x * second.along_x + first.along_y * second.along_y,
@@ -160,10 +162,11 @@ def turn_between(first, second):
 
 @subkernel
 def turn_beyond(k, step, count, closed, vertices):
-    """Return the turn [rad] at an end of line k (step 1: its last, -1: its first), and whether a line follows there:
-    none beyond an anchor or the end of an open path.
+    """Return (turn [rad] at an end of line k, whether a line follows there). step 1: the line's end, -1: its start.
 
-    The turn is that to the next line that is no spike, or to the next that is not far shorter, whichever is less.
+    No line follows beyond an anchor (a fixed corner) or the end of an open path. Lines too short to have a direction
+    are skipped: the turn is that to the next line of SPIKE px or more, or to the next one that is not far shorter than
+    line k, whichever is smaller.
     """
     j = k
     least = 0.0
@@ -188,7 +191,7 @@ def turn_beyond(k, step, count, closed, vertices):
 
 @subkernel
 def kind_of_line(k, count, closed, vertices):
-    """Return whether line k belongs to a curve (CURVED_LINE), to none, or has no direction."""
+    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE if it is too short, else STRAIGHT_LINE."""
     line = vertices[k]
     if line.broken:
         return STRAIGHT_LINE
@@ -210,7 +213,7 @@ def kind_of_line(k, count, closed, vertices):
 
 @subkernel
 def write_middles(path, workspace):
-    """Write the middle of each crack of a path, FIT rows further down; of a loop again FIT cracks before and after."""
+    """Write the middle of each crack k of a path to row FIT + k; for a loop also FIT cracks before and after it."""
     for k in range(path.count):
         run = workspace.runs[k]
         for step in range(run.length):
@@ -228,9 +231,9 @@ def write_middles(path, workspace):
 
 @subkernel
 def fit_at(row, half, middles, fitted_out):
-    """Fit a parabola to a row of the middles and `half` more on either side, and write its place and direction there.
+    """Fit a parabola to the middles in rows row - half to row + half; write its point and direction at `row`.
 
-    half 0 counts as 1.
+    half 0 counts as 1. fitted_out: a row of FITTED.
     """
     half = half if half > 0 else 1
     whole = 3.0 * half * (half + 1) - 1.0
@@ -252,7 +255,7 @@ def fit_at(row, half, middles, fitted_out):
 
 @subkernel
 def fit_curve(curve, path, workspace):
-    """Write the fit of each crack of a curve (FITTED), from the one before its start on."""
+    """Write the fitted point and direction (FITTED) at each crack of a curve, from one crack before the start on."""
     first = math.floor(curve.start - 0.5)
     for crack in range(first, math.floor(curve.end - 0.5) + 2):
         half = math.floor(min(float(curve.half), crack + 0.5 - curve.low, curve.high - crack - 0.5))
@@ -265,7 +268,7 @@ def fit_curve(curve, path, workspace):
 
 @subkernel
 def fit_of(at, curve, fitted):
-    """Return the place (x, y) [px] and the direction (x, y) of a curve, `at` cracks along the path."""
+    """Return (x, y [px], direction x, y) of a fitted curve, `at` cracks along the path, interpolated between cracks."""
     crack = math.floor(at - 0.5)
     share = at - 0.5 - crack
     a = fitted[crack - math.floor(curve.start - 0.5)]
@@ -281,7 +284,7 @@ def fit_of(at, curve, fitted):
 
 @subkernel
 def off_corner(x, y, before, run, most):
-    """Return a move (x, y) [px] from a corner between two runs, limited so that it ends within `most` of them."""
+    """Return an offset (x, y) [px] from the corner between two runs, shortened to end within `most` px of the runs."""
     x, y = min(max(x, -most), most), min(max(y, -most), most)
     ahead = x * right_of(run.direction) + y * down_of(run.direction)
     back = -x * right_of(before.direction) - y * down_of(before.direction)
@@ -294,10 +297,10 @@ def off_corner(x, y, before, run, most):
 
 @subkernel
 def put_on_curve(n, k, along, curve, path, workspace):
-    """Append a place on run k of a path, moved to the curve. Returns the number of places.
+    """Append a candidate corner (place) of run k of a path, moved onto the curve. Returns the number of places.
 
-    k: beyond the last run those of the next turn of a loop follow; along [cracks]: from its start, 0: the corner there.
-    Places within a run are moved along its normal only.
+    k: run number, counted on beyond the last run of a loop; along [cracks]: from the start of the run, 0: its first
+    corner. A place within a run is moved only along the normal of the run.
     """
     runs = workspace.runs
     run = runs[k % path.count]
@@ -325,7 +328,7 @@ def put_on_curve(n, k, along, curve, path, workspace):
 
 @subkernel
 def put_vertex(n, vertex, at, k, curve, path, workspace):
-    """Append a vertex, `at` cracks along the path on run k, as a place that stays. Returns the number of places."""
+    """Append a vertex, `at` cracks along the path on run k, as an unmoved place. Return the number of places."""
     put_place(n, vertex.x, vertex.y, at, workspace.runs[k % path.count], False, True, workspace.places)
     place = workspace.places[n]
     _, _, place.along_x, place.along_y = fit_of(at, curve, workspace.fitted)
@@ -334,7 +337,7 @@ def put_vertex(n, vertex, at, k, curve, path, workspace):
 
 @subkernel
 def run_at(at, runs, path):
-    """Return the last run that starts no later than `at` cracks along a path, counted on beyond the end of a loop."""
+    """Return the number of the run `at` cracks along a path; in a loop both are counted on beyond its end."""
     k = 0
     while runs[(k + 1) % path.count].at + (k + 1) // path.count * path.cracks <= at:
         k += 1
@@ -343,7 +346,7 @@ def run_at(at, runs, path):
 
 @subkernel
 def put_curve(first, last, curve, path, workspace):
-    """Write the places (PLACE) of a curve between two vertices. Returns their number."""
+    """Write the candidate corners (PLACE) of a curve from vertex `first` to vertex `last`. Returns their number."""
     runs, count = workspace.runs, path.count
     after = max(curve.start + APART, path.begin)
     before = min(curve.end - APART, path.end)
@@ -370,9 +373,9 @@ def put_curve(first, last, curve, path, workspace):
 
 @subkernel
 def widest_fit(first, length, count, path, vertices):
-    """Return the largest number of cracks on either side over which lines from `first` on are fitted, at most FIT.
+    """Return how many cracks on either side a curve of `length` lines from line `first` on is fitted to, at most FIT.
 
-    Within so many the directions of the lines differ by at most twice FIT_TURN.
+    The number is reduced so that the directions of the lines within a fit differ by at most 2 FIT_TURN.
     """
     widest = 0.0
     for k in range(first, first + length):
@@ -390,16 +393,16 @@ def widest_fit(first, length, count, path, vertices):
 
 @subkernel
 def span_of(first, length, count, path, workspace):
-    """Return the Curve of some lines from vertex `first` on; `half` 0: it is too narrow.
+    """Return the Curve of `length` lines from vertex `first` on; its `half` is 0 if it is too narrow to fit.
 
-    length: number of lines; count: of the path.
+    count: number of lines of the path.
     """
     vertices = workspace.vertices
     start = vertices[first].at
     last = first + length
     end = vertices[last].at if last <= count else vertices[last - count].at + path.cracks
     if path.closed and length == count and not vertices[first].anchor:
-        # It starts on the curve.
+        # A closed curve without a fixed corner: the middle of a run is its start.
         k = run_at(start, workspace.runs, path)
         start = (
             workspace.runs[k % path.count].at
@@ -414,7 +417,7 @@ def span_of(first, length, count, path, workspace):
     if path.closed and length == count and not vertices[first].anchor:
         low, high = -math.inf, math.inf
     elif not path.closed:
-        # Beyond a border the path goes on.
+        # An open path continues beyond a tile's border, so the fit may use cracks there.
         low = 0.0 if first == 0 else low
         high = float(path.cracks) if last == count else high
         for k in range(path.count):
@@ -427,9 +430,10 @@ def span_of(first, length, count, path, workspace):
 
 @subkernel
 def lay_curve(first, length, count, path, workspace, n, points_out):
-    """Append the points of the lines of a curve, without its end. Returns the number of points; n if there are none.
+    """Compute the lines of a curve again and append their points, without the end. Returns the number of points.
 
-    first: its first vertex; length: number of its lines; count: of the path's lines.
+    The result is n, and nothing is appended, if the curve is too narrow. first: vertex at which the curve starts;
+    length: number of its lines; count: number of lines of the path.
     """
     curve = span_of(first, length, count, path, workspace)
     if curve.half == 0:
@@ -453,7 +457,7 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
 
 @subkernel
 def put_points_of(first, length, vertices, n, points_out):
-    """Append the points of some vertices. Returns the number of points."""
+    """Append `length` vertices from `first` on as points, unchanged. Returns the number of points."""
     for k in range(first, first + length):
         points_out[n].x, points_out[n].y = vertices[k].x, vertices[k].y
         points_out[n].at = vertices[k].at
@@ -463,9 +467,10 @@ def put_points_of(first, length, vertices, n, points_out):
 
 @subkernel
 def lay_lines(found, path, workspace, n, points_out):
-    """Append the points of an outline along a path, from the chain of `found` places of straight lines.
+    """Append the outline's points along a path: of the straight lines found, with lines along curves computed again.
 
-    A closed path's last point, which is its first one, is left out. Returns the number of points.
+    found: number of places in workspace.chain, the ends of the straight lines. For a closed path the last point, equal
+    to the first, is left out. Returns the number of points.
     """
     vertices = workspace.vertices
     count = read_vertices(found, path, workspace)
@@ -509,7 +514,10 @@ def lay_lines(found, path, workspace, n, points_out):
 
 @kernel
 def lines_of_loop(path, workspace, points_out):
-    """Write the points (POINT) of the outline along the loop of its runs. Returns their number; 0: no lines."""
+    """Write the points (POINT) of the outline along a closed path (runs in the workspace). Returns their number.
+
+    The result is 0 if no lines were found.
+    """
     around, anchor = put_loop(workspace.runs, path.count, path.cracks, workspace.places)
     found = cheapest_loop(around, anchor, path.reach, workspace.places, workspace.chain)
     return lay_lines(found, path, workspace, 0, points_out) if found > 0 else 0

@@ -1,4 +1,4 @@
-"""Convex decomposition of a polygon with holes, cut between its corners."""
+"""Convex decomposition of a polygon with holes by cuts between its corners."""
 
 import heapq
 import math
@@ -12,10 +12,10 @@ from physics.outline.contour import doubled_area
 from physics.settings import MAX_CORNERS
 
 # ---- sight -----------------------------------------------------------------------------------------------------------
-# Visibility of the corners of a ring: a ring can be cut between corners that see each other.
+# Visibility of corners: a ring (closed polygon) can be cut between two corners if the line between them lies inside.
 #
-# Rings are clockwise on the screen, with the inside to the right. Along a bridge to a hole a ring passes the same
-# points twice, once on either side. The two copies see different sides, which the cones at the corners distinguish.
+# Rings are clockwise on the screen, with the inside to the right. A bridge joins a hole to its surrounding ring, which
+# then passes the bridge's ends twice, once on either side. The inside lies in other directions at each of these copies.
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -24,27 +24,28 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 class Walls:
-    """Sides from corners (n, 2) to following (n, 2) [px]; flat [px2]: largest doubled triangle area taken as zero."""
+    """Sides that block lines of sight, from corners (n, 2) to following (n, 2) [px].
+
+    flat [px2]: a triangle counts as degenerate if twice its area is no larger.
+    """
 
     def __init__(self, corners: np.ndarray, following: np.ndarray, flat: float) -> None:
         self.corners, self.following, self.flat = corners, following, flat
         self.after = following - corners
 
     def near(self, low: np.ndarray, high: np.ndarray) -> "Walls":
-        """Return the sides whose bounds meet a box."""
+        """Return the sides whose bounding boxes overlap or touch the box from low to high [px]."""
         meet = (np.minimum(self.corners, self.following) <= high) & (np.maximum(self.corners, self.following) >= low)
         meet = meet.all(axis=1)
         return Walls(self.corners[meet], self.following[meet], self.flat)
 
     def free(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Return whether the lines from points a (m, 2) to b (m, 2) cross no side and pass no corner between their
-        ends.
-        """
+        """Return (m,) bool: lines from points a (m, 2) to b (m, 2) that cross no side and pass through no corner."""
         crossed, passed = self.obstacles(a, b)
         return ~crossed & ~passed.any(axis=1)
 
     def obstacles(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return for lines as in free: (m,) whether they cross a side, and (m, n) which corners they pass."""
+        """Return for lines from a (m, 2) to b (m, 2): (m,) whether they cross a side, (m, n) the corners they pass."""
         along = (b - a)[:, None]
         to = self.corners - a[:, None]
         side, side_after = cross(along, to), cross(along, self.following - a[:, None])
@@ -58,7 +59,7 @@ class Walls:
 
 
 class Ring(Walls):
-    """A closed ring of corners (n, 2) [px], with the direction of its inside at each corner."""
+    """A closed ring of corners (n, 2) [px], clockwise on the screen, with tests of directions that lead inside."""
 
     def __init__(self, corners: np.ndarray, flat: float) -> None:
         super().__init__(corners, np.roll(corners, -1, axis=0), flat)
@@ -68,8 +69,9 @@ class Ring(Walls):
         self.convex = turn > flat
 
     def faces(self, k: np.ndarray, toward: np.ndarray, closed: bool) -> np.ndarray:
-        """Return whether corners k (m,) have the inside of the ring in the direction toward (m, 2); closed: or
-        a side.
+        """Return (m,) bool: whether the direction toward (m, 2) leads from corner k (m,) into the ring.
+
+        closed: whether a direction along a side counts as well.
         """
         low = self.flat if not closed else -self.flat
         from_after, to_back = cross(self.after[k], toward), cross(toward, self.back[k])
@@ -77,9 +79,9 @@ class Ring(Walls):
         return np.where(~self.reflex[k] & ~self.convex[k], from_after > low, within)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return two (n, n) bool matrices: pairs of corners that a cut can join, and pairs that a line inside can join.
+        """Return two (n, n) bool matrices of corner pairs: those that a cut can join, and those that a line can.
 
-        Such a line may also run along sides and pass corners. O(n^3), vectorised.
+        A cut lies strictly inside; a line may also run along sides and through corners. O(n^3), vectorised.
         """
         count = len(self.corners)
         i, j = np.triu_indices(count, 2)
@@ -97,25 +99,25 @@ class Ring(Walls):
             at = np.flatnonzero(passed[row])
             way = np.broadcast_to(toward[row], (len(at), 2))
             through = self.faces(at, way, True) & self.faces(at, -way, True)
-            # Copies of a corner on a bridge: one that lets the line through is enough.
+            # Of the copies of a corner on a bridge one must let the line through.
             places = {tuple(each) for each in self.corners[at].tolist()}
             lines[i[row], j[row]] = places == {tuple(each) for each in self.corners[at[through]].tolist()}
         return cuts, lines
 
 
 # ---- bridges ---------------------------------------------------------------------------------------------------------
-# Holes joined to the outer loop by bridges, which are passed there and back, and the resulting rings.
+# A bridge is a line from a hole to the outer loop that a ring passes there and back. Bridges turn a polygon with holes
+# into rings without holes.
 
 TRIED_LINES = 16  # number of lines tested at once, shortest first
 
 
 def bridged(points: np.ndarray, loops: Sequence[np.ndarray], flat: float) -> list[np.ndarray]:
-    """Return rings without holes (indices of points, clockwise on the screen) for an outer loop and its holes.
+    """Return a polygon with holes as rings without holes: arrays of indices of points, clockwise on the screen.
 
-    points (n, 2) [px], all distinct; loops: indices of points, the outer one clockwise on the screen, holes
-    counter-clockwise; they may touch in common points. Each hole, or group of touching holes, is joined by the shortest
-    line inside, which becomes a side of the rings twice, there and back. flat [px2]: largest doubled area taken as
-    zero.
+    Each hole, or group of touching holes, is joined to the rest by the shortest line inside the polygon, which becomes
+    two sides, there and back. points (n, 2) [px], all distinct; loops: indices of points, the outer loop clockwise on
+    the screen, then holes counter-clockwise; loops may touch in common points. flat [px2] as in Walls.
     """
     if len(loops) == 1:
         return [loops[0]]
@@ -150,7 +152,7 @@ class _Bridges:
         return any(self.group)
 
     def bridge(self):
-        """Join the leftmost group of holes to the outer loop's group: no other hole can lie between them."""
+        """Join the leftmost group of holes to the outer loop's group; on their left no other hole is in the way."""
         apart = [k for k, group in enumerate(self.group) if group]
         first = self.group[min(apart, key=lambda k: self.walls[k].corners[:, 0].min())]
         these = np.unique(np.concatenate([self.loops[k] for k in apart if self.group[k] == first]))
@@ -198,7 +200,7 @@ class _Bridges:
         return found
 
     def _onward(self, a, b, ways):
-        """Return the next side around the inside, of those that leave b, after the side from a."""
+        """Return the end of the side after side a -> b around the inside; ways: ends of all sides that leave b."""
         if len(ways) == 1:
             return ways[0]
         x, y = (self.points[a] - self.points[b]).tolist()
@@ -213,13 +215,12 @@ class _Bridges:
 # ---- simple polygon --------------------------------------------------------------------------------------------------
 # Validation of a polygon with holes: it must be simple, with holes inside, and no two edges may meet.
 
-FLAT = 1e-14  # of the polygon's size squared: doubled triangle areas up to this are rounding errors
+FLAT = 1e-14  # [size² of the polygon] twice the area of a triangle up to this is a rounding error
 ROWS = 256  # edges compared with all others at a time: bounds the memory
 
 
 def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """Return the outer ring (n, 2), clockwise on the screen, and the holes, counter-clockwise, without redundant
-    corners.
+    """Return [outer ring (n, 2), holes...]: the outer one clockwise on the screen, the holes counter-clockwise.
 
     Repeated and collinear corners are removed. Rings may be given in either winding. Holes may touch the outer ring and
     each other in common corners. Raises ValueError for fewer than three corners or no area, for edges that meet (naming
@@ -251,13 +252,13 @@ def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndar
 
 
 def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
-    """Return a ring (n, 2) without repeated and collinear corners [flat: px2, doubled]."""
+    """Return a ring (n, 2) without repeated and collinear corners; flat [px2]: as in Walls."""
     while len(ring) > 2:
         before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
         straight = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]) <= flat
         if not straight.any():
             break
-        # Of adjacent corners only every second is removed at a time: of two equal ones one stays.
+        # Of adjacent corners only every second is removed at a time, so that one of two equal corners stays.
         straight[1:] &= ~straight[:-1]
         straight[-1] &= ~straight[0]
         ring = ring[~straight]
@@ -265,7 +266,7 @@ def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
 
 
 def crossings(points: np.ndarray, ring: np.ndarray) -> np.ndarray:
-    """Return how often a ray to the right from each point (m, 2) crosses a ring (n, 2): odd inside."""
+    """Return for each point (m, 2) how often a ray to the right crosses a ring (n, 2); an odd number means inside."""
     following = np.roll(ring, -1, axis=0)
     x, y = points[:, :1], points[:, 1:]
     spans = (ring[:, 1] > y) != (following[:, 1] > y)
@@ -279,7 +280,7 @@ def _name(number):
 
 
 class _Edges:
-    """All edges of some rings, except those without length."""
+    """All edges of the rings of a polygon, except those without length."""
 
     def __init__(self, rings):
         self.size = max(float(np.ptp(np.concatenate(rings), axis=0).max()), 1e-300)
@@ -320,7 +321,7 @@ class _Edges:
         return f"{tuple(self.start[edge].tolist())} to {tuple(self.end[edge].tolist())}"
 
     def _meet(self, a, b):
-        """Return whether edges a and b (rows of edges, a < b) meet in a point that is no allowed common corner."""
+        """Return (m,) bool: whether edges a[i] < b[i] (indices) meet in a point that is no permitted common corner."""
         flat = FLAT * self.size**2
         p, q, r, s = self.start[a], self.end[a], self.start[b], self.end[b]
         sides = [_cross(q - p, r - p), _cross(q - p, s - p), _cross(s - r, p - r), _cross(s - r, q - r)]
@@ -345,10 +346,10 @@ def _cross(a, b):
 
 
 # ---- fewest convex ---------------------------------------------------------------------------------------------------
-# Minimum convex decomposition of a small ring, cut between its corners.
+# Minimum convex decomposition of a small ring by cuts between its corners.
 #
 # Source: Keil 1985, in the form of Keil and Snoeyink 2002 ("narrowest pairs"), over all pairs of corners that see each
-# other instead of the pairs with a reflex corner.
+# other instead of only the pairs with a reflex corner.
 #
 # For each line (i, k) inside, the minimum number of cuts is computed for the part of the ring from i to k beyond it.
 # The piece adjacent to the line begins with a side i -> a and ends with b -> k:
@@ -359,7 +360,10 @@ def _cross(a, b):
 
 
 class _End(NamedTuple):
-    """A best piece at a line: first corner after i, last before k, and the piece it grew from (None: a cut)."""
+    """A best piece at line (i, k): its first corner after i, its last before k, and the piece that it extends.
+
+    grown is None if the piece extends no other: line (i, last) is a cut or a side.
+    """
 
     first: int
     last: int
@@ -367,9 +371,9 @@ class _End(NamedTuple):
 
 
 def fewest_convex(corners: np.ndarray, flat: float) -> list[list[int]]:
-    """Return the corner indices of each piece, clockwise on the screen, of a ring (n, 2) [px].
+    """Return the fewest convex pieces of a ring (n, 2) [px]: corner indices of each, clockwise on the screen.
 
-    flat [px2]: largest doubled triangle area taken as zero. Pieces may have collinear corners. O(n^3).
+    Cuts are between corners. Pieces may have collinear corners. flat [px2] as in Walls. O(n^3).
     """
     return _Search(Ring(corners, flat)).pieces()
 
@@ -448,10 +452,10 @@ class _Search:
 
 
 def shaved(rings: Sequence[np.ndarray], tolerance: float) -> list[np.ndarray]:
-    """Return simple rings (n, 2) [px] with some corners removed (Visvalingam and Whyatt 1993, by distance, not area).
+    """Return simple rings (n, 2) [px] without shallow bumps and notches (Visvalingam and Whyatt 1993, by distance).
 
-    Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps three corners, and no sides
-    come to cross or touch.
+    Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps at least three corners, and
+    no sides come to cross or touch.
     """
     work = _Work(rings, tolerance)
     return work.shave()
@@ -494,7 +498,7 @@ class _Work:
         return found
 
     def _depth(self, k):
-        """Return the largest distance [px] of the corners to be removed from the side that would replace them."""
+        """Return the error [px] of removing corner k: the largest distance of a removed corner from the new side."""
         a, b = int(self.before[k]), int(self.after[k])
         (ax, ay), (bx, by) = self.points[a].tolist(), self.points[b].tolist()
         dx, dy = bx - ax, by - ay
@@ -507,7 +511,7 @@ class _Work:
         return worst
 
     def _free(self, k):
-        """Return whether the triangle removed or added holds no other corner, its sides included."""
+        """Return whether no other corner lies in or on the triangle that removing corner k cuts off or fills."""
         a, b = self.points[self.before[k]], self.points[self.after[k]]
         c = self.points[k]
         x, y = self.points[self.kept].T
@@ -521,39 +525,40 @@ class _Work:
 
 
 # ---- convex parts ----------------------------------------------------------------------------------------------------
-# Convex decomposition of a polygon with holes, cut between its corners.
+# Convex decomposition of a polygon with holes by cuts between its corners.
 #
-# Holes are bridged. Rings of more than LARGEST corners are halved by short cuts. The rest is cut into the fewest pieces
-# (fewest_convex), and adjacent pieces with a convex union are merged over the bridges and halvings (Hertel and Mehlhorn
-# 1983). Without holes and with few corners the number of parts is the least possible for cuts between corners; else it
-# is near it.
+# Holes are bridged. Rings of more than LARGEST corners are split by short cuts into two halves, repeatedly. Each ring
+# is cut into the fewest convex pieces (fewest_convex). Then adjacent pieces with a convex union are merged over bridges
+# and splits (Hertel and Mehlhorn 1983). Without holes and with few corners the number of parts is the least possible
+# for cuts between corners; otherwise it is near the least.
 
-LARGEST = 40  # corners of a ring that is cut optimally, in cubic time: 20 ms for 40
-TRIED_CUTS = 256  # halvings tested together, shortest first
-STARTS = 128  # reflex corners at which a halving may begin: bounds the memory of large rings
+LARGEST = 40  # most corners of a ring that is cut optimally, in cubic time: 20 ms for 40
+TRIED_CUTS = 256  # number of splitting cuts tested together, shortest first
+STARTS = 128  # number of reflex corners at which a splitting cut may begin: bounds the memory of large rings
 
-ConvexPart = tuple[np.ndarray, np.ndarray]  # corners (k, 2) clockwise on the screen [px], inner (k,) bool
+ConvexPart = tuple[np.ndarray, np.ndarray]  # corners (k, 2) clockwise on the screen [px]; inner (k,) bool: shared side
 
 
 def convex_parts(outer: np.ndarray, holes: Sequence[np.ndarray] = (), tolerance: float = 0.0) -> list[ConvexPart]:
-    """Return convex parts of at most 16 corners of a simple polygon, outer (n, 2) [px] and holes [(m, 2)], any winding.
+    """Return convex parts, of at most 16 corners each, of a simple polygon with holes.
 
-    Each part is (corners (k, 2) clockwise on the screen, inner (k,) bool): side k -> k + 1 is shared with another part.
-    A collinear corner is kept only where an inner side meets one of the boundary. All corners are corners of the
-    polygon. A part begins with its topmost, then leftmost corner.
+    outer (n, 2), holes [(m, 2)] [px]: in either winding. Each part is (corners (k, 2) clockwise on the screen from the
+    topmost, then leftmost on, inner (k,) bool: the side k -> k + 1 is shared with another part). All corners are
+    corners of the polygon. A collinear corner is kept only between an inner side and a side of the boundary.
 
-    tolerance [px] >= 0: corners are removed first, of bumps and notches alike, as long as each stays within it of the
-    side that replaces it and nothing crosses; 0: the parts are exactly the polygon. Repeated and collinear corners are
-    removed. Holes may touch the outer ring and each other in common corners only. Raises ValueError for edges that meet
-    or cross (naming both), for rings without area, for holes that are not inside.
+    tolerance [px] >= 0: bumps and notches are removed first, as long as each removed corner is within tolerance of the
+    side that replaces it and nothing crosses; 0: the parts are exactly the polygon. Holes may touch the outer ring and
+    each other only in common corners. Raises ValueError for edges that meet or cross (naming both), for rings without
+    area, and for holes that are not inside.
     """
     rings = simple_rings(outer, holes)
     return partition(shaved(rings, tolerance) if tolerance > 0.0 else rings)
 
 
 def partition(rings: Sequence[np.ndarray]) -> list[ConvexPart]:
-    """Return convex_parts of simple rings: the outer one clockwise on the screen, holes counter-clockwise; not
-    checked.
+    """Return the convex parts, as convex_parts, of rings that are known to be simple; nothing is checked.
+
+    The outer ring is clockwise on the screen, holes are counter-clockwise.
     """
     together = np.concatenate(rings)
     base = together.min(axis=0)
@@ -582,7 +587,7 @@ def _sides(piece):
 
 
 def _tidy(corners, inner, flat):
-    """Return a part without collinear corners between two sides of a kind, from the topmost, leftmost corner on."""
+    """Return a part from its topmost, then leftmost corner on, without collinear corners unless inner changes there."""
     before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
     keep = (np.abs(cross(before, after)) > flat) | (inner != np.roll(inner, 1))
     corners, inner = corners[keep], inner[keep]
@@ -593,7 +598,7 @@ def _tidy(corners, inner, flat):
 
 
 def _halved(points, rings, flat):
-    """Return rings of at most LARGEST corners, or convex ones."""
+    """Return the rings, split by cuts until each is convex or has at most LARGEST corners."""
     todo, found = list(rings), []
     while todo:
         ring = todo.pop()
@@ -608,7 +613,7 @@ def _halved(points, rings, flat):
 
 
 def _halving(sides):
-    """Return a short cut from a reflex corner that leaves about as many corners on either side."""
+    """Return the two corners of a short cut that starts at a reflex corner and splits a ring about in half."""
     count = len(sides.corners)
     starts = np.flatnonzero(sides.reflex)
     for share in (4, 8, 16, 64, count):
@@ -632,7 +637,7 @@ def _halving(sides):
 
 
 def _joined(points, pieces, flat):
-    """Return the pieces merged over their longest common sides, where they stay convex and have at most 16 corners."""
+    """Return pieces merged, longest common side first, where the union is convex with at most 16 corners."""
     owner = {side: number for number, piece in enumerate(pieces) for side in _sides(piece)}
     common = [side for side in owner if side[0] < side[1] and side[::-1] in owner]
     common.sort(key=lambda side: (-float(((points[side[0]] - points[side[1]]) ** 2).sum()), side))

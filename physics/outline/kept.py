@@ -1,7 +1,8 @@
-"""Stored outlines of masks: convex parts, keyed by a hash of the pixels, the settings and the code that computes them.
+"""Files of precomputed mask outlines: convex parts, keyed by a hash of the pixels, settings and computing code.
 
-A game ships them beside its art (`use`), so that a start without compiled kernels does not recompute them. Missing
-outlines are computed as usual. Other code or other pixels have another key.
+A game ships such a file beside its art and names it with `use`, so that a start without compiled kernels does not
+compute the outlines. Outlines that are not in a file are computed as usual. If the code or the pixels change, the key
+changes.
 """
 
 import hashlib
@@ -19,7 +20,7 @@ FOLDERS = ("outline", "raster")  # subpackages whose code, with math2d.py and se
 
 
 class Parts(NamedTuple):
-    """Convex polygons, one after another."""
+    """Convex parts of an outline: rounded polygons, their corners listed part after part."""
 
     corners: np.ndarray  # (n, 2) float64 [px]
     inner: np.ndarray  # (n,) bool
@@ -29,24 +30,24 @@ class Parts(NamedTuple):
 
 _files: list[Path] = []
 _kept: dict[bytes, Parts] = {}
-recorded: dict[bytes, Parts] | None = None  # all parts requested, while recording is on
+recorded: dict[bytes, Parts] | None = None  # all parts that fitted() returned, for `write`; None: not recorded
 
 
 def use(path: Path) -> None:
-    """Use the contents of a file of `write` from the next mask on. A missing or damaged file counts as empty."""
+    """Look up outlines of further masks in a file that `write` made. A missing or damaged file counts as empty."""
     _files.append(path)
 
 
 def forget() -> None:
-    """Stop using all files, until the next `use`."""
+    """Stop looking up outlines in files, until `use` names one again."""
     _files.clear()
     _kept.clear()
 
 
 def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
-    """Return the stored parts of these pixels, or the result of fit().
+    """Return the stored parts for these pixels, or the result of fit() if none are stored.
 
-    name: of the method; pixels[row, col] bool; smooth [px]: as in contour.outline.
+    name: method that fit() uses, part of the key; pixels[row, col] bool; smooth [px]: as in contour.outline.
     """
     key = _key(name, pixels, smooth)
     while _files:
@@ -67,7 +68,7 @@ def _key(name, pixels, smooth):
 
 @cache
 def code_stamp() -> bytes:
-    """Return a hash of the sources that determine the parts."""
+    """Return a hash of the source files that compute outlines: stored parts of other code are not used."""
     digest, home = hashlib.blake2b(digest_size=DIGEST), Path(__file__).resolve().parents[1]
     paths = [path for folder in FOLDERS for path in (home / folder).glob("*.py") if path != Path(__file__).resolve()]
     for path in sorted((home / "settings.py", home / "math2d.py", *paths)):
@@ -76,7 +77,7 @@ def code_stamp() -> bytes:
 
 
 def write(path: Path, found: Mapping[bytes, Parts]) -> None:
-    """Write parts to a file; equal parts give equal bytes."""
+    """Write parts, by their keys, to a file for `use`. Equal parts give a file of equal bytes."""
     order = sorted(found)
     np.savez_compressed(
         path,
@@ -94,7 +95,7 @@ def _joined(arrays, dtype):
 
 
 def _read(path):
-    """Return the contents of a file; {} if it is unreadable, damaged or of another format."""
+    """Return the parts in a file by key; {} if the file is unreadable, damaged or of another format."""
     try:
         with np.load(path, allow_pickle=False) as file:
             held = {name: file[name] for name in ("keys", "parts", "counts", "radii", "corners", "inner")}

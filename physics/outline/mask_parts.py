@@ -1,4 +1,4 @@
-"""Convex decomposition of a mask's outline, with flags of the inner sides."""
+"""Convex decomposition of a mask's outline. A flag marks inner sides, which two parts share."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -13,17 +13,18 @@ from physics.outline.rounding import rounded_core
 from physics.settings import MAX_CORNERS
 
 # ---- few parts -------------------------------------------------------------------------------------------------------
-# Convex decomposition into few parts by kernels, for outlines of masks that are made while a game runs.
+# Convex decomposition into few parts by kernels, for outlines of masks that are computed while a game runs.
 #
-# decompose.convex_parts finds the fewest parts in milliseconds. This takes a hundredth of the time for about as many
-# parts (few cuts, see rings.py).
+# decompose.convex_parts finds the fewest parts, in milliseconds. few_parts takes a hundredth of that time for about as
+# many parts (see rings.py, few cuts).
 
 
 def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Return parts as decompose.partition does: (corners (k, 2) clockwise on the screen, inner (k,)).
+    """Return the convex parts [(corners (k, 2), inner (k,) bool)] of a polygon with holes, in few parts and fast.
 
-    rings: simple, of coordinates whose products are exact; the outer one (n, 2) [px] clockwise on the screen, holes
-    counter-clockwise. Not checked.
+    Corners are clockwise on the screen; inner: the side k -> k + 1 is shared with another part. rings: the outer one
+    (n, 2) [px] clockwise on the screen, then holes counter-clockwise. They must be simple, with coordinates whose
+    products have no rounding error; this is not checked.
     """
     points = np.concatenate(rings)
     counts = np.array([len(ring) for ring in rings])
@@ -42,9 +43,9 @@ def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]
 
 @subkernel
 def join_touching(n, sides_inout):
-    """Join rings that touch in a corner: there each continues along the other, and the corner between is inside.
+    """Join rings that touch in a common corner into one ring, which at that corner changes from one to the other.
 
-    O(sides squared).
+    n: number of sides. O(n²).
     """
     for a in range(n):
         p = sides_inout[a]
@@ -65,10 +66,11 @@ def join_touching(n, sides_inout):
 
 @kernel
 def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_out):
-    """Write the convex parts of rings. Returns their number, or -1 if the rings are no polygon.
+    """Write the convex parts of a polygon given by rings. Returns their number, or -1 if the rings are no polygon.
 
-    points (n, 2) [px]; counts (rings,); most: largest number of corners of a part; sides_inout: SIDE, scratch;
-    corners_out (n, 2), inner_out (n,), counts_out (parts,).
+    points (n, 2) [px]: corners ring after ring; counts (rings,): corners of each ring; most: largest number of corners
+    of a part; sides_inout: SIDE, scratch; corners_out (n, 2) [px], inner_out (n,): corners part after part, and whether
+    the side after each is shared by two parts; counts_out (parts,): corners of each part.
     """
     n = 0
     start = 0
@@ -86,11 +88,11 @@ def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_
 
 
 # ---- mask parts ------------------------------------------------------------------------------------------------------
-# The outline of a mask as rounded convex parts with flags of the inner sides.
+# The outline of a mask as rounded convex parts; a flag marks inner sides, which two parts share.
 
 
 class Part(NamedTuple):
-    """A convex polygon in raster pixels, rounded by a radius."""
+    """A convex part of an outline in raster pixels: a polygon, capsule or disc, rounded by a radius."""
 
     corners: np.ndarray  # (k, 2) float64: 1 to 16, clockwise on the screen; 1: a disc, 2: a capsule
     inner: np.ndarray  # (k,) bool: side k -> k + 1 is shared with another part
@@ -98,11 +100,11 @@ class Part(NamedTuple):
 
 
 def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
-    """Return the convex parts of the outline of solid[row, col] bool; [] without pixels.
+    """Return the convex parts of the outline of solid[row, col] bool; [] without solid pixels.
 
-    A round piece is its rounded core (rounding.py). Any other piece is the convex parts of its outline with radius 0
-    (few_parts), each from its topmost, then leftmost corner on. smooth [px] as in contour.outline, whose contract holds
-    for the parts together. A full rectangle is one part: its four corners from the upper left on.
+    A round piece becomes one part with a radius (rounding.py). Any other piece is decomposed into parts of radius 0
+    (few_parts), each listed from its topmost, then leftmost corner on. A full rectangle is one part. smooth [px] as in
+    contour.outline; the union of the parts is as near to the pixels' edges as that outline.
     """
     parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))
     ends = np.cumsum(parts.counts)[:-1]

@@ -1,6 +1,4 @@
-"""Accuracy of hulls in place of pixels: the union of rounded hulls, its area and moments, and the Hausdorff
-distance.
-"""
+"""Accuracy of convex hulls that replace pixels: area and moments of their union, and the Hausdorff distance."""
 
 import math
 from collections.abc import Sequence
@@ -13,17 +11,17 @@ from physics.outline.contour import contours
 # ---- union -----------------------------------------------------------------------------------------------------------
 # Boundary of the union of rounded convex hulls: exact lines and arcs, for any overlaps.
 #
-# Each hull's own boundary is cut wherever it meets the boundary of another hull. A stretch belongs to the union's
-# boundary if its middle is not inside another hull and not along a hull that lies on the other side. Of coincident
-# stretches only the first hull's is kept.
+# The boundary of each hull is cut wherever it meets the boundary of another hull. A stretch between two cuts belongs to
+# the union's boundary if its middle is not inside another hull, and not on the boundary of a hull on its other side. Of
+# coincident stretches only that of the first hull is kept.
 
-ROUNDING = 1e-9  # relative to the hulls' size: a nearer point counts as on the boundary
+ROUNDING = 1e-9  # [size of the hulls] a point nearer to a boundary counts as on it
 
 Hull = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen, 1: a disc, 2: a capsule; and radius [px]
 
 
 class Stretch(NamedTuple):
-    """A line, or an arc that is clockwise on the screen, with the inside to the right."""
+    """A stretch of a boundary: a line, or an arc that is clockwise on the screen. The inside is on its right."""
 
     start: np.ndarray  # (2,) [px]
     end: np.ndarray  # (2,)
@@ -33,14 +31,14 @@ class Stretch(NamedTuple):
     turn: float  # [rad] > 0
 
     def at(self, shares: np.ndarray) -> np.ndarray:
-        """Return the points (m, 2) at shares (m,) of the length."""
+        """Return the points (m, 2) [px] at fractions (m,) of the length: 0 is the start, 1 the end."""
         if self.radius == 0.0:
             return self.start + shares[:, None] * (self.end - self.start)
         angles = self.first + shares * self.turn
         return self.center + self.radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
     def between(self, a: float, b: float) -> "Stretch":
-        """Return the stretch from one share of the length to another."""
+        """Return the part of the stretch between two fractions of its length, 0 <= a < b <= 1."""
         start, end = self.at(np.array([a, b]))
         return Stretch(start, end, self.center, self.radius, self.first + a * self.turn, (b - a) * self.turn)
 
@@ -50,9 +48,10 @@ class Stretch(NamedTuple):
 
 
 def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
-    """Return the stretches of the boundary of a union of hulls, the inside to the right of each; [] for no hulls.
+    """Return the stretches of the boundary of a union of hulls, the inside to the right of each; [] without hulls.
 
-    A side shared by two hulls is not part of it. O(sides squared) at worst; only hulls with common bounds are compared.
+    A side that two hulls share is not part of the boundary. O(sides²) at worst; only hulls with overlapping bounds are
+    compared.
     """
     if not hulls:
         return []
@@ -80,7 +79,7 @@ def line(start: np.ndarray, end: np.ndarray) -> Stretch:
 
 
 def _around(corners, radius):
-    """Return a hull's own boundary: its sides moved outward, and arcs of at most a quarter turn about its corners."""
+    """Return the boundary of one rounded hull: sides moved outward, and arcs of at most a quarter turn."""
     if len(corners) == 1:
         bounds = [(k * math.pi / 2.0, math.pi / 2.0) for k in range(4)]
         return [_arc(corners[0], radius, first, turn) for first, turn in bounds]
@@ -107,7 +106,7 @@ def _arc(center, radius, first, turn):
 
 
 def _cuts(side, others, near):
-    """Return the shares of the length, from 0 to 1, at which other stretches begin, end or cross."""
+    """Return the fractions of a stretch's length, from 0 to 1, at which other stretches begin, end or cross it."""
     shares = [0.0, 1.0]
     for other in others:
         points = [other.start, other.end]
@@ -121,7 +120,7 @@ def _cuts(side, others, near):
 
 
 def _share(side, point, near):
-    """Return the share of the length at a point of a stretch; less than 0 if the point is not on it."""
+    """Return the fraction of a stretch's length at which a point lies; -1 if the point is not on its line or circle."""
     if side.radius == 0.0:
         along = side.end - side.start
         share = float((point - side.start) @ along / (along @ along))
@@ -161,7 +160,7 @@ def _arc_meets(side, other):
 
 
 def _on_circle(start, along, center, radius):
-    """Return the points where an infinite line meets a circle; the nearest point twice if it only touches or misses."""
+    """Return the two points where an infinite line meets a circle; its point nearest the centre twice if it misses."""
     length = math.hypot(*along)
     along = along / length
     ahead = float((center - start) @ along)
@@ -171,9 +170,10 @@ def _on_circle(start, along, center, radius):
 
 
 def _covered(stretch, hull, earlier, near):
-    """Return whether a hull removes a stretch from the boundary.
+    """Return whether another hull removes a stretch from the boundary of the union.
 
-    It does if the stretch is inside it, lies against its other side, or coincides with the boundary of an earlier hull.
+    True if the stretch is inside the hull, if it is on the hull's boundary with the hull on the other side, or if it
+    coincides with the boundary of a hull that comes earlier in the list. near [px]: a smaller distance counts as 0.
     """
     point = stretch.at(np.array([0.5]))[0]
     gap, normal = gap_and_normal(hull, point)
@@ -188,7 +188,7 @@ def _covered(stretch, hull, earlier, near):
 
 
 def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
-    """Return the distance [px] of a point from a hull (negative: depth inside) and the hull's outward normal there."""
+    """Return the distance [px] of a point from a rounded hull, negative inside, and the hull's outward normal there."""
     corners, radius = hull
     if len(corners) == 1:
         away = point - corners[0]
@@ -204,7 +204,7 @@ def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
     away = to - share[:, None] * sides
     distance = np.hypot(*away.T)
     k = int(distance.argmin())
-    # Too near to a sharp side: rounding would determine the direction.
+    # Nearer to a side without rounding than rounding errors: the side's normal is used.
     flat = distance[k] <= ROUNDING * float(np.abs(sides).max())
     return float(distance[k]) - radius, normals[k] if flat else away[k] / distance[k]
 
@@ -214,11 +214,11 @@ def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
 # Gaussian quadrature, exact up to rounding.
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; the error for a quarter turn is far below rounding
+NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; error for a quarter turn: far below rounding
 
 
 class Moments(NamedTuple):
-    """Area, centre and inertia of a figure of density 1."""
+    """Area, centre of area and moment of inertia of a figure of density 1."""
 
     area: float  # [px2]
     x: float  # centre of area [px]; nan without area
@@ -227,7 +227,7 @@ class Moments(NamedTuple):
 
 
 def moments(around: Sequence[Stretch]) -> Moments:
-    """Return the moments of the figure inside a boundary."""
+    """Return the moments of the figure inside a closed boundary; all 0 and the centre nan without area."""
     if not around:
         return Moments(0.0, math.nan, math.nan, 0.0)
     base = around[0].start  # integrals about a nearby point, for precision far from the raster's corner
@@ -243,7 +243,7 @@ def moments(around: Sequence[Stretch]) -> Moments:
 
 
 def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the quadrature nodes (n, 16, 2) of each stretch, and their derivatives by the share of the length."""
+    """Return the quadrature points (n, 16, 2) [px] on n stretches, and their derivatives by the fraction of length."""
     place = np.array([each.at(NODES) for each in around])
     step = np.empty_like(place)
     for k, each in enumerate(around):
@@ -258,18 +258,19 @@ def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
 # ---- hausdorff -------------------------------------------------------------------------------------------------------
 # Hausdorff distance of two boundaries of lines and arcs, by branch and bound: exact to NEAR.
 #
-# A stretch is halved as long as it may contain a point farther from the other boundary than the best found. There are
-# two upper bounds. The first is the distance of its middle plus half its length. The second is from its ends: along a
-# line the distance from one other line is convex, so it is largest at an end. An arc adds its height above its chord.
+# A stretch is halved as long as it may contain a point farther from the other boundary than the farthest found so far.
+# There are two upper bounds for its points. The first is the distance of its middle plus half its length. The second
+# uses its ends: along a line the distance from one other line is convex, so it is largest at an end; for an arc the
+# height above its chord is added.
 
 NEAR = 1e-6  # [px]
 ROWS = 1 << 20  # distances kept at a time: bounds the memory
 
 
 def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
-    """Return the largest distance of a point of either boundary from the other one [px]; at most 1e-6 too small.
+    """Return the Hausdorff distance [px] of two boundaries: the largest distance of a point of one from the other.
 
-    0 if both are empty, inf if one is.
+    It is at most 1e-6 px too small; 0 if both boundaries are empty, inf if only one is.
     """
     if not a or not b:
         return 0.0 if not a and not b else math.inf
@@ -277,7 +278,7 @@ def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
 
 
 class _Figure:
-    """A boundary as arrays: its lines, and its arcs."""
+    """A boundary as arrays of its lines and of its arcs, for distances of many points at once."""
 
     def __init__(self, stretches):
         lines = [each for each in stretches if each.radius == 0.0]
@@ -291,13 +292,13 @@ class _Figure:
         self.ends = np.array([[each.start, each.end] for each in arcs]).reshape(-1, 2, 2)
 
     def from_lines(self, points):
-        """Return the distances (m, lines) of points from the lines [px]."""
+        """Return the distance [px] of each point (m, 2) from each line of the boundary: (m, lines)."""
         to = points[:, None] - self.start
         share = np.clip((to * self.along).sum(axis=2) / (self.along * self.along).sum(axis=1), 0.0, 1.0)
         return np.hypot(*(to - share[:, :, None] * self.along).transpose(2, 0, 1))
 
     def from_arcs(self, points):
-        """Return the distances (m,) of points from the nearest arc [px]; inf without arcs."""
+        """Return the distance (m,) [px] of each point (m, 2) from the nearest arc of the boundary; inf without arcs."""
         if not len(self.center):
             return np.full(len(points), math.inf)
         to = points[:, None] - self.center
@@ -327,7 +328,10 @@ def _farthest(a, b, best):
 
 
 def _looked_at(some, other, best):
-    """Return the largest distance at ends and middles, and (bound, stretch) of the stretches that may exceed it."""
+    """Return (largest distance [px] found at ends and middles or before, [(upper bound [px], stretch)] of the rest).
+
+    The rest are the stretches in `some` that may contain a farther point. best: largest distance found before.
+    """
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
     nearest = np.minimum(lines.min(axis=2, initial=math.inf), other.from_arcs(points.reshape(-1, 2)).reshape(-1, 3))
@@ -340,38 +344,38 @@ def _looked_at(some, other, best):
 
 
 # ---- cells -----------------------------------------------------------------------------------------------------------
-# Pixels of several masks on a common grid of unequal columns and rows, and their sums: area and first and second
-# moments, alone or shared with the inside of a boundary. Exact up to rounding.
+# Pixels of several masks on a common grid of unequal columns and rows (cells), and integrals over them: area, first and
+# second moments, of all cells or of their part inside a boundary. Exact up to rounding.
 #
-# The sums shared by cells and a boundary are integrals along the boundary (Green's theorem), cut at the lines of the
-# grid. The integrands describe the solid left of a point in its row.
+# Integrals over the part inside a boundary are taken along the boundary (Green's theorem), which is cut at the lines of
+# the grid. The integrand at a point is the integral over the solid cells left of the point in its row.
 
 Placed = tuple[np.ndarray, float, float]  # solid[row, col] bool; left, top [px] of its corner
 Box = tuple[float, float, float, float]  # left, top, right, bottom [px]
 
 
 class Cells(NamedTuple):
-    """A grid whose lines are those of all masks in it."""
+    """A grid of unequal cells, whose lines are the pixel edges of all masks in it."""
 
     x: np.ndarray  # (w + 1,) lines between columns [px], ascending
     y: np.ndarray  # (h + 1,) lines between rows
-    count: np.ndarray  # (h, w) number of masks that are solid there
+    count: np.ndarray  # (h, w) number of masks that are solid in each cell
 
 
 class Sums(NamedTuple):
-    """Integrals over a figure, about a base point."""
+    """Area and first and second moments of a figure about a base point."""
 
     area: float  # [px2]
-    x: float  # [px3]
-    y: float
-    second: float  # of the squared distance [px4]
+    x: float  # integral of x [px3]
+    y: float  # integral of y
+    second: float  # integral of the squared distance from the base [px4]
 
     def plus(self, other: "Sums", share: float = 1.0) -> "Sums":
-        """Return these sums plus `share` times another's."""
+        """Return these sums plus `share` times the other sums, of the same base."""
         return Sums(*(a + share * b for a, b in zip(self, other, strict=True)))
 
     def moments(self, base: tuple[float, float]) -> Moments:
-        """Return the moments of these sums about a base; without an area the centre is nan."""
+        """Return area, centre and inertia of the figure; base [px]: of the sums. The centre is nan without area."""
         if self.area <= 0.0:
             return Moments(0.0, math.nan, math.nan, 0.0)
         x, y = self.x / self.area, self.y / self.area
@@ -382,7 +386,7 @@ NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0)
 
 
 def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
-    """Return the sums, about a base, of moments."""
+    """Return the sums about a base point [px] of a figure with these moments."""
     if found.area == 0.0:
         return NO_SUMS
     x, y = found.x - base[0], found.y - base[1]
@@ -390,7 +394,7 @@ def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
 
 
 def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
-    """Return the pixels of several masks in a window, on a common grid."""
+    """Return the pixels of several masks inside a window on a common grid of cells."""
     lines = []
     for axis in (0, 1):
         low, high = window[axis], window[axis + 2]
@@ -405,13 +409,13 @@ def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
 
 
 def _places(lines, first, size):
-    """Return the row or column of a mask between each two lines; -1: none."""
+    """Return the mask's row (or column) between each two successive grid lines; -1: outside the mask."""
     place = np.floor((lines[:-1] + lines[1:]) / 2.0 - first).astype(np.int64)
     return np.where((place >= 0) & (place < size), place, -1)
 
 
 def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> Sums:
-    """Return the sums of cells (h, w) with weights per px2."""
+    """Return the sums about a base point of all cells, each with a weight per px2: weights (h, w)."""
     width, height = np.diff(cells.x), np.diff(cells.y)
     x, y = (cells.x[:-1] + cells.x[1:]) / 2.0 - base[0], (cells.y[:-1] + cells.y[1:]) / 2.0 - base[1]
     in_rows = [(weights * each).sum(axis=1) for each in (width, width * x, width * (x * x + width * width / 12.0))]
@@ -425,7 +429,7 @@ def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> S
 
 
 def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
-    """Return the sums of the area inside a boundary and in cells that any mask fills."""
+    """Return the sums about a base point of the part of the solid cells (of any mask) that is inside a boundary."""
     parts = [part for each in around for part in _cut_by_lines(each, cells)]
     if not parts or not cells.count.any():
         return NO_SUMS
@@ -446,7 +450,10 @@ def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, floa
 
 
 def _left_of(cells, power, base, row, column, x):
-    """Return integrals (n, 16) of x to a power over the solid cells in a row left of points (n, 16)."""
+    """Return the integrals (n, 16) of x ** power over the solid cells left of points, in the row of each.
+
+    base [px]: x of the base point; row, column (n,): cells of the points; x (n, 16): of the points, relative to base.
+    """
     lines = cells.x - base
     filled = np.pad(cells.count > 0, ((0, 0), (0, 1)))  # no cell is right of the last line
     whole = lines ** (power + 1) / (power + 1)
@@ -457,7 +464,7 @@ def _left_of(cells, power, base, row, column, x):
 
 
 def _cut_by_lines(stretch, cells):
-    """Return a stretch cut into parts that each lie in one column and one row."""
+    """Return a stretch cut at the grid lines into parts, each inside one column and one row of cells."""
     shares = [np.array([0.0, 1.0])]
     for axis, lines in enumerate((cells.x, cells.y)):
         if stretch.radius == 0.0:
@@ -475,26 +482,26 @@ def _cut_by_lines(stretch, cells):
 
 
 # ---- measure ---------------------------------------------------------------------------------------------------------
-# Accuracy of hulls in place of pixels: excess and missing area, and moments.
+# Accuracy of hulls that replace pixels: excess and missing area, and moments.
 #
 # The hulls count as their union, the pixels as the union of their squares. All areas and moments are integrals along
 # the boundary of the union by Gaussian quadrature, exact up to rounding, including the shared area (see "cells" above).
 
 
 class Measured(NamedTuple):
-    """Accuracy of hulls in place of pixels."""
+    """Accuracy of hulls that replace the pixels of a mask."""
 
     over: float  # area of the hulls outside the pixels [px2]
     missed: float  # area of the pixels outside the hulls [px2]
-    hulls: Moments
-    pixels: Moments
+    hulls: Moments  # of the union of the hulls
+    pixels: Moments  # of the union of the pixel squares
     hausdorff: float  # of the two boundaries [px]: 0 if both are empty, inf if one is
 
 
 def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
-    """Return the accuracy of hulls [(corners (k, 2) clockwise on the screen, radius)] in place of solid[row, col] bool.
+    """Return the accuracy of hulls that replace the pixels solid[row, col] bool.
 
-    The hulls are in raster pixels.
+    hulls: [(corners (k, 2) clockwise on the screen, radius)] in raster pixels.
     """
     around = boundary(hulls)
     cracks = edges(solid)
@@ -506,7 +513,7 @@ def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
 
 
 def edges(solid: np.ndarray) -> list[Stretch]:
-    """Return the pixels' edges as straight stretches, the solid to the right."""
+    """Return the edges between solid and clear pixels as straight stretches, the solid side on the right."""
     loops = [loop.corners for piece in contours(solid) for loop in (piece.outer, *piece.holes)]
     return [line(a, b) for loop in loops for a, b in zip(loop, np.roll(loop, -1, axis=0), strict=True)]
 

@@ -1,4 +1,4 @@
-"""Paths of cracks, and the straight lines along them."""
+"""Paths along cracks (edges between solid and clear pixels), and the best straight lines along a path."""
 
 import math
 from typing import NamedTuple
@@ -8,7 +8,7 @@ import numpy as np
 from physics.jit import subkernel
 
 # ---- cracks ----------------------------------------------------------------------------------------------------------
-# Crack following from any place, forwards and backwards.
+# Crack following from any corner, forwards and backwards. A crack is the edge between a solid and a clear pixel.
 #
 # A corner (x, y) of the pixel grid has four pixels around it, its quadrants, numbered clockwise on the screen from the
 # lower right one. A crack leaves it to the right, down, left or up, in the same order. Paths have the solid on their
@@ -25,25 +25,25 @@ SHARP = 3  # [px] a corner between two runs of at least this length is fixed
 
 RUN = np.dtype(
     [  # a straight row of cracks
-        ("x", np.int64),  # its start
+        ("x", np.int64),  # (x, y): start
         ("y", np.int64),
         ("direction", np.int64),
         ("length", np.int64),  # [cracks]
-        ("at", np.int64),  # number of cracks of the path before it
-        ("joined", np.bool_),  # starts at a joined pinch, which the path passes twice
+        ("at", np.int64),  # number of cracks of the path before this run
+        ("joined", np.bool_),  # starts at a corner where the path passes between two diagonal pixels
     ],
     align=True,
 )
 
 
 class Window(NamedTuple):
-    """The pixels of a tile and of its surroundings."""
+    """The pixels of a tile and of a margin around it, with the settings of its outline."""
 
     pixels: np.ndarray  # [row, col] uint8, not 0: solid
     low: int  # first row and column of the tile, and …
-    high: int  # … the end of them, exclusive
-    reach: float  # [px] largest distance of lines from cracks
-    joins: bool  # whether a path may pass between diagonal pixels
+    high: int  # … end of its rows and columns, exclusive
+    reach: float  # [px] largest distance of outline lines from cracks
+    joins: bool  # whether a path may pass between two diagonal pixels, which joins them
 
 
 @subkernel
@@ -60,14 +60,14 @@ def down_of(direction):
 
 @subkernel
 def is_solid(pixels, x, y, quadrant):
-    """Return whether the pixel in a quadrant of a corner is solid."""
+    """Return whether the pixel in a quadrant (0 to 3) of corner (x, y) is solid."""
     q = quadrant & 3
     return pixels[y - (1 if q >= 2 else 0), x - (1 if q == 1 or q == 2 else 0)] != 0
 
 
 @subkernel
 def is_own(window, x, y, quadrant):
-    """Return whether the pixel in a quadrant of a corner belongs to the tile."""
+    """Return whether the pixel in a quadrant (0 to 3) of corner (x, y) belongs to the tile."""
     q = quadrant & 3
     column = x - (1 if q == 1 or q == 2 else 0)
     row = y - (1 if q >= 2 else 0)
@@ -76,7 +76,10 @@ def is_own(window, x, y, quadrant):
 
 @subkernel
 def length_from(pixels, x, y, direction):
-    """Return the number of cracks in a straight row from a corner, up to SHARP; the first one must exist."""
+    """Return the length [cracks] of the straight row of cracks from a corner in a direction, at most SHARP.
+
+    At least one crack must leave the corner in this direction.
+    """
     right = is_solid(pixels, x, y, direction)
     count = 1
     while count < SHARP:
@@ -90,10 +93,10 @@ def length_from(pixels, x, y, direction):
 
 @subkernel
 def is_joined(window, x, y):
-    """Return whether paths pass between the two solid pixels of a pinch.
+    """Return whether paths pass between the two diagonal solid pixels at corner (x, y), which joins these pixels.
 
-    They do not where a corner between long runs is fixed. They do not on a border of tiles either, where the two tiles
-    would see different paths.
+    False where two long runs meet, because that corner is fixed, and on the border of the tile, where the neighbouring
+    tile would find another path.
     """
     if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
         return False
@@ -104,7 +107,7 @@ def is_joined(window, x, y):
 
 @subkernel
 def onward(window, x, y, direction):
-    """Return the direction in which a path leaves a corner at which it arrives in a direction."""
+    """Return the direction in which a path leaves corner (x, y), given the direction in which it arrives."""
     if not is_solid(window.pixels, x, y, direction):
         if is_solid(window.pixels, x, y, direction + 3) and is_joined(window, x, y):
             return (direction + 3) & 3
@@ -114,7 +117,7 @@ def onward(window, x, y, direction):
 
 @subkernel
 def backward(window, x, y, direction):
-    """Return the direction in which a path arrives at a corner that it leaves in a direction."""
+    """Return the direction in which a path arrives at corner (x, y), given the direction in which it leaves."""
     if not is_solid(window.pixels, x, y, direction + 1):
         if is_solid(window.pixels, x, y, direction + 2) and is_joined(window, x, y):
             return (direction + 1) & 3
@@ -124,7 +127,7 @@ def backward(window, x, y, direction):
 
 @subkernel
 def walked_back(window, x, y, direction, cracks):
-    """Return (x, y, direction) of the path `cracks` cracks before the one that leaves a corner in a direction."""
+    """Return (x, y, direction) of a path `cracks` cracks before it leaves corner (x, y) in a direction."""
     for _ in range(cracks):
         direction = backward(window, x, y, direction)
         x -= right_of(direction)
@@ -134,9 +137,9 @@ def walked_back(window, x, y, direction, cracks):
 
 @subkernel
 def follow(window, x, y, direction, marks_inout):
-    """Return the number of cracks of the path within the tile, from one on; of a loop the number of all.
+    """Return how many cracks a path follows inside the tile from corner (x, y) on; for a loop, the length of the loop.
 
-    marks_inout: [row, col] uint8, set for each crack whose solid pixel lies below it.
+    marks_inout [row, col] uint8: set for each solid pixel below a horizontal crack of the path.
     """
     first_x, first_y = x, y
     first = direction
@@ -155,7 +158,7 @@ def follow(window, x, y, direction, marks_inout):
 
 @subkernel
 def record(window, x, y, direction, cracks, runs_out):
-    """Write the runs (RUN) of the next `cracks` cracks of a path. Returns the number of runs."""
+    """Write the runs (RUN) of a path of `cracks` cracks from corner (x, y) on. Returns the number of runs."""
     count = -1
     turned = True
     joined = False
@@ -179,35 +182,35 @@ def record(window, x, y, direction, cracks, runs_out):
 
 
 # ---- straight lines --------------------------------------------------------------------------------------------------
-# Least-cost straight lines along a path of cracks: the kernels of `outline`.
+# Least-cost straight lines along a path of cracks: the kernels of contour.outline.
 
-AREA_PRICE = 0.25  # [corners / px2] weight of the area that a line adds or removes, relative to a corner
+AREA_PRICE = 0.25  # [corners / px2] cost of the area that a line adds to or removes from the pixels; a corner costs 1
 
 PLACE = np.dtype(
     [  # a candidate for a corner of the outline along a path
         ("x", np.float64),
         ("y", np.float64),
         ("at", np.float64),  # [cracks] along the path
-        ("right", np.int64),  # direction of the path from it
+        ("right", np.int64),  # direction (x, y) of the path from here on
         ("down", np.int64),
         ("corner", np.bool_),  # the path turns here
         ("allowed", np.bool_),  # a line may end here
         ("anchor", np.bool_),  # no line may pass it
-        ("swept", np.float64),  # [px2] twice the area between the path so far and the origin
+        ("swept", np.float64),  # [px2] twice the area between the origin and the path up to here
         ("along_x", np.float64),  # direction of the curve here, a unit vector; 0, 0 outside of curves
         ("along_y", np.float64),
-        ("cost", np.float64),
-        ("previous", np.int64),
+        ("cost", np.float64),  # [corners] least cost of lines from the start to here
+        ("previous", np.int64),  # row of the place where the last of these lines starts
     ],
     align=True,
 )
 
 
 class Prices(NamedTuple):
-    """Weights of the faults of a line, relative to a corner."""
+    """Costs of the errors of a line, in units of the cost of a corner."""
 
-    area: float  # [1/px2] of the area that it adds or removes
-    angle: float  # [1/(rad2 px)] of its squared angles with the curve at both ends, times its length
+    area: float  # [1/px2] cost of the area that the line adds or removes
+    angle: float  # [1/(rad2 px)] cost of its squared angles to the curve at both ends, times its length
 
 
 LINE_PRICES = Prices(AREA_PRICE, 0.0)
@@ -215,7 +218,7 @@ LINE_PRICES = Prices(AREA_PRICE, 0.0)
 
 @subkernel
 def stays(runs, count, k, closed):
-    """Return whether the corner at the start of run k is fixed: between long runs, and of rectangles."""
+    """Return whether the corner at the start of run k is kept by smoothing: between long runs, or of a rectangle."""
     if not closed and k == 0:
         return False
     run = runs[k]
@@ -234,7 +237,7 @@ def stays(runs, count, k, closed):
 
 @subkernel
 def put_place(n, x, y, at, run, corner, allowed, places_inout):
-    """Append a place on a run, `at` cracks along the path, to places (PLACE)."""
+    """Write row n of places (PLACE): a candidate corner of the outline on a run, `at` cracks along the path."""
     place = places_inout[n]
     place.x, place.y = x, y
     place.at = at
@@ -251,9 +254,10 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
 
 @subkernel
 def put_run(n, run, start, end, offset, places_inout):
-    """Append the places within a run, between two lengths of the path. Returns the number of places.
+    """Append up to three candidate corners (places) inside a run. Returns the number of places.
 
-    offset [cracks]: added to their places along the path.
+    start, end [cracks]: only places between these lengths along the path are added; offset [cracks]: is added to their
+    lengths along the path.
     """
     for step in range(3):
         if step != 1 and run.length == 1:
@@ -268,9 +272,9 @@ def put_run(n, run, start, end, offset, places_inout):
 
 @subkernel
 def put_loop(runs, count, cracks, places_out):
-    """Write the places of a loop of runs twice, followed by the first one again.
+    """Write the candidate corners (places) of a loop twice in succession, followed by the first one again.
 
-    Returns (number of places of the loop, the first that no line may pass or -1).
+    Returns (number of places of one turn, row of the first fixed corner, which no line may pass; -1: none).
     """
     n = 0
     around = 0
@@ -295,8 +299,9 @@ def put_loop(runs, count, cracks, places_out):
 
 @subkernel
 def faults_of_angles(begin, to):
-    """Return the sum of the squared sines of a line's angles with the curve at its ends, times its length [px]; 1 for
-    each end that leads backwards.
+    """Return sin² of a line's angle to the curve at its start plus that at its end, times its length [px].
+
+    An end at which the line leads backwards along the curve counts as sin² = 1.
     """
     x, y = to.x - begin.x, to.y - begin.y
     squared = x * x + y * y
@@ -311,7 +316,7 @@ def faults_of_angles(begin, to):
 
 @subkernel
 def try_lines(start, last, reach, prices, places_inout):
-    """Lower the costs of the places up to `last` that a line from `start` can reach (O'Rourke 1981)."""
+    """Lower the cost of each place up to `last` that is cheaper to reach by a line from `start` (O'Rourke 1981)."""
     begin = places_inout[start]
     x, y = begin.x, begin.y
     along_x, along_y = begin.right, begin.down
@@ -351,10 +356,10 @@ def try_lines(start, last, reach, prices, places_inout):
 
 @subkernel
 def cheapest(first, last, reach, prices, places_inout, chain_out):
-    """Write the places (rows of PLACE, last to first) where the least-cost lines from first to last end.
+    """Find the least-cost lines from place `first` to place `last`; write the places where lines end to chain_out.
 
-    reach [px]: as in outline; prices: Prices. Returns their number; 0: no lines reach the last place. O(places * places
-    of a line).
+    chain_out: rows of PLACE, from last to first. Returns their number; 0: no lines reach the last place. reach [px]:
+    largest distance of a line from the cracks; prices: Prices. O(places * places of a line).
     """
     for k in range(first, last + 1):
         places_inout[k].cost = math.inf
@@ -374,14 +379,15 @@ def cheapest(first, last, reach, prices, places_inout, chain_out):
 
 @subkernel
 def cheapest_loop(around, anchor, reach, places_inout, chain_out):
-    """Write the same for a loop, whose places are listed twice, followed by the first one again.
+    """Find the least-cost lines around a loop; write the places where lines end to chain_out, last to first.
 
-    around: number of places of the loop; anchor: the first that no line may pass, -1: none. Returns the number.
+    places_inout: as written by put_loop; around: number of places of one turn; anchor: row of a fixed corner, which no
+    line may pass; -1: none. Returns the number of places in chain_out.
     """
     begin = anchor
     if anchor < 0:
-        # The best polygon may not pass through the first start, but then the result has at most one corner more. The
-        # next start is a corner far from it.
+        # The best polygon may have no corner at the start that is tried; then the result has at most one corner more.
+        # So the next start is a corner of the result, far from the one before.
         begin = 1
         for _ in range(2):
             found = cheapest(begin, begin + around, reach, LINE_PRICES, places_inout, chain_out)

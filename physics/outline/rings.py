@@ -1,4 +1,4 @@
-"""Rings of sides in one table, and their convex decomposition in kernels."""
+"""Polygons with holes as linked sides in one table, and their convex decomposition in kernels."""
 
 import math
 
@@ -7,23 +7,23 @@ import numpy as np
 from physics.jit import subkernel
 
 # ---- rings -----------------------------------------------------------------------------------------------------------
-# Rings of sides around the inside of a polygon, in one table, which can be joined, cut and merged.
+# A ring is a closed, doubly linked list of the sides around the inside of a polygon. All rings are in one table.
 #
-# A side starts at (x, y) and ends at the start of the next one; the inside lies to its right. A cut is two sides, one
-# there and one back, each the twin of the other. Between corners of one ring it splits the ring; between two rings it
-# joins them.
+# A side starts at (x, y) and ends at the start of the next side; the inside lies to its right. A cut is a line inside,
+# stored as two sides of opposite directions, each the twin of the other. A cut between two corners of one ring splits
+# the ring; a cut between two rings joins them. Corner k is the start of side k.
 
 SIDE = np.dtype(
     [
         ("x", np.float64),  # [px]
         ("y", np.float64),
-        ("next", np.int64),
+        ("next", np.int64),  # row of the next side of the ring
         ("previous", np.int64),
-        ("twin", np.int64),  # -1: not a cut
-        ("inner", np.bool_),  # the inside continues beyond it
-        ("alive", np.bool_),
-        ("apart", np.int64),  # 0: its ring is joined to the surrounding one; else the number of a hole
-        ("seen", np.bool_),
+        ("twin", np.int64),  # row of the opposite side of a cut; -1: not a cut
+        ("inner", np.bool_),  # the polygon continues on the other side
+        ("alive", np.bool_),  # False: removed from its ring
+        ("apart", np.int64),  # number of the hole that this side bounds; 0: the hole is joined to a ring, or no hole
+        ("seen", np.bool_),  # scratch flag of a pass over all sides
     ],
     align=True,
 )
@@ -31,8 +31,9 @@ SIDE = np.dtype(
 
 @subkernel
 def put_side(n, first, x, y, inner, sides_inout):
-    """Append a side to the ring that starts at row `first`; sides without length are skipped. Returns the number of
-    sides.
+    """Append a side that starts at (x, y) [px] to the ring that starts at row `first`. Returns the number of sides.
+
+    A side without length is not added: if the side before starts at the same point, only its `inner` is replaced.
     """
     if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
         sides_inout[n - 1].inner = inner
@@ -51,9 +52,10 @@ def put_side(n, first, x, y, inner, sides_inout):
 
 @subkernel
 def close_ring(n, first, sides_inout):
-    """Join the last side of a ring to its first one, and remove collinear corners between sides of a kind.
+    """Close a ring: link its last side to its first, and remove collinear corners between sides of equal `inner`.
 
-    Returns the number of sides: that before the ring if nothing is left of it.
+    n: number of sides; first: row of the ring's first side. Returns the number of sides. A ring of fewer than three
+    sides is removed.
     """
     if n - 1 > first and sides_inout[n - 1].x == sides_inout[first].x and sides_inout[n - 1].y == sides_inout[first].y:
         n -= 1
@@ -75,7 +77,7 @@ def close_ring(n, first, sides_inout):
 
 @subkernel
 def turn_at(sides, a, b, c):
-    """Return the turn of the path over three corners at the second one [px2]: > 0 clockwise on the screen, convex."""
+    """Return the cross product [px2] of lines a -> b and b -> c: > 0 for a turn clockwise on the screen (convex)."""
     p, q = sides[a], sides[b]
     r = sides[c]
     return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x)
@@ -83,10 +85,10 @@ def turn_at(sides, a, b, c):
 
 @subkernel
 def is_reflex(sides, k):
-    """Return whether the interior angle at a corner is more than half a turn.
+    """Return whether the interior angle at corner k is more than half a turn, so that a cut is needed there.
 
-    Also true for exactly half a turn between an inner and an outer side, because an edge of a part must not contain
-    both.
+    Also true for exactly half a turn between an inner and an outer side, because an edge of a part is either inner or
+    outer.
     """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
@@ -95,7 +97,7 @@ def is_reflex(sides, k):
 
 @subkernel
 def faces(sides, k, m):
-    """Return whether the line from corner k to corner m starts into the inside, along no side."""
+    """Return whether the line from corner k to corner m starts strictly into the inside of the ring of k."""
     side = sides[k]
     to = sides[m]
     after = sides[side.next]
@@ -111,7 +113,7 @@ def faces(sides, k, m):
 
 @subkernel
 def blocks(sides, k, a, b):
-    """Return whether side k crosses the line between corners a and b, or starts on it between its ends."""
+    """Return whether side k crosses the line between corners a and b, or starts on this line between a and b."""
     p, q = sides[a], sides[b]
     r = sides[k]
     s = sides[r.next]
@@ -130,9 +132,7 @@ def blocks(sides, k, a, b):
 
 @subkernel
 def sees(sides, a, b):
-    """Return whether the line between two corners of a ring lies inside it and meets no other side of it.
-    O(corners).
-    """
+    """Return whether the line between corners a and b of a ring lies inside and meets no other side. O(corners)."""
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
     k = sides[a].next
@@ -145,7 +145,7 @@ def sees(sides, a, b):
 
 @subkernel
 def sees_through(sides, count, a, b):
-    """Return the same for corners of two rings, tested against the sides of all rings. O(sides)."""
+    """Return whether the line between corners a and b of two rings lies inside and meets no other side. O(sides)."""
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
     for k in range(count):
@@ -156,7 +156,7 @@ def sees_through(sides, count, a, b):
 
 @subkernel
 def put_cut(n, a, b, sides_inout):
-    """Append a cut between corners a and b. Returns the number of sides."""
+    """Append a cut between corners a and b, two sides, and link it into their rings. Returns the number of sides."""
     there = sides_inout[n]
     back = sides_inout[n + 1]
     start = sides_inout[a]
@@ -183,7 +183,7 @@ def put_cut(n, a, b, sides_inout):
 
 @subkernel
 def take_out(k, sides_inout):
-    """Remove a cut: the pieces on its two sides become one."""
+    """Remove the cut of side k: the two pieces that it separates become one."""
     m = sides_inout[k].twin
     for a, b in ((k, m), (m, k)):
         before = sides_inout[a].previous
@@ -195,7 +195,7 @@ def take_out(k, sides_inout):
 
 @subkernel
 def corners_of(sides, first):
-    """Return the number of corners of the ring of a side."""
+    """Return the number of corners of the ring that contains side `first`."""
     count = 1
     k = sides[first].next
     while k != first:
@@ -205,18 +205,19 @@ def corners_of(sides, first):
 
 
 # ---- few cuts --------------------------------------------------------------------------------------------------------
-# Convex decomposition of rings with holes into few pieces: bridge holes, cut reflex corners, remove needless cuts.
+# Convex decomposition of rings with holes into few pieces: join holes by bridges, cut reflex corners, remove needless
+# cuts.
 #
-# A reflex corner needs one cut, if that leaves at most half a turn on either side. A cut between two reflex corners can
-# resolve both, so such cuts come first, the shortest of each corner. Cuts that no corner needs are removed, longest
-# first. So there are never more pieces than by Hertel and Mehlhorn 1983, and mostly as few as possible.
+# One cut resolves a reflex corner if it leaves an angle of at most half a turn on either side. A cut between two reflex
+# corners can resolve both, so such cuts are made first, the shortest of each corner. Cuts that no corner needs are
+# removed, longest first. So there are never more pieces than by Hertel and Mehlhorn 1983, mostly as few as possible.
 
 
 @subkernel
 def bridge(n, sides_inout):
-    """Join each hole to the ring around it by its shortest free line. Returns the number of sides.
+    """Join each hole to the ring around it by a bridge, a cut along the shortest free line.
 
-    Returns -1 if a hole sees no other ring: then the rings are no polygon.
+    Returns the number of sides, or -1 if a hole sees no other ring: then the rings are no polygon.
     """
     while True:
         waiting = 0
@@ -240,10 +241,9 @@ def bridge(n, sides_inout):
 
 @subkernel
 def shortest_bridge(n, start, sides):
-    """Return (corner of a hole, corner of a joined ring) with the shortest free line between them; (-1, -1) without
-    one.
+    """Return the corners of the shortest free line between a hole and the rings without open holes; (-1, -1): none.
 
-    start: a side of the hole.
+    The result is (corner of the hole, corner of the other ring). n: number of sides; start: a side of the hole.
     """
     best = math.inf
     best_a, best_b = -1, -1
@@ -264,16 +264,17 @@ def shortest_bridge(n, start, sides):
 
 @subkernel
 def is_resolved(sides, a, b):
-    """Return whether a cut from corner a to corner b leaves no reflex corner at a."""
+    """Return whether a cut from corner a to corner b leaves angles of at most half a turn on both sides of a."""
     side = sides[a]
     return turn_at(sides, side.previous, a, b) >= 0.0 and turn_at(sides, b, a, side.next) >= 0.0
 
 
 @subkernel
 def best_partner(sides, a, both):
-    """Return the corner to which reflex corner a is cut: the one that resolves most reflex corners, then the nearest.
+    """Return the best corner for a cut from reflex corner a; -1: none.
 
-    both: accept only a corner that resolves two. -1: none.
+    It is the visible corner whose cut resolves most reflex corners (a, the other or both), of several the nearest.
+    both: accept only a cut that resolves two.
     """
     best = -1
     best_score = 1 if both else -1
@@ -297,7 +298,7 @@ def best_partner(sides, a, both):
 
 @subkernel
 def cut_reflex(n, sides_inout):
-    """Cut all reflex corners. Returns the number of sides, or -1 if a corner sees no other."""
+    """Cut at reflex corners until none is left. Returns the number of sides, or -1 if a corner sees no other."""
     for both in (True, False):
         k = 0
         while k < n:
@@ -314,7 +315,7 @@ def cut_reflex(n, sides_inout):
 
 @subkernel
 def cut_large(n, most, sides_inout):
-    """Halve convex pieces until they have at most `most` corners. Returns the number of sides."""
+    """Cut convex pieces in halves until each has at most `most` corners. Returns the number of sides."""
     k = 0
     while k < n:
         if sides_inout[k].alive:
@@ -333,7 +334,7 @@ def cut_large(n, most, sides_inout):
 
 @subkernel
 def is_needed(sides, k, m):
-    """Return whether the corner at the start of a cut (side k, its twin m) would be reflex without it."""
+    """Return whether the corner at the start of side k of a cut would be reflex without the cut; m: twin of k."""
     p, q = sides[sides[k].previous], sides[k]
     after = sides[sides[m].next]
     r = sides[after.next]
@@ -380,7 +381,11 @@ def merge(n, most, sides_inout):
 
 @subkernel
 def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
-    """Write the rings of sides (SIDE) as parts, in pixels relative to row and column `low`. Returns their number."""
+    """Write the rings of convex pieces as parts, corners relative to (low, low) [px]. Returns the number of parts.
+
+    count: number of sides; corners_out (n, 2) [px] and inner_out (n,): corners part after part, and whether the side
+    after each is inner; counts_out (parts,): corners of each part.
+    """
     sides = sides_inout
     n = 0
     parts = 0
@@ -415,9 +420,9 @@ def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
 
 @subkernel
 def write_parts(n, most, low, sides_inout, corners_out, inner_out, counts_out):
-    """Decompose rings of `n` sides, with holes, and write the convex parts. Return their number, or -1 for no polygon.
+    """Decompose a polygon with holes, `n` sides, and write its convex parts. Returns their number.
 
-    most: largest number of corners of a part. low: row and column of the origin of the corners, see put_parts.
+    Returns -1 if the rings are no polygon. most: largest number of corners of a part; low, arrays: as in put_parts.
     """
     n = bridge(n, sides_inout)
     if n < 0:

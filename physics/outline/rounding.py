@@ -1,8 +1,9 @@
-"""Round pieces as few corners and a radius: a disc is one corner, a pill two, a rounded box four.
+"""Round pieces of masks as a core polygon of few corners and a radius: a disc has one corner, a rounded box four.
 
-A body that rolls on a polygon loses speed at every corner; on a rounded one it does not. Candidates are made from the
-symmetry of the piece (disc, pill) and by moving the sides of its outline inward (others). Each is measured against the
-cracks. The first with the fewest corners that meets the contract of contour.outline is used.
+A body that rolls as a polygon loses speed at every corner; a rounded one does not. Candidate cores are made from the
+symmetry of the piece (disc, capsule) and by moving the sides of its outline inward (others). Each is compared with the
+cracks, the edges of the pixels. Of those within the tolerances of contour.outline the first with the fewest corners is
+used.
 """
 
 import math
@@ -13,32 +14,32 @@ from physics.outline.contour import LARGEST_REACH, Loop, doubled_area, sharp, sm
 from physics.outline.simple_shapes import convex_hull, fewer_sides
 from physics.settings import MAX_CORNERS
 
-# The discs of pygame.draw.circle miss the contract by little: none from a radius of 24 px on meets it, and those of 6,
-# 16 and 20 px only just do. A polygon in their place would lose speed at every corner.
+# The discs of pygame.draw.circle exceed these tolerances a little: all of a radius of 24 px or more do, and those of 6,
+# 16 and 20 px are only just within. A polygon in their place would lose speed at every corner.
 DISC_CLEAR = 0.2  # [px] largest depth of a clear pixel's centre in a disc, and …
 DISC_SPARE = 0.13  # [px] … additional distance allowed between a disc and the cracks
-REACHED = 0.21  # [px] as FARTHEST, of the contract
-INSIDE = 0.001  # [px] least depth of solid pixels' centres
+REACHED = 0.21  # [px] the same distance as FARTHEST, in the tolerances of contour.outline
+INSIDE = 0.001  # [px] least depth of solid pixels' centres in the figure
 LEAST_RADIUS = 1.0  # [px] smaller roundings are invisible in pixels
-FARTHEST = 0.2  # [px] additional distance allowed of a crack from the outline
+FARTHEST = 0.2  # [px] a crack may be so much further from the outline than the outline from the cracks
 SPACING = 0.01  # [px] between the measured points of a boundary
-SLACK = 0.005  # [px] possible error between two of them
+SLACK = 0.005  # [px] largest error of distances between two such points
 RADII = 12  # number of radii tried for a core of several corners
 TRIES = (400, 24)  # number of moves tried: for a disc or capsule; for others, per corner
-ROOM = 0.04  # [px] range of radii that is sufficient to stop moving corners
+ROOM = 0.04  # [px] once a core allows radii over this range, its corners are not moved further
 STEPS = (0.5, 0.25, 0.12, 0.06, 0.03)  # [px] by which the corners of a core are moved
 
 Core = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen [px], radius [px]
 
 
 def rounded_core(cracks: Loop, smooth: float) -> Core | None:
-    """Return a convex core of 1 to 16 corners and its radius for one piece without holes; or None.
+    """Return a core (convex corners and a radius) that replaces one piece without holes; None if there is none.
 
-    cracks: the crack loop of its outline; smooth [px] as in contour.outline. One corner is a disc, two are a capsule.
-    The boundary meets the same contract: within smooth of the cracks, these within smooth + 0.21 of it, pixels' centres
-    on their sides. For a disc a clear centre may be 0.2 px inside, and both distances 0.13 px larger. None for a piece
-    with a fixed corner, and where rounding does not save corners against the fewest lines. Fewest corners first; of
-    several results those that keep the outline's sides.
+    cracks: loop around the piece; smooth [px] as in contour.outline. The core has 1 to 16 corners: 1 is a disc, 2 are a
+    capsule. Its boundary is within smooth of the cracks, and the cracks within smooth + 0.21 of the boundary; solid
+    pixels' centres are inside, clear ones outside. For a disc both distances may be 0.13 px larger, and clear centres
+    0.2 px inside. None for a piece with a sharp corner, and if a polygon needs no more corners. The core of fewest
+    corners is used, of several one that keeps the sides of the outline.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None
@@ -57,7 +58,7 @@ def rounded_core(cracks: Loop, smooth: float) -> Core | None:
 
 
 def _round_ones(outer, corners):
-    """Yield discs and capsules about the middle of the bounds and the centre of area."""
+    """Yield candidate cores: discs about the middle of the bounds and the centre of area, and up to two capsules."""
     area, center, axis = _moments(corners.astype(float))
     yield (corners.min(axis=0) + corners.max(axis=0))[None] / 2.0
     yield center[None]
@@ -65,7 +66,7 @@ def _round_ones(outer, corners):
     along, aside = outer @ axis, outer @ across
     middle = axis * (along.min() + along.max()) / 2.0 + across * (aside.min() + aside.max()) / 2.0
     radius = np.ptp(aside) / 2.0
-    # The line between the ends that gives the piece's length, or its area.
+    # Half the length of the capsule's line: the capsule has the length of the piece, or its area.
     for half in (np.ptp(along) / 2.0 - radius, (area - math.pi * radius * radius) / (4.0 * radius)):
         if half > 0.0:
             ends = np.stack([middle - half * axis, middle + half * axis])
@@ -73,11 +74,11 @@ def _round_ones(outer, corners):
 
 
 def _several(outer, judge):
-    """Return the sides of the outline moved inward by a radius, with the fewest corners; or None.
+    """Return the core of fewest corners from moving the sides of the outline inward by a radius; None: no core.
 
-    Cores that grow back to the outline's sides come first, the smallest radius first: faces that stand out a little
-    make stacks rise, and round corners tip early. Cores with moved sides are used where they save corners; of those the
-    largest radius comes first.
+    Cores with exactly that radius, whose sides lie on the outline's sides, are tried first, the smallest radius first:
+    sides that stand out a little make stacks rise, and round corners tip early. Other radii and moved corners are used
+    only if they save corners; of these the largest radius is tried first.
     """
     hull = convex_hull(outer)
     radii = np.linspace(1.0, 0.0, RADII, endpoint=False) * _widest(hull)
@@ -96,7 +97,7 @@ def _several(outer, judge):
 
 
 def _moments(corners):
-    """Return area, centre and direction of the longer axis of a loop."""
+    """Return (area, centre, unit vector of the longer principal axis) of a closed polygon (n, 2) [px]."""
     area = doubled_area(corners) / 2.0
     base = corners.mean(axis=0)
     p = corners - base
@@ -118,7 +119,7 @@ def _normals(corners):
 
 
 def _widest(hull):
-    """Return about the radius of the largest disc inside, by bisection."""
+    """Return the radius [px] of the largest disc inside a convex polygon, approximately, by bisection."""
     low, high = 0.0, float(np.ptp(hull, axis=0).min()) / 2.0
     for _ in range(12):
         middle = (low + high) / 2.0
@@ -127,7 +128,7 @@ def _widest(hull):
 
 
 def _inset(hull, radius):
-    """Return a convex polygon with each side moved inward by a radius: clipped side by side."""
+    """Return a convex polygon with its sides moved inward by a radius [px]; fewer than 3 corners if nothing is left."""
     left = hull
     for corner, normal in zip(hull, _normals(hull), strict=True):
         over = (left - corner) @ normal + radius
@@ -145,7 +146,7 @@ def _inset(hull, radius):
 
 
 class _Judge:
-    """The contract of one crack loop, against which rounded cores are measured."""
+    """Test of rounded cores against one crack loop: distances from the cracks, and the sides of pixels' centres."""
 
     def __init__(self, corners, reach):
         self.corners, self.reach = corners, reach
@@ -168,7 +169,7 @@ class _Judge:
         self.down[tuple(ends[~level].T)] = True
 
     def fitted(self, core):
-        """Return a core, its corners moved where necessary, with the best radius for it; or None."""
+        """Return (core, radius) within the tolerances, the corners moved if necessary; None if none was found."""
         room = self._room(core)
         found = self._measured(core) if room > 0.0 else None
         if found is not None or room < (-1.0 if len(core) < 3 else -0.1):
@@ -188,7 +189,7 @@ class _Judge:
         return self._measured(core) if room > 0.0 else None
 
     def grown(self, core, radius):
-        """Return a core with this very radius if it meets the contract; or None."""
+        """Return (core, radius) if the core with exactly this radius is within the tolerances; else None."""
         points = _beyond(core, self.points)
         low = max(_beyond(core, self.inside).max(), points.max() - self.reach - FARTHEST)
         high = min(_beyond(core, self.outside).min(), points.min() + self.reach + FARTHEST)
@@ -200,8 +201,9 @@ class _Judge:
         return core, float(radius)
 
     def disc(self, core):
-        """Return the smallest disc about a centre that contains all solid centres, if it is accurate enough; or
-        None.
+        """Return (core, radius) of the smallest disc about the core's corner that contains all solid pixels' centres.
+
+        None if the disc is not accurate enough.
         """
         if self._room(core) > 0.0:
             return self._measured(core)
@@ -215,11 +217,11 @@ class _Judge:
         return (core, float(radius)) if off <= self.reach + DISC_SPARE - SLACK else None
 
     def _room(self, core):
-        """Return the range of radii for which a core has all centres on their sides; negative: there is none."""
+        """Return the width [px] of the range of radii that separate solid from clear centres; negative: none do."""
         return _beyond(core, self.outside).min() - _beyond(core, self.inside).max()
 
     def _measured(self, core):
-        """Return a core with the radius that gives it the pixels' area, as far as the contract allows; or None."""
+        """Return (core, radius), the radius as near to the pixels' area as the tolerances allow; None if none does."""
         if not _convex(core):
             return None
         points = _beyond(core, self.points)
@@ -237,7 +239,7 @@ class _Judge:
         return core, float(radius)
 
     def _from_cracks(self, points):
-        """Return the distance of points (m, 2) from the nearest crack, exact below 1 px."""
+        """Return the distance (m,) [px] of points (m, 2) from the nearest crack, exact below 1 px."""
         cells = np.floor(points).astype(np.int64)
         least = np.full(len(points), math.inf)
         for axis, cracks in enumerate((self.across, self.down)):
@@ -253,7 +255,7 @@ class _Judge:
 
 
 def _beyond(core, points):
-    """Return how far points (m, 2) lie outside of a core; negative: depth inside [px]."""
+    """Return the distance (m,) [px] of points (m, 2) from a core of radius 0; negative: depth inside."""
     if len(core) == 1:
         return np.hypot(*(points - core[0]).T)
     sides = np.roll(core, -1, axis=0) - core
@@ -267,7 +269,10 @@ def _beyond(core, points):
 
 
 def _moves(core):
-    """Return moves of a core (m, k, 2): each corner right and down; for a line also lengthening and rotation."""
+    """Return the moves (m, k, 2) of a core to try: each corner right or down; for two corners also jointly.
+
+    Jointly: lengthened, rotated, shifted along and across.
+    """
     moves = np.eye(core.size).reshape(-1, *core.shape)
     if len(core) != 2 or (core[0] == core[1]).all():
         return moves
@@ -277,7 +282,7 @@ def _moves(core):
 
 
 def _convex(core):
-    """Return whether all corners turn clockwise on the screen (three and more), and no two coincide."""
+    """Return whether a core is convex and clockwise on the screen, with no two successive corners equal."""
     sides = np.roll(core, -1, axis=0) - core
     after = np.roll(sides, -1, axis=0)
     if np.hypot(*sides.T).min() < SLACK and len(core) > 1:
@@ -286,7 +291,7 @@ def _convex(core):
 
 
 def _boundary(core, radius, spacing):
-    """Return points around a core with a radius, at most `spacing` apart [px]."""
+    """Return points (m, 2) on the boundary of a core with a radius, at most about `spacing` px apart."""
     if len(core) == 1:
         angles = np.arange(0.0, math.tau, spacing / radius)
         return core + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -1,4 +1,4 @@
-"""The smallest hull, box, capsule and circle around pixels or points."""
+"""The convex hull and the smallest box, capsule and circle around pixels or points."""
 
 import math
 from collections.abc import Iterable, Sequence
@@ -11,14 +11,14 @@ import numpy as np
 
 
 class Sprite(Protocol):
-    """Interface of the source of a hull, implemented by shapes.mask.PixelMask."""
+    """Interface that mask_hull needs of a mask. PixelMask implements it."""
 
     solid: np.ndarray  # bool [row, col]
     origin: tuple[float, float]
 
 
 def mask_hull(mask: Sprite) -> np.ndarray:
-    """Return the hull corners (n, 2) [px] of the union of pixel squares in body space, clockwise on the screen."""
+    """Return the corners (n, 2) [px] of the convex hull of a mask's pixels in body space, clockwise on the screen."""
     rows = np.flatnonzero(mask.solid.any(axis=1))
     left = mask.solid[rows].argmax(axis=1)
     right = mask.solid.shape[1] - mask.solid[rows, ::-1].argmax(axis=1)
@@ -27,10 +27,10 @@ def mask_hull(mask: Sprite) -> np.ndarray:
 
 
 def convex_hull(points: np.ndarray, flat: float = 0.0) -> np.ndarray:
-    """Return the hull corners (n, 2) [px] of points (m, 2), clockwise on the screen (monotone chain).
+    """Return the corners (n, 2) [px] of the convex hull of points (m, 2), clockwise on the screen (monotone chain).
 
-    Fewer than three corners if all points are collinear. flat [px2]: a corner is removed if the triangle with its
-    neighbours has at most that area, doubled.
+    If all points are collinear there are fewer than three corners. flat [px2]: a corner is removed if twice the area of
+    the triangle with its neighbours is at most `flat`.
     """
     ordered = sorted(set(map(tuple, points.tolist())))
     if len(ordered) < 3:
@@ -39,10 +39,10 @@ def convex_hull(points: np.ndarray, flat: float = 0.0) -> np.ndarray:
 
 
 def fewer_sides(corners: np.ndarray, most: int) -> np.ndarray:
-    """Return a convex polygon of at most `most` sides around a convex polygon (n, 2) [px], clockwise on the screen.
+    """Return a convex polygon of at most `most` sides that contains a convex polygon (n, 2) [px] clockwise on screen.
 
-    Sides are removed one by one by extending their neighbours until these meet, the side that adds least area first. A
-    side whose neighbours do not meet beyond it is kept, so a triangle never changes.
+    A side is removed by extending its two neighbours until they meet; the side that adds the least area is removed
+    first. A side whose neighbours do not meet beyond it is kept, so a triangle never changes.
     """
     corners = np.array(corners, float)
     while len(corners) > max(most, 3):
@@ -86,9 +86,9 @@ def _half(points, flat):
 
 
 def least_box(hull: np.ndarray) -> tuple[float, float, tuple[float, float], float]:
-    """Return (width, height, center, angle) of the box of least area around hull corners (n, 2) [px].
+    """Return (width, height, center, angle) [px, rad] of the box of least area around hull corners (n, 2) [px].
 
-    Of equal areas the first edge is used.
+    Of several boxes of equal area, the one along the hull's first edge is used.
     """
     best, found = math.inf, (0.0, 0.0, (0.0, 0.0), 0.0)
     for edge in np.roll(hull, -1, axis=0) - hull:
@@ -108,14 +108,14 @@ def least_box(hull: np.ndarray) -> tuple[float, float, tuple[float, float], floa
 # Capsule of small area around a convex hull: the best of all axis directions, by sampling and refinement.
 
 DIRECTIONS = 90  # axes tried, over half a turn
-SHORT = 1e-6  # relative to its radius: a capsule with a shorter line becomes a circle
-CLOSER = 40  # bisections of the step around the best
+SHORT = 1e-6  # [radii] a capsule with a shorter line becomes a circle
+CLOSER = 40  # number of times that the step between directions is halved around the best one
 
 
 def least_capsule(hull: np.ndarray) -> tuple[tuple[float, float], tuple[float, float], float]:
-    """Return (a, b, radius) of a capsule around hull corners (n, 2) [px]; a equals b for a circle.
+    """Return (a, b, radius) [px] of a capsule around the corners (n, 2) of a convex hull; a equals b for a circle.
 
-    Its radius is half of the hull's width across its axis. Of all axes the one of least area is used.
+    The radius is half the hull's width across the axis. Of the axes tried, the one with the smallest capsule is used.
     """
     step = math.pi / DIRECTIONS
     best = min(range(DIRECTIONS), key=lambda k: _capsule(hull, k * step)[0])

@@ -1,9 +1,9 @@
-"""Corners of a tile's parts that other parts cover, of the tile or of its neighbours, and the remaining outer corners.
+"""Corners and sides of a tile's convex parts that do not belong to the outline, because other parts adjoin them.
 
-Parts that meet in a point and together take half a turn or more there leave no convex corner. Otherwise the corner
-belongs to the first of them with a side of the outline there: tiles in the order of rows, then parts in their order. A
-corner at which the outline hardly turns is marked as blunt, because its part is sharper than the outline there. The
-inner side beside it does not belong to the outline.
+Parts that share a corner and together take half a turn or more of angle leave no convex corner there: it is covered.
+Otherwise the corner belongs to the first of these parts that has a side of the outline at it (tiles in the order of
+rows, then parts in their order) and is covered for the others. A corner that is sharper in its part than in the whole
+outline, which turns less there, is marked as blunt. Sides shared by two parts are inner: they are not outline.
 """
 
 import math
@@ -15,28 +15,28 @@ from physics.jit import kernel, subkernel
 from physics.outline.tiled import TileParts
 from physics.tables.shape import SHARPEST, TURNS
 
-STRAIGHT = 1e-9  # of half a turn: a corner with a smaller turn lies within a side
+STRAIGHT = 1e-9  # [half turns] a corner with a smaller turn counts as part of a straight side
 HALF_TURN = math.pi * (1.0 - STRAIGHT)  # [rad]
 COVERED = 0.0  # [rad] turn of the outline at a covered corner
 
-NOBODY = np.zeros((0, 5))  # no corner on a border
+NOBODY = np.zeros((0, 5))  # meetings of a tile without parts: no corner on its border
 
 
 class Survey(NamedTuple):
-    """Data of a tile's parts that is independent of the neighbouring tiles."""
+    """Angles and corners of a tile's parts: all that can be computed without the neighbouring tiles."""
 
     angles: np.ndarray  # (n,) float64 [rad] interior angle of each corner
-    seams: np.ndarray  # (n,) bool: one of the two sides at it is inner, the other is not
-    meetings: np.ndarray  # (m, 5) its corners on the border: x, y [px], angle, is a seam, tile number
-    corners: np.ndarray  # (k, 2) float64 [px] for a world: in body space, without collinear corners
-    counts: np.ndarray  # (parts,) int64: number of these per part
+    seams: np.ndarray  # (n,) bool: one side at the corner is inner, the other is a side of the outline
+    meetings: np.ndarray  # (m, 5) corners on the tile's border: x, y [px], angle [rad], seam (0 or 1), tile number
+    corners: np.ndarray  # (k, 2) float64 [px] in body space, without collinear corners, as shapes need them
+    counts: np.ndarray  # (parts,) int64: number of these corners per part
 
 
 def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin: tuple[float, float]) -> Survey:
-    """Return the survey of a tile's parts.
+    """Return the Survey of a tile's parts.
 
-    parts in raster pixels; at: the tile's top left corner there; size: its pixels per side; number: its rank among the
-    tiles; origin [px] of body space in the raster.
+    parts: in raster pixels; at: top left corner of the tile in the raster; size [px]: per side of the tile; number: of
+    the tile, counted row by row; origin [px]: of body space in the raster.
     """
     n, (left, top) = len(parts.corners), at
     found = Survey(
@@ -47,9 +47,10 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 
 
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
-    """Return (row, column) of the tiles with a border corner that is in only one of two lists of meetings of a tile.
+    """Return (row, column) of the tiles on which a change of one tile has an effect through border corners.
 
-    row, column: of the tile; size: its pixels per side.
+    before, after (m, 5): Survey.meetings of the tile before and after its change. A tile is listed, also one outside
+    the mask, if it has a border corner that is in only one of them. row, column: of the tile; size [px]: per side.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
@@ -57,10 +58,10 @@ def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: 
 
 
 def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int, columns: int) -> np.ndarray:
-    """Return (k,) int64 flags of inner edges and corners of parts, without collinear corners; see SHAPE.
+    """Return the flags of inner edges and corners of each part of a tile, (k,) int64: column `inner` of SHAPE.
 
-    around: meetings of the tile, of its neighbours, and possibly of others, in the order of their numbers; number: of
-    the tile; columns: tiles per row.
+    known: Survey of the parts; around (m, 5): meetings of the tile, its neighbours and possibly other tiles, in the
+    order of tile numbers; number: of the tile; columns: number of tiles per row.
     """
     inner = np.empty(len(parts.counts), np.int64)
     tell_inner(parts, known, around, (number, columns), np.empty(len(parts.corners)), inner)
@@ -69,8 +70,9 @@ def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int,
 
 @subkernel
 def find_seams(parts, angles_out, seams_out):
-    """Write the interior angle [rad] of each corner (n,) of a tile's parts, and whether exactly one side at it is
-    inner.
+    """Write the interior angle [rad] at each corner of a tile's parts, and whether exactly one side at it is inner.
+
+    angles_out (n,) float64, seams_out (n,) bool; parts: TileParts.
     """
     corners = parts.corners
     inner = parts.inner
@@ -92,9 +94,10 @@ def find_seams(parts, angles_out, seams_out):
 
 @subkernel
 def gather(corners, known, box, number, found_out):
-    """Write the corners (n, 2) [px] on the border of a box (left, top, right, bottom) as meetings of a Survey.
+    """Write the corners of a tile that lie on its border, in the format of Survey.meetings. Returns their number.
 
-    known: a Survey with angles and seams. Returns the number of meetings.
+    corners (n, 2) [px]; known: Survey with angles and seams; box [px]: left, top, right, bottom of the tile; number: of
+    the tile; found_out (n, 5).
     """
     left, top, right, bottom = box
     count = 0
@@ -113,10 +116,9 @@ def gather(corners, known, box, number, found_out):
 
 @subkernel
 def mark_alone(mine, others, place, moved_out):
-    """Flag which of 9 tiles, row by row, around a tile share a corner that is in `mine` (n, 5) but not in `others` (m,
-    5).
+    """Flag the tiles that have a corner which is in the meetings `mine` (n, 5) but not in `others` (m, 5).
 
-    place: left, top, size [px] of the tile. O(n m).
+    moved_out (9,) bool: the tile and its neighbours, row by row; place: left, top, size [px] of the tile. O(n m).
     """
     left, top, size = place
     for i in range(len(mine)):
@@ -139,9 +141,10 @@ def mark_alone(mine, others, place, moved_out):
 
 @kernel
 def mark_moved(before, after, place, moved_out):
-    """Flag which of 9 tiles share a corner that is in only one of two lists of meetings; place: left, top, size [px].
+    """Flag the tiles that have a corner which is in only one of two lists of a tile's meetings.
 
-    O(n m).
+    before (n, 5), after (m, 5): as Survey.meetings; moved_out (9,) bool: the tile and its neighbours, row by row;
+    place: left, top, size [px] of the tile. O(n m).
     """
     mark_alone(before, after, place, moved_out)
     mark_alone(after, before, place, moved_out)
@@ -149,13 +152,13 @@ def mark_moved(before, after, place, moved_out):
 
 @subkernel
 def seam_turn(angle):
-    """Return the turn [rad] of the outline at a point where the parts take `angle` [rad] in total, or COVERED."""
+    """Return the turn [rad] of the outline where the parts' interior angles sum to `angle`; COVERED: no corner."""
     return COVERED if angle >= HALF_TURN else math.pi - angle
 
 
 @subkernel
 def corner_bits(k, turn):
-    """Return the bits of SHAPE's inner for corner k of a part, at which the outline turns by `turn` [rad]."""
+    """Return the flags (bits of `inner` in SHAPE) of corner k of a part, at which the outline turns by `turn` [rad]."""
     if turn == COVERED:
         return 1 << (k + 16)
     return 1 << (k + 32) if turn <= SHARPEST else 0
@@ -163,13 +166,13 @@ def corner_bits(k, turn):
 
 @subkernel
 def turn_bits(turn):
-    """Return the bits of SHAPE's inner for a part with `turn` [rad] as the largest turn at its blunt corners."""
+    """Return the bits of `inner` in SHAPE for `turn` [rad], the largest of the outline at a part's blunt corners."""
     return (math.floor(turn * TURNS) + 1) << 48
 
 
 @subkernel
 def first_of(around, number):
-    """Return the index of the first meeting of a tile numbered `number` or higher. O(log meetings)."""
+    """Return the index in meetings (m, 5) of the first one whose tile number is `number` or higher. O(log m)."""
     low, high = 0, len(around)
     while low < high:
         middle = (low + high) // 2
@@ -182,10 +185,11 @@ def first_of(around, number):
 
 @subkernel
 def cover_corners(corners, known, around, place, turns_out):
-    """Write the turn [rad] of the outline at each corner (n,), by the parts that meet there.
+    """Write by how much [rad] the outline turns at each corner of a tile's parts, turns_out (n,).
 
-    pi where no other part meets it, COVERED where the parts cover it or another part owns it. around (m, 5): as in
-    inner_bits; place: number of the tile, and tiles per row. O(n²), plus the meetings of the tiles around.
+    The turn is pi where no other part meets the corner, and COVERED where the parts leave no convex corner or the
+    corner belongs to another part. around (m, 5): as in inner_bits; place: (number of the tile, tiles per row). O(n²),
+    plus the meetings of neighbouring tiles.
     """
     there = known.seams
     number, columns = place
@@ -215,7 +219,7 @@ def cover_corners(corners, known, around, place, turns_out):
 
 @subkernel
 def first_turn(angles, first):
-    """Return the first corner of a part, from `first` on, that does not lie within a side."""
+    """Return the index of the first corner from `first` on at which the part turns (not collinear)."""
     while angles[first] >= HALF_TURN:
         first += 1
     return first
@@ -223,9 +227,10 @@ def first_turn(angles, first):
 
 @subkernel
 def leave_straight(parts, angles, origin, corners_out, counts_out):
-    """Write the corners (n, 2) of TileParts at which they turn, minus the origin, and their number per part.
+    """Write the corners of TileParts without collinear ones, in body space, and their number per part.
 
-    Returns the total number of corners.
+    origin [px]: of body space in the raster; corners_out (n, 2) [px]; counts_out (parts,). Returns the total number of
+    corners.
     """
     left, top = origin
     n = 0
@@ -249,8 +254,9 @@ def leave_straight(parts, angles, origin, corners_out, counts_out):
 
 @kernel
 def survey_tile(parts, box, number, origin, survey_out):
-    """Write the survey of TileParts; box: left, top, right, bottom of the tile. Returns the numbers of meetings and
-    corners.
+    """Write the Survey of a tile's parts (TileParts). Returns (number of meetings, number of corners).
+
+    box [px]: left, top, right, bottom of the tile; number: of the tile; origin [px]: of body space in the raster.
     """
     find_seams(parts, survey_out.angles, survey_out.seams)
     met = gather(parts.corners, survey_out, box, number, survey_out.meetings)
@@ -259,10 +265,10 @@ def survey_tile(parts, box, number, origin, survey_out):
 
 @kernel
 def tell_inner(parts, known, around, place, turns_out, inner_out):
-    """Write the flags of inner edges and corners of each part, as inner_bits, for the corners of leave_straight.
+    """Write the flags of inner edges and corners of each part, inner_out (parts,), in the format of `inner` in SHAPE.
 
-    An edge of several sides is inner if all of them are. place: number of the tile, and tiles per row; turns_out (n,):
-    turn [rad] of the outline at each corner.
+    Edges are counted without collinear corners; an edge of several collinear sides is inner if all of them are. known,
+    around: as in inner_bits; place: (number of the tile, tiles per row); turns_out (n,): as cover_corners.
     """
     cover_corners(parts.corners, known, around, place, turns_out)
     first = 0

@@ -1,4 +1,4 @@
-"""The outline of a large raster tile by tile: crossings of borders, paths, regions and convex parts."""
+"""The outline of a large raster, computed tile by tile: points on tile borders, lines between them, convex parts."""
 
 import math
 from functools import cache
@@ -33,15 +33,15 @@ from physics.outline.rings import SIDE, close_ring, put_side, write_parts
 from physics.settings import MAX_CORNERS
 
 # ---- crossings -------------------------------------------------------------------------------------------------------
-# Crossings of the outline and the border of two tiles: one point, computed identically from both sides.
+# A crossing is the point where the outline crosses the border of two tiles. Both tiles compute the same point.
 #
-# A crossing depends only on cracks within SEEN of the place where the crack path changes from one tile's pixels to
-# another's. A line is fitted to the longest stretch of them that is straight. If the path turns at the border, the
-# crossing is on a run of the path. If the path goes straight on, the crossing may be a little beside it. A corner
-# between long runs is its own crossing.
+# A crossing depends only on cracks within SEEN of the corner where the path of cracks changes from one tile's pixels to
+# those of another. A line is fitted to the longest straight stretch of these cracks. If the path turns at the border,
+# the crossing is on a run of the path. If the path goes straight on, the crossing may be a little beside the path. A
+# corner between long runs is itself the crossing.
 
-SEEN = 12  # [px] of the path on either side. More: a wider halo; less: gentle slopes are less straight at borders
-STRAIGHT = 0.6  # [px] largest distance of a straight path's crack middles from its line: 0.5 for slight slopes
+SEEN = 12  # [cracks] of the path on either side that are used. More: a wider halo; fewer: bends in gentle slopes
+STRAIGHT = 0.6  # [px] a path is straight if the middles of its cracks are this near a line: 0.5 for slight slopes
 U_2 = SEEN * (4.0 * SEEN * SEEN - 1.0) / 6.0  # sums of the squares and …
 U_4 = U_2 * (12.0 * SEEN * SEEN - 7.0) / 20.0  # … fourth powers of 0.5 - SEEN to SEEN - 0.5
 SPREAD = 2.0 * SEEN * U_4 - U_2 * U_2
@@ -51,13 +51,13 @@ BESIDE = 0.25  # [px] least distance of a crossing from a run's ends
 
 @subkernel
 def whole_grains(length):
-    """Return a length rounded down to whole grains [px]."""
+    """Return a length [px] rounded down to a multiple of GRAIN, the grid of outline points."""
     return math.floor(length * GRAINS) * GRAIN
 
 
 @subkernel
 def to_border(window, x, y, direction):
-    """Return the distance [px] from a corner on the tile's border to the next border line ahead, or more than KNOWN."""
+    """Return the distance [px] from a corner of the border to the next border line ahead; KNOWN + 1: none ahead."""
     at = y if direction & 1 else x
     ahead = window.high - at if direction < 2 else at - window.low
     return ahead if ahead > 0 else KNOWN + 1
@@ -65,10 +65,10 @@ def to_border(window, x, y, direction):
 
 @subkernel
 def stretch(runs, count, at, seen, x, y):
-    """Fit a line (least squares) to the crack middles of a path within `seen` cracks of its corner (x, y).
+    """Fit a line (least squares) to the middles of a path's cracks within `seen` cracks of a corner (x, y).
 
-    at: cracks of the path before the corner. Returns (x, y [px] of a point on the line, relative to the corner; its
-    slope; whether the slope is dx / dy instead of dy / dx; whether all middles are near the line).
+    at: number of cracks of the path before the corner. Returns (x, y [px] of a point on the line, relative to the
+    corner; slope of the line; whether the slope is dx / dy instead of dy / dx; whether all middles are near the line).
     """
     n = 0
     sum_x = sum_y = sum_xx = sum_yy = sum_xy = 0.0
@@ -114,9 +114,10 @@ def stretch(runs, count, at, seen, x, y):
 
 @subkernel
 def is_straight(runs, count, at):
-    """Return whether a line separates the pixels' centres beside all cracks within SEEN of a place of a path.
+    """Return whether one straight line separates the solid from the clear pixels beside a path near a corner.
 
-    It does if the directions from solid centres to clear ones span less than half a turn; the ends of runs suffice.
+    at: number of cracks of the path before the corner; cracks within SEEN of it count. Such a line exists if the
+    directions from solid to clear pixels' centres span less than half a turn; only ends of runs need to be tested.
     """
     first_x = first_y = last_x = last_y = 0.0
     for k in range(count):
@@ -151,9 +152,10 @@ def is_straight(runs, count, at):
 
 @subkernel
 def bend(runs, count, at, x, y):
-    """Fit a parabola (least squares) to the crack middles of a path within SEEN cracks of its corner (x, y).
+    """Fit a parabola (least squares) to the middles of a path's cracks within SEEN cracks of a corner (x, y).
 
-    at: cracks of the path before the corner. Returns the line along it there, as stretch.
+    at: number of cracks of the path before the corner. Returns the tangent at the corner, in the format of `stretch`;
+    the last value is whether all middles are near the parabola.
     """
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
     for part in range(2):
@@ -189,7 +191,10 @@ def bend(runs, count, at, x, y):
 
 @subkernel
 def line_at(runs, count, at, x, y):
-    """Return the line along a path about a corner, as stretch: along the longest straight stretch, or a curve."""
+    """Return the line that a path follows at a corner, (x, y, slope, whether dx / dy) as `stretch`.
+
+    It is fitted to the longest straight stretch around the corner, or is the tangent of a curve.
+    """
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
         if seen == SEEN and not (straight and is_straight(runs, count, at)):
@@ -204,8 +209,9 @@ def line_at(runs, count, at, x, y):
 
 @subkernel
 def meets(runs, count, at, x, y, level):
-    """Return the distance [px] from a corner of a path to where its line meets the row (level) or column of the
-    corner.
+    """Return the signed distance [px] from a corner to the point where the path's line meets its row or column.
+
+    The line is that of line_at. level: the row through the corner; else the column.
     """
     line_x, line_y, slope, steep = line_at(runs, count, at, x, y)
     if level == steep:
@@ -217,8 +223,9 @@ def meets(runs, count, at, x, y, level):
 
 @subkernel
 def room_in(window, runs, count, k, x, y, after):
-    """Return how far [px] a crossing moves from a corner (x, y) into run k, which starts there (after) or ends
-    there.
+    """Return how far [px] a crossing is moved from corner (x, y) along run k of a path.
+
+    after: whether run k starts at the corner; else it ends there.
     """
     run = runs[k]
     direction = run.direction if after else (run.direction + 2) & 3
@@ -243,9 +250,10 @@ def room_in(window, runs, count, k, x, y, after):
 
 @subkernel
 def aside(window, runs, count, k, distance):
-    """Return how far [px] beside run k, a distance after its start, the line along the path passes.
+    """Return the distance [px] from a point of run k to the line that the path follows, perpendicular to the run.
 
-    Positive in the direction of the path before the run.
+    Positive in the direction of run k - 1; at most window.reach. distance [cracks]: of the point from the start of the
+    run.
     """
     run = runs[k]
     if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
@@ -263,10 +271,10 @@ def aside(window, runs, count, k, distance):
 
 @subkernel
 def crossing(window, runs, count, at, after):
-    """Return the crossing of the outline and the border at the corner `at` cracks along a path.
+    """Return the point where the outline crosses the tile's border near the corner `at` cracks along a path.
 
-    runs: RUN of the path, SEEN cracks on either side; after: at a corner of the tile, use the run that follows instead
-    of the one before. Returns (cracks along the path, x, y [px] relative to the path there).
+    The result is (cracks along the path, offset x, y [px] from the path). runs: RUN of the path, with SEEN cracks on
+    either side of the corner; after: at a corner of the tile, move along the run after it, not the run before it.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -288,7 +296,7 @@ def crossing(window, runs, count, at, after):
         after = at_side == (run.direction & 1 == 1)
     room = room_in(window, runs, count, k if after else k - 1, x, y, after)
     if at_side and at_end:
-        # The line leads from one border to the other there: past the corner, and along neither border.
+        # The line leads from one border of the tile to the other: past the tile's corner, along neither border.
         other = room_in(window, runs, count, k - 1 if after else k, x, y, not after)
         if other == 0.0:
             return float(at), 0.0, 0.0
@@ -300,7 +308,7 @@ def crossing(window, runs, count, at, after):
 # ---- tile paths ------------------------------------------------------------------------------------------------------
 # The outline in one tile: its crack paths, from border to border or closed, simplified to straight lines.
 
-NEAREST = 0.24  # [px] places nearer to a crossing are dropped, because they would make slivers
+NEAREST = 0.24  # [px] candidate corners nearer to a crossing are left out: they would make slivers
 
 PIECE = np.dtype(
     [  # a piece of the outline: lines from point to point
@@ -316,17 +324,17 @@ PIECE = np.dtype(
 
 
 class Paths(NamedTuple):
-    """Scratch arrays for the largest possible tile, and the result of find_paths."""
+    """Scratch arrays for one tile, and the result of find_paths: the pieces of the outline and their points."""
 
-    marks: np.ndarray  # [row, col] uint8 of the window
+    marks: np.ndarray  # [row, col] uint8 of the window: cracks above these pixels are already in a path
     lines: Lines
     pieces: np.ndarray  # PIECE
     points: np.ndarray  # POINT
-    counts: np.ndarray  # int64: pieces, points
+    counts: np.ndarray  # (2,) int64: number of pieces, number of points
 
 
 def room_for_paths(size: int, halo: int) -> Paths:
-    """Return scratch arrays for tiles of `size` pixels per side."""
+    """Return scratch arrays for tiles of `size` px per side with a margin of `halo` px."""
     cracks = 2 * size * size + 4 * SEEN + 8  # of a checkerboard, the largest possible number
     wide = size + 2 * halo
     return Paths(
@@ -340,7 +348,7 @@ def room_for_paths(size: int, halo: int) -> Paths:
 
 @subkernel
 def along_border(window, x, y):
-    """Return the distance [px] along the border, clockwise from the top left corner, to a point on it."""
+    """Return the distance [px] of a border point (x, y) along the tile's border, clockwise from its top left corner."""
     size = float(window.high - window.low)
     if y == window.low:
         return x - window.low
@@ -353,7 +361,7 @@ def along_border(window, x, y):
 
 @subkernel
 def put_end(n, runs, count, at, off_x, off_y, places_inout):
-    """Append a crossing, offset from a place of the path."""
+    """Write row n of places: a crossing, `at` cracks along the path, with an offset [px] from the path."""
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
         k += 1
@@ -365,7 +373,10 @@ def put_end(n, runs, count, at, off_x, off_y, places_inout):
 
 @subkernel
 def put_points(window, found, path, workspace):
-    """Append a piece (PIECE) and its points (POINT) from the chain of `found` places. Returns False if found is 0."""
+    """Append a piece of the outline (PIECE) and its points (POINT), made of the lines found along a path.
+
+    found: number of places in the chain of workspace.lines. Returns False, and appends nothing, if it is 0.
+    """
     if found == 0:
         return False
     counts = workspace.counts
@@ -384,16 +395,17 @@ def put_points(window, found, path, workspace):
 
 @subkernel
 def path_within(window, count, cracks, begin, end):
-    """Return the Path of some runs in a tile; begin, end [cracks] of the part in it, infinite for a loop."""
+    """Return the Path of `count` runs; begin, end [cracks]: the part of it inside the tile, infinite for a loop."""
     low, high = float(window.low), float(window.high)
     return Path(count, cracks, math.isinf(end), window.reach, low, high, begin, end, window.joins)
 
 
 @subkernel
 def add_open(window, x, y, direction, cracks, workspace):
-    """Append the piece of a path between two borders, `cracks` cracks from a corner on. Returns whether it succeeded.
+    """Append the outline of a path from border to border of the tile. Returns whether lines were found.
 
-    cracks 0: the path only passes the corner of the tile from one border to another.
+    x, y, direction: where the path enters the tile; cracks: number of its cracks inside; 0: the path only passes the
+    tile's corner, from one border to another.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -419,7 +431,7 @@ def add_open(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_closed(window, x, y, direction, cracks, workspace):
-    """Append the piece of a loop of `cracks` cracks, from a corner where it turns. Returns whether it succeeded."""
+    """Append the outline of a loop of `cracks` cracks that turns at corner (x, y). Returns whether lines were found."""
     lines = workspace.lines
     count = record(window, x, y, direction, cracks, lines.runs)
     around, anchor = put_loop(lines.runs, count, cracks, lines.places)
@@ -430,7 +442,7 @@ def add_closed(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_at_corner(window, x, y, workspace):
-    """Append all pieces that start at a corner of the grid on the tile's border. Returns whether it succeeded."""
+    """Append all pieces that enter the tile at border point (x, y). Returns whether lines were found for each."""
     pixels = window.pixels
     done = True
     solid = 0
@@ -454,9 +466,9 @@ def add_at_corner(window, x, y, workspace):
 
 @subkernel
 def find_paths(window, workspace):
-    """Find all pieces of the outline in a tile. Returns whether it succeeded.
+    """Find all pieces of the outline in a tile. Returns whether lines were found for each.
 
-    workspace: Paths. Linear in pixels and corners, except for the line search.
+    workspace: Paths, which holds the result. Linear in pixels and corners, except for the line search.
     """
     low, high = window.low, window.high
     workspace.counts[0] = 0
@@ -481,13 +493,13 @@ def find_paths(window, workspace):
 # ---- tile regions ----------------------------------------------------------------------------------------------------
 # The solid part of a tile as rings of sides: its pieces of the outline, and the tile's border between them.
 #
-# From the end of a piece a ring follows the border, clockwise on the screen, to the start of the next piece. The other
-# side of the border is solid there too, so these sides are inner.
+# From the end of a piece a ring follows the border, clockwise on the screen, to the start of the next piece. The pixels
+# beyond this stretch of the border are solid, too, so its sides are inner.
 
 
 @subkernel
 def tile_corner(window, number):
-    """Return (x, y) of a tile's corner: 0 is top left, then clockwise."""
+    """Return (x, y) [px] of the tile's corner `number`: 0 is top left, then clockwise on the screen."""
     number &= 3
     return (
         float(window.high if number == 1 or number == 2 else window.low),
@@ -497,7 +509,10 @@ def tile_corner(window, number):
 
 @subkernel
 def put_piece(n, first, piece, points, sides_inout):
-    """Append the sides of a piece to a ring; the side of its last point is inner. Returns the number of sides."""
+    """Append the sides of a piece to a ring. Returns the number of sides.
+
+    For an open piece the side that starts at its last point is inner, because it follows the border.
+    """
     for k in range(piece.count):
         point = points[piece.first + k]
         n = put_side(n, first, point.x, point.y, not piece.closed and k == piece.count - 1, sides_inout)
@@ -506,7 +521,10 @@ def put_piece(n, first, piece, points, sides_inout):
 
 @subkernel
 def next_piece(pieces, count, at, around):
-    """Return the next piece from border to border, clockwise from a place on the border, and its distance [px]."""
+    """Return (piece, distance [px]) of the open piece whose start is next clockwise along the border.
+
+    at [px]: along the border, from where the distance is measured; around [px]: length of the border.
+    """
     best = -1
     nearest = math.inf
     for k in range(count):
@@ -523,7 +541,10 @@ def next_piece(pieces, count, at, around):
 
 @subkernel
 def put_border(window, n, first, start, length, sides_inout):
-    """Append the tile's corners strictly within a length of its border from a place on. Returns the number of sides."""
+    """Append the tile's corners that lie on a stretch of its border to a ring. Returns the number of sides.
+
+    start, length [px]: of the stretch along the border; corners at its ends are not added.
+    """
     size = float(window.high - window.low)
     number = math.floor(start / size) + 1
     while number * size < start + length:
@@ -535,7 +556,7 @@ def put_border(window, n, first, start, length, sides_inout):
 
 @subkernel
 def put_open(window, n, number, workspace, sides_inout):
-    """Append the ring of a piece from border to border. Returns the number of sides."""
+    """Append the ring that contains open piece `number` and the border between pieces. Return the number of sides."""
     around = 4.0 * (window.high - window.low)
     pieces = workspace.pieces
     first = n
@@ -550,7 +571,7 @@ def put_open(window, n, number, workspace, sides_inout):
 
 @subkernel
 def is_hole(piece, points):
-    """Return whether a closed piece is counter-clockwise on the screen."""
+    """Return whether a closed piece is the edge of a hole: counter-clockwise on the screen."""
     doubled = 0.0
     before = points[piece.first + piece.count - 1]
     for k in range(piece.first, piece.first + piece.count):
@@ -562,9 +583,9 @@ def is_hole(piece, points):
 
 @subkernel
 def put_regions(window, workspace, sides_out):
-    """Write the rings of a tile's solid part (SIDE), with holes as separate rings. Returns the number of sides.
+    """Write the rings around the solid part of a tile (SIDE), holes as separate rings. Returns the number of sides.
 
-    workspace: Paths, as left by find_paths.
+    workspace: Paths, as find_paths leaves it.
     """
     n = 0
     holes = 0
@@ -595,18 +616,18 @@ def put_regions(window, workspace, sides_out):
 # ---- tile parts ------------------------------------------------------------------------------------------------------
 # The outline of one tile of a larger mask in convex parts. Carving recomputes only the tiles that it touches.
 #
-# A tile's parts cover its solid pixels. Where the other side of its border is solid too, the parts' sides are inner.
-# The parts of neighbouring tiles have the same points on their common border (see crossings). Together they are an
-# outline as of contour.outline, within the same distances of the pixels' edges.
+# A tile's parts cover its solid pixels. Where the pixels beyond its border are solid too, the parts' sides are inner.
+# The parts of neighbouring tiles have the same points on their common border (see crossings). All tiles together have
+# an outline like that of contour.outline, within the same distances of the pixels' edges.
 
-HALO = SEEN + SHARP + 1  # [px] of the neighbours' pixels on which a tile's outline depends
+HALO = SEEN + SHARP + 1  # [px] width of the margin in neighbouring tiles on which a tile's outline depends
 
 
 class TileParts(NamedTuple):
-    """Convex polygons, one after another."""
+    """The convex parts of a tile: polygons whose corners are listed part after part."""
 
     corners: np.ndarray  # (n, 2) float64 [px], clockwise on the screen; topmost, then leftmost corner first
-    inner: np.ndarray  # (n,) bool: the side from that corner is shared with another part, of this tile or the next
+    inner: np.ndarray  # (n,) bool: the side after the corner is shared with another part, of this tile or the next
     counts: np.ndarray  # (k,) int64: corners of each polygon
 
 
@@ -614,13 +635,12 @@ NONE = TileParts(np.zeros((0, 2)), np.zeros(0, bool), np.zeros(0, np.int64))
 
 
 def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) -> TileParts:
-    """Return the convex parts, of at most 16 corners and without radius, of a tile with its top left corner at `at`
-    [px].
+    """Return the convex parts of the outline in one tile of a mask, with at most 16 corners each.
 
-    window[row, col] bool: the tile's pixels, a square, and HALO pixels of its neighbours on each side, clear beyond the
-    mask. smooth [px] as in contour.outline, whose contract holds for the parts of all tiles together. An empty tile has
-    no parts. A solid tile with solid surroundings is one square of inner sides. Raises ValueError for a window that is
-    not square, or with a tile not larger than HALO.
+    window[row, col] bool: the square tile with a margin of HALO pixels on each side, clear beyond the mask; at [px]:
+    top left corner of the tile in the mask. smooth [px] as in contour.outline; the parts of all tiles together are as
+    near to the pixels' edges as that outline. An empty tile has no parts. A solid tile in solid surroundings is one
+    square of inner sides. Raises ValueError for a window that is not square, or with a tile not larger than HALO.
     """
     height, width = window.shape
     size = width - 2 * HALO
@@ -657,7 +677,10 @@ def _fit(window, size, smooth):
 
 
 def _is_cornered(near):
-    """Return whether the outline covers part of a clear tile: at a tile corner whose other three pixels are solid."""
+    """Return whether the outline cuts a corner of a clear tile: one at which the three pixels outside are solid.
+
+    near: the tile's pixels with a margin of 1 px.
+    """
     return (
         (near[:2, :2].sum() == 3)
         or (near[:2, -2:].sum() == 3)
@@ -668,7 +691,7 @@ def _is_cornered(near):
 
 @cache
 def _room(size):
-    """Return scratch arrays for one tile at a time: 12 MB for 64 px."""
+    """Return scratch arrays of convex_tile for tiles of `size` px: 12 MB for 64 px. All calls share them."""
     paths = room_for_paths(size, HALO)
     most = 3 * len(paths.points)
     return (paths, np.zeros(most, SIDE), np.zeros((most, 2)), np.zeros(most, bool), np.zeros(most, np.int64))
@@ -676,10 +699,10 @@ def _room(size):
 
 @kernel
 def convex_tile(window, most, workspace, sides_inout, corners_out, inner_out, counts_out):
-    """Write the convex parts of a tile. Returns their number, or -1 if the rings are no polygon.
+    """Write the convex parts of a tile's outline. Returns their number, or -1 if the outline is no polygon.
 
-    window: Window; most: largest number of corners of a part; workspace: Paths; sides_inout: SIDE, scratch; corners_out
-    (n, 2) [px], inner_out (n,), counts_out (parts,).
+    window: Window; most: largest number of corners of a part; workspace: Paths, scratch; sides_inout: SIDE, scratch;
+    corners_out (n, 2) [px], inner_out (n,), counts_out (parts,): in the format of TileParts.
     """
     if not find_paths(window, workspace):
         return -1

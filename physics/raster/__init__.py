@@ -1,1 +1,1 @@
-"""Pixels as 64-bit words: bits, turning, overlap."""
+"""Pixels of masks as bits of 64-bit words: rotation, overlap, connected pieces, carving."""

@@ -1,6 +1,6 @@
-"""Packed pixels as 64-bit words: set, count, AND, and rotate to an angle bucket.
+"""Pixels as bits of 64-bit words: bit operations, overlap of two masks, and rotation of a mask to one of 128 angles.
 
-Bit b of word k in a row is x = 64k + b. Words are uint64, shift counts are kept in 0..63.
+Bit b of word k in a row is the pixel in column 64k + b. Words are uint64; shift counts are kept in 0..63.
 """
 
 import math
@@ -16,9 +16,9 @@ from physics.jit.plain import popcount, word
 
 @subkernel
 def bits_from(words, row, stride, start):
-    """Return the 64 pixels of a row from column `start` on; pixels left or right of the raster are clear.
+    """Return the 64 pixels of a row from column `start` on as a word; pixels beyond the row are clear.
 
-    words: uint64 pixels; row: first word of the row; stride: words per row. O(1).
+    words (n,) uint64: pixels; row: index of the row's first word; stride: number of words per row. O(1).
     """
     index = start >> 6
     shift = start & 63
@@ -32,7 +32,7 @@ def bits_from(words, row, stride, start):
 
 @subkernel
 def columns_up_to(count):
-    """Return a word whose lowest `count` bits are set; all of them from 64 on."""
+    """Return a word whose lowest `count` bits are set: none for count <= 0, all for count >= 64."""
     if count >= 64:
         return word(0xFFFFFFFFFFFFFFFF)
     if count <= 0:
@@ -49,9 +49,9 @@ def lowest_bit(value):
 
 @subkernel
 def sum_of_places(value):
-    """Return the sum of the indices of all set bits (Knuth 4A, 7.1.3).
+    """Return the sum of the indices of all set bits of a word (Knuth 4A, 7.1.3).
 
-    Each binary digit of an index is summed over the set bits whose index has it.
+    For each binary digit of the indices, the set bits whose index has this digit are counted.
     """
     return (
         popcount(word(value & word(0xAAAAAAAAAAAAAAAA)))
@@ -103,50 +103,51 @@ def minus(a, b):
 
 @subkernel
 def touch(a, b):
-    """Return whether a pixel of one word is 8-connected to one in the word of the adjacent row."""
+    """Return whether a pixel of word a is 8-connected to a pixel of word b, the same columns of an adjacent row."""
     return word(word(a | word(a << word(1)) | word(a >> word(1))) & b) != word(0)
 
 
 @subkernel
 def has_bit(value, place):
-    """Return whether a bit of a word is set."""
+    """Return whether the bit of index `place` is set in a word."""
     return word(word(value >> word(place)) & word(1)) != word(0)
 
 
 @subkernel
 def is_set(words, row, x):
-    """Return whether the pixel in column x of a row is set; x must lie within the row."""
+    """Return whether the pixel in column x of a row is set; row: index of its first word; x must be inside the row."""
     return (word(words[row + (x >> 6)] >> word(x & 63)) & word(1)) != word(0)
 
 
 @subkernel
 def shared_word(words, word_a, shift_a, word_b, shift_b):
-    """Return the pixels that two words share after each is shifted down by 0..63 columns.
+    """Return the pixels set in both of two words after each is shifted to lower columns by 0..63.
 
-    word_*: unsigned indices, which saves the check for negative ones.
+    words (n,) uint64; word_*: index of each word, converted to unsigned, which saves the check for a negative index;
+    shift_*: number of columns.
     """
     return word(word(words[word(word_a)] >> word(shift_a)) & word(words[word(word_b)] >> word(shift_b)))
 
 
 @subkernel
 def shifts_to(columns):
-    """Return (up, down, kept) with which `moved` shifts a word by -64 to 64 columns to the right."""
+    """Return the arguments (up, down, kept) of `moved` that shift a word by -64 to 64 columns to the right."""
     kept = word(0xFFFFFFFFFFFFFFFF) if abs(columns) < 64 else word(0)
     return word(max(columns, 0) & 63), word(max(-columns, 0) & 63), kept
 
 
 @subkernel
 def moved(value, up, down, kept):
-    """Return a word shifted up, then down, and masked with `kept`."""
+    """Return a word shifted up and then down by numbers of bits, and masked with `kept`; see shifts_to."""
     return word(word(word(value << up) >> down) & kept)
 
 
 @subkernel
 def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
-    """Return (row, shared pixels) of the first of `rows` one-word rows that share a pixel; (rows, 0) without one.
+    """Return (row, shared pixels) of the first row in which rasters of one word per row overlap; (rows, 0): none.
 
-    word_*: index of the first rows; shift_*: columns on the left to skip. The right end needs no mask, because words
-    are clear beyond their solid bounds. O(rows).
+    rows: number of rows compared; word_*: index of the first word of each raster; shift_*: columns on the left to skip.
+    The right end needs no mask, because words are clear beyond their solid bounds. O(rows).
     """
     for row in range(rows):
         shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
@@ -164,7 +165,10 @@ def packed(solid: np.ndarray) -> np.ndarray:
 
 
 def halo(solid: np.ndarray) -> np.ndarray:
-    """Return the packed dilation of solid by its 8 neighbours, in a raster larger by one pixel all round."""
+    """Return as packed words the pixels that are solid or have a solid pixel among their 8 neighbours.
+
+    The raster is larger than solid[row, col] by one pixel on each side.
+    """
     rows, columns = solid.shape
     grown = np.zeros((rows + 2, columns + 2), bool)
     for y in range(3):
@@ -176,12 +180,16 @@ def halo(solid: np.ndarray) -> np.ndarray:
 # ---- overlap ---------------------------------------------------------------------------------------------------------
 # Overlap of two masks by AND of their words: first shared pixel, number and moments of the shared pixels.
 #
-# dx, dy [px]: start of B's raster relative to A's. Only the intersection of the solid bounds is read.
+# A and B are the two masks; dx, dy [px]: top left corner of B's raster in A's raster. Only the intersection of the
+# bounds of their solid pixels is read.
 
 
 @subkernel
 def shared_rectangle(a, b, dx, dy):
-    """Return the intersection (left, top, right, bottom) of two rasters' solid bounds, in A's columns and rows."""
+    """Return the intersection (left, top, right, bottom) of the solid bounds of RASTER rows a and b, in pixels of a.
+
+    dx, dy [px]: top left corner of b in a.
+    """
     return (
         max(a.set_left, b.set_left + dx),
         max(a.set_top, b.set_top + dy),
@@ -192,7 +200,11 @@ def shared_rectangle(a, b, dx, dy):
 
 @subkernel
 def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (found, x, y) of the first shared pixel in reading order, in A's columns and rows. O(words) at worst."""
+    """Return (found, x, y) of the first shared pixel of two masks, row by row, in columns and rows of A.
+
+    rasters: RASTER; words: uint64; mask_a, mask_b: rows of RASTER; dx, dy [px]: top left corner of B in A. O(words) at
+    worst.
+    """
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     if left >= right or top >= bottom:
@@ -216,10 +228,10 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
-    """Return a row of A in which two one-word-wide rasters share a pixel, or -1; the search begins at `guess`.
+    """Return a row of A in which two rasters of one word per row share a pixel; -1: none.
 
-    row_*: index of their first words; box_*: their solid bounds (left, top, right, bottom). O(1) for a right guess,
-    else O(rows).
+    row_*: index of the first word of each raster; box_*: its solid bounds (left, top, right, bottom); dx, dy [px]: top
+    left corner of B in A; guess: row of A tested first. O(1) if the guess is right, else O(rows).
     """
     left, top = max(box_a[0], box_b[0] + dx), max(box_a[1], box_b[1] + dy)
     if left >= min(box_a[2], box_b[2] + dx):
@@ -238,10 +250,10 @@ def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
 
 @subkernel
 def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
-    """Return (area, sum of x, sum of y, difference) of the shared pixels of two one-word-wide rasters.
+    """Return (area, sum of x, sum of y, difference) over the shared pixels of two rasters of one word per row.
 
-    The difference is the area shared one pixel to the left minus that one pixel to the right. The bounds must meet; see
-    line_shared and shared_moments. O(rows).
+    difference [px2]: shared area with B moved one pixel to the left minus that with B moved one to the right. The solid
+    bounds must overlap. Arguments as line_shared; x, y in columns and rows of A. O(rows).
     """
     up, down, kept = shifts_to(dx)
     left_up, left_down, left_kept = shifts_to(dx - 1)
@@ -264,7 +276,7 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
 
 @subkernel
 def shared_area(rasters, words, mask_a, mask_b, dx, dy):
-    """Return the number of shared pixels. O(words)."""
+    """Return the number of shared pixels of two masks. Arguments as first_pixel. O(words)."""
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     area = 0
@@ -290,7 +302,10 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (area, sum of x, sum of y) over the shared pixels, in A's columns and rows. O(words)."""
+    """Return (area, sum of x, sum of y) over the shared pixels, in columns and rows of A.
+
+    Arguments as first_pixel. O(words).
+    """
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     area = 0
@@ -314,14 +329,14 @@ def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
 
 
 # ---- rotate ----------------------------------------------------------------------------------------------------------
-# Rotation of a mask to an angle bucket, always from its source.
+# Rotation of a mask to an angle bucket, one of 128 angles, always from the unrotated mask (source).
 #
-# A pixel whose centre falls on a solid source pixel is solid, which keeps thin lines in one piece. Then pixels with the
-# most coverage are added, or pixels with the least coverage removed where this keeps the connectivity. The target is
-# the number of pixels of the source at every angle. Each pixel stores its source pixel, so that a sprite can be drawn
+# A pixel whose centre falls on a solid source pixel is solid, which keeps thin lines in one piece. Then the number of
+# solid pixels is made equal to that of the source: pixels with the most coverage are added, or pixels with the least
+# coverage removed where this disconnects nothing. Each pixel stores its source pixel, so that a sprite can be drawn
 # from exactly the pixels that collide.
 
-SAMPLES = 5  # per side of a pixel, one at its centre: coverage in steps of 1/25
+SAMPLES = 5  # sampled points per side of a pixel, one at its centre: coverage in steps of 1/25
 OFFSETS = sorted(
     (((i + 0.5) / SAMPLES, (j + 0.5) / SAMPLES) for j in range(SAMPLES) for i in range(SAMPLES)),
     key=lambda at: ((at[0] - 0.5) ** 2 + (at[1] - 0.5) ** 2, at),
@@ -331,21 +346,21 @@ BAND = 1 << 14  # [px] rotated at once: temporary arrays stay in the cache and d
 
 @dataclass(frozen=True)
 class Turned:
-    """A mask at one angle: solid[row, col], the origin from its top left corner, and each pixel's source."""
+    """A mask at one angle: solid[row, col], origin [px] from the top left corner, and the source of each pixel."""
 
     solid: np.ndarray
     origin: tuple[float, float]
-    source_x: np.ndarray  # (rows, columns) int16, -1 where clear
+    source_x: np.ndarray  # (rows, columns) int16: column of the pixel in the unrotated mask, -1 where clear
     source_y: np.ndarray
 
 
 def bucket_of(angle: float, buckets: int) -> int:
-    """Return the bucket whose angle is nearest to `angle` [rad]."""
+    """Return the number of the angle nearest to `angle` [rad] among `buckets` equal steps of a full turn."""
     return int(math.floor(angle * buckets / math.tau + 0.5)) % buckets
 
 
 def turn(solid: np.ndarray, origin: tuple[float, float], bucket: int, buckets: int) -> Turned:
-    """Return the mask rotated by bucket/buckets of a full turn, clockwise on the screen, about its origin."""
+    """Return a mask rotated about its origin by bucket/buckets of a full turn, clockwise on the screen."""
     rows, columns = np.ogrid[: solid.shape[0], : solid.shape[1]]
     source_x, source_y = (np.where(solid, each, -1).astype(np.int16) for each in (columns, rows))
     if solid.size == 0 or not solid.any():
@@ -393,10 +408,10 @@ def _any_turn(solid, origin, angle):
 
 
 def _sampled(padded, mixed, base_x, base_y, cosine, sine):
-    """Return (centre is solid, number of solid samples, source index) of each pixel.
+    """Return for each rotated pixel (whether its centre is solid, number of its solid samples, source index).
 
-    The source index is the padded source pixel of the first solid sample, or -1. base_x, base_y: the first corner of
-    each pixel in the padded source [px]; mixed: result of _mixed.
+    source index: flat index, in the padded source, of the pixel under the first solid sample; -1: none. padded: source
+    with a clear border; base_x, base_y [px]: first corner of each pixel there; mixed: result of _mixed.
     """
     rows, columns = padded.shape
 
@@ -424,7 +439,7 @@ def _sampled(padded, mixed, base_x, base_y, cosine, sine):
 
 
 def _mixed(padded):
-    """Return where the 3 x 3 pixels around a pixel are neither all solid nor all clear; clear beyond the edge."""
+    """Return for each pixel whether the 3 x 3 pixels around it are neither all solid nor all clear."""
     wide = np.pad(padded, 1).view(np.uint8)
     row = wide[:, :-2] + wide[:, 1:-1] + wide[:, 2:]
     count = row[:-2] + row[1:-1] + row[2:]
@@ -432,7 +447,10 @@ def _mixed(padded):
 
 
 def _as_many(centered, coverage, wanted):
-    """Return the centred pixels, changed to the wanted number by adding the most or removing the least covered ones."""
+    """Return the pixels whose centres are solid, with others added or some removed, to have `wanted` pixels.
+
+    The most covered pixels are added, the least covered ones removed if this disconnects nothing.
+    """
     kept = centered.copy()
     missing = wanted - int(kept.sum())
     if missing > 0:
@@ -452,13 +470,13 @@ def _as_many(centered, coverage, wanted):
 
 
 def _in_order(some, key):
-    """Return the flat indices where `some` is true, sorted by a key per pixel, then by row and column."""
+    """Return the flat indices of pixels where `some` is true, sorted by their `key`, then by row and column."""
     at = np.flatnonzero(some)
     return at[np.argsort(key.ravel()[at], kind="stable")]
 
 
 def _is_simple(around):
-    """Return whether the middle of 3 x 3 pixels is a simple point: its removal keeps its neighbours connected."""
+    """Return whether the middle of 3 x 3 pixels is a simple point: without it its neighbours remain connected."""
     ring = [bool(around[y, x]) for y, x in ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))]
     if not any(ring) or all(ring[1::2]):
         return False  # isolated, or interior

@@ -1,4 +1,4 @@
-"""Masks as unions of pixel squares at any pose: overlap test, shared area and its centroid."""
+"""Exact overlap of two masks at any pose, as unions of pixel squares: overlap test, shared area and its centroid."""
 
 import math
 from typing import NamedTuple
@@ -13,16 +13,16 @@ from physics.raster.bits import bits_from, both, columns_up_to, first_pixel, is_
 # ---- exact -----------------------------------------------------------------------------------------------------------
 # Overlap of two masks as unions of pixel squares, one rotated and moved by any amount.
 #
-# A is the mask whose raster is the frame of reference, and which has a halo: the dilation of its solid pixels by their
-# eight neighbours, packed in a raster one pixel larger all round. The square of a pixel of B shares area with a square
-# of A only if its centre is on the halo, because no square extends further than half its diagonal, 0.71 px. So a miss
-# costs one bit test for each pixel of B within A's bounds. Squares are tested only where the outlines are near each
-# other.
+# A is the mask whose raster is the frame of reference; B is the other mask. A has a halo: the pixels that are solid or
+# have a solid pixel among their eight neighbours, in a raster one pixel larger on each side. The square of a pixel of B
+# shares area with a square of A only if its centre is on the halo, because no square extends further from its centre
+# than half its diagonal, 0.71 px. So a miss costs one bit test for each pixel of B within A's bounds. Squares are
+# tested only where the outlines are near each other.
 #
-# u, v [px]: start of B's raster in A's; cosine, sine: of its angle there. Squares are open: squares that touch, within
-# rounding, share no area.
+# u, v [px]: top left corner of B's raster in A's raster; cosine, sine: of B's angle there. Squares that only touch,
+# within rounding errors, share no area.
 
-ROUNDED = 2.0**-50  # relative to the size: rounding error of coordinates
+ROUNDED = 2.0**-50  # [sizes of the masks] rounding error of coordinates
 
 
 class SquaresPair(NamedTuple):
@@ -40,19 +40,25 @@ class SquaresPair(NamedTuple):
 
 @subkernel
 def slack_of(a, b):
-    """Return the depth [px] by which two squares must overlap to share area: less may be a rounding error."""
+    """Return the depth [px] up to which an overlap of squares counts as a rounding error; a, b: RASTER rows."""
     return ROUNDED * (a.width + a.height + b.width + b.height)
 
 
 @subkernel
 def reach_of(cosine, sine):
-    """Return the distance [px] along the axes of both unit squares below which their centres must lie to share area."""
+    """Return the separating distance [px] of two unit squares: they share area if their centres are nearer on all axes.
+
+    The axes are those of both squares; cosine, sine: of the angle between the squares.
+    """
     return 0.5 + 0.5 * (abs(cosine) + abs(sine))
 
 
 @subkernel
 def do_squares_meet(dx, dy, cosine, sine, near):
-    """Return whether two unit squares share area (separating axis test); B's centre is at dx, dy [px] from A's."""
+    """Return whether two unit squares share area (separating axis test).
+
+    dx, dy [px]: centre of B's square relative to A's; near [px]: result of reach_of, less the rounding error.
+    """
     return (
         abs(dx) < near
         and abs(dy) < near
@@ -63,7 +69,10 @@ def do_squares_meet(dx, dy, cosine, sine, near):
 
 @subkernel
 def leave_square(dx, dy, cosine, sine, reach, nx, ny):
-    """Return how far [px] B's square moves along a unit direction until an axis separates it from A's."""
+    """Return how far [px] a square of B must move along (nx, ny), a unit vector, to be separated from a square of A.
+
+    dx, dy [px]: centre of B's square relative to A's; reach [px]: result of reach_of.
+    """
     least = math.inf
     for axis in range(4):
         ax = (1.0 if axis == 0 else 0.0) if axis < 2 else (cosine if axis == 2 else -sine)
@@ -79,7 +88,7 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 
 @subkernel
 def box_in_raster(a, b, u, v, cosine, sine):
-    """Return (left, top, right, bottom) of the pixels of B whose squares may overlap the solid bounds of A."""
+    """Return (left, top, right, bottom), in columns and rows of B, of the pixels that may overlap A's solid bounds."""
     half_x, half_y = 0.5 * (a.set_right - a.set_left), 0.5 * (a.set_bottom - a.set_top)
     dx, dy = a.set_left + half_x - u, a.set_top + half_y - v
     x, y = cosine * dx + sine * dy, cosine * dy - sine * dx
@@ -95,7 +104,7 @@ def box_in_raster(a, b, u, v, cosine, sine):
 
 @subkernel
 def clip_run(low, high, start, step, least, most):
-    """Return the part (low, high) of low..high in which least <= start + step * t <= most."""
+    """Return the part (low, high) of an interval of t in which least <= start + step * t <= most; low > high: none."""
     if step > 0.0:
         return max(low, (least - start) / step), min(high, (most - start) / step)
     if step < 0.0:
@@ -105,19 +114,20 @@ def clip_run(low, high, start, step, least, most):
 
 @subkernel
 def run_near(a, left, right, x, y, cosine, sine, margin):
-    """Return (first, last + 1) of the columns of a row of B with centres within the solid bounds of A.
+    """Return (first, last + 1), the columns of a row of B whose pixel centres are inside the solid bounds of A.
 
-    left, right: range of columns; x, y: the centre of column 0; margin [px]: by which the bounds are enlarged.
+    a: RASTER row of A; left, right: range of columns tested; x, y [px]: centre of the pixel in column 0; cosine, sine:
+    direction of the row; margin [px]: by which the bounds are enlarged.
     """
     low, high = clip_run(float(left), right - 1.0, x, cosine, a.set_left - margin, a.set_right + margin)
     low, high = clip_run(low, high, y, sine, a.set_top - margin, a.set_bottom + margin)
-    # A row at a shallow angle may meet the bounds beyond the integer range.
+    # A row at a shallow angle may meet the bounds at columns beyond the range of integers, so clamp first.
     return math.ceil(min(low, float(right))), math.floor(max(high, left - 1.0)) + 1
 
 
 @subkernel
 def square_under(words, a, x, y, cosine, sine, near):
-    """Return (found, column, row) of the first pixel of A whose square overlaps that of B centred at x, y. O(1)."""
+    """Return (found, column, row) of the first pixel of A that overlaps a square of B with its centre at x, y. O(1)."""
     column, row = math.floor(x), math.floor(y)
     for j in range(max(0, row - 1), min(a.height, row + 2)):
         solid = both(bits_from(words, a.offset + j * a.stride, a.stride, column - 1), columns_up_to(3))
@@ -131,7 +141,10 @@ def square_under(words, a, x, y, cosine, sine, near):
 
 @subkernel
 def first_upright(pair, u, v):
-    """Return first_squares for equal angles: a pixel of B covers up to four of A, so up to four ANDs. O(words)."""
+    """Return the result of first_squares for masks at equal angles, by word-wise AND. O(words).
+
+    A pixel of B overlaps up to four pixels of A, so up to four offsets in whole pixels are tested.
+    """
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     column, row = math.floor(u + slack), math.floor(v + slack)
     for down in range(2 if v - row > slack else 1):
@@ -144,10 +157,10 @@ def first_upright(pair, u, v):
 
 @subkernel
 def first_squares(pair, u, v):
-    """Return the first overlapping squares of a SquaresPair with B's corner at u, v [px].
+    """Return the first two overlapping squares of a SquaresPair with B's top left corner at u, v [px].
 
-    (found, column and row in A, column and row in B). O(pixels of B within A's bounds) at worst; the first hit ends the
-    search.
+    The result is (found, column in A, row in A, column in B, row in B). O(pixels of B within A's bounds) at worst; the
+    search ends at the first overlap.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
@@ -175,10 +188,10 @@ def first_squares(pair, u, v):
 
 @subkernel
 def squares_way_out(pair, nx, ny, most):
-    """Return the least move [px] of B along a unit direction of A's raster that ends the overlap; > most for none.
+    """Return the least distance [px] by which B must move along (nx, ny) to end the overlap; > most: none up to most.
 
-    Two squares overlap on one interval of the move. Each pair found advances the move to the end of its interval, and
-    no pair is found twice. O(first_squares · pairs found).
+    nx, ny: unit vector in A's raster. Two squares overlap on one interval of the move. Each pair found advances the
+    move to the end of its interval, so no pair is found twice. O(first_squares · pairs found).
     """
     cosine, sine = pair.cosine, pair.sine
     reach = reach_of(cosine, sine)
@@ -196,19 +209,20 @@ def squares_way_out(pair, nx, ny, most):
 
 
 # ---- shares ----------------------------------------------------------------------------------------------------------
-# Area and centroid of the part of a region in an axis-aligned box: closed forms over the region's outline.
+# Area and moments of the part of a region that lies in an axis-aligned box, in closed form from the region's outline.
 #
 # By Green's theorem the area is the integral of x dy along the outline, with x clamped to the box and only for y in the
-# box; likewise the moments. Each line and each arc of the outline contributes a share, and the sum is exact. No polygon
-# is clipped or stored. Coordinates are relative to the box's top left corner. The outline runs clockwise on the screen,
-# where y points down.
+# box; the moments likewise. The contribution of one line or arc of the outline is its share; the sum of all shares is
+# exact. No polygon is clipped or stored. Coordinates are relative to the box's top left corner. The outline runs
+# clockwise on the screen, where y points down.
 
 
 @subkernel
 def line_share(px, py, qx, qy, width, height):
-    """Return the share of the line from p to q [px] in (area, moment of x, moment of y) in 0..width x 0..height.
+    """Return what the line from p to q [px] contributes to a region's part in the box 0..width x 0..height.
 
-    The box's sides cut the line into up to three pieces; the clamped x is linear along each.
+    The result is the line's share of (area, moment of x, moment of y). The sides of the box cut the line into up to
+    three pieces; along each the clamped x is linear.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -242,7 +256,7 @@ def line_share(px, py, qx, qy, width, height):
 
 @subkernel
 def arc_primitives(x, y, radius, angle):
-    """Return the integrals from 0 to an angle of x dy, x²/2 dy and x y dy along a circle around (x, y)."""
+    """Return the integrals of x dy, x²/2 dy and x y dy along a circle around (x, y), from angle 0 to `angle` [rad]."""
     cosine, sine = math.cos(angle), math.sin(angle)
     r2 = radius * radius
     straight = x * radius * sine + r2 * (0.5 * angle + 0.5 * sine * cosine)
@@ -257,7 +271,10 @@ def arc_primitives(x, y, radius, angle):
 
 @subkernel
 def next_cut(x, y, radius, width, height, after, until):
-    """Return the first angle in after..until at which a circle around (x, y) crosses a line of the box."""
+    """Return the first angle [rad] beyond `after` at which a circle around (x, y) crosses the line of a side of the box.
+
+    The result is `until` if there is none before. The box is 0..width x 0..height.
+    """
     best = until
     for side in range(4):
         away = (0.0 - x if side == 0 else width - x) if side < 2 else (0.0 - y if side == 2 else height - y)
@@ -276,7 +293,10 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return the share, as line_share, of the arc around (x, y) [px] from `start` to a larger `end` [rad]."""
+    """Return what an arc around (x, y) [px] contributes to a region's part in the box 0..width x 0..height.
+
+    The result is the arc's share of (area, moment of x, moment of y). start, end [rad]: angles of the arc, start < end.
+    """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
     low = start
@@ -303,15 +323,18 @@ def arc_share(x, y, radius, start, end, width, height):
 
 
 # ---- shared squares --------------------------------------------------------------------------------------------------
-# Shared area of two masks as unions of squares, and its centroid. Names as above.
+# Shared area of two masks as unions of pixel squares, and its centroid. A, B, u, v, cosine, sine: as under "exact".
 #
-# A pixel of B whose neighbourhood in A is solid counts as a whole. For one near A's outline the shares in the runs of
-# solid pixels under it are added. O(pixels of B within A's bounds).
+# A pixel of B with only solid pixels of A around it counts as a whole. For a pixel near A's outline the areas that it
+# shares with the runs of solid pixels under it are added. O(pixels of B within A's bounds).
 
 
 @subkernel
 def square_share(x, y, cosine, sine, width, height):
-    """Return (area, moment of x, moment of y) of a rotated unit square around (x, y) in 0..width x 0..height."""
+    """Return (area, moment of x, moment of y) of the part of a rotated unit square in the box 0..width x 0..height.
+
+    x, y [px]: centre of the square; cosine, sine: of its angle.
+    """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
     ux, uy = 0.5 * (cosine + sine), 0.5 * (sine - cosine)
@@ -327,7 +350,7 @@ def square_share(x, y, cosine, sine, width, height):
 
 @subkernel
 def share_under(words, a, x, y, cosine, sine):
-    """Return (area, moment of x, moment of y) that the square of B centred at x, y shares with A."""
+    """Return (area, moment of x, moment of y) of the area that a square of B with its centre at x, y shares with A."""
     column, row = math.floor(x) - 1, math.floor(y) - 1
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -353,9 +376,9 @@ def share_under(words, a, x, y, cosine, sine):
 
 @subkernel
 def shared_squares(pair, u, v):
-    """Return (area [px2], moment of x, moment of y) that a SquaresPair shares with B's corner at u, v [px].
+    """Return (area [px2], moment of x, moment of y [px3]) of the area that the masks of a SquaresPair share.
 
-    The moments over the area are the centroid.
+    u, v [px]: top left corner of B's raster in A's. The moments divided by the area are the centroid in A's raster.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     a, b = pair.rasters[pair.frame], pair.rasters[pair.other]

@@ -1,4 +1,4 @@
-"""PixelTiles: a raster in tiles of 64 x 64 pixels, its connected components, and carving."""
+"""PixelTiles: a raster of pixels in tiles of 64 x 64, its connected pieces, and carving (removal of pixels)."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping
@@ -16,13 +16,13 @@ from physics.tables.table import join_trees, joined, root_of
 # ---- pieces ----------------------------------------------------------------------------------------------------------
 # Connected components of pixels, stored per tile, so that a change to one tile needs no pass over the others.
 #
-# A tile is 64 x 64 pixels, one word per row. A node is an 8-connected component within a tile. Nodes of adjacent tiles
-# that touch are linked, and a piece is a connected component of linked nodes. A node stores its pixels along the four
-# borders as words, so that a link test is three operations. Source: runs and union-find by Rosenfeld and Pfaltz 1966,
-# "Sequential operations in digital picture processing".
+# A tile is 64 x 64 pixels, one word per row. A node is an 8-connected component of the pixels inside one tile. Nodes of
+# adjacent tiles that touch are linked; a piece is a connected component of linked nodes, and so of all pixels. A node
+# stores its pixels along the four borders as words, so that a link test is three operations. Source: runs and
+# union-find by Rosenfeld and Pfaltz 1966, "Sequential operations in digital picture processing".
 
 TILE = MASK_TILE  # [px] per side: one word per row
-MOST_RUNS = TILE * TILE // 2  # per tile
+MOST_RUNS = TILE * TILE // 2  # largest number of runs in a tile
 MOST_NODES = TILE * TILE // 4
 NODE = np.dtype(
     [  # connected pixels of one tile
@@ -47,9 +47,9 @@ NODE = np.dtype(
 
 @subkernel
 def trace_runs(words, runs_out, parents_out):
-    """Write (row, start, end) of the runs of a tile's pixels, and the forest of touching runs. Returns their number.
+    """Write the runs of solid pixels of a tile, and join touching runs in a union-find forest. Returns their number.
 
-    words (64,) uint64. O(runs).
+    words (64,) uint64; runs_out (n, 3): row, start, end of each run; parents_out (n,): parent run of each. O(runs).
     """
     count = 0
     above = 0
@@ -77,7 +77,7 @@ def trace_runs(words, runs_out, parents_out):
 
 @kernel
 def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
-    """Write the nodes of a tile in the order of their first pixels. Returns their number.
+    """Write the nodes (8-connected components) of a tile in the order of their first pixels. Returns their number.
 
     words (64,) uint64; left, top [px] of the tile in its raster; runs_out (2048, 3), parents_out (2048,) int64: scratch
     arrays; nodes_out (1024,) NODE. O(runs).
@@ -126,9 +126,9 @@ def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
 
 @kernel
 def pick_node(words, first, runs_out, parents_out, picked_out):
-    """Write the pixels of a tile that are connected with its pixel `first` (row * 64 + column).
+    """Write the pixels of a tile that are 8-connected, inside the tile, to pixel `first` (row * 64 + column).
 
-    words, picked_out (64,) uint64; runs_out, parents_out as find_nodes. O(runs).
+    words, picked_out (64,) uint64; runs_out, parents_out: scratch arrays as in find_nodes. O(runs).
     """
     count = trace_runs(words, runs_out, parents_out)
     wanted = -1
@@ -145,7 +145,11 @@ def pick_node(words, first, runs_out, parents_out, picked_out):
 
 @subkernel
 def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
-    """Join the nodes of a tile with those of a later tile, `across` columns and `down` rows away."""
+    """Join touching nodes of two adjacent tiles in a union-find forest.
+
+    nodes NODE; starts (tiles + 1,): first node of each tile; across, down: columns and rows from tile to tile `other`;
+    parents_inout (nodes,): parent of each node.
+    """
     for i in range(starts[tile], starts[tile + 1]):
         a = nodes[i]
         for j in range(starts[other], starts[other + 1]):
@@ -164,9 +168,10 @@ def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
 
 @kernel
 def label_pieces(nodes, starts, columns, labels_out):
-    """Write the number of the piece of each node, from 0 in the order of their first nodes. Returns their number.
+    """Write the number of the piece that each node belongs to. Returns the number of pieces.
 
-    nodes NODE in the order of tiles, starts (tiles + 1,): first node of each tile; columns: tiles per row. O(nodes).
+    Pieces are numbered from 0 in the order of their first nodes. nodes NODE in the order of tiles; starts (tiles + 1,):
+    first node of each tile; columns: tiles per row; labels_out (nodes,). O(nodes).
     """
     for k in range(len(nodes)):
         labels_out[k] = k
@@ -198,9 +203,10 @@ def label_pieces(nodes, starts, columns, labels_out):
 
 @kernel
 def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
-    """Add up the pixels of pieces (pieces,), and lower their first pixels (row * width + column) to their nodes'.
+    """Add the pixels of all nodes to the counts of their pieces, and lower the first pixel of each piece to the least.
 
-    nodes NODE, labels (nodes,) the piece of each; width [px] of the raster. O(nodes).
+    nodes NODE; labels (nodes,): piece of each node; width [px] of the raster; counts_inout (pieces,) [px]; firsts_inout
+    (pieces,): first pixel in reading order, row * width + column. O(nodes).
     """
     within = TILE - 1  # mask of a column within its tile
     for k in range(len(nodes)):
@@ -213,9 +219,10 @@ def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
 
 @kernel
 def add_up(nodes, totals_out):
-    """Write the totals of all nodes (NODE): pixels, sums of columns, of rows and of the squares of both, and bounds.
+    """Write the totals over all nodes (NODE) of a raster to totals_out (8,). O(nodes).
 
-    totals_out (8,); the bounds left, top, right, bottom are 0 without nodes. O(nodes).
+    They are: number of pixels, sum of columns, sum of rows, sum of the squares of both, and the bounds left, top,
+    right, bottom, right and bottom exclusive. All are 0 without nodes.
     """
     for k in range(8):
         totals_out[k] = 0
@@ -243,20 +250,24 @@ FULL = np.uint64(2**64 - 1)
 
 @cache
 def _room():
-    """Return shared scratch arrays (runs, parents, nodes); the results must be read before the next use."""
+    """Return scratch arrays (runs, parents, nodes) of the kernels; all callers share them and copy results at once."""
     return np.empty((MOST_RUNS, 3), np.int64), np.empty(MOST_RUNS, np.int64), np.empty(MOST_NODES, NODE)
 
 
 class Pieces(NamedTuple):
-    """Connected pieces of pixels (8-connected)."""
+    """The 8-connected pieces of a raster's pixels."""
 
     labels: np.ndarray  # (nodes,) number of the piece of each node
-    counts: np.ndarray  # (pieces,) pixels
-    firsts: np.ndarray  # (pieces,) first pixel in reading order: row * width + column
+    counts: np.ndarray  # (pieces,) number of pixels of each piece
+    firsts: np.ndarray  # (pieces,) first pixel of each piece in reading order: row * width + column
 
 
 class PixelTiles:
-    """A raster in tiles: words[tile] (64,) uint64, one word per row, tiles in reading order; nodes (NODE) by tile."""
+    """The pixels of a raster in tiles of 64 x 64, and the connected components inside each tile (nodes).
+
+    words[tile] (64,) uint64: one word per row of the tile; tiles are numbered row by row. nodes: NODE, in the order of
+    tiles.
+    """
 
     def __init__(
         self, width: int, height: int, words: list[np.ndarray], nodes: np.ndarray, starts: np.ndarray | None = None
@@ -301,12 +312,12 @@ class PixelTiles:
         return nodes
 
     def _nodes_of(self, tile: int, words: np.ndarray) -> np.ndarray:
-        """Return the NODE rows of a tile."""
+        """Return the NODE rows of a tile with these words (64,)."""
         (runs, parents, nodes), (row, column) = _room(), divmod(tile, self.columns)
         return joined([nodes[: find_nodes(words, tile, column * TILE, row * TILE, runs, parents, nodes)]])
 
     def replaced(self, changed: Mapping[int, np.ndarray]) -> "PixelTiles":
-        """Return a copy with other words in some tiles. O(tiles + runs of those)."""
+        """Return a copy with new words in some tiles. changed: {tile number: (64,) uint64}. O(tiles + their runs)."""
         words, parts, starts, last = self.words.copy(), [], self.starts.copy(), 0
         for tile, new in sorted(changed.items()):
             new.flags.writeable = False
@@ -319,7 +330,7 @@ class PixelTiles:
 
     @cached_property
     def pieces(self) -> Pieces:
-        """Connected pieces. O(nodes)."""
+        """The connected pieces of all pixels, computed at the first use. O(nodes)."""
         labels = np.empty(len(self.nodes), np.int64)
         count = label_pieces(self.nodes, self.starts, self.columns, labels)
         counts, firsts = np.zeros(count, np.int64), np.full(count, self.width * self.height)
@@ -327,14 +338,14 @@ class PixelTiles:
         return Pieces(labels, counts, firsts)
 
     def words_of(self, node: int) -> np.ndarray:
-        """Return the pixels of one node in its tile, (64,) uint64."""
+        """Return the pixels of one node as words of its tile, (64,) uint64."""
         runs, parents, _ = _room()
         picked, of = np.empty(TILE, np.uint64), self.nodes[node]
         pick_node(self.words[int(of["tile"])], int(of["first"]), runs, parents, picked)
         return picked
 
     def node_at(self, tile: int, first: int) -> int:
-        """Return the node of a pixel (row * 64 + column) of a tile."""
+        """Return the node that contains a solid pixel of a tile. first: row * 64 + column of the pixel in the tile."""
         begin, end = self.starts[tile : tile + 2].tolist()
         if end - begin == 1:
             return begin
@@ -342,7 +353,7 @@ class PixelTiles:
         return next(node for node in range(begin, end) if int(self.words_of(node)[row]) >> column & 1)
 
     def cut_out(self, nodes: np.ndarray) -> tuple[np.ndarray, int, int]:
-        """Return (solid[row, column] bool of some nodes within their bounds, left, top [px] of it)."""
+        """Return the pixels of these nodes: (solid[row, column] bool in their bounds, left, top [px] of the bounds)."""
         some = self.nodes[nodes]
         left, top = int(some["min_x"].min()), int(some["min_y"].min())
         first_column, first_row = left // TILE, top // TILE
@@ -357,7 +368,7 @@ class PixelTiles:
         return np.ascontiguousarray(window), left, top
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
-        """Return the pixels from column left and row top on, (size, size) bool, clear beyond the raster. O(size²)."""
+        """Return the pixels from column left and row top on, (size, size) bool; clear beyond the raster. O(size²)."""
         column, row = left // TILE, top // TILE
         columns, rows = (left + size - 1) // TILE - column + 1, (top + size - 1) // TILE - row + 1
         near = [
@@ -370,7 +381,10 @@ class PixelTiles:
         return unpacked(words[y : y + size])[:, x : x + size]
 
     def differences(self, other: "PixelTiles", tiles: Iterable[int]) -> list[tuple[int, int, int, int]]:
-        """Return boxes (left, top, right, bottom), the last two exclusive, around the differences in some tiles."""
+        """Return a box (left, top, right, bottom) [px] around the pixels that differ, for each of these tiles with any.
+
+        Right and bottom are exclusive. other: a raster of the same size.
+        """
         found = []
         for tile in tiles:
             row, column = divmod(tile, self.columns)
@@ -384,12 +398,12 @@ class PixelTiles:
 
     @property
     def solid(self) -> np.ndarray:
-        """Pixels solid[row, column] bool. O(pixels)."""
+        """The pixels as an array solid[row, column] bool. O(pixels)."""
         return np.ascontiguousarray(unpacked(self.packed)[: self.height, : self.width])
 
     @property
     def packed(self) -> np.ndarray:
-        """Packed pixels, (rows * 64, columns) uint64: bit b of word k in a row is x = 64k + b. O(words)."""
+        """The pixels as bits, (rows * 64, columns) uint64: bit b of word k in a row is column 64k + b. O(words)."""
         whole = np.array(self.words, np.uint64).reshape(self.rows, self.columns, TILE)
         return np.ascontiguousarray(whole.transpose(0, 2, 1)).reshape(-1, self.columns)
 
@@ -401,13 +415,13 @@ class PixelTiles:
 
     @property
     def sums(self) -> tuple[int, int, int, int]:
-        """Exact sums: (pixels, sum of columns, sum of rows, sum of the squares of both)."""
+        """Integer sums over the solid pixels: (number, sum of columns, sum of rows, sum of column² + row²)."""
         count, x, y, squares = self._totals[:4]
         return count, x, y, squares
 
     @property
     def bounds(self) -> tuple[int, int, int, int] | None:
-        """Box (left, top, right, bottom) of the solid pixels, the last two exclusive; None without any."""
+        """Box (left, top, right, bottom) of the solid pixels, right and bottom exclusive; None if there are none."""
         if not len(self.nodes):
             return None
         left, top, right, bottom = self._totals[4:]
@@ -415,7 +429,7 @@ class PixelTiles:
 
 
 def unpacked(words: np.ndarray) -> np.ndarray:
-    """Return (rows, 64 * columns) bool of (rows, columns) uint64."""
+    """Return packed words (rows, columns) uint64 as pixels (rows, 64 * columns) bool: the inverse of bits.packed."""
     return np.unpackbits(words.astype("<u8", copy=False).view(np.uint8), axis=1, bitorder="little").view(bool)
 
 
@@ -427,7 +441,7 @@ Box = tuple[float, float, float, float]  # min_x, min_y, max_x, max_y [px]
 
 
 class Loose(NamedTuple):
-    """A separated piece: solid[row, column] bool within its bounds, and the start of these in the raster [px]."""
+    """A piece that a cut separated: solid[row, column] bool in its bounds, whose top left pixel is (left, top)."""
 
     solid: np.ndarray
     left: int
@@ -435,21 +449,21 @@ class Loose(NamedTuple):
 
 
 class Cut(NamedTuple):
-    """Result of a cut."""
+    """Result of `cut`: the remaining pixels, and the pieces that were separated from them."""
 
     tiles: PixelTiles  # the remaining pixels
-    changed: tuple[int, ...]  # numbers of the tiles that differ
+    changed: tuple[int, ...]  # numbers of the tiles that differ from before the cut
     removed: int  # number of pixels that the tool removed
     loose: tuple[Loose, ...]  # in the order of their first pixels
     crumbs: int  # pixels of separated pieces that were too small to keep
 
 
 def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
-    """Remove the pixels that a tool finds within its box [px, of the raster], and the pieces that this separates.
+    """Remove the pixels that a tool finds, and the pieces that this separates from the rest.
 
-    one_piece: only the largest piece stays; else the largest part of each previous piece stays, so that separate pieces
-    are kept. Of parts of equal size the one with the first pixel stays. Separated pieces of less than `crumb` pixels
-    vanish. O(tiles + runs of those that change).
+    box [px]: bounds of the tool in the raster. one_piece: whether only the largest of all pieces stays; else of each
+    piece before the cut the largest part stays. Of parts of equal size the one with the first pixel stays. Separated
+    pieces are returned, except those of less than `crumb` pixels. O(tiles + runs of changed tiles).
     """
     changed, removed = _taken(tiles, tool, box)
     if not removed:
@@ -478,7 +492,7 @@ def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) ->
 
 
 def _taken(tiles, tool, box):
-    """Return ({tile: its words without the pixels that the tool finds}, number of these pixels)."""
+    """Return ({tile number: words without the pixels that the tool finds}, number of these pixels)."""
     first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
     last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))
     changed, removed, found = {}, 0, np.empty(TILE, np.uint64)
@@ -494,7 +508,7 @@ def _taken(tiles, tool, box):
 
 
 def _pieces_before(before, after, changed):
-    """Return the number (pieces,) of the previous piece that each present piece belongs to."""
+    """Return for each piece after a cut the number of the piece before the cut that contained it: (pieces,)."""
     labels, parts, last = before.pieces.labels, [], 0
     for tile in sorted(changed):
         # The nodes of unchanged tiles are the same, in the same order.
@@ -509,12 +523,12 @@ def _pieces_before(before, after, changed):
 
 
 # ---- erase -----------------------------------------------------------------------------------------------------------
-# Pixels of a tile inside a tool: their centres are in a convex shape, or in another mask's squares.
+# Pixels of a tile that a tool removes: their centres are in a convex shape, or in the pixel squares of another mask.
 
 
 @subkernel
 def is_in_hull(corners, radius, x, y):
-    """Return whether a point [px] is in a convex hull rounded by a radius, its surface included.
+    """Return whether point (x, y) [px] is inside or on a convex hull rounded by a radius [px].
 
     corners (n, 2) [px], n >= 1, clockwise on the screen.
     """
@@ -567,7 +581,7 @@ def find_in_hull(words, left, top, corners, radius, found_out):
 
 @subkernel
 def is_in_pixels(solid, x, y):
-    """Return whether a point [px] is in a solid pixel of solid[row, column], its sides included."""
+    """Return whether point (x, y) [px] is inside or on the square of a solid pixel of solid[row, column]."""
     column, row = math.floor(x), math.floor(y)
     for j in range(row - 1 if y == row else row, row + 1):
         for i in range(column - 1 if x == column else column, column + 1):
@@ -578,10 +592,10 @@ def is_in_pixels(solid, x, y):
 
 @kernel
 def find_in_pixels(words, solid, x, y, cosine, sine, found_out):
-    """Write the pixels of a tile whose centres are in the squares of another mask. Returns their number.
+    """Write the pixels of a tile whose centres are in the pixel squares of another mask. Returns their number.
 
-    words, found_out (64,) uint64; solid[row, column] bool of the other; x, y [px]: the tile's corner in its raster;
-    cosine, sine: of the tile's angle there. O(pixels of the tile).
+    words, found_out (64,) uint64; solid[row, column] bool: pixels of the other mask; x, y [px]: top left corner of the
+    tile in the other mask's raster; cosine, sine: of the tile's angle in that raster. O(pixels of the tile).
     """
     count = 0
     for row in range(TILE):

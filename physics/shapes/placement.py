@@ -13,9 +13,9 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, P
 # ---- mask pose -------------------------------------------------------------------------------------------------------
 # Pose of a mask with snap=False: its raster at the angle 0, rotated and moved with its body.
 #
-# Other shapes are transformed into the raster space of the mask: x and y [px] run from the top left corner along rows and
-# columns, so that its pixels are [i, i + 1) x [j, j + 1). Differences of positions are taken first, for
-# precision far from the world's origin. Quarter turns are exact.
+# Other shapes are transformed into the raster space of the mask: x and y [px] run from the raster's top left corner, so
+# that its pixels are [i, i + 1) x [j, j + 1). Differences of positions are taken first, for precision far from the
+# world's origin. Quarter turns are exact.
 
 
 @subkernel
