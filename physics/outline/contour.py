@@ -25,7 +25,7 @@ from physics.outline.paths import SHARP
 
 
 class Loop(NamedTuple):
-    """A closed loop of cracks, given by the corners at which it turns: (x, y) in raster pixels."""
+    """A closed loop of pixel edges (cracks), given by the corners at which it turns: (x, y) in raster pixels."""
 
     corners: np.ndarray  # (n, 2) int64
     joined: np.ndarray  # (n,) bool: the corner is a pinch at which two diagonal pixels are joined
@@ -78,7 +78,7 @@ def _first(points):
 
 
 class _Runs:
-    """All runs (straight rows of cracks) of a raster, horizontal ones first; corner k is the start of run k."""
+    """All runs, straight rows of pixel edges, of a raster, horizontal ones first; corner k is the start of run k."""
 
     def __init__(self, solid, joined):
         height, width = solid.shape
@@ -165,7 +165,7 @@ class _Runs:
 
 
 def _runs_of(cracks):
-    """Return (line, start, end, sign), one array each, of all runs of equal cracks (-1 or 1) in cracks[line, place]."""
+    """Return arrays (line, start, end, sign) of all runs of equal pixel edges (-1 or 1) in cracks[line, place]."""
     before = np.zeros((cracks.shape[0], cracks.shape[1] + 1), np.int8)
     before[:, 1:] = cracks
     after = np.zeros_like(before)
@@ -217,7 +217,7 @@ def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """Return the pieces as crack loops; two diagonal pixels are joined where a line of the outline can pass between."""
+    """Return the pieces of solid pixels; two diagonal pixels are joined where an outline line can pass between them."""
     return contours(solid, SHARP if smooth >= JOINING else 0)
 
 
@@ -228,7 +228,7 @@ def smoothed_piece(piece: Contour, smooth: float) -> Outline:
 
 
 def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
-    """Return the corners (n, 2) float64 [px] of straight lines that replace a crack loop.
+    """Return the corners (n, 2) float64 [px] of straight lines that replace a loop of pixel edges (cracks).
 
     reach [px]: largest distance of the lines from the cracks; 0: the loop itself. curves: whether lines follow round
     curves of the drawing (see curves.py); else the lines are the fewest.
@@ -254,7 +254,7 @@ def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
 
 
 def sharp(loop: Loop) -> np.ndarray:
-    """Return which corners (n,) bool of a crack loop smoothing keeps: between runs of 3 px or more, of rectangles."""
+    """Return (n,) bool: loop corners that smoothing keeps, those between edges of 3 px or more and of rectangles."""
     runs = np.roll(loop.corners, -1, axis=0) - loop.corners
     lengths, signs = np.abs(runs).sum(axis=1), np.sign(runs)
     before = np.roll(signs, 1, axis=0)

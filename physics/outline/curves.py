@@ -98,7 +98,7 @@ class Path(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A stretch of a path that is round, and the range of cracks to which the curve is fitted."""
+    """A round stretch of a path, and the range of cracks (pixel edges) to which the curve is fitted."""
 
     start: float  # [cracks] along the path
     end: float
@@ -108,7 +108,7 @@ class Curve(NamedTuple):
 
 
 def room_for_lines(cracks: int) -> Lines:
-    """Return scratch arrays for paths of up to `cracks` cracks."""
+    """Return scratch arrays for paths of up to `cracks` pixel edges."""
     return Lines(
         np.zeros(cracks, RUN),
         np.zeros(4 * cracks + 8, PLACE),
@@ -213,7 +213,7 @@ def kind_of_line(k, count, closed, vertices):
 
 @subkernel
 def write_middles(path, workspace):
-    """Write the middle of each crack k of a path to row FIT + k; for a loop also FIT cracks before and after it."""
+    """Write the middle of pixel edge k of a path to row FIT + k; for a loop also FIT edges before and after it."""
     for k in range(path.count):
         run = workspace.runs[k]
         for step in range(run.length):
@@ -255,7 +255,7 @@ def fit_at(row, half, middles, fitted_out):
 
 @subkernel
 def fit_curve(curve, path, workspace):
-    """Write the fitted point and direction (FITTED) at each crack of a curve, from one crack before the start on."""
+    """Write the fitted point and direction (FITTED) at each pixel edge of a curve, from the one before its start on."""
     first = math.floor(curve.start - 0.5)
     for crack in range(first, math.floor(curve.end - 0.5) + 2):
         half = math.floor(min(float(curve.half), crack + 0.5 - curve.low, curve.high - crack - 0.5))
@@ -268,7 +268,7 @@ def fit_curve(curve, path, workspace):
 
 @subkernel
 def fit_of(at, curve, fitted):
-    """Return (x, y [px], direction x, y) of a fitted curve, `at` cracks along the path, interpolated between cracks."""
+    """Return (x, y [px], direction x, y) of a fitted curve, `at` pixel edges along the path, interpolated."""
     crack = math.floor(at - 0.5)
     share = at - 0.5 - crack
     a = fitted[crack - math.floor(curve.start - 0.5)]
@@ -328,7 +328,7 @@ def put_on_curve(n, k, along, curve, path, workspace):
 
 @subkernel
 def put_vertex(n, vertex, at, k, curve, path, workspace):
-    """Append a vertex, `at` cracks along the path on run k, as an unmoved place. Return the number of places."""
+    """Append a vertex, `at` pixel edges along the path on run k, as a place. Return the number of places."""
     put_place(n, vertex.x, vertex.y, at, workspace.runs[k % path.count], False, True, workspace.places)
     place = workspace.places[n]
     _, _, place.along_x, place.along_y = fit_of(at, curve, workspace.fitted)
@@ -337,7 +337,7 @@ def put_vertex(n, vertex, at, k, curve, path, workspace):
 
 @subkernel
 def run_at(at, runs, path):
-    """Return the number of the run `at` cracks along a path; in a loop both are counted on beyond its end."""
+    """Return the number of the run `at` pixel edges along a path; in a loop both are counted on beyond its end."""
     k = 0
     while runs[(k + 1) % path.count].at + (k + 1) // path.count * path.cracks <= at:
         k += 1
@@ -373,9 +373,10 @@ def put_curve(first, last, curve, path, workspace):
 
 @subkernel
 def widest_fit(first, length, count, path, vertices):
-    """Return how many cracks on either side a curve of `length` lines from line `first` on is fitted to, at most FIT.
+    """Return how many pixel edges on either side of a point a curve is fitted to, at most FIT.
 
-    The number is reduced so that the directions of the lines within a fit differ by at most 2 FIT_TURN.
+    It is reduced so that directions within a fit differ by at most 2 FIT_TURN. first: line at which the curve starts;
+    length: number of its lines; count: number of lines of the path.
     """
     widest = 0.0
     for k in range(first, first + length):
@@ -393,7 +394,7 @@ def widest_fit(first, length, count, path, vertices):
 
 @subkernel
 def span_of(first, length, count, path, workspace):
-    """Return the Curve of `length` lines from vertex `first` on; its `half` is 0 if it is too narrow to fit.
+    """Return the Curve of `length` lines from vertex `first` on. Its `half` is 0 if the stretch is too narrow to fit.
 
     count: number of lines of the path.
     """

@@ -79,7 +79,7 @@ class Ring(Walls):
         return np.where(~self.reflex[k] & ~self.convex[k], from_after > low, within)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return two (n, n) bool matrices of corner pairs: those that a cut can join, and those that a line can.
+        """Return two (n, n) bool matrices of corner pairs: those that a cut can join, and those that a line inside can.
 
         A cut lies strictly inside; a line may also run along sides and through corners. O(n^3), vectorised.
         """
@@ -613,7 +613,7 @@ def _halved(points, rings, flat):
 
 
 def _halving(sides):
-    """Return the two corners of a short cut that starts at a reflex corner and splits a ring about in half."""
+    """Return the two corners (indices) of a short cut from a reflex corner that splits a ring about in half."""
     count = len(sides.corners)
     starts = np.flatnonzero(sides.reflex)
     for share in (4, 8, 16, 64, count):

@@ -375,7 +375,7 @@ class Sums(NamedTuple):
         return Sums(*(a + share * b for a, b in zip(self, other, strict=True)))
 
     def moments(self, base: tuple[float, float]) -> Moments:
-        """Return area, centre and inertia of the figure; base [px]: of the sums. The centre is nan without area."""
+        """Return area, centre and inertia of the figure; base [px]: that of the sums; centre nan without area."""
         if self.area <= 0.0:
             return Moments(0.0, math.nan, math.nan, 0.0)
         x, y = self.x / self.area, self.y / self.area

@@ -76,9 +76,9 @@ def is_own(window, x, y, quadrant):
 
 @subkernel
 def length_from(pixels, x, y, direction):
-    """Return the length [cracks] of the straight row of cracks from a corner in a direction, at most SHARP.
+    """Return the length [px] of the straight row of pixel edges from a corner in a direction, at most SHARP.
 
-    At least one crack must leave the corner in this direction.
+    At least one edge must leave the corner in this direction.
     """
     right = is_solid(pixels, x, y, direction)
     count = 1
@@ -127,7 +127,7 @@ def backward(window, x, y, direction):
 
 @subkernel
 def walked_back(window, x, y, direction, cracks):
-    """Return (x, y, direction) of a path `cracks` cracks before it leaves corner (x, y) in a direction."""
+    """Return (x, y, direction) of a path `cracks` pixel edges before it leaves corner (x, y) in a direction."""
     for _ in range(cracks):
         direction = backward(window, x, y, direction)
         x -= right_of(direction)
@@ -137,9 +137,9 @@ def walked_back(window, x, y, direction, cracks):
 
 @subkernel
 def follow(window, x, y, direction, marks_inout):
-    """Return how many cracks a path follows inside the tile from corner (x, y) on; for a loop, the length of the loop.
+    """Return how many pixel edges a path follows inside the tile from corner (x, y) on; for a loop, its length.
 
-    marks_inout [row, col] uint8: set for each solid pixel below a horizontal crack of the path.
+    marks_inout [row, col] uint8: set for each solid pixel below a horizontal edge of the path.
     """
     first_x, first_y = x, y
     first = direction
@@ -158,7 +158,7 @@ def follow(window, x, y, direction, marks_inout):
 
 @subkernel
 def record(window, x, y, direction, cracks, runs_out):
-    """Write the runs (RUN) of a path of `cracks` cracks from corner (x, y) on. Returns the number of runs."""
+    """Write the runs (RUN) of a path of `cracks` pixel edges from corner (x, y) on. Returns the number of runs."""
     count = -1
     turned = True
     joined = False
@@ -237,7 +237,7 @@ def stays(runs, count, k, closed):
 
 @subkernel
 def put_place(n, x, y, at, run, corner, allowed, places_inout):
-    """Write row n of places (PLACE): a candidate corner of the outline on a run, `at` cracks along the path."""
+    """Write row n of places (PLACE): a candidate corner of the outline on a run, `at` pixel edges along the path."""
     place = places_inout[n]
     place.x, place.y = x, y
     place.at = at
@@ -256,8 +256,7 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
 def put_run(n, run, start, end, offset, places_inout):
     """Append up to three candidate corners (places) inside a run. Returns the number of places.
 
-    start, end [cracks]: only places between these lengths along the path are added; offset [cracks]: is added to their
-    lengths along the path.
+    Only places between `start` and `end` [pixel edges along the path] are added; `offset` is added to their lengths.
     """
     for step in range(3):
         if step != 1 and run.length == 1:
@@ -359,7 +358,7 @@ def cheapest(first, last, reach, prices, places_inout, chain_out):
     """Find the least-cost lines from place `first` to place `last`; write the places where lines end to chain_out.
 
     chain_out: rows of PLACE, from last to first. Returns their number; 0: no lines reach the last place. reach [px]:
-    largest distance of a line from the cracks; prices: Prices. O(places * places of a line).
+    largest distance of a line from the pixel edges; prices: Prices. O(places * places of a line).
     """
     for k in range(first, last + 1):
         places_inout[k].cost = math.inf

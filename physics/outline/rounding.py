@@ -35,9 +35,9 @@ Core = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen [px], 
 def rounded_core(cracks: Loop, smooth: float) -> Core | None:
     """Return a core (convex corners and a radius) that replaces one piece without holes; None if there is none.
 
-    cracks: loop around the piece; smooth [px] as in contour.outline. The core has 1 to 16 corners: 1 is a disc, 2 are a
-    capsule. Its boundary is within smooth of the cracks, and the cracks within smooth + 0.21 of the boundary; solid
-    pixels' centres are inside, clear ones outside. For a disc both distances may be 0.13 px larger, and clear centres
+    cracks: loop of pixel edges around the piece; smooth [px] as in contour.outline. The core has 1 to 16 corners: 1 is
+    a disc, 2 are a capsule. Its boundary is within smooth of the edges, and the edges within smooth + 0.21 of the
+    boundary; solid pixels' centres are inside, clear ones outside. For a disc both distances may be 0.13 px larger, and clear centres
     0.2 px inside. None for a piece with a sharp corner, and if a polygon needs no more corners. The core of fewest
     corners is used, of several one that keeps the sides of the outline.
     """
@@ -146,7 +146,7 @@ def _inset(hull, radius):
 
 
 class _Judge:
-    """Test of rounded cores against one crack loop: distances from the cracks, and the sides of pixels' centres."""
+    """Test of rounded cores: distances from the pixel edges of a piece, and separation from clear pixels."""
 
     def __init__(self, corners, reach):
         self.corners, self.reach = corners, reach
@@ -239,7 +239,7 @@ class _Judge:
         return core, float(radius)
 
     def _from_cracks(self, points):
-        """Return the distance (m,) [px] of points (m, 2) from the nearest crack, exact below 1 px."""
+        """Return the distance (m,) [px] of points (m, 2) from the nearest pixel edge, exact below 1 px."""
         cells = np.floor(points).astype(np.int64)
         least = np.full(len(points), math.inf)
         for axis, cracks in enumerate((self.across, self.down)):

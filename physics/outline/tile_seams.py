@@ -33,7 +33,7 @@ class Survey(NamedTuple):
 
 
 def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin: tuple[float, float]) -> Survey:
-    """Return the Survey of a tile's parts.
+    """Return angles, border corners and body space corners of a tile's parts.
 
     parts: in raster pixels; at: top left corner of the tile in the raster; size [px]: per side of the tile; number: of
     the tile, counted row by row; origin [px]: of body space in the raster.

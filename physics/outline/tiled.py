@@ -65,9 +65,9 @@ def to_border(window, x, y, direction):
 
 @subkernel
 def stretch(runs, count, at, seen, x, y):
-    """Fit a line (least squares) to the middles of a path's cracks within `seen` cracks of a corner (x, y).
+    """Fit a line (least squares) to the middles of a path's pixel edges within `seen` edges of a corner (x, y).
 
-    at: number of cracks of the path before the corner. Returns (x, y [px] of a point on the line, relative to the
+    at: number of edges of the path before the corner. Returns (x, y [px] of a point on the line, relative to the
     corner; slope of the line; whether the slope is dx / dy instead of dy / dx; whether all middles are near the line).
     """
     n = 0
@@ -116,7 +116,7 @@ def stretch(runs, count, at, seen, x, y):
 def is_straight(runs, count, at):
     """Return whether one straight line separates the solid from the clear pixels beside a path near a corner.
 
-    at: number of cracks of the path before the corner; cracks within SEEN of it count. Such a line exists if the
+    at: number of pixel edges of the path before the corner; edges within SEEN of it count. Such a line exists if the
     directions from solid to clear pixels' centres span less than half a turn; only ends of runs need to be tested.
     """
     first_x = first_y = last_x = last_y = 0.0
@@ -152,9 +152,9 @@ def is_straight(runs, count, at):
 
 @subkernel
 def bend(runs, count, at, x, y):
-    """Fit a parabola (least squares) to the middles of a path's cracks within SEEN cracks of a corner (x, y).
+    """Fit a parabola (least squares) to the middles of a path's pixel edges within SEEN edges of a corner (x, y).
 
-    at: number of cracks of the path before the corner. Returns the tangent at the corner, in the format of `stretch`;
+    at: number of edges of the path before the corner. Returns the tangent at the corner, in the format of `stretch`;
     the last value is whether all middles are near the parabola.
     """
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
@@ -209,9 +209,9 @@ def line_at(runs, count, at, x, y):
 
 @subkernel
 def meets(runs, count, at, x, y, level):
-    """Return the signed distance [px] from a corner to the point where the path's line meets its row or column.
+    """Return the signed distance [px] from a corner to where the path's line meets the row or column of the corner.
 
-    The line is that of line_at. level: the row through the corner; else the column.
+    The line is that of line_at. level: whether the row is meant; else the column.
     """
     line_x, line_y, slope, steep = line_at(runs, count, at, x, y)
     if level == steep:
@@ -271,9 +271,9 @@ def aside(window, runs, count, k, distance):
 
 @subkernel
 def crossing(window, runs, count, at, after):
-    """Return the point where the outline crosses the tile's border near the corner `at` cracks along a path.
+    """Return the point where the outline crosses the tile's border near the corner `at` pixel edges along a path.
 
-    The result is (cracks along the path, offset x, y [px] from the path). runs: RUN of the path, with SEEN cracks on
+    The result is (length along the path, offset x, y from the path) [px]. runs: RUN of the path, with SEEN edges on
     either side of the corner; after: at a corner of the tile, move along the run after it, not the run before it.
     """
     k = 0
@@ -361,7 +361,7 @@ def along_border(window, x, y):
 
 @subkernel
 def put_end(n, runs, count, at, off_x, off_y, places_inout):
-    """Write row n of places: a crossing, `at` cracks along the path, with an offset [px] from the path."""
+    """Write row n of places: a border crossing, `at` pixel edges along the path, with an offset [px] from the path."""
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
         k += 1
@@ -404,8 +404,8 @@ def path_within(window, count, cracks, begin, end):
 def add_open(window, x, y, direction, cracks, workspace):
     """Append the outline of a path from border to border of the tile. Returns whether lines were found.
 
-    x, y, direction: where the path enters the tile; cracks: number of its cracks inside; 0: the path only passes the
-    tile's corner, from one border to another.
+    x, y, direction: where the path enters the tile; cracks: number of its pixel edges inside; 0: the path only passes
+    the tile's corner, from one border to another.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -431,7 +431,7 @@ def add_open(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_closed(window, x, y, direction, cracks, workspace):
-    """Append the outline of a loop of `cracks` cracks that turns at corner (x, y). Returns whether lines were found."""
+    """Append the outline of a loop of `cracks` pixel edges that turns at (x, y). Returns whether lines were found."""
     lines = workspace.lines
     count = record(window, x, y, direction, cracks, lines.runs)
     around, anchor = put_loop(lines.runs, count, cracks, lines.places)
@@ -571,7 +571,7 @@ def put_open(window, n, number, workspace, sides_inout):
 
 @subkernel
 def is_hole(piece, points):
-    """Return whether a closed piece is the edge of a hole: counter-clockwise on the screen."""
+    """Return whether a closed piece of the outline bounds a hole: it is then counter-clockwise on the screen."""
     doubled = 0.0
     before = points[piece.first + piece.count - 1]
     for k in range(piece.first, piece.first + piece.count):

@@ -200,7 +200,7 @@ def shared_rectangle(a, b, dx, dy):
 
 @subkernel
 def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (found, x, y) of the first shared pixel of two masks, row by row, in columns and rows of A.
+    """Return (found, x, y) of the first shared pixel of masks A and B, row by row, in columns and rows of A.
 
     rasters: RASTER; words: uint64; mask_a, mask_b: rows of RASTER; dx, dy [px]: top left corner of B in A. O(words) at
     worst.
@@ -228,7 +228,7 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
-    """Return a row of A in which two rasters of one word per row share a pixel; -1: none.
+    """Return a row of raster A in which it shares a pixel with raster B, both one word wide; -1: none.
 
     row_*: index of the first word of each raster; box_*: its solid bounds (left, top, right, bottom); dx, dy [px]: top
     left corner of B in A; guess: row of A tested first. O(1) if the guess is right, else O(rows).
@@ -250,7 +250,7 @@ def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
 
 @subkernel
 def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
-    """Return (area, sum of x, sum of y, difference) over the shared pixels of two rasters of one word per row.
+    """Return (area, sum of x, sum of y, difference) over the shared pixels of rasters A and B, one word wide.
 
     difference [px2]: shared area with B moved one pixel to the left minus that with B moved one to the right. The solid
     bounds must overlap. Arguments as line_shared; x, y in columns and rows of A. O(rows).
@@ -276,7 +276,7 @@ def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
 
 @subkernel
 def shared_area(rasters, words, mask_a, mask_b, dx, dy):
-    """Return the number of shared pixels of two masks. Arguments as first_pixel. O(words)."""
+    """Return the number of shared pixels of masks A and B. Arguments as first_pixel. O(words)."""
     a, b = rasters[mask_a], rasters[mask_b]
     left, top, right, bottom = shared_rectangle(a, b, dx, dy)
     area = 0
@@ -302,7 +302,7 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (area, sum of x, sum of y) over the shared pixels, in columns and rows of A.
+    """Return (area, sum of x, sum of y) over the shared pixels of masks A and B, in columns and rows of A.
 
     Arguments as first_pixel. O(words).
     """

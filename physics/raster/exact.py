@@ -57,7 +57,8 @@ def reach_of(cosine, sine):
 def do_squares_meet(dx, dy, cosine, sine, near):
     """Return whether two unit squares share area (separating axis test).
 
-    dx, dy [px]: centre of B's square relative to A's; near [px]: result of reach_of, less the rounding error.
+    dx, dy [px]: centre of the second relative to the first; cosine, sine: of the angle between them; near [px]: result
+    of reach_of, less the rounding error.
     """
     return (
         abs(dx) < near
@@ -69,9 +70,9 @@ def do_squares_meet(dx, dy, cosine, sine, near):
 
 @subkernel
 def leave_square(dx, dy, cosine, sine, reach, nx, ny):
-    """Return how far [px] a square of B must move along (nx, ny), a unit vector, to be separated from a square of A.
+    """Return how far [px] a unit square must move along (nx, ny), a unit vector, to be separated from another.
 
-    dx, dy [px]: centre of B's square relative to A's; reach [px]: result of reach_of.
+    dx, dy [px]: centre of the square relative to the other; cosine, sine: of its angle; reach [px]: result of reach_of.
     """
     least = math.inf
     for axis in range(4):
@@ -88,7 +89,7 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 
 @subkernel
 def box_in_raster(a, b, u, v, cosine, sine):
-    """Return (left, top, right, bottom), in columns and rows of B, of the pixels that may overlap A's solid bounds."""
+    """Return (left, top, right, bottom) of the pixels of mask B that may overlap the solid bounds of mask A."""
     half_x, half_y = 0.5 * (a.set_right - a.set_left), 0.5 * (a.set_bottom - a.set_top)
     dx, dy = a.set_left + half_x - u, a.set_top + half_y - v
     x, y = cosine * dx + sine * dy, cosine * dy - sine * dx
@@ -114,7 +115,7 @@ def clip_run(low, high, start, step, least, most):
 
 @subkernel
 def run_near(a, left, right, x, y, cosine, sine, margin):
-    """Return (first, last + 1), the columns of a row of B whose pixel centres are inside the solid bounds of A.
+    """Return (first, last + 1), the columns of a row of mask B with pixel centres inside the solid bounds of mask A.
 
     a: RASTER row of A; left, right: range of columns tested; x, y [px]: centre of the pixel in column 0; cosine, sine:
     direction of the row; margin [px]: by which the bounds are enlarged.
@@ -127,7 +128,7 @@ def run_near(a, left, right, x, y, cosine, sine, margin):
 
 @subkernel
 def square_under(words, a, x, y, cosine, sine, near):
-    """Return (found, column, row) of the first pixel of A that overlaps a square of B with its centre at x, y. O(1)."""
+    """Return (found, column, row) of the first pixel of mask A that overlaps a rotated pixel square at x, y. O(1)."""
     column, row = math.floor(x), math.floor(y)
     for j in range(max(0, row - 1), min(a.height, row + 2)):
         solid = both(bits_from(words, a.offset + j * a.stride, a.stride, column - 1), columns_up_to(3))
@@ -141,9 +142,9 @@ def square_under(words, a, x, y, cosine, sine, near):
 
 @subkernel
 def first_upright(pair, u, v):
-    """Return the result of first_squares for masks at equal angles, by word-wise AND. O(words).
+    """Return the result of first_squares for two masks at equal angles, by word-wise AND. O(words).
 
-    A pixel of B overlaps up to four pixels of A, so up to four offsets in whole pixels are tested.
+    A pixel of one overlaps up to four pixels of the other, so up to four offsets in whole pixels are tested.
     """
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     column, row = math.floor(u + slack), math.floor(v + slack)
@@ -157,7 +158,7 @@ def first_upright(pair, u, v):
 
 @subkernel
 def first_squares(pair, u, v):
-    """Return the first two overlapping squares of a SquaresPair with B's top left corner at u, v [px].
+    """Return the first two overlapping squares of masks A and B (SquaresPair), B's top left corner at u, v [px].
 
     The result is (found, column in A, row in A, column in B, row in B). O(pixels of B within A's bounds) at worst; the
     search ends at the first overlap.
@@ -188,10 +189,10 @@ def first_squares(pair, u, v):
 
 @subkernel
 def squares_way_out(pair, nx, ny, most):
-    """Return the least distance [px] by which B must move along (nx, ny) to end the overlap; > most: none up to most.
+    """Return the least distance [px] that mask B must move along (nx, ny) to end the overlap; > most: none up to most.
 
-    nx, ny: unit vector in A's raster. Two squares overlap on one interval of the move. Each pair found advances the
-    move to the end of its interval, so no pair is found twice. O(first_squares · pairs found).
+    nx, ny: unit vector in the raster of mask A. Two squares overlap on one interval of the move. Each pair found
+    advances the move to the end of its interval, so no pair is found twice. O(first_squares · pairs found).
     """
     cosine, sine = pair.cosine, pair.sine
     reach = reach_of(cosine, sine)
@@ -271,7 +272,7 @@ def arc_primitives(x, y, radius, angle):
 
 @subkernel
 def next_cut(x, y, radius, width, height, after, until):
-    """Return the first angle [rad] beyond `after` at which a circle around (x, y) crosses the line of a side of the box.
+    """Return the first angle [rad] after `after` at which a circle around (x, y) crosses the line of a side of the box.
 
     The result is `until` if there is none before. The box is 0..width x 0..height.
     """
@@ -350,7 +351,7 @@ def square_share(x, y, cosine, sine, width, height):
 
 @subkernel
 def share_under(words, a, x, y, cosine, sine):
-    """Return (area, moment of x, moment of y) of the area that a square of B with its centre at x, y shares with A."""
+    """Return (area, moment of x, moment of y) of the area that a rotated pixel square at x, y shares with mask A."""
     column, row = math.floor(x) - 1, math.floor(y) - 1
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -378,7 +379,7 @@ def share_under(words, a, x, y, cosine, sine):
 def shared_squares(pair, u, v):
     """Return (area [px2], moment of x, moment of y [px3]) of the area that the masks of a SquaresPair share.
 
-    u, v [px]: top left corner of B's raster in A's. The moments divided by the area are the centroid in A's raster.
+    u, v [px]: top left corner of mask B's raster in mask A's. The moments divided by the area are the centroid there.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     a, b = pair.rasters[pair.frame], pair.rasters[pair.other]

@@ -270,10 +270,10 @@ class Library:
     def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
         """Store a mask that replaces another mask in one of the SHAPE rows, and return its geometry row.
 
-        changed: numbers of the tiles in which the two masks differ; None: unknown. If the mask is large and snapped,
-        and no other SHAPE row uses the old one, only these tiles are written, in place: O(changed words). The old hull
-        is kept then, so the AABB at other angles may be larger than the pixels. Otherwise the mask is added as by
-        `add`.
+        changed: numbers of the tiles in which the two masks differ; None: unknown. If the mask is large, has
+        snap=True, and no other SHAPE row uses the old one, only these tiles are written, in place: O(changed words).
+        The old hull is kept then, so the AABB at other angles may be larger than the pixels. Otherwise the mask is
+        added as by `add`.
         """
         row = self.shapes[old]
         users = (shapes["kind"] == MASK) & (shapes["geometry"] == row)
@@ -311,7 +311,7 @@ class Library:
         return first
 
     def add_raster(self, mask: int, bucket: int) -> None:
-        """Draw a mask (by geometry row) at an angle bucket, one of the 128 angles of masks, and add this raster."""
+        """Add the raster of a mask (by geometry row) rotated to an angle bucket, one of 128 angles."""
         shape = self.masks[mask]
         words, (width, height), origin, box = _drawn(shape, bucket)
         self.raster_of[mask, bucket] = self.rasters.count
@@ -383,7 +383,7 @@ def _drawn(shape, bucket):
 
 
 def _hull_of(shape):
-    """Return the corners (n, 2) [px] of a mask's convex hull; for a large snapped mask, to save time, of its box."""
+    """Return the corners (n, 2) [px] of a mask's convex hull; for a large mask with snap=True, of its box."""
     if shape.area and is_tiled(shape) and shape.snap:
         left, top, right, bottom = shape.bounds
         return np.array([(left, top), (right, top), (right, bottom), (left, bottom)])
@@ -483,7 +483,7 @@ def describe(
 ) -> None:
     """Fill SHAPE rows, a view, with one shape of a query at several poses; angles [rad]: those of the poses.
 
-    ids, body_rows: one number for all rows or one each. A snapped mask is rasterised at each of the angles.
+    ids, body_rows: one number for all rows or one each. A mask with snap=True is rasterised at each of the angles.
     """
     kind, geometry, wrapped = library.add(shape)
     rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows

@@ -1,4 +1,4 @@
-"""Shapes at a pose: their corners, rasters and AABBs, and the pose of a mask that is not snapped to pixels."""
+"""Shapes at a pose: their corners, rasters and AABBs, and the pose of a mask that is not drawn on whole pixels."""
 
 import math
 from typing import Any
@@ -56,7 +56,7 @@ def out_of_raster(raster, body, cosine, sine, x, y):
 
 @subkernel
 def raster_of_shape(geometry, shape):
-    """Return the row of the raster by which a MASK is tested: as drawn if it is snapped, else at the angle 0."""
+    """Return the row of the raster by which a MASK is tested: as drawn with snap=True, else that of the angle 0."""
     return shape.raster if shape.snap else geometry.raster_of[shape.geometry, 0]
 
 
@@ -75,9 +75,9 @@ def box_as_tested(geometry, shape):
 
 @subkernel
 def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
-    """Return the pose of one mask's raster in the raster space of another mask (the frame), which is not snapped.
+    """Return the pose of one mask's raster in the raster space of another mask (the frame) with snap=False.
 
-    The result is (x, y of the top left corner [px], cosine, sine of the angle). The first mask may be snapped or not.
+    The result is (x, y of the top left corner [px], cosine, sine of the angle). The first mask may have either snap.
     """
     frame = geometry.rasters[raster_of_shape(geometry, frame_shape)]
     cosine, sine = cosine_and_sine(frame_body.angle, frame_body.angle)
@@ -138,7 +138,7 @@ def snapped(coordinate, origin):
 
 @subkernel
 def is_drawn_when_asked(shape):
-    """Return whether a SHAPE row is a snapped mask that is drawn only when a test needs it.
+    """Return whether a SHAPE row is a mask with snap=True that is drawn only when a test needs it.
 
     Its AABB is then that of the exact pose.
     """
@@ -258,7 +258,7 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    For a mask it is the AABB of the solid pixels, as drawn if the mask is snapped; for an empty mask the point (x, y).
+    For a mask it is the AABB of the solid pixels, as drawn if snap=True; for an empty mask the point (x, y).
     """
     s = shapes[row]
     kind = s.kind
@@ -319,7 +319,7 @@ def write_hull(geometry, shapes, row, x, y, angle, corners_out):
 
 @kernel
 def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
-    """List the rasters that snapped masks need now or at the end of the step and that are not drawn yet.
+    """List rasters of masks (snap=True) that are needed now or at the end of the step and are not drawn yet.
 
     rows: indices of SHAPE rows; dt [s]: of the step; missing_out (capacity, 2) int64: (geometry row of the mask, angle
     bucket), possibly with duplicates. Returns the number found, which may exceed the capacity. O(rows).
@@ -349,7 +349,7 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
 
 @subkernel
 def place_mask(rasters, raster_of, body, shape_inout):
-    """Place a snapped MASK at its body's pose: write its raster, pixel column and row, and the AABB of its pixels.
+    """Place a MASK (snap=True) at its body's pose: write its raster, pixel column and row, and the AABB of its pixels.
 
     rasters, raster_of: tables of the geometry, passed alone because passing the whole Geometry takes longer.
     """
@@ -379,9 +379,9 @@ def place_masks(rows, geometry, bodies, shapes_inout):
 
 @subkernel
 def refresh_boxes(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of shapes at their bodies' poses, of snapped masks also the raster, left and top. O(rows).
+    """Write the tight AABBs of shapes at their bodies' poses, of drawn masks (snap=True) also raster, left and top.
 
-    rows: indices of SHAPE rows.
+    rows: indices of SHAPE rows. O(rows).
     """
     polygons = geometry.polygons
     table = geometry.corners
@@ -422,7 +422,7 @@ def refresh_aabbs(rows, geometry, bodies, shapes_inout):
 
 
 def add_missing_rasters(library: Any, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray, dt: float) -> None:
-    """Draw missing rasters of the snapped masks in these SHAPE rows, at their angles now and after dt [s]."""
+    """Draw missing rasters of the masks (snap=True) in these SHAPE rows, at their angles now and after dt [s]."""
     if not library.masks:
         return
     missing = np.zeros((2 * len(rows), 2), np.int64)

@@ -236,7 +236,7 @@ class Shape:
         return parts_of([corners @ turn + placed.offset for corners, _ in self._hulls()])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence]]:
-        """Return [(tile, parts)] that collide in place of the shape, a SHAPE row per part; () if it collides itself."""
+        """Return [(tile, parts)] that collide in place of the shape, a SHAPE row per part; (): the shape itself."""
         return ()
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
