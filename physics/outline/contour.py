@@ -222,7 +222,7 @@ def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
 
 
 def smoothed_piece(piece: Contour, smooth: float) -> Outline:
-    """Return the smoothed outline of one piece. smooth [px] as in outline."""
+    """Return the smoothed outline of one connected piece of pixels. smooth [px] as in outline."""
     reach = min(smooth, LARGEST_REACH)
     return Outline(smoothed(piece.outer, reach), [smoothed(hole, reach) for hole in piece.holes])
 

@@ -1,4 +1,4 @@
-"""Outline lines along round curves of a drawing, whose directions are those of the curve."""
+"""Outline lines along round curves of a drawing: each line has the direction of the curve."""
 
 import math
 from typing import NamedTuple

@@ -360,7 +360,7 @@ def _cross(a, b):
 
 
 class _End(NamedTuple):
-    """A best piece at line (i, k): its first corner after i, its last before k, and the piece that it extends.
+    """A best convex piece beside line (i, k): its first corner after i, its last before k, and the piece it extends.
 
     grown is None if the piece extends no other: line (i, last) is a cut or a side.
     """

@@ -1,4 +1,4 @@
-"""Files of precomputed mask outlines: convex parts, keyed by a hash of the pixels, settings and computing code.
+"""Files of precomputed mask outlines: convex parts, keyed by a hash of the pixels, the settings and the code.
 
 A game ships such a file beside its art and names it with `use`, so that a start without compiled kernels does not
 compute the outlines. Outlines that are not in a file are computed as usual. If the code or the pixels change, the key

@@ -243,7 +243,7 @@ def moments(around: Sequence[Stretch]) -> Moments:
 
 
 def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the quadrature points (n, 16, 2) [px] on n stretches, and their derivatives by the fraction of length."""
+    """Return the quadrature points (n, 16, 2) [px] on n stretches, and d point / d fraction of length there."""
     place = np.array([each.at(NODES) for each in around])
     step = np.empty_like(place)
     for k, each in enumerate(around):
@@ -375,7 +375,7 @@ class Sums(NamedTuple):
         return Sums(*(a + share * b for a, b in zip(self, other, strict=True)))
 
     def moments(self, base: tuple[float, float]) -> Moments:
-        """Return area, centre and inertia of the figure; base [px]: that of the sums; centre nan without area."""
+        """Return area, centre and inertia of the figure; base [px]: base point of these sums."""
         if self.area <= 0.0:
             return Moments(0.0, math.nan, math.nan, 0.0)
         x, y = self.x / self.area, self.y / self.area
@@ -386,7 +386,7 @@ NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0)
 
 
 def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
-    """Return the sums about a base point [px] of a figure with these moments."""
+    """Return area and first and second moments about a base point [px] of a figure, from its Moments."""
     if found.area == 0.0:
         return NO_SUMS
     x, y = found.x - base[0], found.y - base[1]

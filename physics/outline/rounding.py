@@ -37,9 +37,9 @@ def rounded_core(cracks: Loop, smooth: float) -> Core | None:
 
     cracks: loop of pixel edges around the piece; smooth [px] as in contour.outline. The core has 1 to 16 corners: 1 is
     a disc, 2 are a capsule. Its boundary is within smooth of the edges, and the edges within smooth + 0.21 of the
-    boundary; solid pixels' centres are inside, clear ones outside. For a disc both distances may be 0.13 px larger, and clear centres
-    0.2 px inside. None for a piece with a sharp corner, and if a polygon needs no more corners. The core of fewest
-    corners is used, of several one that keeps the sides of the outline.
+    boundary; solid pixels' centres are inside, clear ones outside. For a disc both distances may be 0.13 px larger, and
+    clear centres 0.2 px inside. None for a piece with a sharp corner, and if a polygon needs no more corners. The core
+    of fewest corners is used, of several one that keeps the sides of the outline.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None

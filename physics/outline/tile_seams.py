@@ -1,6 +1,6 @@
 """Corners and sides of a tile's convex parts that do not belong to the outline, because other parts adjoin them.
 
-Parts that share a corner and together take half a turn or more of angle leave no convex corner there: it is covered.
+Parts that share a corner leave no convex corner if their angles there sum to half a turn or more: it is covered.
 Otherwise the corner belongs to the first of these parts that has a side of the outline at it (tiles in the order of
 rows, then parts in their order) and is covered for the others. A corner that is sharper in its part than in the whole
 outline, which turns less there, is marked as blunt. Sides shared by two parts are inner: they are not outline.
@@ -33,7 +33,7 @@ class Survey(NamedTuple):
 
 
 def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin: tuple[float, float]) -> Survey:
-    """Return angles, border corners and body space corners of a tile's parts.
+    """Return the Survey of a tile's parts: angles, corners on the border, and corners in body space.
 
     parts: in raster pixels; at: top left corner of the tile in the raster; size [px]: per side of the tile; number: of
     the tile, counted row by row; origin [px]: of body space in the raster.
@@ -50,7 +50,7 @@ def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: 
     """Return (row, column) of the tiles on which a change of one tile has an effect through border corners.
 
     before, after (m, 5): Survey.meetings of the tile before and after its change. A tile is listed, also one outside
-    the mask, if it has a border corner that is in only one of them. row, column: of the tile; size [px]: per side.
+    the mask, if it has a border corner that is in only one of the two. row, column: of the tile; size [px]: per side.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)

@@ -312,7 +312,7 @@ class PixelTiles:
         return nodes
 
     def _nodes_of(self, tile: int, words: np.ndarray) -> np.ndarray:
-        """Return the NODE rows of a tile with these words (64,)."""
+        """Return the connected components (NODE rows) of one tile. words (64,): its pixels."""
         (runs, parents, nodes), (row, column) = _room(), divmod(tile, self.columns)
         return joined([nodes[: find_nodes(words, tile, column * TILE, row * TILE, runs, parents, nodes)]])
 

@@ -96,7 +96,7 @@ class Library:
 
     @property
     def size(self) -> int:
-        """Size [bytes] of all rows in use."""
+        """Memory [bytes] of all geometry rows in use."""
         return sum(table.count * table.data.itemsize for table in self.grown)
 
     def may_be_half_unused(self, shapes: int) -> bool:

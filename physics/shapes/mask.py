@@ -109,7 +109,7 @@ class PixelMask(Shape):
         return pair[wanted]
 
     def with_values_of(self, other: Shape) -> "PixelMask":
-        """Return this mask with the material, filter and sensor of another shape, and the one_way of another mask."""
+        """Return this mask with the material, filter and sensor of another shape; if a mask, with its one_way too."""
         one_way = other.one_way if isinstance(other, PixelMask) else None
         return self.with_(other.material, other.filter, other.sensor, one_way)
 

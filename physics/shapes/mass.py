@@ -206,7 +206,7 @@ def _groups(figures):
 
 
 def _near(figures):
-    """Return the index pairs of the figures whose boxes share area."""
+    """Return the index pairs of figures whose bounding boxes share area."""
     if len(figures) < 2:
         return []
     boxes = np.array([_box_of(each) for each in figures])

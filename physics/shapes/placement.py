@@ -22,7 +22,7 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, P
 def exact_aabb(rasters, corners, raster, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels with its body at a pose.
 
-    For an empty mask all is the point (x, y). rasters, corners: tables of the geometry; raster: row of the mask's
+    The AABB of an empty mask is the point (x, y). rasters, corners: tables of the geometry; raster: row of the mask's
     raster at the angle 0. O(corners of the mask's hull).
     """
     r = rasters[raster]
@@ -42,14 +42,14 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
 
 @subkernel
 def into_raster(raster, body, cosine, sine, x, y):
-    """Return a world point (x, y) [px] in the raster space of a mask. cosine, sine: rotation of the mask's body."""
+    """Return world point (x, y) [px] in coordinates of a mask's raster. cosine, sine: rotation of the mask's body."""
     u, v = rotate(x - body.x, y - body.y, cosine, -sine)
     return u + raster.origin_x, v + raster.origin_y
 
 
 @subkernel
 def out_of_raster(raster, body, cosine, sine, x, y):
-    """Return the world point [px] of a point (x, y) in the raster space of a mask. cosine, sine: of the mask's body."""
+    """Return point (x, y) of a mask's raster in world coordinates [px]. cosine, sine: rotation of the mask's body."""
     u, v = rotate(x - raster.origin_x, y - raster.origin_y, cosine, sine)
     return body.x + u, body.y + v
 
@@ -165,7 +165,7 @@ def raster_aabb(geometry, raster, x, y):
 def upright_aabb(raster, x, y):
     """Return the AABB [px] of an unrotated mask's solid pixels with its body exactly at (x, y), not at whole pixels.
 
-    For an empty mask all is the point (x, y).
+    The AABB of an empty mask is the point (x, y).
     """
     if raster.area == 0:
         return x, y, x, y

@@ -144,7 +144,7 @@ class Placed(NamedTuple):
 
     @property
     def offset(self) -> tuple[float, float]:
-        """Position of the body relative to the point [px]."""
+        """Position [px] of the body relative to the point (x, y) of this object."""
         body = self.body
         return float(body["x"]) - self.x, float(body["y"]) - self.y
 
@@ -236,7 +236,7 @@ class Shape:
         return parts_of([corners @ turn + placed.offset for corners, _ in self._hulls()])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence]]:
-        """Return [(tile, parts)] that collide in place of the shape, a SHAPE row per part; (): the shape itself."""
+        """Return [(tile, parts)], one SHAPE row per part, that collide in place of the shape; () if it has no parts."""
         return ()
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
@@ -260,7 +260,7 @@ class Shape:
 
     @property
     def bare(self) -> Self:
-        """The shape without own material, filter and sensor, stored once in a library for all that differ in them."""
+        """The shape without own material, filter and sensor; a library stores one for all that differ in these."""
         return vars(self).get("_bare", self)
 
     def with_values_of(self, other: "Shape") -> Self:

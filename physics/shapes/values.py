@@ -253,7 +253,7 @@ class TileGrid(Shape):
 
     @cached_property
     def blocks(self) -> tuple[list[tuple[int, int, int, int]], list[list[int]], list[tuple[int, int, int, int]]]:
-        """(rectangles of solid cells, [row, column] of cells with a slope, rectangles of one-way cells), in cells.
+        """The tiles as (rectangles of solid cells, [row, column] of slopes, rectangles of one-way cells), in cells.
 
         A rectangle is (left, top, right, bottom), right and bottom exclusive.
         """
@@ -451,7 +451,7 @@ class Chain(EqualByValue):
 
     @property
     def links(self) -> int:
-        """Number of links."""
+        """Number of links, the lines between successive points."""
         return len(self.points) if self.loop else len(self.points) - 1
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
