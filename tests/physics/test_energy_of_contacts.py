@@ -142,6 +142,28 @@ def test_discs_planks_and_capsules_that_roll_on_each_other_never_gain(settings):
 
 
 @needs_speed
+@pytest.mark.parametrize("ground", ["box", "chain"])
+@pytest.mark.parametrize("speed", [0.0, 300.0, 447.0, 700.0, 1500.0, 4000.0])
+def test_elastic_balls_that_are_swept_keep_their_energy(speed, ground):
+    """Where a fast ball is stopped within a step, gravity has acted until then, not for the whole step."""
+    elastic = Material(friction=0.0, restitution=1.0)
+    for phase in range(10):
+        world = World(EFFECTS)
+        shape = Polygon.box(2e5, 40, center=(0, 20)) if ground == "box" else Chain([(-1e5, 0), (1e5, 0)])
+        world.add_body(shape, kind="static", material=elastic)
+        ball = world.add_body(Circle(8), position=(0, -150 - 3.7 * phase), velocity=(speed, 0), material=elastic)
+
+        def energy(ball=ball, gravity=world.gravity[1]):
+            return ball.kinetic_energy / ball.mass - gravity * (ball.position.y + 8)
+
+        start, found = energy(), []
+        for _ in range(900):
+            world.step()
+            found.append(energy() / start)
+        assert 0.998 <= min(found) and max(found) <= 1.0005, (phase, min(found), max(found))
+
+
+@needs_speed
 @pytest.mark.parametrize("scene", [lambda: eccentric(17, 60, 0.5, solver="sequential_impulse"),
                                    lambda: bowl(240, 20, 0.7, solver="sequential_impulse")])  # fmt: skip
 def test_sequential_impulses_lose_and_never_gain(scene):
