@@ -1,7 +1,7 @@
 """Every scene in menu order: SCENES is name -> "module:Class", imported at its first use.
 
-A scene that is not listed here is not in the game. tests/scenes/test_registry.py compares the list with the folder, so
-a missing line fails.
+A scene that is not listed here is not in the game. tests/scenes/test_registry.py fails if a scene of the folder is not
+listed.
 """
 
 PLACES = {  # name -> ".module:Class" in this package

@@ -1,11 +1,11 @@
 """Pictures of the games: bots run the scenes without a window, and frames are stored as PNG files.
 
 python -m scenes.filming pictures FOLDER                 the menu's small picture of every scene
-python -m scenes.filming moments GAME FOLDER             its moments at the canvas' size, and captions.json
-python -m scenes.filming reel SCENE 1 0 3600 60 FILE     seed 1, frames 0, 60, ... of a run, small, to choose from
+python -m scenes.filming moments GAME FOLDER             the game's moments at the canvas' size, and captions.json
+python -m scenes.filming reel SCENE 1 0 3600 60 FILE     contact sheet: seed 1, every 60th of frames 0..3600, small
 
-A scene is deterministic, so a frame's number identifies it. The scripts of assets/, which do not import games, run this
-program.
+Scenes are deterministic, so seed and frame number identify a picture. The scripts of assets/ start this program because
+they must not import the games.
 """
 
 import argparse
@@ -35,7 +35,10 @@ MOST = 20000  # frames within which every moment of a game must occur
 
 @dataclass(frozen=True)
 class Shot:
-    """A picture to take: the frame or moment of a run, and the part of the canvas, 160 x 90 px times zoom."""
+    """A picture to take: the frame number or moment of a run, and the part of the canvas to show.
+
+    The part is 160 x 90 px times `zoom`, with its top left corner at (`left`, `top`) [canvas px].
+    """
 
     frame: int | Moment
     left: int = 0
@@ -49,7 +52,7 @@ class Shot:
         return self.left, self.top, SIZE[0] * self.zoom, SIZE[1] * self.zoom
 
 
-# The parts contain no measured times (some microseconds, on the machine that films).
+# The parts shown contain no measured times, which differ from machine to machine.
 SHOTS = {
     "shooter": Shot(Moment("the boss", leader("boss_a_0", 85)), 130, 20),
     "platformer": Shot(Moment("keep", done("lift with an enemy", 40)), 130, 80),
@@ -83,7 +86,7 @@ SHOTS = {
 
 
 class Film:
-    """A scene played by its bot, and its pictures: the presented frame, (810, 1440, 3) uint8."""
+    """A scene played by its bot. Each picture is the presented frame, an array (810, 1440, 3) uint8."""
 
     def __init__(self, name, seed, layers=()):
         start_dummy_display()
@@ -102,7 +105,7 @@ class Film:
 
 
 def film(name, seed, frames, layers=()):
-    """Run a scene; return {frame number: picture} of the given frames."""
+    """Run a scene. Return {frame number: picture} for the frame numbers in `frames`."""
     running, wanted, taken = Film(name, seed, layers), set(frames), {}
     for number in range(1, max(wanted) + 1):
         running.step()
@@ -112,9 +115,9 @@ def film(name, seed, frames, layers=()):
 
 
 def film_moments(name, seed, moments):
-    """Run a scene; return a picture of each moment, searched for in their order.
+    """Run a scene. Return a list with one picture for each moment.
 
-    Raises ValueError naming the first moment that does not occur.
+    The moments must occur in the given order. Raises ValueError naming the first moment that does not occur.
     """
     running, taken = Film(name, seed), []
     for moment in moments:
@@ -129,10 +132,9 @@ def film_moments(name, seed, moments):
 
 
 def reduced(pixels, part=(0, 0, *FRAME), zoom=1):
-    """Return the part (left, top, width, height in canvas px) of a presented picture, at one pixel per `zoom` canvas
-    pixels.
+    """Return a part of a presented picture, reduced to one pixel per `zoom` x `zoom` canvas pixels.
 
-    The averages use integers, so they are equal on every machine.
+    `part`: left, top, width, height [canvas px]. The averages use integers, so they are equal on every machine.
     """
     left, top, width, height = (value * SCREENSHOT_SCALE for value in part)
     share = SCREENSHOT_SCALE * zoom
@@ -163,7 +165,7 @@ def write_pictures(folder):
 
 
 def write_moments(game, folder):
-    """Write a game's moments as 00.png, 01.png, ... and captions.json, a list of their captions."""
+    """Write the pictures of a game's moments as 00.png, 01.png, ... and their captions as the list captions.json."""
     for number, picture in enumerate(film_moments(game, SEED, MOMENTS[game])):
         (folder / f"{number:02}.png").write_bytes(png.encode(reduced(picture)))
     captions = [moment.caption for moment in MOMENTS[game]]
@@ -171,7 +173,10 @@ def write_moments(game, folder):
 
 
 def reel(name, seed, first, last, every, columns=8):
-    """Return small pictures of a run in rows, to choose from."""
+    """Return a contact sheet of a run, to choose frames from: small pictures in rows of `columns`.
+
+    It shows every `every`-th frame from `first` to `last`.
+    """
     taken = film(name, seed, range(max(1, first), last + 1, every))
     pictures = [reduced(taken[number], zoom=3) for number in sorted(taken)]
     while len(pictures) % columns:
@@ -181,7 +186,7 @@ def reel(name, seed, first, last, every, columns=8):
 
 
 def read_arguments(arguments):
-    """Return the parsed command line. It exits with code 2 and the reason for invalid arguments."""
+    """Return the parsed command line. Invalid arguments end the program with code 2 and the reason."""
     parser = argparse.ArgumentParser(prog=f"python -m {__package__}.filming", description="Film the games.")
     films = parser.add_subparsers(dest="what", required=True)
     films.add_parser("pictures", help="the menu's pictures").add_argument("folder", type=Path)

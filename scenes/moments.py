@@ -12,7 +12,7 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Moment:
-    """A moment. `when(scene)`: whether it has come; it is filmed so many steps `after`."""
+    """A moment of a game. It occurs when `when(scene)` is true, and is filmed `after` steps later."""
 
     caption: str
     when: Callable
@@ -20,7 +20,7 @@ class Moment:
 
 
 def flying(kind, least):
-    """Return a test for at least so many planes of a kind in the picture."""
+    """Return a predicate of the scene: at least `least` planes of the kind are in the picture."""
     return lambda scene: (
         sum(plane.kind == kind and 16 < plane.y < 200 and 20 < plane.x < 460 for plane in scene.fleet.planes.values())
         >= least
@@ -28,7 +28,7 @@ def flying(kind, least):
 
 
 def leader(frame, bullets=0):
-    """Return a test for a leader of that look in a fight, with at least so many bullets in the air."""
+    """Return a predicate: a boss or mid-boss with picture `frame` fights, with at least `bullets` bullets in the air."""
     return lambda scene: (
         len(scene.incoming) >= bullets
         and any(plane.leads and plane.frame == frame and plane.mode == "fight" for plane in scene.fleet.planes.values())
@@ -36,37 +36,37 @@ def leader(frame, bullets=0):
 
 
 def falling(kind):
-    """Return a test for a burning leader."""
+    """Return a predicate: a mid-boss or boss of that kind is burning and falling."""
     return lambda scene: any(
         plane.leads and plane.kind == kind and plane.mode == "fall" for plane in scene.fleet.planes.values()
     )
 
 
 def over(ground, bullets, planes=0):
-    """Return a test for a kind of ground below, with so many bullets and planes."""
+    """Return a predicate: the stage flies over that ground, with at least `bullets` bullets and `planes` planes."""
     return lambda scene: (
         scene.director.ground == ground and len(scene.incoming) >= bullets and len(scene.fleet.planes) >= planes
     )
 
 
 def bombed(frame):
-    """Return a test for a bomb under a leader of that look."""
+    """Return a predicate: a bomb was just dropped in the fight against the leader with picture `frame`."""
     fights = leader(frame)
     return lambda scene: scene.bomb.body is not None and scene.bomb.age < 3 and fights(scene)
 
 
 def done(feat, times=1):
-    """Return a test for so many feats of the hero."""
+    """Return a predicate: the hero has done `feat` at least `times` times."""
     return lambda scene: scene.feats.done[feat] >= times
 
 
 def flown(act, number):
-    """Return a test for the lander's bot on its path to a waypoint of an act."""
+    """Return a predicate: the lander's bot is in act `act` and heads for waypoint `number` or a later one."""
     return lambda scene: scene.pilot.act == act and scene.pilot.number >= number
 
 
 def landing(name, high):
-    """Return a test for the lander coming down to a site, at a height [px] above it."""
+    """Return a predicate: the lander comes down to site `name` and is less than about `high` px above it."""
     return lambda scene: (
         scene.course.site.name == name
         and abs(scene.ship.x - scene.course.site.x) < 30.0
@@ -75,7 +75,7 @@ def landing(name, high):
 
 
 def landed(count, mode):
-    """Return a test for so many reached sites, with the course in a mode."""
+    """Return a predicate: exactly `count` landings have been made, and the course is in mode `mode`."""
     return lambda scene: scene.score.landings == count and scene.course.mode == mode
 
 

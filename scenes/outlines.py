@@ -1,10 +1,10 @@
-"""`python -m scenes.outlines [--check]`: fit the outlines of the masks that the scenes begin with, and store them.
+"""`python -m scenes.outlines [--check]`: fit polygon outlines to the pixel masks of the scenes, and store them.
 
-They are stored beside the art (assets/outlines.npz), so that a start without compiled kernels does not fit them again.
-Every scene is built with each of its tiers. Bots play the games for some seconds, which adds later masks. The sprites
-of all sheets are added, too.
+The outlines are stored in assets/outlines.npz, so that a start without compiled kernels does not fit them again.
+Every scene is built at each of its shape tiers. Bots play the games for some seconds, to include the masks that appear
+during play. The sprites of all sheets are included, too.
 
---check compares the file with newly fitted outlines. Exit 1: it differs.
+--check compares the stored file with newly fitted outlines. Exit code 1: the file differs.
 """
 
 import sys
@@ -26,7 +26,7 @@ SHEETS = ("planes", "hero", "things", "lab", "lander")
 
 
 def fit_all() -> dict[bytes, kept.Parts]:
-    """Return the outlines of all masks that scenes begin with, by their keys, all newly fitted."""
+    """Fit the outlines of all masks of the scenes and sheets anew. Return {mask key: outline parts}."""
     start_dummy_display()
     kept.forget()
     kept.recorded = {}
@@ -46,7 +46,7 @@ def fit_all() -> dict[bytes, kept.Parts]:
 
 
 def main(arguments: list[str]) -> int:
-    """Write the file, or compare it. Return the exit code."""
+    """Write the outline file, or with --check compare it with new outlines. Return the exit code."""
     found = fit_all()
     if arguments == ["--check"]:
         with tempfile.TemporaryDirectory() as folder:

@@ -119,7 +119,7 @@ class Course:
         return Result(won, score.points, self.clock / 60, lines)
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (
             self.act,
             self.mode,

@@ -44,7 +44,7 @@ class Gun:
         return found
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (*self.shells, *self.shells.values())
 
 

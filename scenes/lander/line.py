@@ -59,5 +59,5 @@ class Line:
             self.load = None
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (-1 if self.load is None else self.load.id,)

@@ -60,7 +60,7 @@ class Rubble:
         return gone
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return tuple(self.pieces)
 
 

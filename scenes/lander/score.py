@@ -67,7 +67,7 @@ class Score:
         return next(name for name, least in MEDALS if self.points >= least)
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (self.points, self.landings, self.delivered, self.lost, self.fired, self.cans, self.softest)
 
 

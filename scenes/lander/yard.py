@@ -123,7 +123,7 @@ class Yard:
         return done
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (
             *(value for identity, each in self.cargo.items() for value in (identity, each.whole, each.rest)),
             *("" if each.over is None else each.over.name for each in self.cargo.values()),

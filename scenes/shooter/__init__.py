@@ -1,1 +1,1 @@
-"""The plane shooter: every hit is pixel against pixel."""
+"""The plane shooter: hits are decided by exact pixel masks."""

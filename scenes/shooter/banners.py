@@ -17,12 +17,12 @@ SLIDE = 24  # steps of a banner's entry, and of its exit
 STRIPE = 16  # [px] of the warning's slanted stripes
 SMOKE = 50  # steps for which the boss's end stays visible
 BLINK = 20  # steps: WARNING is bright and dark in turn, three times in two seconds
-HALF = 28  # [px] from the top of a band of two lines to the line that it grows from
-HURRY = 4  # the digit of the countdown below which it is red
+HALF = 28  # [px] from the top of a two-line band to its middle line, from which it grows
+HURRY = 4  # the countdown is red below this digit
 
 
 def draw_banners(canvas, scene):
-    """Draw one banner at most."""
+    """Draw the banner of the current mode of the stage or ending, if there is one."""
     director, ending = scene.director, scene.ending
     if ending.mode == ASKING:
         _draw_continue(canvas, scene)
@@ -41,13 +41,16 @@ def draw_banners(canvas, scene):
 
 
 def eased(step, whole_time):
-    """Return the position of a banner, 0..1..0: quick at the start, slow to rest; mirrored at the end."""
+    """Return how far a banner has slid in at `step` of `whole_time` steps: 0 is out, 1 is in place.
+
+    It eases in over the first SLIDE steps, and out over the last SLIDE steps.
+    """
     share = min(step / SLIDE, (whole_time - step) / SLIDE, 1.0)
     return 1.0 - (1.0 - max(share, 0.0)) ** 3
 
 
 def _draw_title(canvas, director):
-    """Draw STAGE 1, sliding in from the left, its name, from the right, and both out again."""
+    """Draw the stage's title, which slides in from the left, and its name, from the right. Both slide out again."""
     share = eased(director.since, READY)
     middle, width = canvas.rect.centerx, canvas.rect.width
     band(canvas, 92, whole(58 * share))
@@ -59,7 +62,7 @@ def _draw_title(canvas, director):
 
 
 def _draw_warning(canvas, scene):
-    """Draw stripes that run past above and below the word."""
+    """Draw the word WARNING and the leader's name, between two rows of moving stripes."""
     since = scene.director.since
     share = eased(since, WARNING)
     high = whole(56 * share)
@@ -85,7 +88,7 @@ def _draw_bonus(canvas, bonus):
 
 
 def _draw_bonuses(canvas, scene):
-    """Draw the end of the stage, one line after another."""
+    """Draw STAGE CLEAR and one line for each bonus counted so far."""
     ending = scene.ending
     share = eased(ending.since - SMOKE, inf)
     band(canvas, 70, whole(112 * share))
@@ -119,7 +122,10 @@ def _summary(scene):
 
 
 def band(canvas, top, high):
-    """Draw a dark band that grows from its middle line, and further downwards once it is as high as two lines need."""
+    """Draw a dark band of height `high` [px] across the picture, behind a banner's text.
+
+    It grows from its middle line; once two lines of text fit, it grows downwards only.
+    """
     if high > 0:
         canvas.surface.blit(
             _shade(canvas.rect.width, high), (0, top + HALF - high // 2 if high <= 2 * HALF + 2 else top)
@@ -127,7 +133,7 @@ def band(canvas, top, high):
 
 
 def text_inside(canvas, text, x, y, color, scale):
-    """Draw sliding text, only while all of it is inside the picture."""
+    """Draw a sliding text, unless a part of it is outside the picture."""
     rect = canvas.text_rect(text, x, y, TEXT, scale, "center")
     if canvas.rect.contains(rect):
         canvas.text(text, x, y, color, TEXT, scale, "center", True)
@@ -142,7 +148,7 @@ def _shade(width, high):
 
 @lru_cache(maxsize=2)
 def stripes(width):
-    """Return the slanted stripes of the warning."""
+    """Return an image of the warning's slanted stripes, `width` x 8 px."""
     image = pygame.Surface((width, 8))
     image.fill(INK)
     for x in range(-STRIPE, width, 2 * STRIPE):

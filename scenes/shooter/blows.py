@@ -1,12 +1,12 @@
-"""Strength of hits: the impulse that each would transfer. It scales damage, sparks, debris and sound."""
+"""Strength of hits: the impulse that each hit would transfer. It scales damage, sparks, debris and sound."""
 
 from math import hypot
 
 
 class Blow:
-    """An impulse [px3/s] on a body of some mass [px2], with its direction and its ratio to a plain shot's."""
+    """The impulse (x, y) [px3/s] of a hit on a body of mass `mass` [px2]."""
 
-    USUAL = 22000.0  # [px3/s] a shot of the player's, head on
+    USUAL = 22000.0  # [px3/s] impulse of a plain shot: the player's, head on
     FASTEST = 140.0  # [px/s] limit for debris
 
     def __init__(self, x=0.0, y=0.0, mass=1.0):
@@ -14,22 +14,22 @@ class Blow:
 
     @property
     def strength(self):
-        """1 for a plain shot, 0.5 at least (a glance) and 2.5 at most (rammed)."""
+        """Impulse relative to a plain shot of the player (1), clamped to 0.5 (a glance) .. 2.5 (ramming)."""
         return min(max(hypot(self.x, self.y) / self.USUAL, 0.5), 2.5)
 
     @property
     def kick(self):
-        """Velocity [px/s] that it gives to the debris of the body."""
+        """Velocity (x, y) [px/s] that the impulse gives to the debris of the body, FASTEST at most."""
         x, y = self.x / self.mass, self.y / self.mass
         share = min(1.0, self.FASTEST / max(hypot(x, y), 1.0))
         return x * share, y * share
 
 
 class Blows:
-    """The hits of one step by pair of bodies. The scene has no collision response, so speeds and masses give the
-    impulse.
+    """The impulses of all hits of one step, by pair of bodies.
 
-    `weights`: masses of bodies that stand for heavier ones (a core for its plane).
+    The scene has no collision response, so each impulse is computed from the closing speed and the two masses.
+    `weights`: {body id: mass} of bodies that stand for heavier ones (the player's core stands for the whole plane).
     """
 
     def __init__(self, world, weights=None):
@@ -49,12 +49,15 @@ class Blows:
             self.found[b, a] = (-impulse * nx, -impulse * ny)
 
     def on(self, identity, *others):
-        """Return the Blow that other bodies gave to a body."""
+        """Return the sum of the impulses that the bodies `others` gave to body `identity`, as a Blow."""
         each = [self.found.get((other, identity), (0.0, 0.0)) for other in others]
         return Blow(sum(x for x, _ in each), sum(y for _, y in each), self.mass.get(identity) or 1.0)
 
 
 def push(dx, dy):
-    """Return the Blow of a bomb, away from its middle: as strong as a plain shot on a light body."""
+    """Return the Blow of a bomb on a plane at (dx, dy) [px] from the bomb's centre, directed away from it.
+
+    It is as strong as a plain shot on a light body.
+    """
     far = max(hypot(dx, dy), 1.0)
     return Blow(Blow.USUAL * dx / far, Blow.USUAL * dy / far, Blow.USUAL / 90.0)

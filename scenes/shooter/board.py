@@ -1,4 +1,4 @@
-"""Permanent words over the sky: score, chain, lives, bombs, power, hits, and the leader's health."""
+"""Heads-up display of the shooter: score, chain, lives, bombs, power, hits, and the leader's health."""
 
 from game.drawing.canvas import SMALL, TEXT, whole
 from game.drawing.colors import GOLD, INK, PAPER, RED, SKY
@@ -16,7 +16,7 @@ HELD = (
     (380, 0, 100, 44),
     (140, 0, 226, 28),
     (0, 254, 150, 16),
-)  # [canvas px] places of the fixed words
+)  # [canvas px] places of the heads-up display, where no rising word is drawn
 BAR = (148, 17, 184, 7)  # [canvas px] of the leader's health
 CHAIN = (MARGIN, 17, 60, 4)
 HEALTH_WIDTH = 36  # [px] of the bar at a damaged plane
@@ -25,7 +25,7 @@ SLIDE_IN, SLIDE_OUT = 12, 10  # steps in which the name of a wave comes and goes
 
 
 def draw_words(canvas, scene, view):
-    """Draw the words that rise from events, under the bullets. `view`: world point at the picture's corner."""
+    """Draw the short texts that rise from events, such as points. `view`: world point at the picture's corner."""
     for rect in HELD:
         canvas.reserve(rect)
     left, top = view
@@ -35,7 +35,7 @@ def draw_words(canvas, scene, view):
 
 
 def draw_board(canvas, scene):
-    """Draw the fixed words."""
+    """Draw the heads-up display: score, stock and hits, and the leader's bar or the name of a new wave."""
     _draw_score(canvas, scene)
     _draw_stock(canvas, scene)
     _draw_hits(canvas, scene)
@@ -63,13 +63,13 @@ def _draw_score(canvas, scene):
 
 
 def _draw_stock(canvas, scene):
-    """Draw lives, bombs, power: one row each, from the right."""
+    """Draw lives, bombs and power as rows of icons at the right edge."""
     ui, plane, gain = load_atlas("ui"), scene.plane, scene.spectacle.gain
     right = canvas.rect.right - MARGIN
     rows = (("icon_life", max(plane.lives - plane.here, 0)), ("icon_bomb", plane.bombs), ("icon_power", plane.power))
     for row, (name, count) in enumerate(rows):
         image = ui[name]
-        # The last gain jumps.
+        # The row of power icons jumps after a pick-up.
         lift = whole(3 * gain) if row == 2 else 0
         icons(canvas, image, count, right - count * (image.get_width() + 2) + 2, MARGIN + 12 * row - lift)
     if plane.power == TOP_POWER:
@@ -77,7 +77,7 @@ def _draw_stock(canvas, scene):
 
 
 def _draw_hits(canvas, scene):
-    """Draw the numbers of contacts of core, hull and box; the one that hurts is bright."""
+    """Draw how many hits the player's core, hull and bounding box have had; the part that is vulnerable is bright."""
     ui, y, x = load_atlas("ui"), canvas.rect.bottom - 14, MARGIN
     counts = scene.hits.count
     for part in ("core", "hull"):
@@ -90,14 +90,14 @@ def _draw_hits(canvas, scene):
 
 def _draw_wave(canvas, scene):
     director, news = scene.director, scene.spectacle.news
-    # It slides in from above and stays clear of the sky where planes fight.
+    # The wave's name slides in from above and stays clear of the sky where planes fight.
     y = MARGIN - max(0, news - (NEWS - SLIDE_IN)) - max(0, SLIDE_OUT - news)
     if y >= 0:
         canvas.text(director.wave, canvas.rect.centerx, y, GOLD, TEXT, align="center", outline=True)
 
 
 def _draw_leader(canvas, scene, leader):
-    """Draw name and timer over a bar with a mark for every remaining phase."""
+    """Draw the leader's name and timer above its health bar, which has one section for each phase."""
     left, top, width, height = BAR
     phases = len(leader.phases)
     canvas.text(leader.name, left, MARGIN, PAPER, TEXT, outline=True)
@@ -106,7 +106,7 @@ def _draw_leader(canvas, scene, leader):
         seconds = f"{leader.seconds_left:04.1f}" if hurry else f"{int(leader.seconds_left)}"
         canvas.text(seconds, left + width, MARGIN, RED if hurry else GOLD, TEXT, align="right", outline=True)
     canvas.surface.fill(INK, BAR)
-    # The last phase is at the left: the bar empties towards it.
+    # The section of the last phase is at the left: the bar empties from right to left.
     part = (width - 2) / phases
     behind = phases - 1 - leader.number
     for number in range(behind):
@@ -124,11 +124,11 @@ def _draw_leader(canvas, scene, leader):
 
 
 def draw_health(surface, place, share):
-    """Draw a small bar behind a damaged plane's tail."""
+    """Draw the small health bar of a damaged plane at `place` [canvas px]; `share` of its health is left (0..1)."""
     surface.fill(INK, (*place, HEALTH_WIDTH, 4))
     surface.fill(health_color(share), (place[0] + 1, place[1] + 1, max(1, round((HEALTH_WIDTH - 2) * share)), 2))
 
 
 def health_color(share):
-    """Return red, yellow or green, by the remaining share 0..1."""
+    """Return the colour of a health bar, red, yellow or green, for the remaining share 0..1 of the health."""
     return HEALTH[max(0, min(int(share * 3), 2))]

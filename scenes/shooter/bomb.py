@@ -1,21 +1,21 @@
-"""The bomb: a sensor circle that grows around its start, and reports contacts.
+"""The bomb: a circular sensor that grows around the place where it was dropped.
 
-Bullets in it are removed, planes are damaged once, and the player is a ghost while it burns.
+Bullets that it touches are removed, each plane that it touches is damaged once, and the player cannot be hit meanwhile.
 """
 
 from physics import Circle
 from scenes.shooter.cast import BLASTING, steps
 
-GROW, BURN = steps(0.45), steps(1.1)  # steps of its growth, and of its whole life
-EVERY = 3  # steps between two sizes of its shape
+GROW, BURN = steps(0.45), steps(1.1)  # steps for which the bomb grows, and for which it exists
+EVERY = 3  # steps between two changes of its shape's size
 FIRST, REACH = 20.0, 120.0  # [px] radius
-SHELTER = steps(2.0)  # steps for which the player is a ghost
-DAMAGE, LEADER_DAMAGE = 18.0, 45.0  # plain shots
+SHELTER = steps(2.0)  # steps for which the player cannot be hit after dropping it
+DAMAGE, LEADER_DAMAGE = 18.0, 45.0  # damage in plain shots
 
 
 class Bomb:
-    """The bomb. `body` is None while there is none; `age` counts its steps; `struck`: the planes that it has
-    damaged.
+    """The player's bomb. `body`: its sensor, or None while no bomb burns; `age` [steps]; `struck`: ids of the planes
+    already damaged.
     """
 
     def __init__(self, world):
@@ -27,12 +27,12 @@ class Bomb:
 
     @property
     def radius(self):
-        """Present radius [px]: it grows fast at first, then more slowly."""
+        """Current radius of the blast [px]. It grows fast at first, then more slowly."""
         left = 1.0 - min(self.age / GROW, 1.0)
         return FIRST + (REACH - FIRST) * (1.0 - left * left)
 
     def drop(self, x, y):
-        """Set it off at a place [px]."""
+        """Set the bomb off at (x, y) [px]."""
         self.x, self.y, self.age = x, y, 0
         self.struck = set()
         self.body = self.world.add_body(
@@ -40,7 +40,7 @@ class Bomb:
         )
 
     def step(self):
-        """Let it grow. Return the id of its body when it ends, to be removed, else None."""
+        """Let the bomb grow for one step. Return the id of its body, to be removed, if it has burnt out, else None."""
         if self.body is None:
             return None
         self.age += 1
@@ -52,11 +52,11 @@ class Bomb:
         return body.id
 
     def strikes(self, identity):
-        """Return whether it meets this plane for the first time."""
+        """Record that the bomb touches a plane. Return whether it does so for the first time."""
         new = identity not in self.struck
         self.struck.add(identity)
         return new
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (self.x, self.y, self.age, -1 if self.body is None else self.body.id, *sorted(self.struck))

@@ -1,6 +1,6 @@
 """Leaders: the mid-boss and the boss. A leader fights in phases, each with its own health, timer, path and patterns.
 
-Between two phases it cannot be hurt and does not fire: the sky is cleared, for a rest.
+Between two phases the leader cannot be hurt and does not fire, and all bullets are removed.
 """
 
 from math import pi, sin
@@ -14,22 +14,22 @@ LOOKS = ("midboss_0", "boss_a_0", "boss_b_0", "boss_c_0")
 ENTRY_Y, HOME_Y = -60.0, 70.0  # [px]
 ARRIVE_SPEED, SWING_SPEED = 95.0, 130.0  # [px/s]
 CHANGE = steps(1.6)  # steps between two phases
-DRESSED = steps(0.5)  # steps into them, at which the next look appears behind the smoke
-FALL = steps(2.6)  # steps that it burns before it is removed
-SINK = 14.0  # [px/s] while it burns
-ALMOST = 5.0  # [s] before the end of a phase, in which its timer is counted aloud
+DRESSED = steps(0.5)  # steps after a phase's end until the picture of the next phase appears, behind the smoke
+FALL = steps(2.6)  # steps that a beaten leader burns before it breaks
+SINK = 14.0  # [px/s] downward speed while it burns
+ALMOST = 5.0  # [s] before the end of a phase: from then on its timer is red and shows tenths
 
 
 class Leader(Enemy):
-    """A leader. `phase` is the number of the current one; `clock`: the remaining steps of it; `beaten`: result of the
-    last.
+    """A mid-boss or boss. `number`: index of the current phase; `clock`: its remaining steps; `beaten`: whether the
+    phase that ended last was won by the player (True) or ran out of time (False).
     """
 
     heavy = leads = True
 
     def __init__(self, event):
         group = Group("", (0.5,), 1.0, 0.0, "", HOME_Y)
-        super().__init__(WIDTH / 2, ENTRY_Y, group, event)  # an event has the factors of a difficulty
+        super().__init__(WIDTH / 2, ENTRY_Y, group, event)  # an Event has the same factors as a Difficulty
         self.kind, self.name, self.phases = event.event, event.name, event.phases
         self.number = 0
         self.beaten = False
@@ -37,7 +37,7 @@ class Leader(Enemy):
 
     @property
     def phase(self):
-        """The current phase."""
+        """The Phase that is being fought."""
         return self.phases[self.number]
 
     @property
@@ -47,7 +47,7 @@ class Leader(Enemy):
 
     @property
     def sheltered(self):
-        """True while it cannot be hurt."""
+        """True while the leader cannot be hurt."""
         return self.mode != "fight"
 
     @property
@@ -56,7 +56,7 @@ class Leader(Enemy):
         return self.clock / 60
 
     def _take_up(self):
-        """Begin the phase of index `number`."""
+        """Begin phase `self.number`: set its health, timer, guns and picture."""
         self.health = self.full = float(self.phase.health)
         self.clock = steps(self.phase.seconds)
         self.guns = [Gun(pattern) for pattern in self.phase.patterns]
@@ -91,12 +91,12 @@ class Leader(Enemy):
             self.vx, self.vy = self.vx * 0.96, max(self.vy - 2.0, -110.0)
 
     def _swing(self):
-        """Move in a slow figure of eight about its place."""
+        """Move in a slow figure of eight about the leader's home position."""
         move, turn = self.phase.move, 2 * pi * self.since / 60 / self.phase.move.seconds
         self.approach(self.home_x + move.across * sin(turn), self.home_y + move.down * sin(2 * turn), SWING_SPEED)
 
     def end_phase(self, beaten):
-        """End the phase. After the last one it falls, or flies away if its time ran out."""
+        """End the phase. After the last phase the leader falls if `beaten`, else it flies away."""
         self.beaten = beaten
         if not self.last:
             self.begin("change")
@@ -105,7 +105,7 @@ class Leader(Enemy):
             self.side = FALLING
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (
             *super().state(),
             self.number,

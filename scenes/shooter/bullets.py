@@ -1,4 +1,4 @@
-"""Bullets are rows: fired in volleys, moved by the world, removed in batches. There is no object per bullet."""
+"""Bullets as table rows: added in volleys, moved by the world, removed in batches. There is no object per bullet."""
 
 from math import cos, pi, sin
 
@@ -9,7 +9,7 @@ from physics.tables.table import Table
 from scenes.shooter.cast import HEIGHT, MARGIN, WIDTH
 
 DOWN, UP = pi / 2, -pi / 2  # [rad] headings; y points down
-# The colliding frame, in atlas "effects", and its painted heading (None: round, never rotated).
+# look -> (frame of atlas "effects" whose mask collides, heading in which it is painted; None: round, never rotated)
 LOOKS = {
     "shot": ("player_bullet_0", UP),
     "side": ("side_bullet", UP),
@@ -24,12 +24,15 @@ LOOKS = {
 }
 NAMES = tuple(LOOKS)
 HOSTILE_LOOKS = NAMES[3:]
-GRAZED, BOXED, HULLED, CORED = 1, 2, 4, 8  # parts of the player that a bullet has met: each counts once
+GRAZED, BOXED, HULLED, CORED = 1, 2, 4, 8  # bits: parts of the player that a bullet has touched; each counts once
 BULLET = np.dtype([("id", np.int64), ("look", np.int64), ("met", np.int64)])
 
 
 class Bullets:
-    """The bullets of one side. `table.rows` holds id, look and contacts; the world has the positions."""
+    """The bullets of the player, or those of the enemies.
+
+    `table.rows` holds body id, look, and the parts of the player touched so far (bits). The world has the positions.
+    """
 
     def __init__(self, world, side):
         self.world, self.side = world, side
@@ -49,20 +52,21 @@ class Bullets:
         return self.table.rows  # NumPy's stubs allow a column by name for no known dtype
 
     def make_room(self, count):
-        """Let every table grow before the first step, so that no later step allocates."""
-        apart = 1000.0 + 20.0 * np.arange(count)  # on a diagonal far away: none of them are ever a pair
+        """Grow all tables to `count` bullets before the first step, so that no later step allocates memory."""
+        apart = 1000.0 + 20.0 * np.arange(count)  # on a diagonal far away, so that no two of them form a pair
         ids = self.world.add_bodies(
             mask_of("small"), np.column_stack((apart, apart)), kind="kinematic", filter=self.side
         )
         self.world.step()
-        for part in np.split(ids, (1, 2, 3, 4)):  # most are kept, several times over, as in the fight
+        for part in np.split(ids, (1, 2, 3, 4)):  # small batches first: most rows are kept, as in the fight
             self.world.remove_bodies(part)
         self.table.append(count)
         self.table.keep(np.zeros(count, bool))
 
     def fire(self, look, x, y, headings, speed, out=0.0):
-        """Add one bullet per heading [rad], `out` [px] along it from (x, y) [px], speed in px/s. They fly from the next
-        step on.
+        """Add one bullet per heading [rad] to the volley, which launch() adds to the world.
+
+        Each starts at (x, y) [px], moved `out` [px] along its heading, and flies at `speed` [px/s].
         """
         painted = LOOKS[look][1]
         for heading in headings:
@@ -71,7 +75,7 @@ class Bullets:
             self.volley[look].append((x + out * across, y + out * down, speed * across, speed * down, angle))
 
     def launch(self):
-        """Put the volley into the world: one call per look in it."""
+        """Add the bullets of the volley to the world, with one call for each look."""
         for look, fired in self.volley.items():
             if not fired:
                 continue
@@ -85,18 +89,22 @@ class Bullets:
             fired.clear()
 
     def places(self):
-        """Return rows of the world's bodies, in the order of the table."""
+        """Return the row of each bullet in the world's table of bodies, in the order of `table`."""
         return self.world.rows(self.ids)
 
     def has(self, ids):
-        """Return which of some ids are bullets of this side. O(k log n): ids are in order."""
+        """Return a boolean array: which of the body ids `ids` belong to these bullets.
+
+        O(k log n) for k ids and n bullets, because the table is sorted by id.
+        """
         if not len(self):
             return np.zeros(len(ids), bool)
         return self.ids[self._nearest(ids)] == ids
 
     def meet(self, ids, what):
-        """Record that bullets met a part of the player (GRAZED ...). Return those that meet it for the first time;
-        other ids are ignored.
+        """Record that bullets touched a part of the player; `what` is its bit (GRAZED, BOXED, HULLED, CORED).
+
+        Return the ids of the bullets that touch that part for the first time. Ids of other bodies are ignored.
         """
         at = self._nearest(ids[self.has(ids)])
         met = self._rows["met"]
@@ -105,7 +113,7 @@ class Bullets:
         return self.ids[new]
 
     def forget(self, ids):
-        """Drop the rows of bullets whose bodies are removed; other ids are ignored."""
+        """Drop the rows of the bullets whose body ids are given. Ids of other bodies are ignored."""
         there = ids[self.has(ids)]
         if len(there):
             keep = np.ones(len(self), bool)
@@ -113,19 +121,19 @@ class Bullets:
             self.table.keep(keep)
 
     def _nearest(self, ids):
-        """Return the row of each id, or where it would be; always an existing row."""
+        """Return the table row of each id; for an unknown id, an existing row near its place in the sorted table."""
         return np.minimum(np.searchsorted(np.ascontiguousarray(self.ids), ids), max(len(self) - 1, 0))
 
     def state(self):
-        """Return the state for the digest: the whole table."""
+        """Return the whole table as a hexadecimal string, for the replay digest."""
         return self.table.rows.tobytes().hex()
 
 
 def mask_of(look):
-    """Return the pixels of a bullet."""
+    """Return the pixel mask of a bullet of the given look."""
     return load_atlas("effects").mask(LOOKS[look][0])
 
 
 def outside(x, y):
-    """Return which places [px] are beyond all visible ones."""
+    """Return a boolean array: which places (x, y) [px] are so far outside the picture that no sprite there shows."""
     return (x < -MARGIN) | (x > WIDTH + MARGIN) | (y < -2 * MARGIN) | (y > HEIGHT + MARGIN)

@@ -1,7 +1,7 @@
-"""Collision filters of the shooter. Categories that cannot collide never become a pair.
+"""Collision filters of the shooter. Bodies whose filters exclude each other never become a pair in the broad phase.
 
-A shot never pairs with a shot, a bullet never with a bullet or with the planes that fired it. A lost plane comes back
-as a ghost: for a while only pick-ups collide with it, so hits need no further test.
+Shots never pair with shots, and enemy bullets never with bullets or enemy planes. After losing a life, the player's
+plane comes back as a ghost: for a while only pick-ups collide with it, so the game rules need no test for this.
 """
 
 from physics import Filter
@@ -28,7 +28,7 @@ AT_RISK = {
 }
 GHOST = {"core": Filter(CORE, 0), "hull": Filter(HULL, 0), "ring": Filter(RING, ITEM)}
 HOSTILE = Filter(ENEMY, CORE | HULL | SHOT | BLAST | WRECK)
-GROUNDED = Filter(ENEMY, SHOT | BLAST)  # things on the ground: planes fly over it
+GROUNDED = Filter(ENEMY, SHOT | BLAST)  # things on the ground: planes fly over them
 FALLING = Filter(WRECK, 0)  # burning or falling things, which no longer collide
 WRECKED = Filter(WRECK, ENEMY)  # pieces of a plane, at the height of the planes
 FIRED = Filter(SHOT, ENEMY)  # the player's shots
@@ -37,10 +37,10 @@ LOOT = Filter(ITEM, RING)
 BLASTING = Filter(BLAST, ENEMY | BULLET)  # a bomb
 
 WIDTH, HEIGHT = 480, 270  # [px] the visible sky; only the ground scrolls
-MARGIN = 34  # [px] outside of it, where bodies are removed: more than half of the largest sprite
+MARGIN = 34  # [px] outside of the sky at which bodies are removed: more than half of the largest sprite
 GROUND_SPEED = 30.0  # [px/s] downward speed of the ground and of things on it
 
 
 def steps(seconds):
-    """Return seconds as whole steps of 1/60 s."""
+    """Return the number of steps of 1/60 s nearest to a time [s]."""
     return round(seconds * 60)

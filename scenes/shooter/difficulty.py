@@ -1,11 +1,15 @@
-"""Difficulty: factors that a stage raises as it proceeds."""
+"""Difficulty of the shooter: factors that the stage file raises as the stage proceeds."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Difficulty:
-    """Factors on the speed of bullets and dives, the time between volleys, and health; extra bullets in a volley."""
+    """Factors of the enemies' strength.
+
+    `speed`: factor on the speed of bullets and dives; `patience`: on the time between volleys; `armour`: on health;
+    `extra`: additional bullets in a volley.
+    """
 
     speed: float = 1.0
     patience: float = 1.0

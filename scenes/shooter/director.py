@@ -1,21 +1,22 @@
-"""Director of a stage: it sends the due planes, and stops its clock while a leader is announced, fights and falls."""
+"""Director of a stage: it launches the planes when they are due. Its clock stops while a leader is in play."""
 
 from dataclasses import replace
 
 from scenes.shooter.cast import WIDTH, steps
 from scenes.shooter.difficulty import Difficulty
 
-SCATTER = 0.03  # of the side: random offset of a plane's entry
-WARNING = steps(3.0)  # steps between the warning and its leader
+SCATTER = 0.03  # greatest random offset of a plane's entry, as a share of the side of the picture
+WARNING = steps(3.0)  # steps between the warning and the launch of its leader
 CLEARING = steps(8.0)  # steps that a warning waits for the last planes of earlier waves
 REST = steps(1.5)  # steps of rest after a leader
 READY = steps(3.0)  # steps of the stage's title, before its clock begins
 
 
 class Director:
-    """The director. `clock` counts the steps of the stage; `wave` and `number`: name and number of the last wave.
+    """The director. `clock` [steps] is the time of the stage; `wave`, `number`: name and number of the latest wave.
 
     `mode`: "ready", then "run"; for a leader "clearing", "warning", "leader", "rest"; after the boss "over".
+    `since`: steps in the current mode.
     """
 
     def __init__(self, stage):
@@ -23,7 +24,7 @@ class Director:
         self.clock = self.next = 0  # steps; index of the next event
         self.mode, self.since = "ready", 0
         self.number, self.wave = 0, ""
-        self.grounds = [(-1e9, stage.events[0].ground)]  # (motion of the ground [px] at its start, name)
+        self.grounds = [(-1e9, stage.events[0].ground)]  # (distance scrolled [px] when it came into view, name)
         self.difficulty = Difficulty()
         self.due = []  # (step, group, number in the group, wave), earliest first
         self.left = {}  # wave -> its planes that are not shot down
@@ -31,16 +32,16 @@ class Director:
 
     @property
     def ground(self):
-        """The name of the last stretch."""
+        """The name of the ground that came into view last."""
         return self.grounds[-1][1]
 
     @property
     def announced(self):
-        """The event of the announced or fighting leader, or None."""
+        """The event of the leader that is announced or fights, or None if there is none."""
         return self.stage.events[self.next - 1] if self.mode in ("clearing", "warning", "leader") else None
 
     def step(self, sky):
-        """Launch all that is due; `sky` is the scene."""
+        """Make one step: begin the events and launch the planes that are due. `sky` is the scene."""
         self.since += 1
         if self.mode == "run":
             self.clock += 1
@@ -109,7 +110,7 @@ class Director:
         sky.spectacle.wave(self)
 
     def _launch(self, sky):
-        # The clock may stop for a leader before a wave is complete: its due planes still come.
+        # The clock may stop for a leader before a wave is complete: the rest of its planes still come.
         now = self.clock + (self.since if self.mode == "clearing" else 0)
         while self.due and self.due[0][0] <= now:
             _, group, number, wave = self.due.pop(0)
@@ -121,7 +122,7 @@ class Director:
             sky.fleet.launch(self._turned(group), share, carries, self.difficulty, wave, sky.scrolled)
 
     def _turned(self, group):
-        """Return a group as the wave flies it: mirrored at random."""
+        """Return the group, mirrored left to right if the current wave is mirrored (chosen at random per wave)."""
         if not self.mirrored:
             return group
         other = {"left": "right", "right": "left"}.get(group.side, group.side)
@@ -129,14 +130,14 @@ class Director:
         return replace(group, sway=-group.sway, side=other, bend=bend)
 
     def shot_down(self, enemy):
-        """Count a plane of a wave. Return whether it was the last one and all were shot down."""
+        """Record that an enemy was shot down. Return whether all planes of its wave have now been shot down."""
         if enemy.wave not in self.left:
             return False
         self.left[enemy.wave] -= 1
         return self.left[enemy.wave] == 0
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (
             self.clock,
             self.next,

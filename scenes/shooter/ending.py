@@ -10,14 +10,16 @@ from scenes.shooter.cast import steps
 COUNTDOWN = 10  # seconds, shown as 9..0
 GRACE = steps(0.7)  # steps in which a key held from the fight is ignored
 MOST_CONTINUES = 3
-FIRST_BONUS, NEXT_BONUS = steps(1.5), steps(0.5)  # after the boss is gone, and between two bonuses
-SHOWN = steps(2.0)  # steps that all bonuses are shown before the result
+FIRST_BONUS, NEXT_BONUS = steps(1.5), steps(0.5)  # steps from the boss's end to the first bonus, and between bonuses
+SHOWN = steps(2.0)  # steps for which all bonuses are shown before the result
 
 PLAYING, ASKING, CLEARED, WON, LOST = "playing", "asking", "cleared", "won", "lost"
 
 
 class Ending:
-    """The end. `mode` is one of the five above; `since` counts its steps; `left`: those of the countdown."""
+    """The end of a game. `mode`: PLAYING, ASKING, CLEARED, WON or LOST; `since`: steps in this mode; `left`: remaining
+    steps of the countdown to continue.
+    """
 
     def __init__(self):
         self.mode, self.since, self.left = PLAYING, 0, 0
@@ -25,11 +27,11 @@ class Ending:
 
     @property
     def digit(self):
-        """Digit of the countdown."""
+        """Digit that the countdown shows: remaining whole seconds."""
         return self.left // 60
 
     def step(self, scene, inputs):
-        """Make a step. Return whether time is stopped."""
+        """Advance the end by one step. Return whether the game's world stands still in this step."""
         self.since += 1
         if self.mode == PLAYING:
             if scene.plane.lives == 0 and scene.plane.away == 0:
@@ -73,7 +75,7 @@ class Ending:
         scene.result = self._result(scene, won=False)
 
     def clear(self, scene):
-        """Begin the end after the boss."""
+        """Begin to count the bonuses, after the boss is gone."""
         self._enter(CLEARED)
         scene.clear_bullets()
         scene.plane.shelter(steps(60))
@@ -100,5 +102,5 @@ class Ending:
         return Result(won, score.points, (scene.frame + 1) / 60, lines)
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (self.mode, self.since, self.left, len(self.counted))

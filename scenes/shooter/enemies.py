@@ -1,7 +1,7 @@
-"""Three kinds that come from above: dart, saucer, gunship. Each decides once per step: velocity, turn, volley.
+"""Base class of enemy planes, and the three kinds that enter from above: dart, saucer, gunship.
 
-The dart waits, aims and dives at the player's place. The saucer weaves down and fires at the player. The gunship takes
-its place, drifts, and fills the sky with patterns.
+The dart hovers, aims, and dives at the player. The saucer weaves down and fires at the player. The gunship flies to its
+home position, drifts there, and fires fans and rings of bullets. All choose velocity, angle and fire in every step.
 """
 
 from math import atan2, cos, hypot, pi, sin
@@ -14,14 +14,14 @@ from scenes.shooter.patterns import aimed, fan, ring
 
 ENTRY_Y = -40.0  # [px] above the picture
 APPROACH = 3.2  # [1/s] rate at which a plane approaches its place
-NOTCH = 2 * pi / 64  # [rad] step of the planes' angles: every other angle at which a mask is drawn
-EDGE = 40.0  # [px] from the sides that gunships keep
+NOTCH = 2 * pi / 64  # [rad] step of the planes' angles: every other angle of the rotated masks
+EDGE = 40.0  # [px] distance that gunships keep from the sides
 
 
 class Enemy:
-    """A plane. `frame`: the picture and the colliding mask; `health` in plain shots; `side`: its filter.
+    """An enemy plane. `frame`: its picture, whose mask collides; `health` in plain shots; `side`: its collision filter.
 
-    A kind adds think(sky): set vx, vy [px/s] and angle for the next step; `sky` is the scene.
+    A subclass defines think(sky), which sets vx, vy [px/s] and angle for the next step. `sky` is the scene.
     """
 
     kind, frame, health, points = "", "", 1, 0
@@ -30,7 +30,7 @@ class Enemy:
     leads = False  # a mid-boss or a boss
 
     def __init__(self, x, y, group, difficulty):
-        self.id = -1  # of its body, set at the launch
+        self.id = -1  # body id; -1 before the launch
         self.x, self.y = x, y
         self.home_x, self.home_y = x, group.hover
         self.sway, self.bend = group.sway, group.bend
@@ -39,36 +39,42 @@ class Enemy:
         self.vx = self.vy = self.angle = 0.0
         self.heading = DOWN
         self.age = self.since = self.volleys = 0
-        self.met = 0  # parts of the player that it has met: see bullets
+        self.met = 0  # bits: parts of the player that it has touched (GRAZED ... CORED of bullets.py)
         self.mode = "arrive"
 
     @staticmethod
     def entry(group, share):
-        """Return the entry [px] of a plane of a group: from above, unless the kind overrides it."""
+        """Return where a plane of the group enters, (x, y) [px]; `share` 0..1 is the place along the upper edge.
+
+        Kinds that enter elsewhere override this.
+        """
         return WIDTH * share, ENTRY_Y
 
     def begin(self, mode):
-        """Change its mode."""
+        """Begin a mode of behaviour ("arrive", "fight", ...), and restart its clock `since`."""
         self.mode, self.since = mode, 0
 
     def approach(self, x, y, most):
-        """Fly towards a place, slower when near; `most` [px/s]. Return the distance [px]."""
+        """Set the velocity towards (x, y) [px], slower when near. `most`: greatest speed [px/s].
+
+        Return the remaining distance [px].
+        """
         far = hypot(x - self.x, y - self.y)
         speed = min(most, APPROACH * far)
         self.vx, self.vy = (0.0, 0.0) if far < 0.5 else (speed * (x - self.x) / far, speed * (y - self.y) / far)
         return far
 
     def face(self, heading):
-        """Rotate the picture and its mask to a heading [rad], in notches."""
+        """Rotate the picture and its mask to a heading [rad], rounded to multiples of NOTCH."""
         self.heading = heading
         self.angle = round((heading - DOWN) / NOTCH) * NOTCH
 
     def ahead(self, seconds):
-        """Return its predicted x and y after so many seconds (array) [px]."""
+        """Return the predicted x and y [px] of the plane after `seconds` (an array)."""
         return self.x + self.vx * seconds, self.y + self.vy * seconds
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (
             self.id,
             self.kind,
@@ -89,7 +95,7 @@ class Enemy:
 
 
 class Dart(Enemy):
-    """A plane that waits for a moment, turns to the player, and dives at that place."""
+    """A plane that stops, turns towards the player for a moment, and then dives in that direction."""
 
     kind, frame, health, points = "dart", "dart_0", 3, 100
     DIVE_SPEED, DIVE_GAIN = 205.0, 190.0  # [px/s], [px/s2]
@@ -117,7 +123,7 @@ class Dart(Enemy):
 
 
 class Saucer(Enemy):
-    """A plane that weaves down the sky and fires at the player while well above."""
+    """A plane that weaves down the sky and fires at the player while it is well above the player."""
 
     kind, frame, health, points = "saucer", "saucer_0", 8, 200
     FALL, TURNS = 40.0, 0.36  # [px/s], swings per second
@@ -126,7 +132,7 @@ class Saucer(Enemy):
 
     @staticmethod
     def entry(group, share):
-        """Return an entry far enough from the sides to weave."""
+        """Return where the plane enters, (x, y) [px]: far enough from the sides to weave."""
         room = abs(group.sway) + 20.0
         return min(max(WIDTH * share, room), WIDTH - room), ENTRY_Y
 
@@ -158,7 +164,7 @@ class Saucer(Enemy):
 
 
 class Gunship(Enemy):
-    """A plane that takes its place, drifts from side to side, fires fans and rings in turn, and leaves after a time."""
+    """A plane that flies to its home position, drifts from side to side, fires fans and rings in turn, and leaves."""
 
     kind, frame, health, points = "gunship", "gunship_0", 90, 1000
     heavy = True

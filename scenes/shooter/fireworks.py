@@ -17,23 +17,23 @@ WORD_LIFE = 0.8  # [s]
 RING_LIFE = 0.45  # [s] of a shock wave
 MOST_SCARS = 24  # scorched places that are kept
 WORD_RISE = 18.0  # [px/s]
-DEBRIS_DRAG, DEBRIS_FALL = 0.985, 0.8  # factor on the speed per step; [px/s] gain of falling speed per step
+DEBRIS_DRAG, DEBRIS_FALL = 0.985, 0.8  # factor on the velocity per step; [px/s] added to the downward speed per step
 BURNING = 0.7  # share of its life in which debris burns and trails sparks
 
 
 class Fireworks:
-    """Decoration as lists of plain rows: each entry ages, and is removed after its time."""
+    """Decoration without physics, as lists of rows. Each row ages, and is removed when its time is over."""
 
     def __init__(self, particles):
         self.particles, self.random = particles, particles.random
-        self.bursts = []  # [animation, x, y, vx, vy, age s]; it waits before age 0
+        self.bursts = []  # [animation, x, y, vx, vy, age s]; not shown while its age is negative
         self.debris = []  # [frame, x, y, vx, vy, age s, life s]
         self.words = []  # [text, x, y, age s, color]
         self.rings = []  # [x, y, radius px, age s]: shock waves
         self.scars = []  # [x, y, size px] of fires on the ground
 
     def step(self, dt, still=False):
-        """Age all entries; the ground moves on unless it is still."""
+        """Advance all decoration by `dt` [s]. Scars move with the ground unless `still`."""
         effects = load_atlas("effects")
         for burst in self.bursts:
             burst[1] += burst[3] * dt
@@ -62,11 +62,11 @@ class Fireworks:
             self.scars = [scar for scar in self.scars if scar[1] < HEIGHT + 40]
 
     def burst(self, name, x, y, vx=0.0, vy=0.0, age=0.0):
-        """Add an animation that plays once."""
+        """Add an animation that plays once. A negative `age` [s] delays it."""
         self.bursts.append([name, x, y, vx, vy, age])
 
     def chain(self, x, y, wide, high, count, apart):
-        """Add small explosions around a place, one after another, `apart` [s]."""
+        """Add `count` small explosions within (wide, high) [px] of (x, y), one every `apart` seconds."""
         for number in range(count):
             dx, dy = self.random.uniform(-wide, wide), self.random.uniform(-high, high)
             self.burst("explosion_small", x + dx, y + dy, dx * 0.6, dy * 0.6 + 12, -apart * number)
@@ -76,7 +76,7 @@ class Fireworks:
         self.particles.burst(x, y, count, ramp, speed=(speed * 0.2, speed), life=(0.25, 0.8), size=(1, 2), drag=2.6)
 
     def embers(self, xs, ys):
-        """Add three sparks at each of many places (arrays, px), in one call."""
+        """Add three sparks at each of the places (xs, ys) (arrays) [px]."""
         self.particles.burst(
             np.repeat(xs, 3),
             np.repeat(ys, 3),
@@ -89,13 +89,16 @@ class Fireworks:
         )
 
     def puffs(self, x, y, count):
-        """Add smoke that drifts apart."""
+        """Add `count` puffs of smoke that drift apart."""
         for number in range(count):
             vx, vy = self.random.uniform(-20, 20), self.random.uniform(-14, 26)
             self.burst("smoke", x + vx * 0.6, y + vy * 0.6, vx, vy, -0.12 - 0.05 * number)
 
     def pieces(self, frames, x, y, vx, vy, count, blow):
-        """Add debris along the blow's direction: the harder it is, the more and the faster pieces."""
+        """Add debris that flies in the direction of `blow`: the harder the blow, the more and the faster pieces.
+
+        `frames`: numbers of the two pictures of the debris; (vx, vy) [px/s]: velocity of the destroyed plane.
+        """
         wild = 0.7 + 0.3 * blow.strength
         vx, vy = vx + blow.kick[0], vy + blow.kick[1]
         for number in range(max(2, round(count * blow.strength))):
@@ -109,18 +112,18 @@ class Fireworks:
             )
 
     def piece(self, kind, x, y, vx, vy, life):
-        """Add one piece of debris; kind: number of its frame."""
+        """Add one piece of debris for `life` [s]. `kind`: number of its picture."""
         self.debris.append([f"debris_{kind}", x, y, vx, vy, 0.0, life])
 
     def ring(self, x, y, radius):
-        """Add a shock wave."""
+        """Add a shock wave that grows to `radius` [px]."""
         self.rings.append([x, y, radius, 0.0])
 
     def scar(self, x, y, size):
-        """Add a scorched place that stays on the ground."""
+        """Add a scorch mark of `size` [px], which moves with the ground."""
         self.scars = [*self.scars[1 - MOST_SCARS :], [x, y, size]]
 
     def word(self, text, x, y, color):
-        """Add a word that rises from a place, unless one was just written there."""
+        """Add a text that rises from (x, y) [px], unless another text has just appeared there."""
         if not any(abs(w[1] - x) < 26 and abs(w[2] - y) < 8 and w[3] < 0.3 for w in self.words):
             self.words.append([text, x, y, 0.0, color])

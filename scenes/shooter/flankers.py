@@ -1,6 +1,7 @@
-"""Two other kinds: the hornet flies in curved files from the sides, the turret stands on the ground.
+"""Two more kinds of enemies: the hornet, which enters from the sides or from below, and the turret on the ground.
 
-The hornet leads its target. The turret fires slow walls and fans, and cannot be rammed.
+Hornets fly along an arc and aim at the place where the player will be. The turret fires slow rows and fans of bullets;
+planes fly over it without a collision.
 """
 
 from math import cos, hypot, pi, radians, sin
@@ -14,7 +15,10 @@ OUT = 26.0  # [px] outside of the picture, where a hornet enters
 
 
 class Hornet(Enemy):
-    """A plane that flies straight, then along an arc of `bend`, then straight again, and fires twice with lead."""
+    """A plane that flies straight, along an arc of the group's `bend` [deg], and straight again.
+
+    It fires twice, at the place where the player will be if it keeps its velocity.
+    """
 
     kind, frame, health, points = "hornet", "hornet_0", 3, 150
     SPEED, TURN = 150.0, radians(75.0)  # [px/s], [rad/s]: an arc of 115 px
@@ -26,13 +30,13 @@ class Hornet(Enemy):
         super().__init__(x, y, group, difficulty)
         headings = {"left": 0.0, "right": pi, "below": -DOWN}
         self.face(headings[group.side])
-        # A positive bend turns a file from either side downwards; one from below, to the right.
+        # A positive bend turns hornets from either side downwards, and hornets from below to the right.
         self.turn = self.TURN * (-1.0 if group.side == "right" else 1.0) * (1.0 if group.bend >= 0.0 else -1.0)
         self.left = abs(radians(group.bend))  # [rad] of the arc still to fly
 
     @staticmethod
     def entry(group, share):
-        """Return the entry through one of the sides; `share`: its place down the side, or along the bottom."""
+        """Return where the plane enters, (x, y) [px]; `share` 0..1: place down the side, or along the lower edge."""
         if group.side == "below":
             return WIDTH * share, HEIGHT + OUT
         return (-OUT if group.side == "left" else WIDTH + OUT), HEIGHT * share
@@ -58,18 +62,18 @@ class Hornet(Enemy):
         sky.spectacle.enemy_fires(self)
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (*super().state(), self.turn, self.left)
 
 
 class Turret(Enemy):
-    """A gun that moves with the ground and fires a short wall straight down and a fan at the player in turn."""
+    """A gun on the ground. It fires in turn a short row of bullets straight down and a fan at the player."""
 
     kind, frame, health, points = "turret", "turret_0", 24, 400
     side = GROUNDED
     BETWEEN, FIRST = 1.5, 0.9  # [s]
     WALL, FAN = 70.0, 88.0  # [px/s]
-    COUNT, SPACING = 5, 13.0  # of a wall; [px]
+    COUNT, SPACING = 5, 13.0  # bullets in a row; their distance [px]
     SPREAD = 0.34  # [rad] between the bullets of a fan
 
     def think(self, sky):

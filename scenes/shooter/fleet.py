@@ -1,4 +1,4 @@
-"""All enemies in the sky: launch, step, picture, removal."""
+"""All enemies in play: their launch, their steps, the shapes of their bodies, and their removal."""
 
 from math import pi
 
@@ -11,12 +11,12 @@ from scenes.shooter.flankers import Hornet, Turret
 
 KINDS = {each.kind: each for each in (Dart, Saucer, Gunship, Hornet, Turret)}
 DIVES = 20  # notches to either side of straight down: darts dive no flatter
-SIDEWAYS = 10  # half notches that side bullets lean at most
+SIDEWAYS = 10  # half notches to either side of straight up: side bullets lean no further
 ALL_AROUND = 32  # hornets fly in all directions
 
 
 class Fleet:
-    """Enemies by body id, in the order of arrival."""
+    """The enemies in play. `planes`: Enemy by body id, in the order of launch."""
 
     def __init__(self, world, tier):
         self.world, self.tier = world, tier
@@ -28,20 +28,24 @@ class Fleet:
 
     @property
     def leader(self):
-        """The current mid-boss or boss, or None."""
+        """The mid-boss or boss in play, or None."""
         return next((plane for plane in self.planes.values() if plane.leads), None)
 
     def launch(self, group, share, carries="", difficulty=EASY, wave=0, scrolled=0.0):
-        """Launch one plane of a group, over ground that has moved so far [px]. Return it."""
+        """Launch one plane of a group. Return the plane.
+
+        `share` 0..1: place along the edge at which it enters; `carries`: item that it drops, or ""; `wave`: number of
+        its wave; `scrolled`: distance that the ground has moved [px].
+        """
         made = KINDS[group.kind]
         plane = made(*made.entry(group, share), group, difficulty)
         if plane.side is GROUNDED:
-            plane.y += scrolled % 1.0  # so that it moves from pixel to pixel together with its ground
+            plane.y += scrolled % 1.0  # so that it moves from pixel to pixel together with the ground
         plane.carries, plane.wave = carries, wave
         return self._add(plane)
 
     def launch_leader(self, event):
-        """Launch a mid-boss or a boss. Return it."""
+        """Launch the mid-boss or boss of an event. Return it."""
         return self._add(Leader(event))
 
     def _add(self, plane):
@@ -80,22 +84,20 @@ class Fleet:
             bodies[column][rows] = [getattr(plane, column) for plane in planes]
 
     def forget(self, ids):
-        """Drop planes whose bodies are removed."""
+        """Drop the planes whose bodies have the given ids."""
         for identity in ids.tolist():
             self.planes.pop(identity, None)
 
 
 def dress(world, identity, frame, tier):
-    """Give a plane the shape of its current picture, at the scene's tier."""
+    """Give the body of a plane the mask of picture `frame` as its shape, at the given shape tier."""
     body = world.body(identity)
     body.set_shapes(load_atlas("planes").mask(frame))
     body.tier = tier
 
 
 def draw_turned():
-    """Rotate the masks of turning planes before the first step, so that no step of the game does (1.7 ms each,
-    once).
-    """
+    """Rotate the masks of planes and bullets that turn, to fill the cache before the first step (1.7 ms each)."""
     planes, effects = load_atlas("planes"), load_atlas("effects")
     for frames, notches in ((("dart_0", "dart_1"), DIVES), (("hornet_0",), ALL_AROUND)):
         for notch in range(-notches, notches + 1):

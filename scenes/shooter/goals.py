@@ -1,4 +1,4 @@
-"""Goals of a stage played by the bot, with deadlines."""
+"""Goals that the bot must reach in a stage, with deadlines. They are part of the scene's self-check."""
 
 from game.scene import Goal
 from scenes.shooter.cast import steps
@@ -9,7 +9,7 @@ LONGEST = steps(40)  # steps that a plane without a timer of its own may stay in
 
 
 def stage_goals(scene):
-    """Return a list of Goal."""
+    """Return the list of goals (Goal) of a stage."""
     score, fleet = scene.score, scene.fleet
     kinds = {event.event for event in scene.director.stage.events}
     sent = {group.kind for event in scene.director.stage.events for group in event.groups}

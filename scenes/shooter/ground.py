@@ -1,6 +1,6 @@
-"""The ground below the planes: a scrolling stretch, the next one coming in from above, clouds, rain.
+"""The scrolling ground below the planes, with clouds and rain. The next kind of ground enters from above.
 
-The border of two stretches is a coast of noise: a pixel belongs to the upper one if it is above a wavy threshold.
+The border between two kinds of ground is a wavy, dithered line: pixels above the line show the new ground.
 """
 
 from functools import cache, lru_cache
@@ -13,11 +13,11 @@ from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 from scenes.shooter.cast import GROUND_SPEED, steps
 
-# Layer over the ground, its speed down [px/s], px of shift for each px of the plane off the middle, fixed shift [px]
+# (layer of clouds, speed down [px/s], shift in px per px of the plane's offset from the middle, fixed shift [px])
 LAYERS = (("cloud_shadows", 46.0, 0.06, 40), ("clouds_low", 46.0, 0.08, 0), ("clouds_high", 92.0, 0.16, 0))
-BORDER = 150  # [px] height of the transition between two stretches
-DARKEN = steps(5.0)  # steps in which clouds darken over a stormy stretch
-SHADES = 6  # of dark clouds
+BORDER = 150  # [px] height of the transition between two kinds of ground
+DARKEN = steps(5.0)  # steps in which the clouds darken for a storm
+SHADES = 6  # steps of brightness of darkening clouds
 DARKEST = (96, 104, 138)  # factors, of 255, on clouds of a storm
 STREAKS = 16  # wisps of air that show the speed
 DROPS = 70  # of rain in the picture
@@ -26,7 +26,7 @@ CONTRAST = (150, 150, 158)  # factors, of 255, on the ground for the palette wit
 
 
 def draw_ground(surface, scene, alpha, left, top):
-    """Draw ground, scorched places and clouds; (left, top) is the camera's shake [px]."""
+    """Draw ground, scorch marks, clouds and rain. (left, top): offset of a shaking camera [px]."""
     spectacle, grounds = scene.spectacle, scene.director.grounds
     scrolled = scene.scrolled_before + (scene.scrolled - scene.scrolled_before) * alpha
     _draw_stretches(surface, grounds, scrolled, left, top)
@@ -45,7 +45,7 @@ def draw_ground(surface, scene, alpha, left, top):
 
 
 def is_water(scene, x, y):
-    """Return whether the visible ground at a place of the picture [px] is water."""
+    """Return whether the ground at (x, y) [px] in the picture is water, by the colours of its pixels."""
     since, name = scene.director.grounds[-1]
     line = scene.scrolled - since - BORDER / 2
     if y > line and len(scene.director.grounds) > 1:
@@ -62,7 +62,7 @@ def is_water(scene, x, y):
 
 
 def storm_share(grounds, scrolled):
-    """Return the strength of the storm, 0..1."""
+    """Return the strength of the storm, 0..1, when the ground has scrolled `scrolled` px."""
     since, name = grounds[-1]
     grown = min(max((scrolled - since) / GROUND_SPEED * 60 / DARKEN, 0.0), 1.0)
     if name == "storm":
@@ -72,7 +72,7 @@ def storm_share(grounds, scrolled):
 
 def _draw_stretches(surface, grounds, scrolled, left, top):
     since, name = grounds[-1]
-    line = whole(scrolled - since) - BORDER - top  # from where the new stretch covers all, on the canvas
+    line = whole(scrolled - since) - BORDER - top  # [canvas px] above it, the new ground covers the whole width
     if len(grounds) == 1 or line > CANVAS_SIZE[1]:
         tile(surface, stretch(name), -left, scrolled - top)
         return
@@ -103,13 +103,13 @@ def _draw_air(surface, time, off, storm):
 
 @cache
 def stretch(name):
-    """Return the picture of a ground."""
+    """Return the picture of the ground of that name."""
     return load_backdrop(name)
 
 
 @cache
 def clouds(name, shade):
-    """Return a layer of clouds, darker by steps as a storm comes."""
+    """Return the picture of a layer of clouds, darkened for a storm. `shade`: 0 (bright) .. SHADES (darkest)."""
     picture = load_backdrop(name)
     if shade == 0:
         return picture
@@ -121,7 +121,10 @@ def clouds(name, shade):
 
 @lru_cache(maxsize=1)
 def coast_line():
-    """Return a mask: white for the upper of two stretches, clear for the lower; BORDER rows of the picture's width."""
+    """Return a mask of the border between two kinds of ground: white for the upper, transparent for the lower.
+
+    It is as wide as the canvas and BORDER px high.
+    """
     width = CANVAS_SIZE[0]
     x, y = np.arange(width)[:, None], np.arange(BORDER)[None, :]
     turn = 2 * np.pi * x / width
@@ -138,7 +141,7 @@ def coast_line():
 
 @lru_cache(maxsize=1)
 def streak():
-    """Return a wisp of air."""
+    """Return the picture of a wisp of air."""
     image = pygame.Surface((1, 14), pygame.SRCALPHA)
     for row in range(14):
         image.set_at((0, row), (220, 236, 255, 4 + 4 * row))
@@ -147,7 +150,7 @@ def streak():
 
 @lru_cache(maxsize=1)
 def drop():
-    """Return a drop of rain, slanted."""
+    """Return the picture of a slanted drop of rain."""
     image = pygame.Surface((3, 10), pygame.SRCALPHA)
     for row in range(10):
         image.set_at((row * 3 // 10, row), (186, 208, 240, 18 + 8 * row))
@@ -156,7 +159,7 @@ def drop():
 
 @lru_cache(maxsize=8)
 def scar(size):
-    """Return a scorched place: dark, ragged, clear towards its edge."""
+    """Return the picture of a scorch mark of `size` [px]: dark, ragged, transparent towards its edge."""
     reach = 2 * size + 1
     x, y = np.meshgrid(np.arange(reach) - size, np.arange(reach) - size, indexing="ij")
     ragged = 1.0 + 0.16 * np.sin(5 * np.arctan2(y, x) + 1.0) + 0.1 * np.sin(9 * np.arctan2(y, x))
@@ -169,7 +172,7 @@ def scar(size):
 
 
 def tile(surface, picture, x, y):
-    """Cover the surface with a picture that repeats both ways, its corner at (x, y)."""
+    """Tile the surface with a picture. The corner of one tile is at (x, y)."""
     width, height = picture.get_size()
     wide, high = surface.get_size()
     start = whole(y) % height - height

@@ -1,7 +1,7 @@
-"""Contacts of the player in a step, by its core, by its hull and by its box.
+"""Hits of the player's plane, counted separately for its core, its hull and its bounding box.
 
-All three are tested and counted in every step; the scene chooses whether core or hull hurts. The three counts show the
-effect of exact shapes. A bullet or plane counts once for each.
+The three counts show the effect of exact shapes. Each bullet or plane counts once for each part. The scene chooses
+whether hits of the core or of the hull hurt.
 """
 
 import numpy as np
@@ -13,14 +13,16 @@ PARTS = {"core": CORED, "hull": HULLED}
 
 
 class Hits:
-    """Counts of contacts. `count`: per part; `now`: ids of this step with a new contact of core or hull."""
+    """Numbers of hits. `count`: {part: hits so far}; `now`: {part: ids of the bodies whose contact with core or hull
+    began in this step}.
+    """
 
     def __init__(self):
         self.count = {"core": 0, "hull": 0, "box": 0}
         self.now = {"core": [], "hull": []}
 
     def read(self, world, plane, incoming, fleet):
-        """Read the last step. Return the ids of bullets that graze the ring for the first time."""
+        """Count the hits of the last step. Return the ids of bullets that enter the graze ring for the first time."""
         events = world.events
         for part, bit in PARTS.items():
             self.now[part] = partners(events.begin, plane.bodies[part].id)
@@ -37,12 +39,12 @@ class Hits:
                 self.count[part] += 1
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return tuple(self.count.values())
 
 
 def partners(events, identity):
-    """Return ids of the bodies that met one body, in some events."""
+    """Return a list of the ids of all bodies in `events` that are paired with body `identity`."""
     if not len(events):
         return []
     a, b = events["body_a"], events["body_b"]
@@ -50,7 +52,7 @@ def partners(events, identity):
 
 
 def boxes_met(world, identity):
-    """Return ids of the enemies and bullets whose box overlapped the body's in the last step."""
+    """Return the ids of enemies and bullets whose bounding box overlapped that of body `identity` in the last step."""
     shapes = world.shapes
     box = shapes[np.flatnonzero(shapes["body"] == identity)[0]]  # it has one shape, whatever the tier
     a, b = world.candidates[:, 0], world.candidates[:, 1]
@@ -59,7 +61,7 @@ def boxes_met(world, identity):
         return others.astype(np.int64)
     rows = np.searchsorted(np.ascontiguousarray(shapes["id"]), others)
     other = shapes[rows[(shapes["membership"][rows] & (ENEMY | BULLET)) != 0]]
-    # Open boxes: touching edges do not count.
+    # Boxes that only touch at their edges do not count.
     over = (
         (other["min_x"] < box["max_x"])
         & (other["max_x"] > box["min_x"])

@@ -1,4 +1,4 @@
-"""Light and lines: shock waves, the bomb's blast, the ring around the player."""
+"""Pictures of light: shock waves, the bomb's blast, the graze ring around the player."""
 
 from functools import lru_cache
 
@@ -9,14 +9,14 @@ from scenes.shooter.fireworks import RING_LIFE
 
 LINE = (150, 236, 255)
 WAVE = (255, 214, 150)
-SHADES = 8  # of a fading shock wave
-ROUNDING = 4  # [px] between the drawn radii, so that few pictures are cached
+SHADES = 8  # steps of brightness of a fading shock wave
+ROUNDING = 4  # [px] step between the drawn radii, so that few pictures are cached
 BLAST = 120  # [px] radius of the light of a blast
 INSIDE = 12  # [px] by which the drawn ring may be smaller than the blast
 
 
 def draw_rings(view, works):
-    """Draw shock waves: thin circles of light that grow fast, then slowly, and fade."""
+    """Draw the shock waves of `works`: thin circles of light that grow fast, then slowly, and fade."""
     for x, y, radius, age in works.rings:
         share = age / RING_LIFE
         grown = max(4, int(radius * (1.0 - (1.0 - share) ** 3)))
@@ -25,7 +25,7 @@ def draw_rings(view, works):
 
 
 def draw_bomb(view, scene):
-    """Draw the blast: its ring while it grows, then a light that fades."""
+    """Draw the bomb's blast: a growing ring filled with light, which fades after the blast has grown."""
     bomb = scene.bomb
     if bomb.body is None:
         return
@@ -41,7 +41,7 @@ def draw_bomb(view, scene):
 
 @lru_cache(maxsize=600)
 def wave(radius, bright):
-    """Return a circle of light, `bright` of SHADES."""
+    """Return the picture of a circle of light. `bright`: brightness, 0..SHADES."""
     image = pygame.Surface((2 * radius + 2, 2 * radius + 2))
     color = [c * bright // SHADES // 2 for c in WAVE]
     pygame.draw.circle(image, color, (radius + 1, radius + 1), radius, max(1, min(3, radius // 12)))
@@ -50,7 +50,7 @@ def wave(radius, bright):
 
 @lru_cache(maxsize=12)
 def blast(tenths):
-    """Return the light inside a blast: bright in the middle, dithered rings outwards."""
+    """Return the picture of the light inside a blast, brightest in the middle. `tenths`: brightness, 0..10."""
     image = pygame.Surface((2 * BLAST, 2 * BLAST))
     for number, radius in enumerate(range(BLAST - 4, 10, -14)):
         level = (6 + 5 * number) * tenths // 10
@@ -60,7 +60,7 @@ def blast(tenths):
 
 @lru_cache(maxsize=80)
 def faded(image, alpha):
-    """Return a more transparent copy: alpha, 0..255, of the solid pixels."""
+    """Return a copy of an image with its alpha scaled by `alpha` / 255."""
     copy = image.copy()
     copy.fill((255, 255, 255, alpha), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
@@ -68,7 +68,7 @@ def faded(image, alpha):
 
 @lru_cache(maxsize=2)
 def circle_line(radius):
-    """Return the ring that bullets graze."""
+    """Return the picture of the graze ring."""
     image = pygame.Surface((2 * radius + 2, 2 * radius + 2), pygame.SRCALPHA)
     pygame.draw.circle(image, (*LINE, 110), (radius + 1, radius + 1), radius, 1)
     return image

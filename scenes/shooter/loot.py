@@ -10,21 +10,23 @@ REACH, FAR_REACH, PULL = (
     58.0,
     130.0,
     170.0,
-)  # [px] range in which it flies to the player, the same while focusing; speed [px/s]
+)  # [px] distance from which an item flies to the player, and that while focusing; its speed then [px/s]
 TOSS, TOSS_TIME = 90.0, 34  # [px/s] upwards, and steps: a lost plane's items can be caught again
 EDGE = 16.0  # [px] kept from the sides
 PICTURES = {"power": "powerup", "bomb": "bomb_item", "life": "life_item"}
 
 
 class Item:
-    """A pick-up. `born`: the step it appeared in; `tossed`: thrown up by a lost plane."""
+    """A pick-up. `what`: power, bomb or life; `born`: step in which it appeared; `tossed`: whether the player's plane
+    threw it up when it was lost.
+    """
 
     def __init__(self, what, born, tossed):
         self.what, self.born, self.tossed = what, born, tossed
 
 
 class Loot:
-    """The pick-ups. `items`: Item by body id."""
+    """The pick-ups in play. `items`: Item by body id."""
 
     def __init__(self, world):
         self.world = world
@@ -34,13 +36,13 @@ class Loot:
         return len(self.items)
 
     def drop(self, what, x, y, now, tossed=False):
-        """Drop one at a place [px]."""
+        """Add a pick-up at (x, y) [px] in step `now`."""
         mask = load_atlas("planes").mask(PICTURES[what] + "_0")
         body = self.world.add_body(mask, kind="kinematic", filter=LOOT, position=(min(max(x, EDGE), WIDTH - EDGE), y))
         self.items[body.id] = Item(what, now, tossed)
 
     def step(self, now, plane):
-        """Choose the velocities of the next step."""
+        """Set the velocities of all pick-ups for the next step. `now`: current step; `plane`: the player's."""
         if not self.items:
             return
         rows, bodies = self.world.rows(list(self.items)), self.world.bodies
@@ -59,12 +61,12 @@ class Loot:
             bodies["vx"][row], bodies["vy"][row] = vx, vy
 
     def forget(self, ids):
-        """Drop those whose bodies are removed."""
+        """Forget the pick-ups whose bodies have the given ids."""
         for identity in ids.tolist():
             self.items.pop(identity, None)
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return tuple(
             value for identity, item in self.items.items() for value in (identity, item.what, item.born, item.tossed)
         )

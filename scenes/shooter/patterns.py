@@ -1,6 +1,7 @@
-"""Guns: headings of bullets from a few primitives, and a Gun that plays one pattern of a stage file.
+"""Fire of the bosses: functions that compute headings of bullets, and a Gun that fires one Pattern of a stage file.
 
-aimed, lead and fan target the player; ring, spiral and wall fill the sky; a stream keeps its first heading.
+"aimed", "lead" and "fan" target the player; "ring", "spiral" and "wall" fill the sky. The bullets of a "stream" all
+follow the heading of its first bullet.
 """
 
 from math import atan2, hypot, pi, radians, sin
@@ -8,17 +9,17 @@ from math import atan2, hypot, pi, radians, sin
 from scenes.shooter.bullets import DOWN
 from scenes.shooter.cast import WIDTH, steps
 
-WALL_Y = -8.0  # [px] start of a wall of bullets
-WALL_EDGE = 30.0  # [px] kept from the sides by the middle of its gap
+WALL_Y = -8.0  # [px] y at which a wall of bullets starts
+WALL_EDGE = 30.0  # [px] least distance of the middle of its gap from the sides
 
 
 def aimed(x, y, target):
-    """Return the heading at the target (x, y)."""
+    """Return the heading [rad] from (x, y) to the point `target`."""
     return atan2(target[1] - y, target[0] - x)
 
 
 def lead(x, y, target, velocity, speed):
-    """Return the heading that hits a target of constant velocity, for a bullet of that speed [px/s]."""
+    """Return the heading [rad] in which a bullet of `speed` [px/s] hits a target that keeps its velocity [px/s]."""
     ahead = 0.0
     for _ in range(3):  # each round halves the error at least, because targets are slower than bullets
         ahead_x, ahead_y = target[0] + velocity[0] * ahead, target[1] + velocity[1] * ahead
@@ -27,19 +28,19 @@ def lead(x, y, target, velocity, speed):
 
 
 def fan(heading, count, spread):
-    """Return `count` headings around one, `spread` [rad] from first to last."""
+    """Return `count` headings [rad], evenly spaced around `heading`; `spread` [rad] is from the first to the last."""
     if count == 1:
         return [heading]
     return [heading + spread * (number / (count - 1) - 0.5) for number in range(count)]
 
 
 def ring(count, turn=0.0):
-    """Return `count` headings in all directions, the first at `turn` [rad]."""
+    """Return `count` headings [rad], evenly spaced around the full circle. The first is `turn`."""
     return [turn + 2 * pi * number / count for number in range(count)]
 
 
 def wall(spacing, middle, gap, width=WIDTH):
-    """Return the places across [px] of a row of bullets with a gap around its middle."""
+    """Return the x [px] of the bullets of a row across the sky, with a gap of width `gap` around x = `middle`."""
     count = int(width / spacing) + 1
     edge = (width - (count - 1) * spacing) / 2
     places = [edge + spacing * number for number in range(count)]
@@ -47,7 +48,7 @@ def wall(spacing, middle, gap, width=WIDTH):
 
 
 class Gun:
-    """Player of a Pattern: the time of the next shot, its number in the burst, and its heading."""
+    """A gun that fires a Pattern. It keeps the time until the next shot, the number of shots, and the heading."""
 
     def __init__(self, pattern):
         self.pattern = pattern
@@ -55,10 +56,10 @@ class Gun:
         self.fired = 0  # shots so far
         self.age = 0  # steps
         self.held = DOWN  # heading of the current stream [rad]
-        self.middle = WIDTH / 2  # of the last wall's gap [px]
+        self.middle = WIDTH / 2  # x of the middle of the last wall's gap [px]
 
     def step(self, sky, x, y):
-        """Fire if a shot is due; (x, y) [px] is the middle of the plane. Return whether it fired."""
+        """Advance by one step, and fire if a shot is due. (x, y): centre of the plane [px]. Return whether it fired."""
         self.age += 1
         self.wait -= 1
         if self.wait > 0:
@@ -73,7 +74,7 @@ class Gun:
                 headings = self._headings(sky, x + dx, y + dy, shot, speed)
                 sky.incoming.fire(pattern.bullet, x + dx, y + dy, headings, speed, pattern.out)
         self.fired += 1
-        # Rounded from the start, not one by one, so that a fractional rate is exact on average.
+        # The times since the start are rounded, not each interval, so that a fractional rate is exact on average.
         rest = pattern.rest if shot + 1 == pattern.shots else 0.0
         self.wait = max(steps(pattern.every * (self.fired + 1)) - steps(pattern.every * self.fired) + steps(rest), 1)
         return True
@@ -104,5 +105,5 @@ class Gun:
             sky.incoming.fire(pattern.bullet, x, WALL_Y, (DOWN,), speed)
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return self.wait, self.fired, self.age, self.held, self.middle

@@ -1,7 +1,7 @@
-"""The bot: it predicts bullets, compares several plans of flight, and takes the least dangerous.
+"""The shooter's bot: it predicts the bullets, compares several plans of flight, and takes the least dangerous plan.
 
-Each plan is a direction flown for some steps and then rest. All plans, moments and threats are compared in one array
-expression, from the positions and velocities in the tables. If every plan ends in a hit, it drops a bomb.
+A plan is a direction, flown for a number of steps; then the plane stops. Distances of all plans to all threats at all
+predicted moments are one array expression. The bot drops a bomb if its best plan ends in a hit soon.
 """
 
 import numpy as np
@@ -11,23 +11,23 @@ from scenes.shooter.cast import GROUNDED, HEIGHT
 from scenes.shooter.plane import BOTTOM, CORE_RADIUS, DIAGONAL, FOCUS, LEFT, SPEED, TOP
 
 MOMENTS = np.array([1, 3, 5, 8, 11, 14, 18, 22, 27, 32, 38, 45], dtype=np.float64)  # steps ahead
-SOON = 5  # of these: so near that only a bomb would help
+SOON = 5  # the first SOON of these moments are so near that only a bomb would help
 WEIGHTS = 1.0 / (1.0 + MOMENTS / 14.0)  # later threats can still be dodged
 FLOWN = (5.0, 12.0, 26.0)  # steps for which a direction is held
 SIZE = {"core": CORE_RADIUS + 1.0, "hull": 15.0}  # [px] radius of the vulnerable part, for the prediction
 ENEMY_RADIUS = {"dart": 13.0, "saucer": 16.0, "gunship": 25.0, "hornet": 12.0, "midboss": 38.0, "boss": 56.0}
 CAUTION = {"pixels": 1.0, "obb": 1.3, "aabb": 1.2, "circle": 1.3}  # factor on enemies' sizes
-COMFORT = 14.0  # [px] a smaller distance costs
+COMFORT = 14.0  # [px] a smaller distance from a threat adds to a plan's cost
 DEADLY = 0.8  # [px] a smaller distance is a hit
 HIT = 60.0  # cost of a hit
-NEAR, MOST = 130.0, 64  # [px] range of the threats; at most so many
+NEAR, MOST = 130.0, 64  # [px] range within which bullets are threats; greatest number of them
 AT_ONCE = 7  # plans compared at once, so that arrays stay small
-LINE_Y = 216.0  # [px] its preferred height
-CROWD = 1500  # bullets in the sky at which it uses its first bomb in any case
+LINE_Y = 216.0  # [px] the bot's preferred y
+CROWD = 1500  # number of enemy bullets at which the bot uses its first bomb in any case
 
 
 def directions():
-    """Return (dx, dy, steps, focus) of every plan; the first one stays."""
+    """Return all plans as a list of (dx, dy, steps, focus): direction, duration, slow flight. The first plan stays."""
     plans = [(0.0, 0.0, 0.0, False)]
     for focus in (False, True):
         for dx in (-1, 0, 1):
@@ -48,7 +48,7 @@ class Pilot:
         self.way_x, self.way_y = (dx * speed)[:, None] * held, (dy * speed)[:, None] * held
 
     def keys(self, scene):
-        """Return the keys of the safest plan, and among safe ones of that nearest to a target or pick-up."""
+        """Return the actions of the plan of least cost: danger, plus distance from the nearest target or pick-up."""
         plane = scene.plane
         if not plane.here:
             return frozenset()
@@ -71,14 +71,14 @@ class Pilot:
         return frozenset(actions)
 
     def _bombs(self, scene, doomed):
-        """Return whether to bomb: on a hit, before a certain one, or when the sky has never been fuller."""
+        """Return whether to drop a bomb: just after a hit, before a certain hit, or once when the sky is very full."""
         if not scene.plane.bombs or scene.bomb.body is not None:
             return False
         crowded = not scene.score.bombs and len(scene.incoming) >= CROWD
         return scene.stricken > 0 or (not scene.plane.safe and doomed) or crowded
 
     def _danger(self, scene, x, y, place_x, place_y):
-        """Return the cost of each plan by near threats, and which plans end in a hit soon."""
+        """Return two arrays over the plans: the cost of coming near to threats, and whether the plan is hit soon."""
         ahead_x, ahead_y, radius = threats(scene, x, y)
         if not len(radius):
             return np.zeros(len(place_x)), np.zeros(len(place_x), bool)
@@ -100,7 +100,7 @@ class Pilot:
         return cost, doomed
 
     def _distance(self, scene, x, y, end_x, end_y):
-        """Return the cost of each plan by the distance of its end from a target or pick-up."""
+        """Return an array over the plans: the cost of the distance from the plan's end to a target or pick-up."""
         goal_x, goal_y, pull = 240.0, LINE_Y, 0.004
         prey = [
             e for e in scene.fleet.planes.values() if -20 < e.y < y - 30 and e.mode not in ("dive", "fall", "leave")
@@ -120,7 +120,10 @@ class Pilot:
 
 
 def threats(scene, x, y):
-    """Return the predicted x and y [moment, threat] of bullets and enemies near (x, y) [px], and their radii [px]."""
+    """Predict bullets near (x, y) [px], and enemies in the air.
+
+    Return their x and y [px], as arrays [moment, threat] over MOMENTS, and their radii [px].
+    """
     bodies, incoming = scene.world.bodies, scene.incoming
     rows = incoming.places()
     sizes = np.array([mask_of(name).size[0] / 2 - 0.5 for name in NAMES])[incoming.table.rows["look"]]

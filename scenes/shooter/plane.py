@@ -1,7 +1,7 @@
-"""The player's plane: it moves at once, banks, fires, is lost and comes back.
+"""The player's plane: it moves without inertia, banks, fires, is lost and comes back.
 
-It has three bodies: a small core, the hull, which is the mask of the shown frame, and a ring around them, a sensor. The
-world tests all three; the scene chooses whether hits of core or hull hurt.
+It has three bodies: a small core; the hull, with the mask of the shown frame; and a larger ring, which is a sensor. The
+world tests all three; the scene chooses whether hits of the core or of the hull hurt.
 """
 
 from math import pi
@@ -19,16 +19,16 @@ LEFT, RIGHT, TOP, BOTTOM = BORDER, WIDTH - BORDER, BORDER, HEIGHT - BORDER
 START_X, START_Y, ENTRY_Y = WIDTH / 2, 222.0, HEIGHT + 30.0
 CORE_RADIUS, RING_RADIUS = 2.5, 16.0  # [px]
 FLY_IN = steps(0.6)  # steps of the flight into the picture
-SAFE = steps(2.5)  # steps as a ghost after that
+SAFE = steps(2.5)  # steps after that in which it cannot be hit
 AWAY = steps(1.0)  # steps between two lives
 BANK_RATE = 0.34  # frames of bank per step
 BANKS = ("player_left2", "player_left1", "player", "player_right1", "player_right2")
 LIVES, MOST_LIVES, BOMBS, MOST_BOMBS, TOP_POWER = 3, 6, 3, 6, 5
-POWER_LOST = 2  # levels lost with a life; one of them can be caught again
+POWER_LOST = 2  # levels of power lost with a life; one of them is dropped as a pick-up
 COOLDOWN = 6  # steps between two volleys
 SHOT_SPEED, SIDE_SPEED = 560.0, 480.0
-# The volley by power: shots and heavy shots by their x [px] off the nose, side bullets by their lean [rad] from
-# straight up.
+# The volley at each level of power: x offsets from the nose [px] of the shots, the same of the heavy shots, and angles
+# of the side bullets from straight up [rad].
 VOLLEYS = (
     ((-5, 5), (), ()),
     ((-5, 5), (), (-0.16, 0.16)),
@@ -39,15 +39,15 @@ VOLLEYS = (
 
 
 class Plane:
-    """The plane. `bodies`: core, hull and ring, or nothing between two lives; `power` 1.. chooses the volley; `safe`:
-    remaining steps as a ghost.
+    """The player's plane. `bodies`: {"core", "hull", "ring"}, empty between two lives; `power`: level of the volley,
+    1..TOP_POWER; `safe`: remaining steps in which it cannot be hit.
     """
 
     def __init__(self, world, tier):
         self.world = world
         self.lives, self.power, self.bombs = LIVES, 1, BOMBS
         self.tier = tier
-        self.right = RIGHT  # limit of its flight
+        self.right = RIGHT  # [px] greatest x
         self.bank = 0.0
         self.safe = self.away = self.cooldown = self.entering = 0
         self.bodies = {}
@@ -58,21 +58,21 @@ class Plane:
 
     @property
     def here(self):
-        """True while it flies, and not between two lives."""
+        """True while the plane exists; False between two lives."""
         return bool(self.bodies)
 
     @property
     def body(self):
-        """The hull's body, or None."""
+        """The hull's body, or None between two lives."""
         return self.bodies.get("hull")
 
     @property
     def frame(self):
-        """The shown picture, whose mask collides."""
+        """Name of the shown picture, whose mask is the hull's shape."""
         return BANKS[round(self.bank) + 2]
 
     def arrive(self):
-        """Start a life below the picture."""
+        """Begin a life: create the bodies below the picture, from where the plane flies in."""
         self.bank = 0.0
         self.x, self.y = START_X, ENTRY_Y
         shapes = {
@@ -93,7 +93,7 @@ class Plane:
         self.entering, self.safe, self.cooldown = FLY_IN, FLY_IN + SAFE, 0
 
     def step(self, inputs, shots):
-        """Move, bank, fire; come back when it is time."""
+        """Move, bank and fire, or begin the next life when the wait after a loss is over."""
         self.fired = False
         hull = self.body
         if hull is None:
@@ -110,7 +110,7 @@ class Plane:
             self._fire(shots)
 
     def shelter(self, count):
-        """Become a ghost for so many steps at least."""
+        """Make the plane invulnerable for at least `count` steps."""
         self.safe = max(self.safe, count)
         if self.here:
             self._haunt(self.safe > 0)
@@ -152,7 +152,7 @@ class Plane:
         self.cooldown, self.fired = COOLDOWN, True
 
     def lose_life(self):
-        """Lose a life. Return the ids of its bodies, which are to be removed."""
+        """Lose a life. Return the ids of the plane's bodies, which the caller must remove."""
         wreck = [body.id for body in self.bodies.values()]
         self.bodies = {}
         self.lives -= 1
@@ -163,18 +163,18 @@ class Plane:
         return wreck
 
     def go_on(self):
-        """Continue after the last life."""
+        """Restore lives and bombs, when the player continues after the last life."""
         self.lives, self.bombs, self.away = LIVES, BOMBS, 1
 
     def gain(self, what):
-        """Take a pick-up: power, bomb or life. Return whether anything was gained."""
+        """Take a pick-up, `what` = "power", "bomb" or "life". Return False if the plane already had the maximum."""
         held, most = {"power": ("power", TOP_POWER), "bomb": ("bombs", MOST_BOMBS), "life": ("lives", MOST_LIVES)}[what]
         before = getattr(self, held)
         setattr(self, held, min(before + 1, most))
         return before < most
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (
             self.lives,
             self.power,

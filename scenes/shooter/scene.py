@@ -1,4 +1,4 @@
-"""The plane shooter's rules. Every hit, graze, blast and pick-up is read from the events of the step."""
+"""The plane shooter's rules. Hits, grazes, bomb blasts and pick-ups are read from the contact events of each step."""
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from scenes.shooter.wreckage import DRAG, STRIKE, Wreckage
 FREEZE = 3  # steps that the game is frozen after a hit of the player or the end of a phase: 50 ms
 LAST_MOMENT = 6  # steps after a hit in which a bomb still saves the plane
 SWEEP_EVERY = 8  # steps between two checks for bodies outside the sky: removal costs per batch
-ROOM = 1800  # bullets that the tables have room for from the start
+ROOM = 1800  # number of bullets for which the tables have memory from the start
 DROP_EVERY = 45  # kills between two power-ups that no enemy carried
 
 
@@ -58,7 +58,7 @@ class Shooter(Scene):
     level_suffix = ".json"
 
     def build(self):
-        """Build an empty sky, and the player."""
+        """Build the world with the player's plane, and all objects of the game. No enemy is in the sky yet."""
         draw_turned()
         self.music = type(self).music
         stage = load_stage(self.level_file)
@@ -73,34 +73,34 @@ class Shooter(Scene):
         self.pilot, self.spectacle = Pilot(), Spectacle(self)
         self.scrolled = self.scrolled_before = 0.0  # [px] motion of the ground, now and a step ago
         self.gone = []  # bodies to be removed when the next step begins
-        self.hit_by = []  # what hit the player, which is lost when `stricken` has counted down
+        self.hit_by = []  # ids of the bodies that hit the player; the plane is lost when `stricken` reaches 0
         self.hit_blow = Blow()  # strength of that hit
         self.freeze = self.stricken = self.since_drop = self.unknown = self.most_bullets = 0
         self.beaten = {"midboss": False, "boss": False}
 
     def set_tier(self, name):
-        """Test all sprites at another tier, including later ones."""
+        """Use another shape tier (pixels, obb, aabb, circle) for all sprites, including those added later."""
         super().set_tier(name)
         self.fleet.tier = self.plane.tier = name
 
     @property
     def target(self):
-        """Place of the player, or the last one [px]."""
+        """Position (x, y) [px] of the player's plane; between two lives, where it was lost."""
         return self.plane.x, self.plane.y
 
     @property
     def difficulty(self):
-        """Current difficulty."""
+        """Current Difficulty of the stage."""
         return self.director.difficulty
 
     @property
     def hurts(self):
-        """Vulnerable part of the player: core or hull."""
+        """Vulnerable part of the player's plane: "core" or "hull"."""
         return ("core", "hull")[int(self.values["hurts"])]
 
     @property
     def own_body(self):
-        """The plane's hull, while it can be hit."""
+        """Body id of the hull of the player's plane, or None while the plane cannot be hit."""
         return None if self.plane.ghost or self.plane.body is None else self.plane.body.id
 
     def update(self, inputs):
@@ -123,7 +123,7 @@ class Shooter(Scene):
         self._read_events()
 
     def _last_moment(self, inputs):
-        """Process the steps after a hit, in which a bomb still saves the plane."""
+        """Process one of the steps after a hit: a bomb still saves the plane; else it is lost at the end of them."""
         self.stricken -= 1
         if inputs.pressed("bomb") and self.plane.bombs and self.bomb.body is None:
             self.stricken, self.freeze, self.hit_by = 0, 0, []
@@ -177,7 +177,7 @@ class Shooter(Scene):
             return
         self._take_loot(partners(met, self.plane.bodies["ring"].id))
         grazed = self.hits.read(self.world, self.plane, self.incoming, self.fleet)
-        # An enemy or bullet destroyed in this step hits no more: in doubt, for the player.
+        # An enemy or bullet that is destroyed in the same step does not hit the player.
         hit_by = [identity for identity in self.hits.now[self.hurts] if not self._is_lost(identity)]
         if hit_by and not self.stricken:
             self._hit(hit_by)
@@ -185,7 +185,7 @@ class Shooter(Scene):
             self.spectacle.grazed(self.plane, self.world, grazed, self.score.graze(len(grazed)))
 
     def _is_lost(self, identity):
-        """Return whether a body is removed, or breaks, when the next step begins."""
+        """Return whether a body will be removed or will break when the next step begins."""
         return identity in self.gone or self.wreckage.is_marked(identity)
 
     def _hit(self, hit_by):
@@ -199,14 +199,14 @@ class Shooter(Scene):
         self.spectacle.player_hit(self.plane, hit_by, LAST_MOMENT)
 
     def stop_time(self):
-        """Freeze the game for a moment, if the settings allow it."""
+        """Freeze the game for FREEZE steps, unless the setting `hit_stop` is off."""
         self.freeze = FREEZE if self.assist["hit_stop"] else 0
 
     def _shots_that_hit(self, begun, a, b):
         shot_a, shot_b = self.shots.has(a), self.shots.has(b)
         rows = np.flatnonzero(shot_a | shot_b)
         shots, struck = np.where(shot_a, a, b)[rows], np.where(shot_a, b, a)[rows]
-        # One shot strikes one plane: of several in the same step, that of the smaller id.
+        # A shot strikes only one plane. If it touches several in one step, the first contact (smaller id) counts.
         _, first = np.unique(shots, return_index=True)
         for each in first.tolist():
             enemy = self.fleet.planes.get(int(struck[each]))
@@ -217,7 +217,7 @@ class Shooter(Scene):
             self._damage(enemy, self.blows.on(enemy.id, int(shots[each])), place)
 
     def _damage(self, enemy, blow, place, times=1.0):
-        """Damage an enemy in proportion to the blow's impulse."""
+        """Damage an enemy by the strength of `blow` times `times` [plain shots]. `place`: the contact point [px]."""
         if enemy.leads and enemy.sheltered:
             self.spectacle.glanced(enemy, *place)
             return
@@ -230,13 +230,13 @@ class Shooter(Scene):
             self._destroy(enemy, blow, place)
 
     def _pieces_that_strike(self, begun):
-        """Damage the small planes that pieces strike."""
+        """Damage the small planes that are struck by pieces of wreckage. `begun`: contacts begun in this step."""
         for piece, enemy, place in self.wreckage.strikes(begun, self.fleet):
             if enemy.health > 0.0:
                 self._damage(enemy, self.blows.on(enemy.id, piece), place, STRIKE)
 
     def _blast(self, met):
-        """Apply the bomb's contacts with bullets and planes."""
+        """Remove the bullets and damage the planes that the bomb touches. `met`: ids of the bodies it touches."""
         known = self.fleet.planes.keys() | self.gone
         self._burn([identity for identity in met if identity not in known])
         for identity in sorted(set(met) & self.fleet.planes.keys()):
@@ -246,7 +246,7 @@ class Shooter(Scene):
                 self._damage(enemy, blow, (enemy.x, enemy.y), LEADER_DAMAGE if enemy.leads else DAMAGE)
 
     def _burn(self, bullets):
-        """Turn bullets into sparks and points."""
+        """Remove bullets (body ids), with sparks and points for each."""
         if not len(bullets):
             return
         self.gone += bullets
@@ -285,7 +285,7 @@ class Shooter(Scene):
             self.gone.append(identity)
 
     def _lose_life(self):
-        """Lose the plane, the plane that rammed it, and all bullets in the air."""
+        """Take a life: remove the player's plane and all enemy bullets, and destroy the small plane that rammed it."""
         self.score.hit()
         self.spectacle.player_lost(self.plane, self.hit_blow)
         if self.plane.power > 1:
@@ -300,19 +300,19 @@ class Shooter(Scene):
         self.clear_bullets()
 
     def clear_bullets(self):
-        """Remove all bullets at the player, for points."""
+        """Remove all enemy bullets, with points for each."""
         known = set(self.gone)
         self._burn([identity for identity in self.incoming.ids.tolist() if identity not in known])
 
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def warn(self, event):
-        """Announce a leader."""
+        """Announce the leader (mid-boss or boss) of an event, with its music and a warning."""
         self.music = "boss"
         self.spectacle.warning(event)
 
     def end_phase(self, leader, beaten):
-        """End a leader's phase, beaten or out of time."""
+        """End a phase of a leader's fight. `beaten`: its health is gone; else its time ran out."""
         left = leader.clock / max(steps(leader.phase.seconds), 1)
         worth = self.score.phase(leader.phase.bonus, left) if beaten else 0
         last = leader.last
@@ -325,13 +325,13 @@ class Shooter(Scene):
         self._reward()
 
     def bury(self, leader):
-        """Remove a burnt-out leader."""
+        """Break a leader that has burnt out, and drop its item."""
         self.wreckage.mark(leader, leader.x, leader.y, Blow())
         self.spectacle.leader_gone(leader)
         self.loot.drop("life" if leader.kind == "midboss" else "power", leader.x, leader.y, self.frame)
 
     def leader_gone(self, event):
-        """End the fight, and after the boss the stage."""
+        """End the fight against a leader that has left the sky. After the boss, end the stage."""
         self.music = "shooter"
         if event.event == "boss":
             self.ending.clear(self)
@@ -339,7 +339,7 @@ class Shooter(Scene):
     # --- bodies ------------------------------------------------------------------------------------------------------
 
     def _sweep(self):
-        """Break and remove, in one batch, all that was hit or has left the sky."""
+        """Break the planes that are marked to break. Remove, in one batch, bodies that were hit or left the sky."""
         for plane, x, y in self.wreckage.break_due(self.fleet):
             self.spectacle.broke(plane, x, y)
         bodies = self.world.bodies
@@ -357,18 +357,18 @@ class Shooter(Scene):
         known = sum(len(group) for group in groups) + len(self.plane.bodies) + (self.bomb.body is not None)
         self.unknown = max(self.unknown, abs(len(self.world.bodies) - known))
 
-    # --- what the judge wants to know --------------------------------------------------------------------------------
+    # --- self-check, bot and replay ----------------------------------------------------------------------------------
 
     def check(self):
-        """Return the goals of the stage, played by the bot."""
+        """Return the goals that the bot must reach in the stage."""
         return stage_goals(self)
 
     def bot(self):
-        """Return the scripted player."""
+        """Return the actions that the bot holds in the next step."""
         return self.pilot.keys(self)
 
     def state(self):
-        """Return all state outside the world."""
+        """Return the scene's state outside the physics world, as a flat tuple for the replay digest."""
         planes = [value for plane in self.fleet.planes.values() for value in plane.state()]
         parts = (self.plane, self.score, self.director, self.hits, self.bomb, self.loot, self.ending, self.wreckage)
         return (
@@ -396,5 +396,5 @@ class Shooter(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """Draw the picture."""
+        """Draw the scene at `alpha` (0..1) between the last two steps."""
         the_view().draw(self, canvas, alpha)

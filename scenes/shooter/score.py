@@ -1,20 +1,22 @@
-"""Points: the value of kills, the chain that multiplies it, and the cost of a hit.
+"""Points of the shooter: the values of kills and grazes, and the chain that multiplies them.
 
-Kills and grazes extend the chain; it breaks after a while without either, or at a hit.
+Each kill or graze adds a link to the chain. The chain breaks after a while without either, or when the player is hit.
 """
 
 from scenes.shooter.cast import steps
 
-CHAIN_STEP, TOP_CHAIN = 8, 8  # links per step of the multiplier, and its greatest value
-HOLD = steps(3.0)  # steps that a kill keeps the chain
-GRAZE_HOLD = steps(0.75)  # steps that a graze adds, up to HOLD
+CHAIN_STEP, TOP_CHAIN = 8, 8  # links that raise the multiplier by 1, and its greatest value
+HOLD = steps(3.0)  # steps for which the chain lasts after a kill
+GRAZE_HOLD = steps(0.75)  # steps by which a graze prolongs the chain, up to HOLD
 GRAZE, BURNT, SPARE, WHOLE_WAVE = 20, 10, 1000, 500  # points, times the multiplier
 FIRST_LIFE, NEXT_LIFE = 100_000, 200_000
 LIFE_BONUS, BOMB_BONUS, GRAZE_BONUS, PURE_BONUS = 20_000, 5_000, 50, 100_000
 
 
 class Score:
-    """Score. `points`, kills by kind, grazes, pick-ups taken, hits taken, bombs used, `continues`."""
+    """The score and counts of a game. `chain`: links of the current chain; `hold`: steps until it breaks; `continues`:
+    how often the player continued after the last life.
+    """
 
     def __init__(self, kinds):
         self.points = self.chain = self.hold = self.best_chain = 0
@@ -24,11 +26,14 @@ class Score:
 
     @property
     def times(self):
-        """The multiplier."""
+        """Multiplier of points, 1..TOP_CHAIN, by the length of the chain."""
         return min(1 + self.chain // CHAIN_STEP, TOP_CHAIN)
 
     def step(self, quiet):
-        """Let time pass, unless there are no targets. Return whether a chain of some worth breaks in this step."""
+        """Count down to the end of the chain, unless `quiet` (no targets in the sky).
+
+        Return whether a chain with a multiplier above 1 breaks in this step.
+        """
         if self.hold == 0 or quiet:
             return False
         self.hold -= 1
@@ -43,51 +48,54 @@ class Score:
         self.hold = min(max(self.hold, 0) + hold, HOLD)
 
     def kill(self, enemy):
-        """Add a kill. Return its points."""
+        """Count a kill and add its points. Return them."""
         if enemy.kind in self.kills:
             self.kills[enemy.kind] += 1
         self._link(HOLD)
         return self._add(enemy.points * self.times)
 
     def graze(self, count):
-        """Add grazing bullets. Return their points."""
+        """Count `count` grazes and add their points. Return them."""
         for _ in range(count):
             self.grazes += 1
             self._link(GRAZE_HOLD)
         return self._add(GRAZE * count * self.times)
 
     def burn(self, count):
-        """Add bullets turned into points, by a bomb or at the end of a leader's phase."""
+        """Add the points for `count` bullets removed by a bomb or at the end of a leader's phase. Return them."""
         return self._add(BURNT * count)
 
     def whole_wave(self):
-        """Add a completely shot wave. Return its points."""
+        """Count a wave that was shot down completely, and add its points. Return them."""
         self.waves += 1
         return self._add(WHOLE_WAVE * self.times)
 
     def phase(self, bonus, left):
-        """Add a leader's phase, beaten with a share `left` of its time: half the bonus, and more for speed."""
+        """Add the points of a won phase of a leader's fight: half of `bonus`, and the other half times `left`.
+
+        `left`: remaining share of the phase's time, 0..1. Return the points, rounded to hundreds.
+        """
         self.hold = HOLD if self.chain else 0
         return self._add(round(bonus * (0.5 + 0.5 * left) / 100) * 100)
 
     def take(self, gained):
-        """Add a pick-up. Return the points for one that had nothing to give, else 0."""
+        """Count a pick-up. If the plane gained nothing by it, add points instead. Return these points, else 0."""
         self.taken += 1
         return 0 if gained else self._add(SPARE * self.times)
 
     def hit(self):
-        """Break the chain after a hit."""
+        """Count a hit of the player, and break the chain."""
         self.hits += 1
         self.chain = self.hold = 0
 
     def go_on(self):
-        """Continue: the points start again, and their last digit counts the continues."""
+        """Continue after the last life: points start again at the number of continues, which is their last digit."""
         self.continues += 1
         self.points, self.next_life = self.continues, FIRST_LIFE
         self.chain = self.hold = 0
 
     def final(self, lives, bombs):
-        """Return (reason, points) of the end of the stage."""
+        """Return the bonuses at the end of the stage, a list of (reason, points)."""
         found = [("LIVES", lives * LIFE_BONUS), ("BOMBS", bombs * BOMB_BONUS), ("GRAZES", self.grazes * GRAZE_BONUS)]
         return found + [("NO CONTINUE", PURE_BONUS)] if not self.continues else found
 
@@ -96,7 +104,7 @@ class Score:
         self._add(points)
 
     def earned_life(self):
-        """Return True once for every life that the points earn."""
+        """Return whether the points have earned an extra life. Each extra life is reported once."""
         if self.points < self.next_life:
             return False
         self.next_life += NEXT_LIFE
@@ -107,7 +115,7 @@ class Score:
         return points
 
     def state(self):
-        """Return the state for the digest."""
+        """Return the state for the replay digest, as a flat tuple."""
         return (
             self.points,
             self.chain,

@@ -1,4 +1,4 @@
-"""Effects of the scene's events: pictures, light, sounds of hits, bursts and gains. No game rule reads them."""
+"""Visual effects and sounds for the scene's events. They never influence the game rules."""
 
 from math import pi
 
@@ -7,18 +7,18 @@ from scenes.shooter.fireworks import BLUE, DUST, FIRE, FOAM, GOLD, SPARK, VAPOUR
 from scenes.shooter.ground import is_water
 from scenes.shooter.plane import TOP_POWER
 
-SMOKE_EVERY = 5  # steps between puffs of a large damaged plane
+SMOKE_EVERY = 5  # steps between puffs of smoke of a large damaged plane
 FLASH = 3  # steps that a plane stays white after a hit
-LEAN_RATE = 0.06  # share of the distance to the plane that the parallax follows per step
+LEAN_RATE = 0.06  # share of its distance from the plane's offset by which the parallax follows per step
 NEWS = 130  # steps that the name of a wave is shown
 BONUS_SHOWN = 120  # steps that the bonus of a phase is shown
 PULSE_FADE, GAIN_FADE = 5.0, 2.0  # [1/s] rate of the pulses of the score and of the weapon's icon
-HEALTH_RATE = 0.12  # share of the distance to the real health that the leader's bar follows per step
-SMALL, LARGE = 30, 160  # [px] limit of pieces without a trail of fire, and of audible ones
-BURNING = 0.8  # of its fall, in which a piece burns
+HEALTH_RATE = 0.12  # share of its distance from the real health by which the leader's bar follows per step
+SMALL, LARGE = 30, 160  # area in pixels: smaller pieces have no trail; larger ones smoke, and burst or splash more
+BURNING = 0.8  # share of its fall during which a piece burns
 SHOT_SOUND = 6  # least steps between two sounds of a leader's guns
 GRAZE_WORDS = 45  # steps between two words about grazes
-MOST_EMBERS = 100  # bullets that burn with sparks at once; more would hide the picture
+MOST_EMBERS = 100  # number of bullets that burn with sparks at once; more would hide the picture
 # kind -> explosion, sound, volume, shake, sparks, pieces of debris
 DEATHS = {
     "dart": ("explosion_small", "explosion", 0.55, 0.06, 16, 4),
@@ -42,7 +42,10 @@ WORDS = {"power": "POWER UP", "bomb": "BOMB", "life": "1UP"}
 
 
 class Spectacle:
-    """The effects. `works`: moving decoration; the others are timers of lights, pulses and announcements."""
+    """The effects of the scene. `works`: moving decoration (explosions, debris, texts); other attributes are timers.
+
+    The methods below step() show one event each, with pictures and sound.
+    """
 
     def __init__(self, scene):
         self.scene = scene
@@ -52,15 +55,15 @@ class Spectacle:
         self.flashes = {}  # body id -> remaining white steps
         self.muzzle = 9  # steps since the last volley
         self.quiet = 0  # steps until a leader's guns are heard again
-        self.hush = 0  # steps until a graze is written again
-        self.news = 0  # steps for which the name of the wave is still shown
+        self.hush = 0  # steps until a text for a graze is shown again
+        self.news = 0  # remaining steps in which the name of the wave is shown
         self.pulse = self.gain = 0.0  # pulses of the score and of the weapon's icon, 1..0
         self.bonus = ["", 0, 0]  # bonus of a phase: title, points, remaining steps
-        self.health = 0.0  # of the leader on its bar, which follows the real one
-        self.lean = self.lean_before = 0.0  # [px] off the middle for the parallax, slower than the plane
+        self.health = 0.0  # share 0..1 shown on the leader's bar, which follows the real health slowly
+        self.lean = self.lean_before = 0.0  # [px] offset from the middle for the parallax, which follows the plane
 
     def step(self, dt):
-        """Age all effects."""
+        """Advance all effects by `dt` [s]."""
         scene = self.scene
         self.time += dt
         self.muzzle += 1
@@ -78,7 +81,7 @@ class Spectacle:
         self.works.step(dt, still=scene.freeze > 0)
 
     def _trails(self):
-        """Emit smoke of damaged planes, and vapour behind fast ones."""
+        """Emit smoke from damaged planes, fire behind diving darts, and vapour behind fast planes."""
         particles, plane = self.scene.particles, self.scene.plane
         for enemy in self.scene.fleet.planes.values():
             if enemy.heavy and enemy.health < enemy.full / 2 and enemy.age % SMOKE_EVERY == 0:
@@ -96,7 +99,7 @@ class Spectacle:
                 particles.burst(plane.x + side, plane.y + 6, 1, VAPOUR, speed=(0, 4), life=(0.2, 0.4), size=(1, 1))
 
     def _trail_pieces(self):
-        """Emit flames, then smoke, behind falling pieces."""
+        """Emit flames and smoke behind falling pieces of wreckage."""
         world, pieces = self.scene.world, self.scene.wreckage.pieces
         for identity, piece in pieces.items():
             burns = piece.age < BURNING * piece.life
@@ -109,54 +112,54 @@ class Spectacle:
                 self.works.burst("smoke", x, y, 0.0, 10.0)
 
     def lean_at(self, alpha):
-        """Return the parallax shift between two steps [px]."""
+        """Return the offset of the parallax [px], interpolated at `alpha` (0..1) between the last two steps."""
         return self.lean_before + (self.lean - self.lean_before) * alpha
 
     # --- the stage ---------------------------------------------------------------------------------------------------
 
     def wave(self, director):
-        """Announce a wave."""
+        """Announce a new wave: show its name, with a sound from the second wave on."""
         self.news = NEWS
         if director.number > 1:
             self.scene.play("blip", volume=0.3)
 
     def wave_done(self, enemy, worth):
-        """Show that all planes of a wave are down."""
+        """Show the points `worth` for a wave of which all planes were shot down; `enemy` was its last one."""
         self.works.word(f"WAVE +{worth}", enemy.x, enemy.y - 34, PRAISE)
 
     def warning(self, event):
-        """Announce a leader."""
+        """Announce a leader (mid-boss or boss) by an alarm and a shake of the camera."""
         self.scene.play("warning", volume=0.9)
         self.scene.camera.shake(0.2)
 
     # --- shots -------------------------------------------------------------------------------------------------------
 
     def player_fires(self, plane):
-        """Show a muzzle flash, with its sound."""
+        """Show the muzzle flash of the player's plane."""
         self.muzzle = 0
         self.scene.play("heavy_laser" if plane.power == TOP_POWER else "laser", plane.x, 0.2)
 
     def enemy_fires(self, enemy):
-        """Show that a plane opens fire."""
+        """Show the muzzle flash of an enemy plane."""
         self.works.burst("muzzle_flash", enemy.x, enemy.y + 8)
         self.scene.play("enemy_shot", enemy.x, 0.35)
 
     def leader_fires(self, leader):
-        """Show a shot of a leader's gun."""
+        """Show the muzzle flash of a leader, at most once in SHOT_SOUND steps."""
         if not self.quiet:
             self.quiet = SHOT_SOUND
             self.works.burst("muzzle_flash", leader.x, leader.y + 22)
             self.scene.play("enemy_shot", leader.x, 0.3)
 
     def dive(self, dart):
-        """Show that a dart lights its burner."""
+        """Show that a dart begins its dive: flames at its tail."""
         self.scene.particles.burst(
             dart.x, dart.y - 8, 14, FIRE, speed=(30, 120), life=(0.2, 0.5), angle=-pi / 2, spread=1.4
         )
         self.scene.play("enemy_shot", dart.x, 0.3)
 
     def struck(self, enemy, x, y, blow):
-        """Show a shot that damages a plane: the harder, the more sparks."""
+        """Show a shot that damages an enemy at (x, y) [px]: the harder the blow, the more sparks."""
         self.flashes[enemy.id] = FLASH
         self.works.burst("spark", x, y, 0.0, 20.0)
         self.scene.particles.burst(
@@ -173,13 +176,16 @@ class Spectacle:
         self.scene.play("hit", x, min(0.25 * blow.strength, 1.0))
 
     def glanced(self, enemy, x, y):
-        """Show a shot at an invulnerable target."""
+        """Show a shot without effect on an enemy that is invulnerable for the moment."""
         self.scene.particles.burst(
             x, y, 3, BLUE, speed=(40, 120), life=(0.1, 0.25), angle=pi / 2, spread=2.6, size=(1, 1)
         )
 
     def destroyed(self, enemy, worth, blow):
-        """Show a destroyed plane. Its pieces keep its velocity, plus that of the last blow."""
+        """Show the explosion of an enemy, and its points `worth`.
+
+        The debris keeps a part of the enemy's velocity, plus the velocity given by the last blow.
+        """
         animation, sound, volume, shake, sparks, pieces = DEATHS[enemy.kind]
         x, y, works = enemy.x, enemy.y, self.works
         works.burst(animation, x, y, enemy.vx * 0.2, enemy.vy * 0.2 + 10)
@@ -201,13 +207,13 @@ class Spectacle:
         self.scene.play(sound, x, min(volume * (0.8 + 0.2 * blow.strength), 1.0))
 
     def broke(self, plane, x, y):
-        """Show a plane that breaks along its cracks, which cross at a place."""
+        """Show that a plane breaks along cracks that cross at (x, y) [px]."""
         self.works.burst("spark", x, y)
         self.works.sparks(x, y, 18, SPARK, 220)
         self.scene.play("tear", x, 1.0 if plane.leads else 0.7)
 
     def piece_down(self, identity, piece):
-        """Show a piece that falls into water or on the ground, in proportion to its size."""
+        """Show that a piece of wreckage falls into water or on the ground: the larger, the more and the louder."""
         x, y = self.scene.world.body(identity).center
         count, loud = min(4 + piece.mask.area // 12, 24), min(0.2 + piece.mask.area / 900, 0.7)
         if is_water(self.scene, x, y):
@@ -223,20 +229,23 @@ class Spectacle:
     # --- the player --------------------------------------------------------------------------------------------------
 
     def player_hit(self, plane, hit_by, still):
-        """Show a contact: plane and bullet stay white for as many steps as a bomb would still save it."""
+        """Show that the player was hit: plane and bullet are white for `still` steps, while a bomb can save the plane.
+
+        `hit_by`: body ids of the bullets or planes that hit.
+        """
         for identity in (plane.body.id, *hit_by):
             self.flashes[identity] = still + 1
         self.scene.camera.shake(0.35)
         self.scene.play("hurt", plane.x, 0.8)
 
     def hit_taken(self, plane):
-        """Show a hit that costs nothing."""
+        """Show a hit of an invincible player, which costs nothing."""
         self.flashes[plane.body.id] = FLASH + 1
         self.works.sparks(plane.x, plane.y, 10, BLUE, 120)
         self.scene.play("hurt", plane.x, 0.4)
 
     def player_lost(self, plane, blow):
-        """Show the burst of the player's plane."""
+        """Show the explosion of the player's plane."""
         x, y, works = plane.x, plane.y, self.works
         works.burst("explosion_large", x, y, 0.0, 12.0)
         works.chain(x, y, 16, 16, 4, 0.12)
@@ -250,7 +259,7 @@ class Spectacle:
         self.scene.play("big_explosion", x, 0.8)
 
     def bomb_dropped(self, bomb):
-        """Show the flash of a bomb."""
+        """Show the flash of a bomb that goes off."""
         self.works.ring(bomb.x, bomb.y, 150.0)
         self.works.sparks(bomb.x, bomb.y, 60, BLUE, 320)
         self.works.sparks(bomb.x, bomb.y, 30, GOLD, 220)
@@ -259,12 +268,12 @@ class Spectacle:
         self.scene.play("bomb", bomb.x, 0.9)
 
     def bullets_burnt(self, xs, ys):
-        """Show bullets that turn into sparks; of very many, only some."""
+        """Show sparks where bullets are removed, at (xs, ys) [px]; for at most about MOST_EMBERS of them."""
         each = -(-len(xs) // MOST_EMBERS)
         self.works.embers(xs[::each], ys[::each])
 
     def grazed(self, plane, world, ids, worth):
-        """Show grazes."""
+        """Show sparks between the plane and the bullets that graze it (body ids), and the points `worth`."""
         bodies = world.bodies
         for row in world.rows(ids).tolist():
             x, y = bodies["x"][row].item(), bodies["y"][row].item()
@@ -281,11 +290,11 @@ class Spectacle:
         self.scene.play("chain_break", plane.x, 0.5)
 
     def loot_left(self, x, y):
-        """Show a new pick-up."""
+        """Show that a pick-up appears at (x, y) [px]."""
         self.works.sparks(x, y, 14, GOLD, 90)
 
     def loot_taken(self, plane, what, worth):
-        """Show a taken pick-up."""
+        """Show that the player takes a pick-up. `worth`: points in place of a gain, or 0."""
         self.gain = 1.0
         self.works.sparks(plane.x, plane.y, 30, GOLD, 150)
         self.works.ring(plane.x, plane.y, 30.0)
@@ -306,7 +315,7 @@ class Spectacle:
     # --- leaders -----------------------------------------------------------------------------------------------------
 
     def phase_over(self, leader, last, worth):
-        """Show the end of a phase: the sky is cleared, and the leader is damaged."""
+        """Show the end of a phase of a leader's fight, with explosions. `worth`: bonus points, 0 if time ran out."""
         x, y, works = leader.x, leader.y, self.works
         self.bonus = ["PHASE BONUS" if worth else "TIME OUT", worth, BONUS_SHOWN]
         works.ring(x, y, 220.0)
@@ -319,7 +328,7 @@ class Spectacle:
         self.scene.play("big_explosion", x, 0.9)
 
     def leader_burns(self, leader, whole):
-        """Show a falling leader: explosions that come faster towards the end."""
+        """Show explosions on a falling leader. They come faster towards the end of its fall of `whole` steps."""
         share = leader.since / whole
         every = 10 if share < 0.5 else 5
         if leader.since % every == 0:
@@ -333,7 +342,7 @@ class Spectacle:
             self.flashes[leader.id] = 2
 
     def leader_gone(self, leader):
-        """Show the last and largest explosion."""
+        """Show the last and largest explosion, in which a leader breaks."""
         x, y, works = leader.x, leader.y, self.works
         works.burst("explosion_large", x, y)
         for dx, dy in ((-40, -10), (40, -8), (-20, 22), (22, 20), (0, -24)):

@@ -1,7 +1,7 @@
-"""Stage files: the format of a stage (events in time, and their fire), and its reader.
+"""Stage files of the shooter: the records of the format, and the reader.
 
-Events are in the order of their times. The clock of the stage [s] stops while a mid-boss or a boss fights. Lengths are
-pixels of the sky (480 x 270), speeds px/s, angles degrees: 0 to the right, 90 down.
+A stage is a list of events in the order of their times. The clock of the stage [s] stops while a mid-boss or boss
+fights. Lengths are pixels of the sky (480 x 270), speeds px/s, angles degrees: 0 to the right, 90 down.
 """
 
 from dataclasses import dataclass
@@ -20,16 +20,19 @@ KIND_NAMES = ("dart", "saucer", "gunship", "hornet", "turret")
 ITEMS = ("power", "bomb", "life")
 SIDES = ("left", "right", "below")
 LONGEST = 600  # [s] of a stage's clock
-MOST_PLANES = 80  # of one wave
+MOST_PLANES = 80  # planes in one wave
 SLOWEST = 20.0  # [px/s] a slower bullet would stay for ever
 MOST_FIRE = 1000  # bullets per second of a phase, over all its patterns
 
 
 @dataclass(frozen=True)
 class Group:
-    """Planes of one kind, one after another. `places`: shares 0..1 of the side at which each enters; `every` and
-    `after` [s]; `carries`: item of the last one. `hover` [px down] and `sway` [px], `side` and `bend` [deg]: see the
-    kinds.
+    """Planes of one kind that enter one after another.
+
+    `places`: for each plane, where along the edge it enters (0..1); `after`: time of the first plane [s]; `every`:
+    time between planes [s]; `carries`: item that the last plane drops, or "". Parameters of some kinds: `hover`: y at
+    which a plane stops [px]; `sway`: amplitude of its weaving [px]; `side`: edge at which it enters; `bend`: angle of
+    its arc [deg].
     """
 
     kind: str
@@ -45,9 +48,11 @@ class Group:
 
 @dataclass(frozen=True)
 class Pattern:
-    """One gun: a primitive and its numbers. `every` [s] between shots; after `shots` of them a rest of `rest` [s] more.
-    The first shot comes after `after` [s]; each shot of a burst is faster than the last by `faster` [px/s].
-    `muzzles`: places [px] off the middle, and `out`: distance of the bullets' start from them [px].
+    """The fire of one gun. `shoot`: the kind of fire ("aimed", "fan", "ring", ...), which decides the other fields.
+
+    The first shot comes after `after` [s], the next ones every `every` [s]. After a burst of `shots` shots, the gun
+    rests for `rest` [s] more. Each shot of a burst is faster than the shot before by `faster` [px/s]. `muzzles`: points
+    relative to the plane's centre [px]; bullets start at distance `out` [px] from a muzzle.
     """
 
     shoot: str
@@ -72,14 +77,17 @@ class Pattern:
 
     @property
     def per_second(self):
-        """Average rate of fire [bullets/s]."""
+        """Average number of bullets per second."""
         each = WALL_WIDTH / self.spacing if self.shoot == "wall" else self.count
         return each * len(self.muzzles) * self.shots / (self.shots * self.every + self.rest)
 
 
 @dataclass(frozen=True)
 class Move:
-    """A leader's path: it swings `across` and `down` [px] about its place, once in `seconds`."""
+    """The path of a leader (mid-boss or boss): a figure of eight about its home position.
+
+    `across`, `down`: amplitudes [px]; `seconds`: duration of one round.
+    """
 
     across: float
     down: float
@@ -88,7 +96,10 @@ class Move:
 
 @dataclass(frozen=True)
 class Phase:
-    """A part of a fight: so much `health` to shoot away, or `seconds` to survive; `bonus`: points for the former."""
+    """A phase of the fight against a leader. It ends when `health` (in plain shots) is shot away, or after `seconds`.
+
+    `bonus`: points if the health was shot away; `patterns`: fire of the leader's guns.
+    """
 
     name: str
     health: float
@@ -100,7 +111,11 @@ class Phase:
 
 @dataclass(frozen=True)
 class Event:
-    """One event. `event` decides which other fields count: a wave has groups, a leader phases."""
+    """An event of a stage, at time `at` [s]. `event` is its kind, which decides the other fields that are used.
+
+    "wave": groups; "midboss" and "boss": phases; "backdrop": ground; "item": item, across (0..1 of the width); "pace":
+    factors of the difficulty.
+    """
 
     event: str
     at: float
@@ -118,7 +133,7 @@ class Event:
 
 @dataclass(frozen=True)
 class Stage:
-    """A stage. `title` and `name` are shown on its first picture."""
+    """A stage. `title` and `name` are shown at its start."""
 
     title: str
     name: str
@@ -208,7 +223,10 @@ FILE = {
 
 
 def load_stage(path=None):
-    """Return a stage file, or the game's own. Raises FileError naming the file, the place and the reason."""
+    """Return the Stage of a file; without a path, the stage of the game.
+
+    Raises FileError naming the file, the place and the reason.
+    """
     return _own() if path is None else read_stage(path)
 
 
@@ -218,7 +236,7 @@ def _own():
 
 
 def read_stage(path):
-    """Return the stage in a file. Raises FileError."""
+    """Return the Stage of a file. Raises FileError if the file is invalid."""
     reader, data = Reader(path), read_json(path)
     _check_version(reader, data)
     fields = reader.fields("", data, FILE)
@@ -230,7 +248,7 @@ def read_stage(path):
 
 
 def _check_version(reader, data):
-    # Checked first: a newer file may have fields that are unknown here.
+    # The version is checked first, because a newer file may have fields that are unknown here.
     version = data.get("version") if isinstance(data, dict) else None
     if isinstance(version, int) and not isinstance(version, bool) and version > VERSION:
         reader.fail("version", f"is {version}, newer than this game can read ({VERSION})")

@@ -1,4 +1,8 @@
-"""Fields of a data file, with errors for unknown, missing and invalid ones that name the place."""
+"""Validation of a JSON file: types of fields, each with a method read(reader, place, value).
+
+read() returns the value as the game uses it. It raises FileError, naming the place in the file, for an invalid value.
+`default` is the value of a missing field; REQUIRED: the field must be present.
+"""
 
 from difflib import get_close_matches
 from math import isfinite
@@ -9,13 +13,13 @@ REQUIRED = object()
 
 
 class Number:
-    """A number low..high; `whole` ones have no fraction."""
+    """A number from `low` to `high`. `whole`: only integers are valid."""
 
     def __init__(self, low, high, default=REQUIRED, whole=False):
         self.low, self.high, self.default, self.whole = low, high, default, whole
 
     def read(self, reader, place, value):
-        """Return the number, or FileError."""
+        """Return the number. Raises FileError if it is invalid."""
         kind = "a whole number" if self.whole else "a number"
         whole = isinstance(value, int) and not isinstance(value, bool)
         if not whole and (self.whole or not isinstance(value, float) or not isfinite(value)):
@@ -26,13 +30,13 @@ class Number:
 
 
 class Text:
-    """Text of 1 to `most` characters of the game's font."""
+    """A text of 1 to `most` printable ASCII characters."""
 
     def __init__(self, most, default=REQUIRED):
         self.most, self.default = most, default
 
     def read(self, reader, place, value):
-        """Return the text, or FileError."""
+        """Return the text. Raises FileError if it is invalid."""
         if not isinstance(value, str):
             reader.fail(place, f"must be text (got {value!r:.60})")
         if not 1 <= len(value) <= self.most:
@@ -44,26 +48,26 @@ class Text:
 
 
 class Choice:
-    """One of some names."""
+    """One of the given names."""
 
     def __init__(self, names, default=REQUIRED):
         self.names, self.default = tuple(names), default
 
     def read(self, reader, place, value):
-        """Return the name, or FileError with the nearest one as a suggestion."""
+        """Return the name. Raises FileError for another value, with the most similar name as a suggestion."""
         if value not in self.names:
             reader.fail(place, f"must be one of {', '.join(self.names)} (got {value!r:.60}){guess(value, self.names)}")
         return value
 
 
 class List:
-    """A list of `fewest` to `most` entries, each read by `entry`."""
+    """A list of `fewest` to `most` entries, each of the field type `entry`."""
 
     def __init__(self, entry, fewest, most, default=REQUIRED):
         self.entry, self.fewest, self.most, self.default = entry, fewest, most, default
 
     def read(self, reader, place, value):
-        """Return the entries as a tuple, or FileError."""
+        """Return the entries as a tuple. Raises FileError if the list or an entry is invalid."""
         if not isinstance(value, list):
             reader.fail(place, f"must be a list (got {value!r:.40})")
         if not self.fewest <= len(value) <= self.most:
@@ -73,24 +77,27 @@ class List:
 
 
 class Record:
-    """Named fields, passed to `make(**fields)`."""
+    """A JSON object with the given fields, which are passed to `make(**fields)`."""
 
     def __init__(self, make, default=REQUIRED, **fields):
         self.make, self.fields, self.default = make, fields, default
 
     def read(self, reader, place, value):
-        """Return the result of make(), or FileError."""
+        """Return the result of make(). Raises FileError if a field is invalid, missing or unknown."""
         return self.make(**reader.fields(place, value, self.fields))
 
 
 class Variant:
-    """Named fields, of which one, `tag`, selects the others: `records` by its value."""
+    """A JSON object whose field `tag` selects its other fields: `records` is {value of the tag: Record}.
+
+    `shared`: fields that all variants have.
+    """
 
     def __init__(self, tag, records, **shared):
         self.tag, self.shared, self.records = tag, shared, records
 
     def read(self, reader, place, value):
-        """Return the result of the chosen record's make(), or FileError."""
+        """Return the result of the selected record's make(). Raises FileError if a field is invalid."""
         tag = Choice(self.records)
         if not isinstance(value, dict) or self.tag not in value:
             reader.fields(place, value, {self.tag: tag}, others=True)
@@ -101,17 +108,20 @@ class Variant:
 
 
 class Reader:
-    """Reader of one file, whose path its errors name."""
+    """Reader of one file. Its errors name the file's path."""
 
     def __init__(self, path):
         self.path = path
 
     def fail(self, place, reason):
-        """Raise FileError."""
+        """Raise FileError for a place in the file, with a reason."""
         raise FileError(self.path, place, reason)
 
     def fields(self, place, value, wanted, others=False):
-        """Return {name: value} of all wanted fields; unknown ones are refused except `others`."""
+        """Return {name: value} of the fields of a JSON object; `wanted` is {name: field type}.
+
+        Unknown fields are an error unless `others`.
+        """
         if not isinstance(value, dict):
             self.fail(place or "file", f"must be an object with {', '.join(wanted)} (got {value!r:.40})")
         if not others:
@@ -130,11 +140,11 @@ class Reader:
 
 
 def join(place, name):
-    """Return the place of a field in a record."""
+    """Return the place of a field inside the object at `place`, such as "events[2].at"."""
     return f"{place}.{name}" if place else str(name)
 
 
 def guess(name, names):
-    """Return the nearest of some names as a question, or ""."""
+    """Return a question that suggests the name most similar to `name`, or "" if none is similar."""
     near = get_close_matches(str(name), list(names), n=1)
     return f"; did you mean {near[0]}?" if near else ""

@@ -1,7 +1,7 @@
 """The picture of the shooter, from the ground up: shadows, planes, fire, and bullets on top.
 
-Drawing changes no state. Swarms are placed with NumPy and blitted in one call per layer. A sprite is drawn at the place
-of its mask in physics: floor(position - origin + 0.5).
+Drawing changes no state. Bullets are placed with NumPy and blitted in one call per look. A sprite is drawn exactly
+where physics has its mask: floor(position - origin + 0.5).
 """
 
 from functools import lru_cache
@@ -43,21 +43,21 @@ GLOWS = {
     "big": "glow_small",
 }
 MOST_GLOWS = 160  # bullets of a look with a glow; more would be one bright fog, and slow
-OUT = 24  # [px] outside of the picture, from where a bullet's light is invisible
+OUT = 24  # [px] a bullet this far outside of the picture is invisible, with its light
 EXHAUST_AT = 15  # [px] from the plane's middle to the root of its flame
-EXHAUST_PLAY = 0.35  # share by which the flame is longer or shorter at full speed up or down
+EXHAUST_PLAY = 0.35  # share by which the flame is longer at full speed up, and shorter at full speed down
 MUZZLE_AT, MUZZLE_STEPS = 16, 4  # [px] from the plane's middle to its guns; steps of their flash
-WHITE, PALE = 190, 28  # brightness that a hit adds to a plane; sturdy ones only glimmer
+WHITE, PALE = 190, 28  # brightness that a hit adds to a plane, and to a heavy one
 FAINT = 120  # alpha of a ghost, and of the core while it is not marked
 TUMBLES = 14  # quarter turns of debris a second
-STURDY = 20  # health from which it is shown
-HEALTH_AT = 26  # [px] from a plane's middle up to its health
+STURDY = 20  # planes with more health than this have a health bar
+HEALTH_AT = 26  # [px] from a plane's middle up to its health bar
 LIT = 0.25  # [s] that an explosion lights its surroundings
 BLINK = 8  # steps of one blink of a ghost
 
 
 class View:
-    """Picture caches, shared by all shooters."""
+    """The renderer of the shooter, with its caches of pictures. One instance serves all scenes."""
 
     def __init__(self):
         self.planes, self.effects = load_atlas("planes"), load_atlas("effects")
@@ -70,8 +70,9 @@ class View:
         self.wrecks = WreckView(self)
 
     def sprite(self, atlas, frame, angle=0.0, mask=None):
-        """Return (image, origin in it) of a frame at an angle: exactly the pixels of the mask of the colliding
-        frame.
+        """Return (image, its origin) of a frame at an angle [rad].
+
+        The image covers exactly the pixels of the rotated mask of frame `mask`, the one that collides.
         """
         mask = mask or frame
         if angle == 0.0:
@@ -82,7 +83,7 @@ class View:
         return self.turned[key].at(angle)
 
     def draw(self, scene, canvas, alpha):
-        """Draw the whole picture."""
+        """Draw the scene at `alpha` (0..1) between the last two steps."""
         self.surface, self.alpha = canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         self.time = scene.spectacle.time
@@ -114,7 +115,7 @@ class View:
         banners.draw_banners(canvas, scene)
 
     def places(self, scene, ids):
-        """Return interpolated x and y of bodies [px], as arrays, and their angles."""
+        """Return arrays of x, y [px] and angle [rad] of bodies. Positions are interpolated between two steps."""
         rows, bodies = scene.world.rows(ids), scene.world.bodies
         x, y = bodies["x"][rows], bodies["y"][rows]
         back = 1.0 - self.alpha
@@ -125,24 +126,26 @@ class View:
         )
 
     def at(self, x, y, origin):
-        """Return the canvas place of a picture whose origin is at a world point."""
+        """Return the top left corner [canvas px] of a picture whose point `origin` is at the world point (x, y)."""
         return (int(np.floor(x - origin[0] + 0.5)) - self.left, int(np.floor(y - origin[1] + 0.5)) - self.top)
 
     def shadow(self, image, place, high=1.0):
-        """Return (picture, canvas place) of the shadow of a picture centred on a world point. high: height over the
-        ground as a share of the planes' height.
+        """Return (picture, canvas place) of the shadow of a picture that is centred on the world point `place`.
+
+        `high`: height above the ground, relative to the height of the planes.
         """
         dark = shade(image)
         x, y = place[0] + SHADOW_AT[0] * high, place[1] + SHADOW_AT[1] * high
         return dark, self.at(x, y, middle(dark))
 
     def add_light(self, image, x, y):
-        """Add a picture's light, centred on a world point."""
+        """Blit a picture additively, centred on the world point (x, y)."""
         self.surface.blit(image, self.at(x, y, middle(image)), special_flags=pygame.BLEND_RGB_ADD)
 
     def _planes(self, scene):
-        """Return (picture, place, whiteness) of all in the air, the player last; (picture, place) of all on the
-        ground.
+        """Return two lists: (picture, place) of enemies on the ground, (picture, place, whiteness) of planes in flight.
+
+        The player's plane is the last of the second list.
         """
         ground, air = [], []
         fleet, flashes = scene.fleet.planes, scene.spectacle.flashes
@@ -166,7 +169,9 @@ class View:
         return ground, air
 
     def _frame(self, plane):
-        """Return the frame: most kinds cycle through pictures that share one mask; a dart's picture is its mode."""
+        """Return the frame to show for a plane. A dart has one frame for each mode; other kinds have an animation whose
+        frames share one mask.
+        """
         if plane.kind == "dart":
             return plane.frame
         animation = self.planes.animation(plane.frame[:-2])
@@ -179,7 +184,7 @@ class View:
         x, y, _ = self.places(scene, [player.body.id])
         image = self.planes.animation("exhaust").at(self.time)
         width, height = image.get_size()
-        # Longer as it climbs, shorter as it falls back.
+        # The flame is longer while the plane flies up, and shorter while it flies down.
         height = round(height * (1.0 - EXHAUST_PLAY * player.velocity[1] / SPEED))
         image = pygame.transform.scale(image, (width, height)) if player.velocity[1] else image
         self.surface.blit(image, self.at(x[0], y[0] + EXHAUST_AT, (width / 2, 0)))
@@ -191,7 +196,7 @@ class View:
         for item, px, py in zip(scene.loot.items.values(), x.tolist(), y.tolist(), strict=True):
             image = self.planes.animation(PICTURES[item.what]).at(self.time)
             self.add_light(self.effects["glow_blue" if item.what == "bomb" else "glow_small"], px, py)
-            # It pulses: wide and low, then narrow and high.
+            # The item pulses: wide and low, then narrow and high.
             image = self.stretched(image, round(2 * sin(6.0 * self.time + 0.1 * px)))
             self.surface.blit(image, self.at(px, py, middle(image)))
 
@@ -217,13 +222,16 @@ class View:
                 self._stamp_turned(shown, frame, x[mine], y[mine], angles[mine])
 
     def _stamp(self, image, origin, x, y, flags=0):
-        """Draw one picture at many places."""
+        """Draw one picture at many world points (arrays x, y)."""
         across = (np.floor(x - origin[0] + 0.5).astype(np.int64) - self.left).tolist()
         down = (np.floor(y - origin[1] + 0.5).astype(np.int64) - self.top).tolist()
         blit_many(self.surface, list(zip(repeat(image), zip(across, down, strict=True))), flags)
 
     def _stamp_turned(self, shown, frame, x, y, angles):
-        """Draw one picture at many places, each at its own angle."""
+        """Draw the picture `shown` at many world points (arrays x, y), each at its own angle [rad].
+
+        `frame`: the frame whose mask collides.
+        """
         pairs = []
         for px, py, angle in zip(x.tolist(), y.tolist(), angles.tolist(), strict=True):
             image, origin = self.sprite(self.effects, shown, angle, frame)
@@ -231,7 +239,10 @@ class View:
         blit_many(self.surface, pairs)
 
     def _draw_player_marks(self, scene):
-        """Draw muzzle flash, the core, clearly while focusing, and the hull's outline if that is vulnerable."""
+        """Draw the marks on the player's plane: muzzle flash, core, and the hull's outline if the hull is vulnerable.
+
+        While the player focuses, the core is opaque and the graze ring is shown.
+        """
         player = scene.plane
         if not player.here:
             return
@@ -240,7 +251,7 @@ class View:
             image = self.effects[f"muzzle_flash_{min(scene.spectacle.muzzle, 2)}"]
             self.surface.blit(image, self.at(x[0], y[0] - MUZZLE_AT, middle(image)))
         image, origin = self.sprite(self.planes, player.frame)
-        # Without blinking, a steady line marks the ghost.
+        # If blinking is off, a steady outline marks the invulnerable plane.
         steady = player.safe and not scene.accessibility.flashing and scene.ending.mode == PLAYING
         if steady or scene.hurts == "hull":
             self.surface.blit(self.outlined(image), self.at(x[0], y[0], (origin[0] + 1, origin[1] + 1)))
@@ -267,7 +278,7 @@ class View:
         blit_many(self.surface, pairs)
 
     def _draw_bursts(self, works):
-        # Smoke is drawn under fire, whatever came first.
+        # Smoke is drawn below fire, also if it began later.
         for name, x, y, _, _, age in sorted(works.bursts, key=lambda burst: burst[0] != "smoke"):
             if age < 0.0:
                 continue
@@ -279,32 +290,35 @@ class View:
 
 @lru_cache(maxsize=1)
 def the_view():
-    """Return the one View, made when the first picture is wanted."""
+    """Return the one View, which is created at the first call."""
     return View()
 
 
 def middle(image):
-    """Return the middle of a picture, as an origin in it."""
+    """Return the centre (x, y) [px] of a picture."""
     width, height = image.get_size()
     return width / 2, height / 2
 
 
 def shade(image):
-    """Return the shadow of a picture: its silhouette, reduced, dark and transparent."""
+    """Return the shadow of a picture: its silhouette at 3/4 of the size, dark and transparent."""
     silhouette = pygame.mask.from_surface(image).to_surface(setcolor=SHADOW, unsetcolor=(0, 0, 0, 0))
     width, height = image.get_size()
     return pygame.transform.scale(silhouette, (max(1, width * 3 // 4), max(1, height * 3 // 4)))
 
 
 def ghostly(image):
-    """Return a plane that cannot be hit, in every other moment: bright and transparent."""
+    """Return a bright, transparent copy of a plane's picture. A plane that cannot be hit blinks with it."""
     copy = lit(image, 90)
     copy.fill((255, 255, 255, FAINT), special_flags=pygame.BLEND_RGBA_MULT)
     return copy
 
 
 def outline(image):
-    """Return a thin line around the solid pixels of a picture, one pixel larger on each side."""
+    """Return a picture of the outline of an image: the line of pixels around its solid pixels.
+
+    It is one pixel larger than the image on each side.
+    """
     width, height = image.get_size()
     mask = pygame.Mask((width + 2, height + 2))
     solid = pygame.mask.from_surface(image)
@@ -315,13 +329,13 @@ def outline(image):
 
 
 def stretched(image, more):
-    """Return a picture some pixels wider, and as many less high."""
+    """Return a picture stretched to be `more` px wider and `more` px lower."""
     width, height = image.get_size()
     return pygame.transform.scale(image, (width + more, height - more)) if more else image
 
 
 def tumbled(image, quarters, small):
-    """Return debris, rotated by quarters, and at two thirds of its size when nearly burnt."""
+    """Return a picture of debris, rotated by `quarters` quarter turns. `small`: at two thirds of its size."""
     image = pygame.transform.rotate(image, 90 * quarters)
     if small:
         image = pygame.transform.scale(image, (image.get_width() * 2 // 3, image.get_height() * 2 // 3))

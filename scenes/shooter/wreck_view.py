@@ -1,4 +1,4 @@
-"""Pieces of broken planes: their own pixels, smaller the lower they are, each with its shadow."""
+"""Pictures of the pieces of broken planes: cut out of the plane's sprite, smaller as they fall, with shadows."""
 
 import numpy as np
 import pygame
@@ -9,18 +9,18 @@ from game.drawing.fragment import FragmentPicture, cut_out
 HOT, COLD = (255, 196, 84), (24, 14, 22)  # colours of a fresh edge and of a burnt-out one
 COOL = 26  # steps until an edge is dark
 LOW = 0.68  # size of a piece on the ground, relative to that in the sky
-KEPT = 64  # pieces
+KEPT = 64  # pictures in the cache
 
 
 class WreckView:
-    """Pictures cached by mask."""
+    """The renderer of wreckage, with a cache of the pictures of its pieces."""
 
     def __init__(self, view):
         self.view = view
         self.kept = {}  # (body id, hot) -> (mask, FragmentPicture)
 
     def draw(self, scene, shaded=False):
-        """Draw all pieces, the lowest first; shaded: their shadows on the ground."""
+        """Draw all pieces, the lowest first. `shaded`: draw their shadows on the ground instead."""
         pieces = scene.wreckage.pieces
         if not pieces:
             return
@@ -52,7 +52,7 @@ class WreckView:
 
 
 def sooty(image):
-    """Return a copy darkened by fire, in a grain of every other pixel."""
+    """Return a copy of an image that looks burnt: every other pixel is darker."""
     out = image.copy()
     pixels = pygame.surfarray.pixels3d(out)
     columns, rows = np.indices(pixels.shape[:2])

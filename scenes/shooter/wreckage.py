@@ -1,8 +1,9 @@
 """Wreckage: a heavy plane that is shot down breaks along cracks, and its pieces fall, each a body of its own pixels.
 
-A piece is drawn with its pixels and tested by them, exactly, at any angle. It keeps the plane's velocity, rotates as it
-was torn off, and is slowed by the air, which is fixed to the ground. Seen from above, nothing falls across the picture.
-While it is at the height of the planes it damages small ones that it strikes; it never hurts the player.
+A piece is drawn with its pixels, and collides by them exactly, at any angle. It starts with a part of the plane's
+velocity and a random rotation, and is slowed by the air, which moves with the ground. The game is seen from above, so
+a falling piece shrinks instead of moving down. It damages small planes until it is well below them; it never hurts the
+player.
 """
 
 from dataclasses import dataclass
@@ -16,22 +17,25 @@ from physics import PixelMask, fit
 from scenes.shooter.blows import Blow
 from scenes.shooter.cast import FALLING, WRECKED, steps
 
-STRIKE = 4.0  # factor on a blow of a piece on a small plane, which is too light otherwise
-DRAG = 0.9  # [1/s] of the air on pieces; planes have engines
-CRUMB = 14  # [px] smaller pieces burn at once
+STRIKE = 4.0  # factor on the damage by a piece on a small plane, which would be too small without it
+DRAG = 0.9  # [1/s] drag of the air on pieces; planes have engines
+CRUMB = 14  # area in pixels: smaller pieces are removed at once
 CROSSING = (0.9, 1.9)  # [rad] between the two cracks that cross at the last hit
-INWARD = 0.6  # of the distance from a plane's middle to the hit: the place where its cracks cross
+INWARD = 0.6  # the cracks cross at this share of the way from a plane's middle to the last hit
 APART = 24.0  # [px] between further cracks of something large
-TORN = (26.0, 62.0)  # [px/s] away from the crossing
+TORN = (26.0, 62.0)  # [px/s] speed of the pieces away from the point where the cracks cross
 KEPT, KICKED = 0.6, 0.25  # shares of the plane's velocity, and of the last blow's kick
 SPIN = (0.8, 3.4)  # [rad/s]
 LIFE = (1.5, 2.3)  # [s] until a piece is down
-HARMLESS = 0.55  # of the height of the planes: pieces below it strike nothing
+HARMLESS = 0.55  # share of the planes' height below which pieces strike nothing
 
 
 @dataclass
 class Due:
-    """A plane that breaks when the next step begins, so that the hit can be inspected until then."""
+    """A plane that will break when the next step begins. Until then its hit can be inspected.
+
+    (x, y): place of the last hit [px]; `blow`: its impulse.
+    """
 
     identity: int
     x: float  # [px] place of the last blow
@@ -41,8 +45,8 @@ class Due:
 
 @dataclass
 class Piece:
-    """A piece with its pixels. `frame`: its origin; `left`, `top` [px]: place of its raster in that picture; `life`,
-    `age` [steps].
+    """A piece of a broken plane. `mask`: its pixels; `frame`: picture from which it was cut; `left`, `top`: place of
+    `mask` in that picture [px]; `life`: steps until it reaches the ground; `strikes`: whether it can hit small planes.
     """
 
     mask: PixelMask
@@ -55,12 +59,12 @@ class Piece:
 
     @property
     def high(self):
-        """Height, relative to that of the planes: at first it hardly falls."""
+        """Height above the ground, 1 (height of the planes) .. 0. It decreases slowly at first, then faster."""
         return 1.0 - (self.age / self.life) ** 2
 
 
 class Wreckage:
-    """The wreckage. `pieces` by body id; `due`: planes that break when the next step begins."""
+    """All wreckage in the sky. `pieces`: Piece by body id; `due`: planes that break when the next step begins."""
 
     def __init__(self, world):
         self.world = world
@@ -70,15 +74,18 @@ class Wreckage:
         return len(self.pieces)
 
     def mark(self, plane, x, y, blow):
-        """Mark a plane to break, struck last at a place [px]."""
+        """Mark a plane to break when the next step begins. (x, y): place of the last hit [px]; `blow`: its impulse."""
         self.due.append(Due(plane.id, x, y, blow))
 
     def is_marked(self, identity):
-        """Return whether a body is a plane that is about to break."""
+        """Return whether the body is a plane marked to break."""
         return any(due.identity == identity for due in self.due)
 
     def break_due(self, fleet):
-        """Break the marked planes. Return [(plane, x, y)] with the places where the cracks cross [px]."""
+        """Break the marked planes into pieces.
+
+        Return a list of (plane, x, y), where (x, y) [px] is the point at which the cracks of the plane cross.
+        """
         broken = []
         for due in self.due:
             plane = fleet.planes.pop(due.identity)
@@ -112,7 +119,7 @@ class Wreckage:
         self.pieces[part.id] = Piece(own, frame, left, top, steps(random.uniform(*LIFE)))
 
     def step(self):
-        """Let all pieces fall. Return [(id, piece)] of those that are down."""
+        """Let all pieces fall for one step. Return a list of (body id, piece) of those that have reached the ground."""
         for identity, piece in self.pieces.items():
             piece.age += 1
             if piece.strikes and piece.high < HARMLESS:
@@ -121,7 +128,10 @@ class Wreckage:
         return [(identity, piece) for identity, piece in self.pieces.items() if piece.age >= piece.life]
 
     def strikes(self, begun, fleet):
-        """Return (id of a piece, small plane, place [px]) of all contacts in a step, from its events."""
+        """Yield (id of a piece, small plane, contact point [px]) for each contact between both that began in this step.
+
+        `begun`: the step's begin events.
+        """
         columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
         for a, b, x, y in zip(*columns, strict=True):
             piece, struck = (a, b) if a in self.pieces else (b, a)
@@ -130,12 +140,12 @@ class Wreckage:
                 yield piece, enemy, (x, y)
 
     def forget(self, ids):
-        """Drop pieces whose bodies are removed."""
+        """Forget the pieces whose bodies have the given ids."""
         for identity in ids.tolist():
             self.pieces.pop(identity, None)
 
     def state(self):
-        """Return the state for the digest; the world's state has the motion."""
+        """Return the state for the replay digest, as a flat tuple. Positions are part of the world's state."""
         out: list = []
         for due in self.due:
             out += (due.identity, due.x, due.y, due.blow.x, due.blow.y, due.blow.mass)
@@ -145,8 +155,10 @@ class Wreckage:
 
 
 def cracks(mask, x, y, random):
-    """Return a mask of jagged lines across another mask: two that cross at a place [px, from its origin], more across a
-    large one. It is placed on the same pixels at the same pose.
+    """Return a mask of jagged cracks, along which a plane with the given mask breaks.
+
+    Two cracks cross at (x, y) [px from the mask's origin]; a wide mask gets more. The result has the size and origin
+    of `mask`, so that it covers the same pixels at the same pose.
     """
     height, width = mask.solid.shape
     solid = np.zeros((height, width), bool)
