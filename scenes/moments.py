@@ -28,7 +28,7 @@ def flying(kind, least):
 
 
 def leader(frame, bullets=0):
-    """Return a predicate: a boss or mid-boss with picture `frame` fights, with at least `bullets` bullets in the air."""
+    """Return a predicate: a boss or mid-boss with picture `frame` fights, amid at least `bullets` enemy bullets."""
     return lambda scene: (
         len(scene.incoming) >= bullets
         and any(plane.leads and plane.frame == frame and plane.mode == "fight" for plane in scene.fleet.planes.values())

@@ -1,1 +1,1 @@
-"""The lander: a ship whose pixels are its body, over a moon of pixels that craters are blown into."""
+"""The lander: a ship over a moon. The shapes of both are exact pixel masks, and shells carve craters into the moon."""

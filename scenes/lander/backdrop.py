@@ -1,4 +1,4 @@
-"""Background of the moon: a fixed sky, three ranges that move slower than the ground, and snow in the wind."""
+"""Background of the lander: a fixed sky, clouds, three mountain ranges with parallax, and snow in the wind."""
 
 import numpy as np
 import pygame
@@ -7,19 +7,19 @@ from game.drawing.canvas import CANVAS_SIZE, whole
 from game.drawing.sprites import load_backdrop
 from scenes.platformer.backdrop import tile_along
 
-# back to front: picture, share of the camera's motion along x and along y, [px] height of its foot above the horizon
+# back to front: (picture, share of the camera's motion along x, along y, height of its foot above the horizon [px])
 LAYERS = (("lander_far", 0.06, 0.05, 44), ("lander_mid", 0.13, 0.11, 16), ("lander_near", 0.26, 0.22, -14))
-LOWEST = 754  # [px] top of the lowest picture
-STORM = (2650.0, 3250.0)  # [px] columns between which the clouds come down
-CLOUDS = ((0.03, 0.10, 4), (0.08, 0.20, -40))  # share of the camera's motion, of the wind's; [px] their top
-FLAKES = 70  # of each of the two layers of snow
-# share of the camera's motion, of the wind's, fall [px/s], colour, thickness
+LOWEST = 754  # [px] y of the top of the picture when the camera is lowest
+STORM = (2650.0, 3250.0)  # [px] x from which the clouds come down, and at which they are lowest
+CLOUDS = ((0.03, 0.10, 4), (0.08, 0.20, -40))  # (share of the camera's motion, of the wind's motion, top [px])
+FLAKES = 70  # flakes in each of the two layers of snow
+# (share of the camera's motion, of the wind's motion, fall [px/s], colour, thickness)
 SNOW = ((0.5, 0.55, 16.0, (126, 146, 190), 1), (1.25, 1.3, 34.0, (214, 228, 250), 1))
-STREAK = 0.028  # [s] of its motion that a flake is drawn as a streak
+STREAK = 0.028  # [s] exposure: a flake is drawn as the streak of its motion in this time
 
 
 class Backdrop:
-    """Drawing of the background, and of the snow in the foreground."""
+    """The renderer of the background, and of the snow in the foreground."""
 
     def __init__(self):
         self.sky = load_backdrop("lander_sky")
@@ -29,7 +29,7 @@ class Backdrop:
         self.flakes = [random.random((3, FLAKES)) for _ in SNOW]
 
     def draw(self, surface, look, left, top):
-        """Draw for a picture whose top left is at (left, top) of the world. look: the Spectacle."""
+        """Draw the background for a view whose top left corner is the world point (left, top). `look`: Spectacle."""
         surface.blit(self.sky, (0, 0))
         share = min(max((left + CANVAS_SIZE[0] / 2 - STORM[0]) / (STORM[1] - STORM[0]), 0.0), 1.0)
         if share:
@@ -39,18 +39,18 @@ class Backdrop:
             tile_along(surface, picture, left * along, y)
             foot = y + picture.get_height()
             if foot < CANVAS_SIZE[1]:
-                # The range continues below its picture.
+                # Below its picture, the range is filled with its lowest colour.
                 color = picture.get_at((0, picture.get_height() - 1))
                 surface.fill(color, (0, foot, CANVAS_SIZE[0], CANVAS_SIZE[1] - foot))
 
     def _draw_clouds(self, surface, look, left, share):
-        """Draw banks of cloud, low where the storm is, and moved by its wind."""
+        """Draw banks of cloud, moved by the wind. `share`: how far they have come down for the storm, 0..1."""
         for along, carried, low in CLOUDS:
             y = whole(low * share - self.clouds.get_height() * (1.0 - share))
             tile_along(surface, self.clouds, left * along - look.gusted * carried - look.time * 7.0, y)
 
     def draw_snow(self, surface, layer, look, wind, left, top):
-        """Draw one layer of snow; less of it in a cave. look: the Spectacle."""
+        """Draw one layer of snow: more with strong wind [px/s], less in a cave. `look`: Spectacle."""
         share, carried, fall, color, thick = SNOW[layer]
         across, down, speed = self.flakes[layer]
         shown = whole(FLAKES * (1.0 - look.shelter) * (0.45 + min(abs(wind) / 160.0, 0.55)))

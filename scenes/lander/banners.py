@@ -1,4 +1,4 @@
-"""Banners across the picture: the act's title, the points of a landing, the end."""
+"""Banners across the picture: title of an act, points of a landing, bonuses, result."""
 
 from math import inf
 
@@ -12,13 +12,13 @@ from scenes.shooter.banners import band, eased, text_inside
 ACTS = ("ACT I", "ACT II", "ACT III")
 MEDAL = {"GOLD": GOLD, "SILVER": (206, 214, 230), "BRONZE": (226, 150, 92)}
 TITLE_TOP, LANDED_TOP, CLEARED_TOP = 28, 28, 34
-TITLE_HIGH, LANDED_HIGH = 80, 62  # [px] of their bands
-ROW, COLUMN = 13, 78  # [px] between two lines, and two columns
+TITLE_HIGH, LANDED_HIGH = 80, 62  # [px] heights of the bands of these banners
+ROW, COLUMN = 13, 78  # [px] distance of two lines, and of two columns
 SMOKE = 40  # steps for which the last landing stays visible
 
 
 def draw_banners(canvas, scene):
-    """Draw one banner at most."""
+    """Draw the banner of the course's current mode, if there is one."""
     course = scene.course
     if course.mode == LOST:
         banner(canvas, "GAME OVER", _summary(scene), RED)
@@ -44,7 +44,7 @@ def covered(scene):
 
 
 def _draw_title(canvas, scene):
-    """Draw the act's title, sliding in from the left, its name, from the right, and the instructions below."""
+    """Draw the number of the act, the name of its site, and two lines of instructions, sliding in from both sides."""
     course = scene.course
     share = eased(scene.spectacle.act_since, TITLE)
     middle, width = canvas.rect.centerx, canvas.rect.width
@@ -59,7 +59,7 @@ def _draw_title(canvas, scene):
 
 
 def _draw_landed(canvas, scene):
-    """Draw the points of a landing, line by line, while the tanks are filled."""
+    """Draw the points of a landing in columns, while the ship is refuelled."""
     course = scene.course
     share = eased(course.since, CHEER)
     band(canvas, LANDED_TOP, whole(LANDED_HIGH * share))
@@ -73,7 +73,7 @@ def _draw_landed(canvas, scene):
 
 
 def _draw_bonuses(canvas, scene):
-    """Draw the end of the course, one line after another."""
+    """Draw the bonuses counted so far at the end of the course, one a line."""
     course = scene.course
     share = eased(course.since - SMOKE, inf)
     band(canvas, CLEARED_TOP, whole(178 * share))

@@ -1,4 +1,4 @@
-"""Words over the picture: points, ships, the site, instruments, wind, a chart of the moon."""
+"""Heads-up display of the lander: points, ships, landing site, instruments, wind, and a map of the moon."""
 
 from functools import lru_cache
 from math import hypot
@@ -14,22 +14,25 @@ from scenes.lander.feel import FUEL, HARD, HULL, LOW_FUEL, SHELLS, SOFT, UPRIGHT
 from scenes.lander.moon import the_moon
 
 GOOD, FAIR = (120, 230, 150), (255, 214, 92)
-PANEL = (MARGIN, 224, 118, 40)  # [canvas px] fuel, hull, shells
-DIALS = (MARGIN + 122, 224, 66, 40)  # speeds and lean
+PANEL = (MARGIN, 224, 118, 40)  # [canvas px] panel of fuel, hull, shells
+DIALS = (MARGIN + 122, 224, 66, 40)  # [canvas px] panel of speeds and lean
 CHART = (480 - MARGIN - 130, 230, 130, 34)
 WIND = (480 - MARGIN - 130, 217, 130, 12)
 GLASS = (14, 12, 26, 178)
 BAR = 76  # [px]
-NEWS = 252  # steps that the site's name stays on top after its banner
+NEWS = 252  # steps after the start of an act from which the site's name is shown at the top
 FADE = 0.55  # [s] after which a rising word is written darker
 HELD = ((0, 0, 130, 30), (350, 0, 130, 30), (0, 220, 200, 50), (340, 214, 140, 56), (130, 0, 220, 20))
-SLOWEST_WIND = 8.0  # [px/s] less wind is shown as calm
+SLOWEST_WIND = 8.0  # [px/s] wind below this is shown as calm
 FULL_WIND = 190.0
 EDGE = 18  # [px] from the picture's edge to the arrow towards a site out of sight
 
 
 def draw_words(canvas, scene, view, covered):
-    """Draw the words that rise from events. `view`: world point at the picture's corner; `covered`: a banner's rect."""
+    """Draw the short texts that rise from events. `view`: world point at the top left corner of the picture.
+
+    `covered`: rectangle of a banner, where no text is drawn.
+    """
     for rect in (*HELD, covered):
         canvas.reserve(rect)
     left, top = view
@@ -39,7 +42,7 @@ def draw_words(canvas, scene, view, covered):
 
 
 def draw_board(canvas, scene, view):
-    """Draw the fixed words and the instruments."""
+    """Draw the heads-up display. `view`: world point at the top left corner of the picture."""
     _draw_score(canvas, scene)
     _draw_ships(canvas, scene)
     _draw_site(canvas, scene, view)
@@ -77,7 +80,7 @@ def _draw_ships(canvas, scene):
 
 
 def _draw_site(canvas, scene, view):
-    """Draw a mark at the landing site, or an arrow at the picture's edge while the site is out of view."""
+    """Draw the site's name and distance at the top, and an arrow to the site at the edge while it is out of view."""
     course, ship = scene.course, scene.ship
     if course.over or scene.spectacle.act_since < NEWS:
         if not course.over:
@@ -114,7 +117,7 @@ def _draw_arrow(canvas, scene, view):
 
 
 def _draw_stock(canvas, scene):
-    """Draw fuel, hull and shells."""
+    """Draw the panel of fuel, hull and shells."""
     ship, atlas, gain = scene.ship, load_atlas("lander"), scene.spectacle.gain
     left, top, _, _ = PANEL
     canvas.surface.blit(glass(PANEL[2:]), PANEL[:2])
@@ -141,7 +144,10 @@ def _draw_stock(canvas, scene):
 
 
 def _bar(surface, rect, share, color, gain):
-    """Draw a bar with a light upper edge and ticks at each quarter."""
+    """Draw a bar in `rect` of which `share` (0..1) is filled, with a tick at each quarter.
+
+    `gain`: brightness just after a gain, 0..1.
+    """
     left, top, width, height = rect
     surface.fill(INK, rect)
     long = round((width - 2) * max(0.0, min(share, 1.0)))
@@ -155,7 +161,7 @@ def _bar(surface, rect, share, color, gain):
 
 
 def _draw_dials(canvas, scene):
-    """Draw sinking, drift and lean: green is good enough for a landing."""
+    """Draw vertical speed, horizontal speed and lean. Green and gold values are safe for a landing, red ones not."""
     ship = scene.ship
     left, top, _, _ = DIALS
     canvas.surface.blit(glass(DIALS[2:]), DIALS[:2])
@@ -201,7 +207,7 @@ def _draw_wind(canvas, scene):
 
 
 def _draw_chart(canvas, scene, view):
-    """Draw the whole moon, small: sites, cargo, the ship."""
+    """Draw a map of the whole moon with pads, cargo, ship, and the rectangle of the current view."""
     left, top, width, height = CHART
     surface, moon = canvas.surface, scene.moon
     surface.blit(chart((width, height)), (left, top))
@@ -232,7 +238,7 @@ def _draw_chart(canvas, scene, view):
 
 
 def chevron(surface, x, y):
-    """Draw a mark over the pad to land on."""
+    """Draw the mark above the pad to land on, at (x, y) [canvas px]."""
     for row in range(6):
         surface.fill(INK, (x - 7 + row, y + row - 1, 15 - 2 * row, 3))
     for row in range(5):
@@ -240,7 +246,7 @@ def chevron(surface, x, y):
 
 
 def hook_mark(surface, x, y, inside):
-    """Draw a mark over cargo, bright if the line would reach it."""
+    """Draw the mark above cargo at (x, y) [canvas px], green if the line can reach the cargo (`inside`)."""
     color = GOOD if inside else PAPER
     for row in range(5):
         surface.fill(INK, (x - 5 + row, y + row - 1, 11 - 2 * row, 3))
@@ -250,7 +256,7 @@ def hook_mark(surface, x, y, inside):
 
 @lru_cache(maxsize=8)
 def glass(size):
-    """Return the ground of an instrument: dark, half transparent, with a thin edge."""
+    """Return the background of a panel: dark, half transparent, with a thin edge."""
     out = pygame.Surface(size, pygame.SRCALPHA)
     out.fill(GLASS)
     pygame.draw.rect(out, (*SLATE, 130), (0, 0, *size), 1)
@@ -259,7 +265,7 @@ def glass(size):
 
 @lru_cache(maxsize=2)
 def chart(size):
-    """Return the moon's outline, small."""
+    """Return a small picture of the moon's rock and caves, the background of the map."""
     moon = the_moon()
     out = glass(size).copy()
     width, height = size[0] - 2, size[1] - 2

@@ -1,47 +1,48 @@
-"""The course: three sites as three acts, landings, and the end of a game.
+"""The course: three landing sites in three acts, the landings, and the end of a game.
 
-`scene.result` is set once, at the very end; the world continues behind it.
+`scene.result` is set once, at the very end. The world goes on moving behind the result.
 """
 
 from game.drawing.number_text import count_text
 from game.scene import Result
 from scenes.lander.feel import FUEL, HULL, REARM, REFUEL, REPAIR, SETTLED, SHELLS, STRANDED, steps
 
-FORGOTTEN = steps(0.6)  # steps in the air after which a knock no longer counts for a landing
-TITLE = steps(4.2)  # steps that the name of an act is shown
-CHEER = steps(3.2)  # steps that a landing's points are shown
-FIRST_BONUS, NEXT_BONUS, SHOWN = steps(2.2), steps(0.5), steps(2.0)  # after the last landing; between two; at the end
+FORGOTTEN = steps(0.6)  # steps in the air after which earlier impacts no longer count for the landing
+TITLE = steps(4.2)  # steps for which the name of an act is shown
+CHEER = steps(3.2)  # steps for which a landing's points are shown
+# Steps from the last landing to the first bonus; between two bonuses; from the last bonus to the result.
+FIRST_BONUS, NEXT_BONUS, SHOWN = steps(2.2), steps(0.5), steps(2.0)
 FLYING, LANDED, CLEARED, WON, LOST = "flying", "landed", "cleared", "won", "lost"
 
 
 class Course:
-    """State of the course. `act` 0..2 is the site; `mode` is one of the five above, `since` counts its steps; `rest`:
-    steps at rest.
+    """State of the course. `act`: number of the current site, 0..2; `mode`: FLYING, LANDED, CLEARED, WON or LOST;
+    `since`: steps in this mode; `rest`: steps at rest on a pad.
     """
 
     def __init__(self, moon):
         self.moon = moon
         self.act, self.mode, self.since, self.rest, self.stranded = 0, FLYING, 0, 0, 0
-        self.touchdown = 0.0  # [px/s] greatest impact speed since it was last in the air
-        self.airborne = 0  # [steps] without contact
-        self.clock = 0  # [steps] of the run, until the last landing
+        self.touchdown = 0.0  # [px/s] greatest speed at a contact since the ship was last in the air
+        self.airborne = 0  # [steps] for which the ship has had no contact
+        self.clock = 0  # [steps] time of the run, until the last landing
         self.counted = []  # (reason, points) of the last landing, or of the end so far
 
     @property
     def site(self):
-        """The Pad to land on."""
+        """The Pad that is the current landing site."""
         return self.moon.pads[self.act + 1]
 
     @property
     def over(self):
-        """True once there is nothing left to fly for."""
+        """True once all sites are reached or all ships are lost."""
         return self.mode in (CLEARED, WON, LOST)
 
     def _enter(self, mode):
         self.mode, self.since = mode, 0
 
     def step(self, scene):
-        """Update the course after the world's step."""
+        """Update the course after a step of the world."""
         self.since += 1
         self.clock += self.mode in (FLYING, LANDED)
         if self.mode == LANDED and self.since >= CHEER:
@@ -54,11 +55,11 @@ class Course:
             self._watch(scene)
 
     def touched(self, speed):
-        """Record a contact of the ship at a speed [px/s]."""
+        """Record that the ship touched a body at a speed [px/s]."""
         self.touchdown = max(self.touchdown, speed)
 
     def _watch(self, scene):
-        """Check for a landing, and for a ship that is stuck."""
+        """Check for a landing, for a ship stranded without fuel, and for the loss of the last ship."""
         ship = scene.ship
         self.airborne = 0 if ship.touching else self.airborne + 1
         if self.airborne == FORGOTTEN:
@@ -79,7 +80,7 @@ class Course:
             scene.result = self._result(scene, won=False)
 
     def _serve(self, scene, ship):
-        """Refuel, repair and rearm the ship on a pad."""
+        """Refuel, repair and rearm the ship, which rests on a pad, for one step."""
         filling = ship.fuel < FUEL or ship.hull < HULL
         ship.fuel, ship.hull = min(ship.fuel + REFUEL, FUEL), min(ship.hull + REPAIR, HULL)
         if self.rest % REARM == 0 and ship.shells < SHELLS:

@@ -1,4 +1,4 @@
-"""Every number that makes the lander fly as it does, and the collision filters."""
+"""Parameters of the lander's flight, damage and tools, and its collision filters."""
 
 from game.scene import STEP_SECONDS
 from physics import Filter
@@ -8,49 +8,49 @@ GRAVITY = 42.0  # [px/s2] a long fall is 3 s: time to react
 THRUST = 112.0  # [px/s2] of the ship alone: hovering takes three eighths of it
 TURN_RATE = 3.0  # [rad/s] half a turn takes a second
 TURN_GAIN, TURN_LOSS = 16.0, 12.0  # [rad/s2] start of a turn, and its stop without a key
-DRAG = 0.10  # [1/s] thin air; the wind acts by this share of its speed
-CEILING, CEILING_PUSH = -60.0, 3.0  # [px] altitude limit of the engine; [1/s2] pull per px above it
-SHIP_MASS, CARGO_MASS, DENSITY = 400.0, 120.0, 0.6  # [.], [.], [1/px2] of rock
+DRAG = 0.10  # [1/s] rate at which velocities approach that of the air: the air is thin
+CEILING, CEILING_PUSH = -60.0, 3.0  # [px] y of the altitude limit; [1/s2] acceleration down per px above it
+SHIP_MASS, CARGO_MASS, DENSITY = 400.0, 120.0, 0.6  # [mass], [mass], [mass/px2] of rock
 # Fuel, hull, shells
-FUEL, FUEL_RATE, CAN = 100.0, 4.6, 40.0  # full; [1/s] burnt; content of a can
+FUEL, FUEL_RATE, CAN = 100.0, 4.6, 40.0  # full tank; fuel burnt per second; fuel in a can
 LOW_FUEL = 25.0
 HULL = 100.0
 HARMLESS = 34.0  # [px/s] a smaller change of the ship's velocity does no damage
-DAMAGE = 0.95  # hull per px/s above it: 140 px/s destroys the ship
-SHELLS, FEWEST_SHELLS = 12, 6  # full; limit up to which the gun recharges itself, so that the ship is never walled in
+DAMAGE = 0.95  # loss of hull per px/s above HARMLESS: 140 px/s destroys the ship
+SHELLS, FEWEST_SHELLS = 12, 6  # most shells; number up to which the gun recharges, so that the ship is never walled in
 LIVES = 3
 # Landing
 SOFT = 30.0  # [px/s] touchdown speed up to which the whole bonus is given
-HARD = 72.0  # [px/s] from which there is no bonus
+HARD = 72.0  # [px/s] touchdown speed from which there is no bonus
 UPRIGHT = 0.30  # [rad] greatest lean of a landed ship
-STILL = 7.0  # [px/s] its greatest speed
+STILL = 7.0  # [px/s] greatest speed of a landed ship
 WARN_SPEED, WARN_HEIGHT = 85.0, 110.0  # [px/s], [px]: the alarm sounds at this sinking speed below this height
 # Gun and blasts
-SHELL_SPEED, SHELL_MASS, SHELL_RADIUS = 340.0, 5.0, 2.5  # [px/s] with the ship's own, [.], [px]
+SHELL_SPEED, SHELL_MASS, SHELL_RADIUS = 340.0, 5.0, 2.5  # [px/s] relative to the ship, [mass], [px]
 MUZZLE = 20.0  # [px] from the ship's middle
 BLAST, CRASH_BLAST = 20.0, 28.0  # [px] radius of a crater
 PUSH_REACH, PUSH = 64.0, 105.0  # [px] range of a blast; [px/s] change of velocity next to it
-CRUMB = 14  # [px] smaller pieces are dust
+CRUMB = 14  # area in pixels: smaller pieces are removed
 # The line
 REACH, LINE = 62.0, 48.0  # [px] range of the claw; length of the taut line
-LINE_RATE, LINE_DAMPING, SNAP = 4.0, 0.55, 150.0  # [Hz], of critical, [px] length at which it tears
+LINE_RATE, LINE_DAMPING, SNAP = 4.0, 0.55, 150.0  # [Hz], damping ratio, [px] length at which the line tears
 # Cargo
-CARGO_HARMLESS, CARGO_DAMAGE = 55.0, 0.7  # [px/s], share of 100 per px/s above it
+CARGO_HARMLESS, CARGO_DAMAGE = 55.0, 0.7  # [px/s] harmless change of velocity; damage (of 100) per px/s above it
 
 
 def steps(seconds):
-    """Return a time as whole steps."""
+    """Return the number of steps of 1/60 s nearest to a time [s]."""
     return round(seconds / STEP_SECONDS)
 
 
-COOLDOWN = steps(0.22)  # between two shells
-CHARGE = steps(2.5)  # in which the gun recharges a shell
+COOLDOWN = steps(0.22)  # steps between two shells
+CHARGE = steps(2.5)  # steps in which the gun recharges a shell
 SHELL_LIFE = steps(2.5)
-AWAY = steps(1.8)  # time between two ships
+AWAY = steps(1.8)  # steps between the loss of a ship and the next ship
 SETTLED = steps(0.6)  # steps at rest before a landing counts
-STRANDED = steps(3.0)  # at rest without fuel off a pad, before the ship is given up
-DELIVERED = steps(0.6)  # cargo at rest on a pad before it counts
-REFUEL, REPAIR, REARM = 30.0 / 60, 16.0 / 60, steps(0.45)  # per step, per step, steps per shell
+STRANDED = steps(3.0)  # steps on the ground without fuel and off a pad, before the ship is given up
+DELIVERED = steps(0.6)  # steps for which cargo must rest on a pad before it counts
+REFUEL, REPAIR, REARM = 30.0 / 60, 16.0 / 60, steps(0.45)  # fuel per step, hull per step, steps per shell
 
 
 GROUND_BIT, SHIP_BIT, SHELL_BIT, LOOSE_BIT, ZONE_BIT, CAN_BIT = (1 << bit for bit in range(6))
@@ -71,5 +71,5 @@ FUEL_CAN = Filter(CAN_BIT, SHIP_BIT)
 
 
 def approach(value, target, change):
-    """Return the value moved towards a target by at most `change`."""
+    """Return `value`, moved towards `target` by at most `change`."""
     return min(value + change, target) if value < target else max(value - change, target)

@@ -1,16 +1,16 @@
-"""Camera: it follows the ship and looks ahead of it."""
+"""Camera control of the lander: the camera follows the ship and looks ahead in the direction of its motion."""
 
 from game.drawing.canvas import CANVAS_SIZE
 
-AHEAD_X, AHEAD_Y = 0.55, 0.45  # [s] of the ship's motion that it looks ahead
-MOST_X, MOST_Y = 96.0, 62.0  # [px] at most
-BELOW = 14.0  # [px] by which more is visible under the ship than over it
-EASE, RATE = 2.6, 7.0  # [1/s] of the look ahead, and of the camera's motion
+AHEAD_X, AHEAD_Y = 0.55, 0.45  # [s] the camera looks ahead by the ship's motion in this time
+MOST_X, MOST_Y = 96.0, 62.0  # [px] greatest look ahead
+BELOW = 14.0  # [px] distance of the picture's centre below the ship
+EASE, RATE = 2.6, 7.0  # [1/s] rates at which the look ahead, and the camera, approach their targets
 TOP = -150.0  # [px] the highest visible point
 
 
 class Gaze:
-    """Mover of the scene's camera."""
+    """The control of the scene's camera."""
 
     def __init__(self, camera, ship, moon):
         self.camera, self.ship = camera, ship
@@ -19,7 +19,7 @@ class Gaze:
         camera.center_on(ship.x, ship.y + BELOW)
 
     def step(self, dt):
-        """Move the camera. Call it once per step."""
+        """Move the camera for one step of `dt` [s]."""
         ship = self.ship
         if ship.here:
             share = min(EASE * dt, 1.0)
@@ -29,10 +29,10 @@ class Gaze:
 
 
 def limited(value, most):
-    """Return the value limited to `most` from 0."""
+    """Return the value clamped to -most .. most."""
     return max(-most, min(value, most))
 
 
 def sees(camera, x, y, margin):
-    """Return whether a place is in the picture, or at most `margin` away [px]."""
+    """Return whether the world point (x, y) is in the picture, or less than `margin` [px] outside."""
     return -margin < x - camera.x < CANVAS_SIZE[0] + margin and -margin < y - camera.y < CANVAS_SIZE[1] + margin

@@ -1,14 +1,14 @@
-"""Goals of a flight by the bot, with deadlines."""
+"""Goals that the bot must reach, with deadlines. They are part of the scene's self-check."""
 
 from game.scene import Goal
 from scenes.lander.course import WON
 
-SITES = (("canyon", 2400), ("cave", 7200), ("mesa", 9900))  # frame by which each is reached
+SITES = (("canyon", 2400), ("cave", 7200), ("mesa", 9900))  # (site, frame by which it must be reached)
 CLEARED = 10500
 
 
 def goals(scene):
-    """Return a list of Goal."""
+    """Return the list of goals (Goal) of a flight, with their current values."""
     score, course = scene.score, scene.course
     return [
         *(

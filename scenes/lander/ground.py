@@ -1,6 +1,6 @@
-"""The ground: one static body of all the moon's pixels, into which craters are carved.
+"""The ground: one static body with the pixel mask of the whole moon, into which craters are carved.
 
-The body's own mask holds the pixels that are left, so drawing, flying and colliding use the same pixels.
+The body's mask holds the remaining pixels; the picture and the bot read the same mask.
 """
 
 from math import floor
@@ -11,12 +11,12 @@ from physics import Circle, Material
 from scenes.lander.feel import CRUMB, DENSITY, GROUND
 
 ROCK = Material(density=DENSITY, friction=0.75)
-TILE = 64  # [px] side of the parts in which pictures are made, and columns in a word of the mask
+TILE = 64  # [px] side of the tiles in which the ground is drawn; a word of the mask holds as many columns
 BITS = np.uint64(63)
 
 
 class Ground:
-    """The ground. `body`: the static mask. `touched`: (column, row) of the tiles that have changed."""
+    """The ground. `body`: the static body; `touched`: the tiles (column, row) that have changed since the start."""
 
     def __init__(self, world, moon):
         self.moon = moon
@@ -26,7 +26,7 @@ class Ground:
         self.touched = set()
 
     def carve(self, x, y, radius):
-        """Carve a round crater. Return the bodies of the pieces that came loose."""
+        """Carve a round crater at (x, y) [px]. Return the bodies of the pieces that came loose."""
         carved = self.body.carve(Circle(radius), (x, y), crumb=CRUMB)
         if carved.removed:
             self._touch(x - radius, y - radius, x + radius, y + radius)
@@ -39,11 +39,14 @@ class Ground:
             self.touched.update((column, row) for column in range(floor(left) // TILE, floor(right) // TILE + 1))
 
     def around(self, column, row, border):
-        """Return the pixels of one tile and `border` px around it, bool [row, column]; None while all are solid."""
+        """Return the remaining pixels of a tile and `border` px around it, a bool array [row, column].
+
+        Return None if neither the tile nor its neighbours have changed since the start.
+        """
         if not any((column + dx, row + dy) in self.touched for dx in (-1, 0, 1) for dy in (-1, 0, 1)):
             return None
         words = self.body.shapes[0].words
-        # Beyond the moon's edge the pixels of the edge are repeated.
+        # Beyond the moon's edge, the pixels of the edge are repeated.
         lines = np.clip(np.arange(row * TILE - border, (row + 1) * TILE + border), 0, len(words) - 1)
         columns = np.clip(np.arange(column * TILE - border, (column + 1) * TILE + border), 0, self.moon.width - 1)
         first, last = int(columns[0]) // TILE, int(columns[-1]) // TILE
@@ -51,7 +54,7 @@ class Ground:
         return np.unpackbits(some, axis=1, bitorder="little").view(bool)[:, columns - first * TILE]
 
     def is_solid(self, x, y):
-        """Return whether there is ground at a place [px]; beside and below the moon there is."""
+        """Return whether there is ground at (x, y) [px]. Everything beside and below the moon counts as ground."""
         column, row = floor(x), floor(y)
         if not 0 <= column < self.moon.width or row >= self.moon.height:
             return True
@@ -62,7 +65,7 @@ class Ground:
         return bool(self.body.shapes[0].words[row, column // TILE] >> (np.uint64(column) & BITS) & np.uint64(1))
 
     def clear_way(self, x, y, dx, dy, reach):
-        """Return the distance [px] along a unit vector to the first ground, at most `reach`."""
+        """Return the distance [px] from (x, y) to the first ground along the unit vector (dx, dy), at most `reach`."""
         far = 0.0
         while far < reach:
             if self.is_solid(x + dx * far, y + dy * far):
@@ -71,5 +74,5 @@ class Ground:
         return reach
 
     def state(self):
-        """Return the state for the digest; the world's state has the pixels."""
+        """Return the state for the replay digest, as a flat tuple. The pixels are part of the world's state."""
         return tuple(value for tile in sorted(self.touched) for value in tile)

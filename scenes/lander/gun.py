@@ -1,4 +1,4 @@
-"""The gun: shells fly from the nose and burst on contact. A burst pushes bodies nearby away."""
+"""The gun: shells fly from the ship's nose and explode on contact. An explosion pushes near bodies away."""
 
 from math import hypot
 
@@ -7,14 +7,14 @@ from scenes.lander.feel import MUZZLE, PUSH, PUSH_REACH, SHELL, SHELL_LIFE, SHEL
 
 
 class Gun:
-    """The gun. `shells`: body id -> steps it still flies."""
+    """The gun. `shells`: {body id of a shell: steps until it is removed}."""
 
     def __init__(self, world):
         self.world = world
         self.shells = {}
 
     def fire(self, ship):
-        """Fire one shell, with its recoil."""
+        """Fire one shell. Its recoil acts on the ship."""
         x, y = ship.nose
         body = self.world.add_body(
             Circle(SHELL_RADIUS),
@@ -29,12 +29,12 @@ class Gun:
         ship.body.apply_impulse((-SHELL_MASS * SHELL_SPEED * x, -SHELL_MASS * SHELL_SPEED * y))
 
     def step(self):
-        """Age the shells. Return the ids of those whose time is over."""
+        """Age the shells by one step. Return the ids of the shells whose time is over."""
         self.shells = {identity: left - 1 for identity, left in self.shells.items()}
         return [identity for identity, left in self.shells.items() if left <= 0]
 
     def bursts(self, begun):
-        """Return {shell id: place [px]} of those that touched a body, from the step's events."""
+        """Return {shell id: contact point [px]} of the shells that touched a body. `begun`: the step's begin events."""
         found = {}
         columns = (begun[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y"))
         for a, b, x, y in zip(*columns, strict=True):
@@ -49,7 +49,7 @@ class Gun:
 
 
 def blown(body, x, y):
-    """Return the velocity [px/s] that a burst gives a body: (vx, vy, speed), all 0 out of its range."""
+    """Return the velocity (vx, vy, speed) [px/s] that an explosion at (x, y) adds to a body; all 0 out of range."""
     dx, dy = body.center.x - x, body.center.y - y
     far = hypot(dx, dy)
     speed = PUSH * max(1.0 - far / PUSH_REACH, 0.0)

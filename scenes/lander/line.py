@@ -1,6 +1,7 @@
-"""The line: a rope with a claw, which pulls but never pushes. Its load swings.
+"""The line: a rope between ship and load, which pulls but never pushes.
 
-Its pull is a damped spring once it is longer than LINE. It acts at both centres of mass, so it causes no torque.
+When the rope is longer than LINE it pulls as a damped spring. The force acts at the centres of mass of ship and load,
+so it causes no torque.
 """
 
 from math import hypot, pi
@@ -10,14 +11,17 @@ from scenes.lander.feel import LINE, LINE_DAMPING, LINE_RATE, REACH, SNAP
 
 
 class Line:
-    """The line. `load`: the body on it, None while it is retracted. `torn`: it broke in this step."""
+    """The line. `load`: the body that it carries, or None; `torn`: whether it tore in this step."""
 
     def __init__(self):
         self.load: Any = None
         self.torn = False
 
     def toggle(self, ship, loose):
-        """Catch the nearest of some bodies within reach, or let go. Return "caught", "let go" or "missed"."""
+        """Let go of the load, or else catch the nearest of the bodies `loose` that is within REACH.
+
+        Return "let go", "caught", or "missed" if no body is in reach.
+        """
         if self.load is not None:
             self.load = None
             return "let go"
@@ -30,7 +34,7 @@ class Line:
         return "caught"
 
     def pull(self, ship):
-        """Add the rope's force for the coming step."""
+        """Apply the rope's force to ship and load for the next step, or let the rope tear if it is too long."""
         self.torn = False
         load = self.load
         if load is None or not ship.here:
@@ -54,7 +58,7 @@ class Line:
             load.apply_force((-force * ux, -force * uy))
 
     def drop(self, identity):
-        """Let go of a body that is about to be removed."""
+        """Let go of the load if it is the body `identity`, which is about to be removed."""
         if self.load is not None and self.load.id == identity:
             self.load = None
 

@@ -1,4 +1,7 @@
-"""The moon's plan: its pictures, the pads, and the places of all loose things. It is constant during a game."""
+"""The moon as it is at the start: pictures, pads, winds, places of cargo and rocks, and the bot's path.
+
+It is constant; changes during a game belong to other objects.
+"""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -16,7 +19,7 @@ LEVEL = LEVELS / "lander.json"
 
 @dataclass(frozen=True)
 class Pad:
-    """A place to land: x of its middle, y of its deck [px]. The first one is the base."""
+    """A landing pad: `x` of its middle, `y` of its deck [px]. The first pad of the moon is the base."""
 
     name: str
     title: str
@@ -28,13 +31,13 @@ class Pad:
 
     @property
     def look(self):
-        """Its frame in the sheet."""
+        """Name of the pad's picture in the sprite sheet."""
         return f"pad_{self.name}"
 
 
 @dataclass(frozen=True)
 class Wind:
-    """Wind from the left up to the column `until`: a steady wind and the most that a gust adds [px/s]."""
+    """The wind in a region that ends at x = until [px]. `gust`: the most that gusts add to the wind `steady` [px/s]."""
 
     until: float
     steady: float
@@ -43,8 +46,10 @@ class Wind:
 
 @dataclass(frozen=True)
 class Waypoint:
-    """A place [px] on the bot's path. `until`: the place up to which the path must be free before it continues; `take`:
-    number of the cargo that it picks up there.
+    """A point `at` on the bot's path [px].
+
+    `until`: point to which the path must be free of ground before the bot flies on, or () for no check; `take`: number
+    of the cargo to pick up there, or -1.
     """
 
     at: tuple
@@ -53,8 +58,8 @@ class Waypoint:
 
 
 class Moon:
-    """The moon. `mask`: the ground as one PixelMask with its origin at the world's; `solid` and `massif` bool [row,
-    column].
+    """The moon. `mask`: the ground as one PixelMask, at the world's origin; `solid`: its pixels; `massif`: pixels of
+    the mountain, with its caves. Both are bool arrays [row, column].
     """
 
     def __init__(self):
@@ -72,7 +77,7 @@ class Moon:
         self.picture, self.wall = load_backdrop("lander_ground"), load_backdrop("lander_wall")
         self.mask = PixelMask.from_surface(self.picture, origin=(0, 0))
         self.solid = self.mask.solid
-        self.tiles = self.mask.tiles  # made here, so that the first shell does not wait for them
+        self.tiles = self.mask.tiles  # computed at the start, so that the first shell causes no delay
         self.massif = np.ascontiguousarray((pygame.surfarray.pixels_alpha(self.wall) > 0).T)
 
     def __deepcopy__(self, memo):
@@ -80,16 +85,16 @@ class Moon:
         return self
 
     def is_inside(self, x, y):
-        """Return whether a place [px] is in the mountain, in rock or in a cave, where there is no wind."""
+        """Return whether (x, y) [px] is inside the mountain, in rock or in a cave. There is no wind there."""
         column, row = int(x), int(y)
         return 0 <= column < self.width and 0 <= row < self.height and bool(self.massif[row, column])
 
     def wind_at(self, x):
-        """Return the Wind of a column."""
+        """Return the Wind of the region at x [px]."""
         return next((wind for wind in self.winds if x < wind.until), self.winds[-1])
 
 
 @lru_cache(maxsize=1)
 def the_moon():
-    """Return the one Moon, made with the first scene."""
+    """Return the one Moon, which is created at the first call."""
     return Moon()

@@ -1,7 +1,7 @@
-"""The bot: it flies from waypoint to waypoint by a target velocity, the thrust for it, and the turn for the thrust.
+"""The lander's bot. It flies from waypoint to waypoint: a wanted velocity gives the thrust, and that the ship's angle.
 
-The engine is either on or off, so it is on whenever at least half of its thrust is needed. If ice is in its path the
-bot hovers, turns its nose to it, and fires until a ship fits through.
+The engine has no throttle: it is on whenever at least half of its thrust is needed. If ice blocks the path, the bot
+hovers, turns the ship's nose to the ice, and fires until the ship fits through.
 """
 
 from math import atan2, hypot, sqrt
@@ -10,40 +10,40 @@ from typing import Any
 from scenes.lander.feel import DRAG, FUEL, HULL, REACH, SHIP_MASS, THRUST, TURN_LOSS
 from scenes.lander.ship import STAND, wrapped
 
-CRUISE, SLOWEST, SINK = 105.0, 26.0, 62.0  # [px/s] along the path, at a turn of it, and down to a pad
-BRAKING = 26.0  # [px/s2] that it assumes
+CRUISE, SLOWEST, SINK = 105.0, 26.0, 62.0  # [px/s] speed along the path, at a waypoint, and down to a pad
+BRAKING = 26.0  # [px/s2] deceleration that the bot plans with
 TOUCH = 15.0  # [px/s] touchdown speed
-GAIN = 2.2  # [1/s] correction per error of velocity
-NEARLY = 0.03  # [rad] error at which it stops turning
+GAIN = 2.2  # [1/s] acceleration per error of velocity
+NEARLY = 0.03  # [rad] error of the angle below which the bot stops turning
 LEAN = 0.85  # [rad] greatest lean in flight
 NEAR, AT = 34.0, 16.0  # [px] distance at which a waypoint is passed; at which it is reached
-STEADY = 16.0  # [px/s] slow enough to turn and fire
-AIMED, SLIPPED = 7.0, 24.0  # [px] error of aim at which it fires; [px] drift at which it stops aiming
-OVER, UPON = 13.0, 16.0  # [px], [px/s] offset and drift over a pad with which it sinks
-SIDES = (0.0, -9.0, 9.0, -19.0, 19.0)  # [px] offsets of the rays along its path that must be free
+STEADY = 16.0  # [px/s] speed below which the bot may begin to aim, or throw the line
+AIMED, SLIPPED = 7.0, 24.0  # [px] error of aim below which it fires; drift at which it stops aiming
+OVER, UPON = 13.0, 16.0  # [px], [px/s] greatest offset from a pad's middle, and drift, with which it descends
+SIDES = (0.0, -9.0, 9.0, -19.0, 19.0)  # [px] sideways offsets of the rays along the path that must be free
 LOOKS = 6  # steps between two checks for obstacles
-FALLING = 60.0  # [px/s] at which it stops aiming
-LOADED, LOADED_LEAN = 62.0, 0.45  # [px/s], [rad] with a load, which swings
-OVER_CARGO, ASTRAY = 44.0, 90.0  # [px] over cargo at which it throws the line; cargo farther from its place is ignored
-ASIDE, GENTLY = 84.0, 7.0  # [px] over a pad at which it waits for cargo to go; [px/s] speed for setting cargo down
-ROOM, MOVES = 40.0, 10.0  # [px] around its path that must be free of falling rubble, [px/s]
-STUCK, BACKING = 40, 70  # steps
-BACK_OFF = ((24.0, -48.0), (-24.0, -48.0))  # [px/s] from an obstacle on its left, on its right
+FALLING = 60.0  # [px/s] downward speed at which it stops aiming
+LOADED, LOADED_LEAN = 62.0, 0.45  # [px/s], [rad] greatest speed and lean with a load, which swings
+OVER_CARGO, ASTRAY = 44.0, 90.0  # [px] height above cargo for the line; cargo farther from its waypoint is ignored
+ASIDE, GENTLY = 84.0, 7.0  # [px] height at which it waits until a pad is free; [px/s] speed to set cargo down
+ROOM, MOVES = 40.0, 10.0  # [px] distance from the path within which falling rubble blocks it; its least speed [px/s]
+STUCK, BACKING = 40, 70  # steps of contact after which the bot backs off; steps of backing off
+BACK_OFF = ((24.0, -48.0), (-24.0, -48.0))  # [px/s] velocity away from an obstacle on the left, on the right
 WAIT = 22  # steps between two shells
 
 
 class Pilot:
-    """The bot. `act` and `number` name its waypoint; `aiming` while its nose is turned to the ice."""
+    """The bot. `act`, `number`: indices of the act and of its next waypoint; `aiming`: whether it is about to fire."""
 
     def __init__(self):
         self.act = self.number = self.wait = 0
         self.aiming = False
-        self.leant = 0  # steps in contact, and then steps of backing off
-        self.loaded = False  # whether the line has a load
-        self.blocked: Any = None  # the place of the obstacle
+        self.leant = 0  # steps in contact, then steps of backing off
+        self.loaded = False  # whether the line carries a load
+        self.blocked: Any = None  # point (x, y) of the obstacle in the path, or None
 
     def keys(self, scene):
-        """Return the actions to hold in the next step."""
+        """Return the set of actions that are held in the next step."""
         ship, course = scene.ship, scene.course
         if not ship.here or course.over:
             self.number, self.aiming = 0, False
@@ -70,15 +70,15 @@ class Pilot:
         return self._steer(scene, *self._towards(ship, point.at, last=bool(point.until) or self.number == len(way) - 1))
 
     def _is_stuck(self, scene):
-        """Return whether it has been in contact for so long that it backs off; rubble may lie anywhere."""
+        """Return whether the ship has been in contact for so long that it must back off: rubble may lie anywhere."""
         self.leant = self.leant + 1 if scene.ship.touching or self.leant > STUCK else 0
         if self.leant > STUCK + BACKING:
-            # Then repeat the last part of the path.
+            # After backing off, fly to the previous waypoint again.
             self.leant, self.number = 0, max(self.number - 1, 0)
         return self.leant > STUCK
 
     def _waits(self, scene):
-        """Return whether it waits: on a pad until it is filled, and while a landing is celebrated."""
+        """Return whether the ship waits on a pad: to be refuelled, or while the points of a landing are shown."""
         ship, course = scene.ship, scene.course
         if scene.pad_below() is None or not ship.quiet:
             return False
@@ -117,18 +117,18 @@ class Pilot:
         if load is not None:
             high = max(pad.y - load.bounds[3], 0.0)
         elif any(piece.over is pad for piece in scene.yard.cargo.values()):
-            # Cargo was just set down and will be gone in a moment.
+            # Cargo has just been set down on the pad and will soon be gone.
             return 0.7 * dx, pad.y - ASIDE - ship.y
         wanted_x = max(-40.0, min(dx * 0.9, 40.0))
         if (abs(dx) > OVER or abs(ship.vx) > UPON) and high > 14.0:
-            # Not over it yet: keep the height.
+            # Not above the pad yet: keep the height.
             return wanted_x, max(-30.0, min((high - 60.0) * 0.8, 24.0))
         return wanted_x * 0.6, min(SINK, max(sqrt(2.0 * 0.5 * BRAKING * high), TOUCH))
 
     # --- cargo -------------------------------------------------------------------------------------------------------
 
     def _take(self, scene, piece):
-        """Return the keys over a piece of cargo: slow down, then throw the line."""
+        """Return the keys to pick up a piece of cargo: slow down above it, then throw the line."""
         ship = scene.ship
         x, y = piece.body.position
         keys = self._steer(scene, *self._towards(ship, (x, y - OVER_CARGO), last=True))
@@ -139,7 +139,7 @@ class Pilot:
         return keys | {"bomb"}
 
     def _sets_down(self, scene, pad):
-        """Return whether to let go in this step, because the cargo stands on the pad."""
+        """Return whether to let go of the cargo in this step, because it stands on the pad."""
         load = scene.line.load
         if load is None or self.wait or pad.y - load.bounds[3] > 2.0 or load.velocity.length > GENTLY:
             return False
@@ -149,7 +149,7 @@ class Pilot:
     # --- keys --------------------------------------------------------------------------------------------------------
 
     def _steer(self, scene, wanted_x, wanted_y):
-        """Return the keys that bring the ship to a velocity [px/s]."""
+        """Return the keys that steer the ship towards a wanted velocity [px/s]."""
         ship = scene.ship
         heavy = 1.0 if scene.line.load is None else 1.0 + scene.line.load.mass / SHIP_MASS
         push_x = GAIN * (wanted_x - ship.vx) + DRAG * (ship.vx - scene.weather.wind)
@@ -168,7 +168,10 @@ class Pilot:
         return {"right"} if off > NEARLY else {"left"} if off < -NEARLY else set()
 
     def _shoot(self, scene, point, x, y):
-        """Return the keys to aim at an obstacle and fire; None while it has to fly back to its place first."""
+        """Return the keys to aim at an obstacle at (x, y) [px] and fire.
+
+        Return None if the ship must first fly back to the waypoint `point` or slow down.
+        """
         ship = scene.ship
         if not self.aiming:
             slow = ship.speed < STEADY
@@ -180,7 +183,7 @@ class Pilot:
         wanted = atan2(x - ship.x, ship.y - y)
         keys = self._turn(ship, wanted)
         if abs(ship.angle) < LEAN and ship.vy > point.at[1] - ship.y:
-            # Upright enough to keep its height.
+            # The ship is upright enough for its engine to keep the height.
             keys.add("up")
         if abs(wrapped(wanted - ship.angle)) * hypot(x - ship.x, y - ship.y) < AIMED and not self.wait:
             self.wait = WAIT
@@ -189,7 +192,7 @@ class Pilot:
 
 
 def falls(scene, point):
-    """Return whether rubble is falling into the bot's path, so that it waits."""
+    """Return whether rubble is falling into the path after waypoint `point`, so that the bot must wait."""
     (x, y), (end_x, end_y) = point.at, point.until
     left, right = min(x, end_x) - ROOM, max(x, end_x) + ROOM
     return any(
@@ -199,7 +202,10 @@ def falls(scene, point):
 
 
 def obstacle(ground, start, end):
-    """Return the nearest place [px] at which a ship on a straight path meets ground; None if it fits through."""
+    """Return the first point (x, y) [px] at which a ship on the straight path start - end touches ground.
+
+    Return None if the ship fits through.
+    """
     dx, dy = end[0] - start[0], end[1] - start[1]
     far = hypot(dx, dy)
     dx, dy = dx / far, dy / far

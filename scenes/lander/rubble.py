@@ -1,7 +1,4 @@
-"""Rubble: loose pieces of the ground and of rocks. Each is drawn with its original pixels.
-
-`source`: the place [px] of its raster's top left in a picture: that of the moon, or of the rock that it came from.
-"""
+"""Rubble: loose rocks, and loose pieces of ground and rocks. Each is drawn with the pixels of its original picture."""
 
 from dataclasses import dataclass
 
@@ -11,25 +8,28 @@ from scenes.lander.feel import CRUMB, LOOSE
 
 @dataclass(frozen=True)
 class Piece:
-    """A loose piece. `look`: the frame of a rock, or "ground"; `source`: (x, y) in its picture [px]."""
+    """A loose piece. `look`: name of its original picture, a rock's frame or "ground" for the moon's picture.
+
+    `source`: place (x, y) in that picture [px] of the top left corner of the piece's mask.
+    """
 
     look: str
     source: tuple[int, int]
 
 
 class Rubble:
-    """The rubble. `pieces`: a Piece by body id: the rocks present at the start, and all that was blown off."""
+    """All rubble. `pieces`: Piece by body id. It begins with the loose rocks; explosions add pieces."""
 
     def __init__(self, world):
         self.world = world
         self.pieces = {}
 
     def add_rock(self, body, look):
-        """Add a loose whole rock."""
+        """Add a whole loose rock with the picture `look`."""
         self.pieces[body.id] = Piece(look, (0, 0))
 
     def add_ground(self, bodies):
-        """Add pieces of the ground that have just come loose and have not moved yet."""
+        """Add the bodies of pieces that have just come loose from the ground. They must not have moved yet."""
         for body in bodies:
             (mask,) = body.shapes
             x, y = body.position
@@ -44,7 +44,10 @@ class Rubble:
         return [self.world.body(identity) for identity in sorted(self.pieces)]
 
     def carve(self, x, y, radius):
-        """Carve a burst's disc out of the pieces in its range. Return the ids of those without pixels left."""
+        """Carve the disc of an explosion out of all pieces in its range.
+
+        Return the ids of the bodies that are gone, because no pixel of them is left.
+        """
         gone = []
         for body in self.bodies():
             left, top, right, bottom = body.bounds
@@ -65,7 +68,10 @@ class Rubble:
 
 
 def _source(part, before, mask, parent):
-    """Return the place of a fragment's raster in the picture that both are drawn from."""
+    """Return the `source` of a new fragment `part`.
+
+    `before`: the Piece that it was carved from, with the mask `mask` and the body `parent`.
+    """
     (own,) = part.shapes
     x, y = parent.to_local(part.position)
     return (

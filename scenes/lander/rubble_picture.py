@@ -1,4 +1,4 @@
-"""Pictures of rubble: the pixels of each piece, cut out of the picture that it came from, at any angle."""
+"""Pictures of rubble: each piece is cut out of the picture that it came from, and drawn at any angle."""
 
 from functools import lru_cache
 from math import cos, pi, sin
@@ -10,18 +10,18 @@ from game.drawing.canvas import whole
 from game.drawing.sprites import load_atlas
 
 ANGLES = 128  # pictures per full turn
-KEPT = 300  # pieces
+KEPT = 300  # pieces in the cache
 
 
 class RubblePictures:
-    """Pictures cached by mask: a carved piece has another mask."""
+    """The renderer of rubble, with a cache of pictures. A piece that is carved has a new mask, and so a new picture."""
 
     def __init__(self, moon):
         self.moon = moon
         self.kept = {}  # body id -> (mask, Cut)
 
     def draw(self, surface, piece, body, x, y, angle):
-        """Draw a piece with its body's origin at a place of the surface."""
+        """Draw a piece with its body's origin at (x, y) of the surface, rotated by `angle` [rad]."""
         (mask,) = body.shapes
         kept = self.kept.get(body.id)
         if kept is None or kept[0] is not mask:
@@ -36,7 +36,7 @@ class RubblePictures:
         surface.blit(image, (whole(x + c * u - s * v - width / 2), whole(y + s * u + c * v - height / 2)))
 
     def _cut_out(self, piece, mask):
-        """Return the picture of its pixels, dark and lit along the fracture."""
+        """Return the picture of a piece's pixels, dark along the fracture and lit where the fracture faces up."""
         width, height = mask.size
         source = self.moon.picture if piece.look == "ground" else load_atlas("lander")[piece.look]
         wide = pygame.Surface((width + 2, height + 2), pygame.SRCALPHA)
@@ -58,14 +58,14 @@ class RubblePictures:
 
 
 class Cut:
-    """One piece at any angle."""
+    """The picture of one piece, with a cache of its rotated copies."""
 
     def __init__(self, image):
         self.image = image
         self.turned = lru_cache(maxsize=ANGLES)(self._turned)
 
     def at(self, angle):
-        """Return the picture rotated clockwise by the nearest cached angle [rad]."""
+        """Return the picture, rotated clockwise by `angle` [rad], rounded to one of ANGLES steps."""
         return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
 
     def _turned(self, number):
@@ -73,6 +73,6 @@ class Cut:
 
 
 def _beside(gone):
-    """Return the pixels that have one of these on one of their four sides."""
+    """Return a bool array of the pixels that are 4-neighbours of a pixel of `gone`."""
     padded = np.pad(gone, 1)
     return padded[:-2, 1:-1] | padded[2:, 1:-1] | padded[1:-1, :-2] | padded[1:-1, 2:]

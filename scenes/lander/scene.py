@@ -1,4 +1,4 @@
-"""The lander's rules. Keys turn and thrust; the damage of a knock follows from its impulse."""
+"""The lander's rules. The damage by an impact follows from the contact impulse that the solver reports."""
 
 from game.scene import STEP_SECONDS, Scene, Slider
 from physics import Effects
@@ -57,7 +57,7 @@ class Lander(Scene):
     assists = ("invincible",)
 
     def build(self):
-        """Build a ship on the base, and a moon."""
+        """Build the moon with its pads, cargo and rocks, and a ship on the base."""
         self.moon = the_moon()
         world = self.add_world(gravity=(0.0, self.values["gravity"]), drag=DRAG)
         self.ground = Ground(world, self.moon)
@@ -71,7 +71,7 @@ class Lander(Scene):
         self.gone = []  # ids of bodies that are removed when the next step begins
 
     def change_slider(self, name, value):
-        """Apply a changed gravity at once."""
+        """Apply a change of the gravity slider to the world at once."""
         super().change_slider(name, value)
         if self.world.effects.gravity:
             self.world.gravity = (0.0, self.values["gravity"])
@@ -117,7 +117,7 @@ class Lander(Scene):
             self.spectacle.line_used(self.line.toggle(ship, self.yard.light()))
 
     def _in_the_air(self):
-        """Return the bodies that gusts push: the ship unless it rests, and the line's load."""
+        """Return the bodies that gusts push: the ship, unless it rests on the ground, and the load of the line."""
         ship, load = self.ship, self.line.load
         flying = ship.here and (ship.thrusting or not ship.quiet)
         return [body for body, blown_at in ((ship.body, flying), (load, load is not None)) if blown_at]
@@ -127,7 +127,7 @@ class Lander(Scene):
         if me is not None:
             begun = others(events.begin, me)
             if begun - self.ship.touching:
-                self.course.touched(self.ship.speed)  # before this step
+                self.course.touched(self.ship.speed)  # the speed before this step
             self.ship.touching |= begun
             self.ship.touching -= others(events.end, me)
             for identity in sorted(others(events.sensor_begin, me) & self.yard.cans.keys()):
@@ -145,7 +145,7 @@ class Lander(Scene):
             self._crash()
 
     def _knocks(self, hits):
-        """Process the impacts. The impulse over the mass is the change of velocity [px/s]."""
+        """Process the impacts of a step on ship, cargo and rocks. Impulse / mass is the change of velocity [px/s]."""
         columns = (hits[name].tolist() for name in ("body_a", "body_b", "point_x", "point_y", "normal_impulse"))
         for a, b, x, y, impulse in zip(*columns, strict=True):
             for identity in (a, b):
@@ -171,14 +171,14 @@ class Lander(Scene):
             del self.yard.cargo[identity]
             self.spectacle.cargo_lost(piece)
 
-    # --- what happens ------------------------------------------------------------------------------------------------
+    # --- events of the game ------------------------------------------------------------------------------------------
 
     def pad_below(self):
         """Return the Pad that the ship stands on, or None."""
         return next((self.yard.pads[each] for each in sorted(self.ship.touching) if each in self.yard.pads), None)
 
     def blast(self, x, y, radius):
-        """Make a burst: a crater, and a push on bodies nearby."""
+        """Make an explosion at (x, y) [px]: carve a crater of `radius` [px], and push and damage near bodies."""
         self.spectacle.blast(x, y, radius)
         rubble = self.yard.rubble
         for identity in rubble.carve(x, y, radius):
@@ -197,12 +197,12 @@ class Lander(Scene):
                 self._hurt(speed, self.ship.x, self.ship.y)
 
     def _forget(self, identity):
-        """Drop all references to a removed body."""
+        """Drop the references of line and ship to a body that is removed."""
         self.line.drop(identity)
         self.ship.touching.discard(identity)
 
     def give_up(self):
-        """Give up a ship without fuel that cannot move on."""
+        """Give up a ship that is stranded without fuel."""
         self.spectacle.stranded()
         self.ship.hull = 0.0
         self._crash()
@@ -228,18 +228,18 @@ class Lander(Scene):
         self.gone.append(identity)
         self.spectacle.delivered(piece, self.score.deliver(piece.whole))
 
-    # --- what the judge wants to know --------------------------------------------------------------------------------
+    # --- self-check, bot and replay ----------------------------------------------------------------------------------
 
     def check(self):
-        """Return the goals: all three sites, by the bot."""
+        """Return the goals that the bot must reach, such as landings at all three sites."""
         return goals(self)
 
     def bot(self):
-        """Return the scripted player."""
+        """Return the actions that the bot holds in the next step."""
         return self.pilot.keys(self)
 
     def state(self):
-        """Return all state outside the world."""
+        """Return the scene's state outside the physics world, as a flat tuple for the replay digest."""
         parts = (self.ship, self.course, self.score, self.gun, self.line, self.weather, self.yard, self.ground)
         return (
             self.frame,
@@ -250,11 +250,11 @@ class Lander(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """Draw the picture."""
+        """Draw the scene at `alpha` (0..1) between the last two steps."""
         the_view().draw(self, canvas, alpha)
 
 
 def others(rows, identity):
-    """Return the bodies that share an event with `identity`."""
+    """Return the set of ids of the bodies that share an event with body `identity`."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

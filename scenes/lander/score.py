@@ -1,26 +1,27 @@
-"""Points of landings, deliveries and the end; medals for the total."""
+"""Points of the lander, for landings, deliveries and at the end, and the medals for the total."""
 
 from scenes.lander.feel import FUEL, HARD, HULL, SOFT
 
-LANDING, GENTLE, CENTRED, SPARED, WHOLE = 1000, 1500, 500, 1000, 500  # points, times the site's number
+LANDING, GENTLE, CENTRED, SPARED, WHOLE = 1000, 1500, 500, 1000, 500  # points, multiplied by the site's number 1..3
 DELIVERY = 4000  # for undamaged cargo
 CAN_WORTH = 200
-PAR, SECOND, LIFE, PURE = 300.0, 30, 3000, 5000  # [s] of a run; points per second left; per ship left; for no loss
+PAR, SECOND, LIFE, PURE = 300.0, 30, 3000, 5000  # [s]; points per second below PAR; per spare ship; for no loss
 MEDALS = (("GOLD", 50000), ("SILVER", 34000), ("BRONZE", 0))
-OFF_CENTRE = 34.0  # [px] from a pad's middle up to which it still counts
+OFF_CENTRE = 34.0  # [px] distance from a pad's middle from which there is no bonus for precision
 
 
 class Score:
-    """Score. `points`: total; events are counted beside them."""
+    """The score. `points`: total; the other attributes count landings, deliveries, lost ships, shells and cans."""
 
     def __init__(self):
         self.points = 0
         self.landings = self.delivered = self.lost = self.fired = self.cans = 0
-        self.softest = 999.0  # [px/s] softest counted touchdown
+        self.softest = 999.0  # [px/s] speed of the softest touchdown that counted
 
     def land(self, number, speed, off, fuel, hull):
-        """Add a landing; return [(reason, points)]. number: 1 for the first site; speed [px/s] of the touchdown; off
-        [px].
+        """Count a landing and add its points. Return a list of (reason, points).
+
+        `number`: 1 for the first site; `speed`: at touchdown [px/s]; `off`: distance from the pad's middle [px].
         """
         self.landings += 1
         self.softest = min(self.softest, speed)
@@ -36,20 +37,23 @@ class Score:
         return found
 
     def deliver(self, whole):
-        """Add delivered cargo, with `whole` 0..100 of it left. Return its points."""
+        """Count a delivered piece of cargo and add its points. Return them. `whole`: its condition, 0..100."""
         self.delivered += 1
         worth = rounded(DELIVERY * (0.25 + 0.75 * whole / 100.0))
         self.points += worth
         return worth
 
     def take_can(self):
-        """Add a can of fuel; return its points."""
+        """Count a can of fuel and add its points. Return them."""
         self.cans += 1
         self.points += CAN_WORTH
         return CAN_WORTH
 
     def final(self, seconds, lives, cargo):
-        """Return [(reason, points)] of the end. lives: ships left; cargo: number of pieces."""
+        """Return the bonuses at the end, a list of (reason, points).
+
+        `seconds`: time of the run; `lives`: ships left; `cargo`: number of pieces of cargo on the moon.
+        """
         found = [("TIME", rounded(max(PAR - seconds, 0.0) * SECOND)), ("SHIPS LEFT", max(lives - 1, 0) * LIFE)]
         if not self.lost:
             found.append(("NO SHIP LOST", PURE))
@@ -63,7 +67,7 @@ class Score:
 
     @property
     def medal(self):
-        """GOLD, SILVER or BRONZE."""
+        """Name of the medal for the points: GOLD, SILVER or BRONZE."""
         return next(name for name, least in MEDALS if self.points >= least)
 
     def state(self):

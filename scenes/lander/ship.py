@@ -1,4 +1,4 @@
-"""The ship: it turns, thrusts, burns fuel and is damaged by knocks. Its body has its picture's pixels."""
+"""The ship: it turns, thrusts, burns fuel and is damaged by impacts. Its shape is the pixel mask of its picture."""
 
 from math import cos, hypot, sin
 from typing import Any
@@ -33,20 +33,20 @@ from scenes.lander.feel import (
 )
 
 STAND = 16.0  # [px] from the ship's middle to its feet
-SIDES = 14.0  # [px] kept from the world's left and right edge
+SIDES = 14.0  # [px] least distance from the left and right edge of the moon
 HULL_MATERIAL = Material(friction=0.8, restitution=0.12)
 
 
 class Ship:
-    """The ship. `body` is None between two ships. `touching`: ids of bodies in contact. `away` counts the steps to the
-    next ship.
+    """The player's ship. `body`: None between the loss of a ship and the next; `touching`: ids of the bodies in contact
+    with it; `away`: steps until the next ship.
     """
 
     def __init__(self, world, moon):
         self.world, self.moon = world, moon
         self.lives = LIVES
         self.body: Any = None
-        self.pad = moon.pads[0]  # start of the next ship
+        self.pad = moon.pads[0]  # the pad on which the next ship starts
         self.fuel, self.hull, self.shells = FUEL, HULL, SHELLS
         self.x = self.y = self.angle = self.vx = self.vy = 0.0
         self.touching = set()
@@ -56,22 +56,22 @@ class Ship:
 
     @property
     def here(self):
-        """True while there is a ship."""
+        """True while the ship exists; False between the loss of a ship and the next."""
         return self.body is not None
 
     @property
     def nose(self):
-        """Direction of the nose, a unit vector."""
+        """Direction of the ship's nose, a unit vector (x, y)."""
         return sin(self.angle), -cos(self.angle)
 
     @property
     def speed(self):
-        """Speed [px/s]."""
+        """Speed of the ship [px/s]."""
         return hypot(self.vx, self.vy)
 
     @property
     def quiet(self):
-        """True if it rests upright."""
+        """True if the ship stands upright and at rest, with its engine off."""
         return (
             self.here
             and bool(self.touching)
@@ -81,7 +81,7 @@ class Ship:
         )
 
     def arrive(self):
-        """Place a ship on the last reached pad."""
+        """Create a ship on the pad that was reached last."""
         self.fuel, self.hull, self.shells = FUEL, HULL, max(self.shells, FEWEST_SHELLS)
         self.body = self.world.add_body(
             load_atlas("lander").mask("ship"),
@@ -96,14 +96,14 @@ class Ship:
         self.read()
 
     def read(self):
-        """Read pose and motion from the world."""
+        """Read position, velocity and angle of the body from the world."""
         if self.body is not None:
             self.x, self.y = self.body.position
             self.vx, self.vy = self.body.velocity
             self.angle = wrapped(self.body.angle)
 
     def steer(self, inputs):
-        """Turn and thrust by the keys."""
+        """Turn and thrust for the next step, as the inputs say."""
         body = self.body
         self.turning = inputs.held("right") - inputs.held("left")
         self.thrusting = inputs.held("up") and self.fuel > 0.0
@@ -131,7 +131,7 @@ class Ship:
                 body.apply_impulse((SHIP_MASS * (20.0 * way - self.vx), 0.0))
 
     def fires(self, inputs):
-        """Return whether it fires a shell in this step."""
+        """Return whether the ship fires a shell in this step. If so, take the shell from the stock."""
         if not inputs.held("fire") or self.cooldown or not self.shells:
             return False
         self.shells -= 1
@@ -139,13 +139,13 @@ class Ship:
         return True
 
     def knock(self, change):
-        """Apply the damage of a change of velocity [px/s]. Return the loss of hull."""
+        """Damage the hull by an impact that changes the velocity by `change` [px/s]. Return the loss of hull."""
         cost = min(max(change - HARMLESS, 0.0) * DAMAGE, self.hull)
         self.hull -= cost
         return cost
 
     def lose(self):
-        """Lose the ship. Return the id of its body, which is to be removed."""
+        """Lose the ship and a life. Return the id of its body, which the caller must remove."""
         identity = self.body.id
         self.body = None
         self.touching = set()
@@ -155,7 +155,7 @@ class Ship:
         return identity
 
     def wait(self):
-        """Count a step without a ship. Return whether the next one has come."""
+        """Wait one step for the next ship. Return whether it has arrived."""
         self.away = max(self.away - 1, 0)
         if self.away or not self.lives:
             return False
@@ -163,7 +163,7 @@ class Ship:
         return True
 
     def refuel(self):
-        """Take a can of fuel."""
+        """Add the fuel of a can."""
         self.fuel = min(self.fuel + CAN, FUEL)
 
     def state(self):
@@ -190,5 +190,5 @@ class Ship:
 
 
 def wrapped(angle):
-    """Return an angle within half a turn of 0 [rad]."""
+    """Return an angle [rad], wrapped to -pi .. pi."""
     return (angle + 3.141592653589793) % 6.283185307179586 - 3.141592653589793

@@ -1,4 +1,4 @@
-"""Effects of the scene's events: pictures, light and sound of fire, dust, bursts, words. No game rule reads them."""
+"""Visual effects and sounds for the scene's events. They never influence the game rules."""
 
 from math import cos, pi, sin
 
@@ -9,32 +9,35 @@ SNOW = ((246, 250, 255), (214, 226, 246), (160, 178, 214), (98, 112, 156))
 ICE = ((240, 255, 255), (170, 240, 246), (90, 190, 220), (44, 110, 160))
 STONE = ((150, 158, 190), (104, 112, 148), (70, 76, 110), (44, 46, 74))
 BELL = 13.0  # [px] from the ship's middle to the engine's bell
-DOWNWASH = 64.0  # [px] below the bell: ground that near is blown at
+DOWNWASH = 64.0  # [px] distance from the bell within which the exhaust raises dust from the ground
 HUM = 7  # steps between two starts of the engine's sound
-BEEPS = steps(1.1)  # between two beeps at low fuel
-ALARMS = steps(0.34)  # between two of the alarm
-KNOCK = 9.0  # [px/s] a softer one is silent
+BEEPS = steps(1.1)  # steps between two beeps at low fuel
+ALARMS = steps(0.34)  # steps between two sounds of the alarm
+KNOCK = 9.0  # [px/s] change of velocity below which an impact is silent
 SMOKES = 45.0  # hull below which the ship smokes
 TINT = {"good": (170, 255, 190), "gold": (255, 226, 120), "bad": (255, 140, 120), "cold": (150, 226, 255)}
 
 
 class Spectacle:
-    """The effects. `works`: moving particles; the others are timers of lights and announcements."""
+    """The effects of the scene. `works`: moving decoration (explosions, debris, texts); other attributes are timers.
+
+    The methods from act_begins() on show one event each, with pictures and sound.
+    """
 
     def __init__(self, scene):
         self.scene = scene
         self.works = Fireworks(scene.particles)
         self.random = scene.particles.random
         self.time = 0.0
-        self.gusted = 0.0  # [px] motion of the snow by the wind
+        self.gusted = 0.0  # [px] distance that the wind has carried the snow
         self.act_since = 0  # steps since the act began
-        self.lit = 0  # steps that the ship stays white after a knock
+        self.lit = 0  # remaining steps in which the ship is white after an impact
         self.pulse = self.gain = 0.0  # pulse of the score when it grows, of a bar when it is filled, 1..0
         self.shelter = 0.0  # 0 outside .. 1 deep in a cave
         self.height = WARN_HEIGHT  # [px] from the ship's feet to the ground, up to a limit
 
     def step(self, dt):
-        """Age all effects."""
+        """Advance all effects by `dt` [s]."""
         scene, ship = self.scene, self.scene.ship
         self.time += dt
         self.act_since += 1
@@ -53,7 +56,7 @@ class Spectacle:
         self.works.step(dt)
 
     def _engine(self, ship):
-        """Emit fire under the bell, and dust from the ground."""
+        """Emit the engine's fire, and dust from ground that the exhaust reaches. Measure the height above ground."""
         scene = self.scene
         x, y = ship.nose
         self.height = scene.ground.clear_way(ship.x, ship.y + 17.0, 0.0, 1.0, WARN_HEIGHT)
@@ -97,7 +100,7 @@ class Spectacle:
                 )
 
     def _jet(self, ship, side):
-        """Emit a puff of the small jet that turns the ship."""
+        """Emit a puff of the small jet on one `side` (-1, 1) that turns the ship."""
         across, down = cos(ship.angle), sin(ship.angle)
         self.scene.particles.burst(
             ship.x + 9 * side * across + 6 * down,
@@ -123,17 +126,17 @@ class Spectacle:
 
     @property
     def sinking(self):
-        """True if it sinks too fast, too low."""
+        """True if the ship sinks too fast near the ground, so that the alarm sounds."""
         return self.scene.ship.here and self.scene.ship.vy > WARN_SPEED and self.height < WARN_HEIGHT
 
     def _at(self, x):
-        """Return the canvas x of a sound."""
+        """Return the canvas x of a world x, for the stereo position of a sound."""
         return x - self.scene.camera.x
 
     # --- the course --------------------------------------------------------------------------------------------------
 
     def act_begins(self):
-        """Announce the next site."""
+        """Begin to announce the next site."""
         self.act_since = 0
 
     def landed(self, pad, last):
@@ -147,13 +150,13 @@ class Spectacle:
         scene.play("touchdown", volume=0.9)
 
     def served(self, rest):
-        """Show the service of a pad."""
+        """Show that the ship is refuelled, repaired or rearmed on a pad. `rest`: steps at rest on the pad."""
         self.gain = 1.0
         if rest % 12 == 0:
             self.scene.play("blip", self._at(self.scene.ship.x), 0.16)
 
     def arrived(self):
-        """Show the next ship on the pad."""
+        """Show that the next ship appears on the pad."""
         ship = self.scene.ship
         self.works.ring(ship.x, ship.y, 50.0)
         self.works.sparks(ship.x, ship.y, 30, BLUE, 130)
@@ -162,7 +165,10 @@ class Spectacle:
     # --- knocks ------------------------------------------------------------------------------------------------------
 
     def ship_knocked(self, x, y, change, cost):
-        """Show a knock of the ship: the harder, the more visible and the louder."""
+        """Show an impact of the ship at (x, y) [px]: the harder, the more visible and the louder.
+
+        `change`: change of velocity [px/s]; `cost`: loss of hull.
+        """
         if change < KNOCK:
             return
         scene = self.scene
@@ -188,7 +194,7 @@ class Spectacle:
             scene.play("land", self._at(x), 0.3 + 0.5 * min(change / HARMLESS, 1.0))
 
     def cargo_knocked(self, piece, x, y, change, cost):
-        """Show a knock of cargo."""
+        """Show an impact of a piece of cargo at (x, y) [px]. `change`: change of velocity [px/s]; `cost`: damage."""
         if change < KNOCK:
             return
         self.scene.particles.burst(
@@ -200,7 +206,7 @@ class Spectacle:
             self.works.word(f"CARGO {piece.whole:.0f}%", piece.body.center.x, piece.body.center.y - 16, TINT["bad"])
 
     def rock_knocked(self, x, y, impulse):
-        """Show a knock of a rock or a piece of the ground."""
+        """Show an impact of a rock or of a piece of ground at (x, y) [px]."""
         strength = min(impulse / 30000.0, 1.0)
         if strength > 0.05:
             self.scene.particles.burst(
@@ -211,14 +217,14 @@ class Spectacle:
     # --- gun, line, bursts -------------------------------------------------------------------------------------------
 
     def fired(self):
-        """Show a shell leaving the nose."""
+        """Show that a shell leaves the ship's nose."""
         ship = self.scene.ship
         x, y = ship.nose
         self.works.burst("muzzle_flash", ship.x + 19 * x, ship.y + 19 * y, ship.vx, ship.vy)
         self.scene.play("heavy_laser", self._at(ship.x), 0.4)
 
     def blast(self, x, y, radius):
-        """Show a burst: fire, a ring, stones."""
+        """Show an explosion at (x, y) [px]: fire, a shock wave, flying stones."""
         large = radius > 20.0
         self.works.burst("explosion_large" if large else "explosion_small", x, y)
         self.works.ring(x, y, 4.0 * radius)
@@ -231,7 +237,7 @@ class Spectacle:
         self.scene.play("blast", self._at(x), 0.8)
 
     def line_used(self, outcome):
-        """Show that the line caught a body, let go or missed."""
+        """Show the `outcome` of using the line: "caught", "let go" or "missed"."""
         ship = self.scene.ship
         if outcome == "caught":
             center = self.scene.line.load.center
@@ -250,7 +256,7 @@ class Spectacle:
     # --- won and lost ------------------------------------------------------------------------------------------------
 
     def can_taken(self, x, y, worth):
-        """Show that fuel was taken."""
+        """Show that a can of fuel at (x, y) [px] was taken, and its points `worth`."""
         self.gain = self.pulse = 1.0
         self.works.sparks(x, y, 26, GOLD, 130)
         self.works.ring(x, y, 30.0)
@@ -258,7 +264,7 @@ class Spectacle:
         self.scene.play("powerup", self._at(x), 0.6)
 
     def delivered(self, piece, worth):
-        """Show a delivery."""
+        """Show that a piece of cargo was delivered, and its points `worth`."""
         x, y = piece.body.center
         self.pulse = 1.0
         self.works.sparks(x, y, 40, BLUE, 150)
@@ -267,7 +273,7 @@ class Spectacle:
         self.scene.play("life", self._at(x), 0.7)
 
     def cargo_lost(self, piece):
-        """Show that cargo broke."""
+        """Show that a piece of cargo broke."""
         x, y = piece.body.center
         self.works.burst("explosion_small", x, y)
         self.works.sparks(x, y, 30, FIRE, 160)
@@ -275,11 +281,11 @@ class Spectacle:
         self.scene.play("explosion", self._at(x), 0.7)
 
     def stranded(self):
-        """Show that the ship has no fuel and no pad."""
+        """Show that the ship is stranded: out of fuel and not on a pad."""
         self.works.word("OUT OF FUEL", self.scene.ship.x, self.scene.ship.y - 30, TINT["bad"])
 
     def ship_lost(self, x, y):
-        """Show the burst of the ship."""
+        """Show the explosion of the ship at (x, y) [px]."""
         works = self.works
         works.chain(x, y, 18, 16, 5, 0.10)
         works.sparks(x, y, 70, FIRE, 230)

@@ -1,7 +1,7 @@
-"""The picture of the ground, in tiles cached by their pixels: rock, the wall behind, fresh edges.
+"""The picture of the ground: rock, the wall behind it, and the edges of craters. It is drawn in cached tiles.
 
-A tile is drawn from its current pixels alone, so it is right after a restart or a rewind, too. Beside carved pixels the
-rock is scorched, and its new edge is lit or dark like the old ones.
+A tile is drawn from its current pixels alone, so it is also right after a restart or a rewind. Beside carved pixels the
+rock is scorched, and its edge is light or dark like the painted edges.
 """
 
 import numpy as np
@@ -13,13 +13,13 @@ from scenes.lander.ground import TILE
 
 SCORCH = ((22, 16, 26), (52, 36, 40), (30, 24, 36))  # colours of the first three px beside a hole
 SCORCH_SHARE = (0.75, 0.62, 0.40)
-LIT, SHADED = (186, 196, 222), (20, 18, 34)  # the new edge, towards the light and away from it
-KEPT = 420  # tiles: a screen holds fifty
-BORDER = 3  # [px] around a tile that its edges depend on
+LIT, SHADED = (186, 196, 222), (20, 18, 34)  # colours of an edge towards the light, and away from it
+KEPT = 420  # tiles in the cache: a screen shows fifty
+BORDER = 3  # [px] width of the surroundings on which the picture of a tile depends
 
 
 class TerrainPicture:
-    """Drawing of the tiles in view; all games on one moon share it."""
+    """The renderer of the ground, with its cache of tiles. All games on one moon share it."""
 
     def __init__(self, moon):
         self.moon = moon
@@ -28,7 +28,7 @@ class TerrainPicture:
         self.plain = {}
 
     def draw(self, surface, ground, left, top):
-        """Draw for a picture whose top left is at (left, top) of the world."""
+        """Draw the ground for a view whose top left corner is the world point (left, top)."""
         pairs = []
         for row in range(max(top // TILE, 0), min((top + CANVAS_SIZE[1]) // TILE + 1, self.rows)):
             for column in range(max(left // TILE, 0), min((left + CANVAS_SIZE[0]) // TILE + 1, self.columns)):
@@ -38,7 +38,7 @@ class TerrainPicture:
         blit_many(surface, pairs)
 
     def tile(self, ground, column, row):
-        """Return the picture of one tile with its current pixels."""
+        """Return the picture of a tile with its current pixels, or None if the tile is empty."""
         around = ground.around(column, row, BORDER)
         version = None if around is None else around.tobytes()
         kept = self.kept.get((column, row))
@@ -63,7 +63,10 @@ class TerrainPicture:
         return out.convert() if covered == TILE * TILE and pygame.display.get_surface() else out
 
     def _holed(self, rock, column, row, around):
-        """Return the remaining rock of a tile, scorched and lit along its new edges."""
+        """Return the picture of the remaining rock of a tile, scorched and lit along the edges of craters.
+
+        `around`: remaining pixels of the tile and BORDER px around it.
+        """
         before = padded(self.moon.solid, column, row)
         hole = before & ~around
         inner = np.s_[BORDER:-BORDER, BORDER:-BORDER]
@@ -92,7 +95,7 @@ class TerrainPicture:
 
 
 def padded(solid, column, row):
-    """Return the pixels of a tile and BORDER around it; beyond the moon's edge those of the edge."""
+    """Return the pixels of a tile and BORDER px around it. Beyond the moon's edge, the edge pixels are repeated."""
     rows = np.clip(np.arange(row * TILE - BORDER, (row + 1) * TILE + BORDER), 0, solid.shape[0] - 1)
     columns = np.clip(np.arange(column * TILE - BORDER, (column + 1) * TILE + BORDER), 0, solid.shape[1] - 1)
     return solid[np.ix_(rows, columns)]

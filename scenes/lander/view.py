@@ -1,4 +1,4 @@
-"""The picture of the lander: sky, ground, stations, loose things, the ship and its fire, words on top.
+"""The picture of the lander: sky, ground, pads, loose bodies, the ship and its fire, and the heads-up display on top.
 
 Drawing changes no state; pictures are cached.
 """
@@ -20,12 +20,12 @@ from scenes.lander.terrain_picture import TerrainPicture
 from scenes.shooter import light
 
 NEAR = 60  # [px] around the picture in which things are drawn
-FAR = 160  # [px] the same for rubble, which may be large
+FAR = 160  # [px] around the picture in which rubble is drawn, which may be large
 FLAME_AT = 22.0  # [px] from the ship's middle to the middle of its flame
 MAST_OFF = 15  # [px] from a pad's end to the middle of its mast
-DARK = 0.5  # share of shelter from which the ship lights its surroundings
-WHITE = 120  # brightness that a knock adds to the ship
-BOB = 2.0  # [px] bobbing of cans and marks
+DARK = 0.5  # depth in a cave (0 outside .. 1) from which the ship lights its surroundings
+WHITE = 120  # brightness that an impact adds to the ship
+BOB = 2.0  # [px] amplitude of the bobbing of cans and marks
 TUMBLES = 14  # quarter turns of debris a second
 ROPE = ((30, 26, 44), (214, 206, 190))
 SLACK_PARTS = 8
@@ -33,7 +33,7 @@ LIT = 0.25  # [s] that a burst lights its surroundings
 
 
 class View:
-    """Picture caches, shared by all landers."""
+    """The renderer of the lander, with its caches of pictures. One instance serves all scenes."""
 
     def __init__(self):
         self.atlas, self.effects = load_atlas("lander"), load_atlas("effects")
@@ -43,13 +43,13 @@ class View:
         self.white = lru_cache(maxsize=64)(lit)
 
     def picture(self, name):
-        """Return the rotated picture of a frame."""
+        """Return the RotatedPicture of a frame, from the cache."""
         if name not in self.turned:
             self.turned[name] = RotatedPicture(self.atlas[name])
         return self.turned[name]
 
     def draw(self, scene, canvas, alpha):
-        """Draw the whole picture."""
+        """Draw the scene at `alpha` (0..1) between the last two steps."""
         self.surface, self.alpha = canvas.surface, alpha
         self.left, self.top = scene.camera.view(alpha)
         look, surface = scene.spectacle, canvas.surface
@@ -73,24 +73,24 @@ class View:
     # --- where things are --------------------------------------------------------------------------------------------
 
     def pose(self, scene, identity):
-        """Return x, y [px] and angle of a body, interpolated between the last two steps."""
+        """Return x, y [px] and angle [rad] of a body, interpolated between the last two steps."""
         row = scene.world.bodies[scene.world.rows([identity])[0]]
         back = 1.0 - self.alpha
         return tuple((row[name] - (row[name] - row[f"previous_{name}"]) * back).item() for name in ("x", "y", "angle"))
 
     def sees(self, x, y, margin=NEAR):
-        """Return whether a place is in the picture or near it."""
+        """Return whether the world point (x, y) is in the picture, or less than `margin` [px] outside."""
         return -margin < x - self.left < CANVAS_SIZE[0] + margin and -margin < y - self.top < CANVAS_SIZE[1] + margin
 
     def centred(self, image, x, y, flags=0):
-        """Draw a picture centred on a world point."""
+        """Draw a picture centred on the world point (x, y)."""
         width, height = image.get_size()
         self.surface.blit(
             image, (whole(x - width / 2) - self.left, whole(y - height / 2) - self.top), special_flags=flags
         )
 
     def add_light(self, image, x, y):
-        """Add a picture's light, centred on a world point."""
+        """Blit a picture additively, centred on the world point (x, y)."""
         self.centred(image, x, y, pygame.BLEND_RGB_ADD)
 
     # --- what stands -------------------------------------------------------------------------------------------------
@@ -165,7 +165,7 @@ class View:
         self.centred(self.atlas["hook"], load_x, load_y)
 
     def _mark_reach(self, scene, x, y):
-        """Draw a mark over the cargo that the line would catch."""
+        """Draw a mark above each piece of cargo near the ship at (x, y); it is green if the line can reach it."""
         near = [
             (place[0], place[1])
             for place in (self.pose(scene, identity) for identity in scene.yard.cargo)
@@ -207,7 +207,7 @@ class View:
         works = look.works
         for frame, x, y, _, _, age, _ in works.debris:
             self.centred(tumbled(self.effects[frame], int(age * TUMBLES) % 4), x, y)
-        # Smoke is drawn under fire, whatever came first.
+        # Smoke is drawn below fire, also if it began later.
         for name, x, y, _, _, age in sorted(works.bursts, key=lambda burst: burst[0] != "smoke"):
             if age < 0.0:
                 continue
@@ -219,11 +219,11 @@ class View:
 
 @lru_cache(maxsize=1)
 def the_view():
-    """Return the one View, made for the first picture."""
+    """Return the one View, which is created at the first call."""
     return View()
 
 
 @lru_cache(maxsize=64)
 def tumbled(image, quarters):
-    """Return debris, rotated by quarters."""
+    """Return a picture of debris, rotated by `quarters` quarter turns."""
     return pygame.transform.rotate(image, 90 * quarters)

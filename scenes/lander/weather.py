@@ -1,18 +1,18 @@
-"""The wind: steady by region, with gusts. These are two slow waves, whose phases the seed chooses."""
+"""The wind: a steady part for each region, and gusts. Gusts are the sum of two slow waves with random phases."""
 
 from math import pi, sin
 
-PERIODS = (7.3, 4.1)  # [s] of the two waves; together they repeat after minutes
+PERIODS = (7.3, 4.1)  # [s] periods of the two waves; their sum repeats after minutes
 FIRST_SHARE = 0.65
-CALMING = 0.04  # share of the change of wind per step
+CALMING = 0.04  # share of its distance from the wanted wind by which the wind changes per step
 
 
 class Weather:
-    """The weather. `wind` [px/s] at the ship, to the right, of which `steady` is constant in its region; `gust` 0..1 of
-    the strongest.
+    """The weather at the ship. `wind`: current wind to the right [px/s]; `steady`: its constant part in this region
+    [px/s]; `gust`: strength of the gust, 0..1.
 
-    The steady part is the world's own wind. A changing world wind keeps all bodies awake, so gusts, which change in
-    every step, are forces on the bodies in the air.
+    The world's wind is set to `steady` only. Gusts act as forces on the bodies in the air, because a world wind that
+    changes in every step would keep all bodies awake.
     """
 
     def __init__(self, random, moon):
@@ -21,7 +21,7 @@ class Weather:
         self.wind = self.steady = self.gust = 0.0
 
     def step(self, seconds, x, y):
-        """Compute the wind at a time and place."""
+        """Compute the wind at a time [s] and place (x, y) [px]."""
         region, inside = self.moon.wind_at(x), self.moon.is_inside(x, y)
         first, second = (
             sin(2.0 * pi * seconds / period + phase) for period, phase in zip(PERIODS, self.phases, strict=True)
@@ -32,7 +32,7 @@ class Weather:
         self.wind += (wanted - self.wind) * CALMING
 
     def blow(self, world, *bodies):
-        """Set the world's wind, and push bodies by the gust for the next step."""
+        """Set the world's wind, and apply the force of the gust to the given bodies, for the next step."""
         if world.effects.wind and world.wind.x != self.steady:
             world.wind = (self.steady, 0.0)
         for body in bodies:

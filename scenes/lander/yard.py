@@ -1,4 +1,4 @@
-"""Things on the moon: pads, cargo, loose rocks, cans of fuel, and fragments of rock."""
+"""Objects on the moon: pads, cargo, cans of fuel, loose rocks and rubble."""
 
 from game.drawing.sprites import load_atlas
 from physics import Circle, Material, Polygon
@@ -20,14 +20,14 @@ BOX = Material(density=DENSITY, friction=0.55, restitution=0.15)
 ROUND = Material(density=DENSITY, friction=0.6, restitution=0.25, rolling_resistance=0.02)
 STONE = Material(density=DENSITY, friction=0.7)
 DECK = Material(friction=0.9)
-ZONE_HIGH = 30.0  # [px] over a pad in which cargo counts
-CAN_RADIUS = 11.0  # [px] distance from which a can is taken
-HEAVIEST = 500.0  # [mass] limit of the line
+ZONE_HIGH = 30.0  # [px] height of the sensor on a pad in which cargo counts as delivered
+CAN_RADIUS = 11.0  # [px] radius of a can's sensor
+HEAVIEST = 500.0  # greatest mass that the line can carry
 
 
 class Cargo:
-    """One piece of cargo. `whole` 0..100 of it is left; `over`: the pad below it, or None; `rest`: steps at rest
-    there.
+    """A piece of cargo. `whole`: its condition, 100 (undamaged) .. 0; `over`: the Pad below it, or None; `rest`: steps
+    at rest on this pad.
     """
 
     def __init__(self, body, look):
@@ -37,15 +37,15 @@ class Cargo:
         self.rest = 0
 
     def knock(self, change):
-        """Apply the damage of a change of velocity [px/s]. Return the loss."""
+        """Damage the cargo by an impact that changes its velocity by `change` [px/s]. Return the loss of condition."""
         cost = min(max(change - CARGO_HARMLESS, 0.0) * CARGO_DAMAGE, self.whole)
         self.whole -= cost
         return cost
 
 
 class Yard:
-    """Things by body id: `cargo` and `cans`; `rubble`: loose rocks; `pads`, `zones`: the Pad of each deck and
-    sensor.
+    """The objects on the moon. `cargo`, `cans`: by body id; `rubble`: loose rocks and pieces; `pads`, `zones`: the Pad
+    by the body id of its deck, and of the sensor on it.
     """
 
     def __init__(self, world, moon):
@@ -92,20 +92,20 @@ class Yard:
         return len(self.all_cargo)
 
     def piece(self, number):
-        """Return the Cargo of that number in the plan, None if it is gone."""
+        """Return the Cargo of that number in the moon's list, or None if it is delivered or broken."""
         piece = self.all_cargo[number]
         return piece if piece in self.cargo.values() else None
 
     def light(self):
-        """Return the bodies that the line can hold."""
+        """Return the bodies that are light enough for the line."""
         return [body for body in self.loose() if body.mass <= HEAVIEST]
 
     def loose(self):
-        """Return all bodies that a blast pushes, except the ship."""
+        """Return the bodies of cargo and rubble, which an explosion pushes."""
         return [*(piece.body for piece in self.cargo.values()), *self.rubble.bodies()]
 
     def meet(self, begun, ended):
-        """Update the cargo that entered or left a pad, from the sensors' events."""
+        """Update which cargo is above a pad, from the sensor events of the step (begin, end)."""
         for events, came in ((ended, False), (begun, True)):
             for pair in zip(events["body_a"].tolist(), events["body_b"].tolist(), strict=True):
                 for piece, zone in (pair, pair[::-1]):
@@ -113,7 +113,10 @@ class Yard:
                         self.cargo[piece].over = self.zones[zone] if came else None
 
     def delivered(self, held):
-        """Return the cargo that came to rest on a pad in this step. held: id of the line's load."""
+        """Return the ids of the cargo that is delivered in this step: it has been at rest on a pad for long enough.
+
+        `held`: body id of the line's load, which does not count; -1: none.
+        """
         done = []
         for identity, piece in self.cargo.items():
             still = piece.body.velocity.length < STILL

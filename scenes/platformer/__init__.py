@@ -1,1 +1,1 @@
-"""The platformer: one level in three acts, a hero with ten kinds of forgiveness, enemies and things."""
+"""The platformer: one level in three acts, with a hero, enemies, crates, platforms and bombs."""

@@ -1,4 +1,4 @@
-"""Background of the level: a sky and layers that move slower than the ground, by act, with cross-fades."""
+"""Background of the level: a sky and parallax layers for each act, with a cross-fade from act to act."""
 
 from typing import Any
 
@@ -10,9 +10,9 @@ from game.drawing.sprites import load_backdrop
 FADE = 0.9  # [s] from one act's backdrop to the next
 CLOUDS_TOP = 14  # [canvas px]
 HORIZON = 62  # [canvas px] height of the mountains' foot above the lower edge, hidden by the ground
-FEET = {"meadow": (26, 24, 48), "keep": (34, 26, 52)}  # colour under the nearest layer, seen from high up
-# act: back to front (picture, share of the camera's motion along x and along y, own drift [px/s], above the horizon
-# [px])
+FEET = {"meadow": (26, 24, 48), "keep": (34, 26, 52)}  # colour below the nearest layer, visible from high up
+# act -> layers from back to front: (picture, share of the camera's motion along x, along y, own drift [px/s], height
+# above the horizon [px]; None: in the sky)
 LAYERS = {
     "meadow": (
         ("clouds", 0.05, 0.02, 3.0, None),
@@ -31,7 +31,7 @@ CAVE = (("cave_far", 0.15, 0.10), ("cave_near", 0.40, 0.25))
 
 
 class Backdrops:
-    """Drawing of the background of the current act, and of the previous one during a fade."""
+    """The renderer of the background of the current act; during a fade, also of the previous act."""
 
     def __init__(self, level):
         self.sky = load_backdrop("sky_dusk")
@@ -43,7 +43,7 @@ class Backdrops:
         self.scratch = pygame.Surface(CANVAS_SIZE)
 
     def draw(self, surface, look, left, top):
-        """Draw for a picture whose top left is at (left, top) of the world."""
+        """Draw the background for a view whose top left corner is the world point (left, top)."""
         share = min(look.act_age / FADE, 1.0)
         if share < 1.0 and look.last_act != look.act:
             self._draw_act(surface, look.last_act, look.time, left, top)
@@ -70,7 +70,7 @@ class Backdrops:
 
 
 def lowest_view(level, act):
-    """Return the top of the lowest view of an act [px]."""
+    """Return the y [px] of the top of the picture when the camera is at the lowest place of an act."""
     bottoms = [
         zone.y + zone.height for zone in level.zones if zone.properties["act"] == act and zone.width >= CANVAS_SIZE[0]
     ]
@@ -78,7 +78,7 @@ def lowest_view(level, act):
 
 
 def tile_along(surface, picture, way, y):
-    """Draw a picture repeatedly over the whole width, moved to the left by `way`."""
+    """Draw a picture repeatedly over the whole width of the canvas at y, shifted to the left by `way` [px]."""
     width = picture.get_width()
     x = -whole(way) % width - width
     while x < CANVAS_SIZE[0]:

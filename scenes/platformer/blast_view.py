@@ -1,4 +1,4 @@
-"""Drawing of walls, their rubble, bombs and bursts: each piece is drawn with its own pixels."""
+"""Pictures of walls that bombs break, of their rubble, of bombs and explosions. Rubble shows the wall's own pixels."""
 
 import pygame
 
@@ -11,13 +11,13 @@ from scenes.platformer.feel import steps
 EDGE = (30, 24, 40)  # colour of a stone's fracture
 KEPT = 80  # pictures of walls and pieces
 HELD = 21  # [px] from the hero's middle up to a carried bomb
-HOT, BLINK = steps(0.5), 8  # steps before the burst in which it glows; steps of one blink
+HOT, BLINK = steps(0.5), 8  # steps before the explosion in which the bomb glows; steps of one blink
 AIM = (255, 236, 190)
 PICTURE_UP = 2.0  # [px] from the middle of a bomb's ball up to the middle of its picture
 
 
 class BlastView:
-    """Pictures cached by mask."""
+    """The renderer of walls, rubble and bombs, with a cache of the pictures by mask."""
 
     def __init__(self, view):
         self.view = view
@@ -25,7 +25,7 @@ class BlastView:
         self.bombs = [RotatedPicture(view.things[f"bomb_{look}"]) for look in (0, 1)]
 
     def draw_walls(self, canvas, scene):
-        """Draw the remains of walls, and the stands of bombs."""
+        """Draw the walls as far as they stand, and the stands on which bombs lie."""
         for wall in scene.things.walls:
             if wall.body is not None:
                 picture = self._picture(wall.body, wall, 0, 0)
@@ -38,7 +38,7 @@ class BlastView:
             )
 
     def draw_pieces(self, canvas, scene, alpha):
-        """Draw rubble and bombs."""
+        """Draw rubble and bombs at `alpha` (0..1) between the last two steps."""
         look = scene.look
         for piece in scene.things.rubble:
             picture = self._picture(piece.body, piece.wall, piece.left, piece.top)
@@ -70,7 +70,7 @@ class BlastView:
         self.bombs[hot].draw(canvas.surface, x - self.view.left, y - PICTURE_UP - self.view.top, angle)
 
     def _draw_aim(self, canvas, scene):
-        """Draw dots along the path that a thrown bomb would take."""
+        """Draw dots along the path that the carried bomb would take if thrown now, up to the first obstacle."""
         hero = scene.hero
         for number, (x, y) in enumerate(arc(hero.character.position, hero.facing, hero.vx, False)):
             if scene.level.blocks(x - 2, y - 2, 4, 4) or any(
@@ -82,7 +82,7 @@ class BlastView:
                 canvas.surface.fill(AIM, (whole(x) - self.view.left, whole(y) - self.view.top, size, size))
 
     def draw_bursts(self, canvas, look):
-        """Draw the fire of bursting bombs."""
+        """Draw the explosions of bombs."""
         for x, y, age in look.blasts:
             image = self.view.things.animation("blast").at(age, loop=False)
             canvas.sprite(image, x - self.view.left, y - self.view.top)

@@ -1,7 +1,7 @@
-"""A bomb, which the hero finds, carries and throws, and the walls of pixels that it blows open.
+"""Bombs, which the hero finds, carries and throws, and the walls that they blow open.
 
-A wall is a mask: the burst carves its disc out of it, and cracks through the rest. Loose pieces are rubble, each with
-the outline of its own pixels: it falls, comes to rest, and can be pushed and walked on.
+A wall is a pixel mask. An explosion carves a disc out of the mask, and may crack the rest. Loose pieces become rubble:
+dynamic bodies with the outline of their pixels, which fall, come to rest, and can be pushed and walked on.
 """
 
 from dataclasses import dataclass
@@ -19,17 +19,17 @@ from scenes.platformer.feel import GRAVITY, steps
 from scenes.platformer.level import BOMB_FILTER, CRATE_FILTER, TILE_FILTER
 
 RADIUS = 5.0  # [px] of the bomb
-ABOVE = 7.0  # [px] from the hero's middle up to where a bomb leaves his hands: inside him, where the space is free
-THROW, DROPPED = (205.0, -330.0), (36.0, -40.0)  # [px/s] ahead and up; with down held the bomb is laid down
+ABOVE = 7.0  # [px] from the hero's middle up to the start of a thrown bomb: inside his box, where space is free
+THROW, DROPPED = (205.0, -330.0), (36.0, -40.0)  # [px/s] velocity (ahead, y) of a bomb thrown, and of one laid down
 LENT = 0.4  # share of the hero's own speed that a thrown bomb keeps
 BURNS = 1.25  # [s] from the throw to the burst
-BACK = 1.6  # [s] until another one appears at its place
+BACK = 1.6  # [s] from the burst until a new bomb appears at its stand
 LEFT_BEHIND = 420.0  # [px] a bomb carried farther than this is taken back
 CRATER, REACH = 27.0, 62.0  # [px] radius of the carved disc, and of the push
 SHOVE = 260.0  # [px/s] change of velocity of the nearest bodies
-HEAVIEST = 200.0  # [density px2] from which on bodies are pushed less
-DEEP = 260  # pixels removed from a wall from which all of it gives way
-CRUMB = 12  # [px] smaller pieces are dust
+HEAVIEST = 200.0  # [density px2] heavier bodies get less than this change of velocity, in proportion to 1 / mass
+DEEP = 260  # number of carved pixels from which the whole wall breaks
+CRUMB = 12  # area in pixels: smaller pieces are removed
 CRACKS = 5
 RUBBLE = Material(0.35, 0.35, rolling_resistance=0.05)  # low enough that all of it can be pushed together
 IRON = Material(1.2, 0.6, rolling_resistance=0.08)
@@ -37,8 +37,8 @@ WAITING, CARRIED, THROWN, GONE = "waiting", "carried", "thrown", "gone"
 
 
 class Bomb:
-    """A bomb. `phase`: it waits at its place, is carried, flies and rolls with its fuse lit, or is gone for a
-    moment.
+    """A bomb. `phase`: WAITING at its stand, CARRIED by the hero, THROWN with a burning fuse, or GONE after it burst,
+    until a new one appears. `count`: steps in this phase.
     """
 
     kind = "bomb"
@@ -54,16 +54,19 @@ class Bomb:
         self.phase, self.count = phase, 0
 
     def is_reached(self, box):
-        """Return whether the hero's box touches its place."""
+        """Return whether the hero's box (left, top, right, bottom) touches the bomb at its stand."""
         x, y = self.home
         return box[0] - RADIUS < x < box[2] + RADIUS and box[1] < y < box[3] + RADIUS
 
     def take(self):
-        """Put it into the hero's hands."""
+        """Put the bomb into the hero's hands."""
         self._begin(CARRIED)
 
     def carry(self, place):
-        """Move it with the hero to a place [px]. Return whether it was carried too far and went back."""
+        """Move the carried bomb with the hero, who is at `place` [px].
+
+        Return True if he has carried it too far from its stand, so that it has gone back there.
+        """
         self.place = (place[0], place[1] - ABOVE)
         if hypot(place[0] - self.home[0], place[1] - self.home[1]) < LEFT_BEHIND:
             return False
@@ -71,7 +74,10 @@ class Bomb:
         return True
 
     def throw(self, way, speed, down):
-        """Throw it with its fuse lit. way: -1, 1; speed: the hero's along x; down: it is only laid down."""
+        """Throw the bomb, or lay it down if `down`, and light its fuse.
+
+        `way`: -1 to the left, 1 to the right; `speed`: the hero's speed along x [px/s].
+        """
         ahead, up = DROPPED if down else THROW
         self.body = self.world.add_body(
             Circle(RADIUS),
@@ -86,7 +92,10 @@ class Bomb:
         self._begin(THROWN)
 
     def step(self, lowest):
-        """Make one step. lowest [px]: the lowest visible place. Return "burst", "back" or None."""
+        """Advance the bomb by one step. Below the y `lowest` [px] it bursts at once.
+
+        Return "burst" when it explodes, "back" when a new bomb appears at the stand, else None.
+        """
         self.count += 1
         if self.phase == THROWN and self.body is not None:
             self.place = tuple(self.body.position)
@@ -101,7 +110,7 @@ class Bomb:
         return None
 
     def go_home(self):
-        """Put it back to its place."""
+        """Put the bomb back on its stand."""
         if self.body is not None:
             self.world.remove_body(self.body)
             self.body = None
@@ -114,7 +123,10 @@ class Bomb:
 
 
 def arc(place, way, speed, down):
-    """Return the path of a bomb thrown now, every third step [px], up to the first obstacle."""
+    """Yield the points [px] of the free flight of a bomb thrown from the hero's `place`, one for every third step.
+
+    Obstacles are ignored. `way`: -1 or 1; `speed`: the hero's speed along x [px/s]; `down`: the bomb is laid down.
+    """
     ahead, up = DROPPED if down else THROW
     vx = ahead * way + (0.0 if down else LENT * speed)
     for number in range(3, steps(BURNS), 3):
@@ -124,7 +136,7 @@ def arc(place, way, speed, down):
 
 @dataclass(frozen=True)
 class Rubble:
-    """A loose piece of a wall; `left`, `top` [px]: place of its raster in the wall's picture."""
+    """A loose piece of a wall. `left`, `top`: place of its mask in the wall's picture [px]."""
 
     body: Body
     wall: "BlastWall"
@@ -138,12 +150,12 @@ class Rubble:
         return floor(left), round(top), ceil(right), round(bottom)
 
     def slides(self, way):
-        """Return whether it moved that way (-1, 1) in the last step, so that the hero keeps pushing it."""
+        """Return whether the piece moves to the side `way` (-1, 1). While it does, the hero keeps his speed."""
         return self.body.velocity.x * way > 0.0
 
 
 class BlastWall:
-    """A wall of pixels. `body`: the remaining mask, or None."""
+    """A wall that bombs can break; its shape is a pixel mask. `body`: the standing part, or None if none stands."""
 
     def __init__(self, world, thing):
         self.world, self.left, self.top = world, int(thing.x), int(thing.y)
@@ -159,13 +171,16 @@ class BlastWall:
 
     @property
     def box(self):
-        """Left, top, right, bottom of the remaining wall; all 0 once it is gone."""
+        """Left, top, right, bottom of the wall [px]; all 0 once no part of it stands."""
         if self.body is None:
             return (0, 0, 0, 0)
         return self.left, self.top, self.left + self.size[0], self.top + self.size[1]
 
     def blast(self, x, y):
-        """Carve a burst at a place [px]. Return the Rubble that comes loose, and whether the wall was hit."""
+        """Carve the crater of an explosion at (x, y) [px] out of the wall. A deep crater breaks the whole wall.
+
+        Return (list of Rubble that came loose, whether the wall was hit).
+        """
         if self.body is None:
             return [], False
         hit = self.body.carve(Circle(CRATER), (x, y), CRUMB)
@@ -186,7 +201,7 @@ class BlastWall:
         return Rubble(body, self, round(x - mask.origin[0]) - self.left, round(y - mask.origin[1]) - self.top)
 
     def _cracks(self, x, y):
-        """Return cracks that fan out from the burst, and some across them."""
+        """Return a mask of cracks, as large as the wall: they fan out from (x, y) [px], and others run across."""
         random, (width, height) = self.world.random, self.size
         solid = np.zeros((height, width), bool)
         at = (min(max(x - self.left, 0.0), width), min(max(y - self.top, 0.0), height))
@@ -199,7 +214,7 @@ class BlastWall:
 
 @lru_cache(maxsize=8)
 def built(width, height):
-    """Return the picture of a wall of a size, tiled from the drawn one."""
+    """Return the picture of a wall of width x height [px], tiled from the image in the atlas."""
     image = load_atlas("things")["blast_wall"]
     out = pygame.Surface((width, height), pygame.SRCALPHA)
     for left in range(0, width, image.get_width()):
@@ -209,7 +224,7 @@ def built(width, height):
 
 
 def shove(body, x, y):
-    """Push a body by a burst at a place [px], the more the nearer and lighter it is."""
+    """Push a body away from an explosion at (x, y) [px]: the nearer and lighter the body, the more."""
     dx, dy = body.center.x - x, body.center.y - y
     far = hypot(dx, dy)
     if far >= REACH:

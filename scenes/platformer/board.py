@@ -1,4 +1,4 @@
-"""Words and numbers over the picture: counters, acts' names, signs, the iris, the result."""
+"""Heads-up display of the platformer: counters, names of the acts, texts of signs, iris wipe, and result."""
 
 from functools import lru_cache
 
@@ -12,19 +12,19 @@ from game.drawing.sprites import load_atlas
 from scenes.platformer.feel import steps
 
 SIGN_REACH = (40, 44)  # [px] distance from which the hero reads a sign
-SIGN_WIDTH = 260  # [canvas px] of its longest line
-SIGN_BOTTOM = 10  # [canvas px] between its box and the picture's lower edge
+SIGN_WIDTH = 260  # [canvas px] width at which a sign's text is wrapped
+SIGN_BOTTOM = 10  # [canvas px] between a sign's box and the picture's lower edge
 LINE = 11  # [canvas px] from line to line
-IRIS = 0.32  # [s] of closing around the hero, and of opening again
-WIDEST = 560  # [canvas px] radius at which the iris is out of the picture
+IRIS = 0.32  # [s] in which the iris wipe closes around the hero, and opens again
+WIDEST = 560  # [canvas px] radius at which the iris wipe hides nothing
 RESULT_AFTER = 0.9  # [s] from the goal to its result
-STARS_AFTER = (0.5, 1.0, 1.5)  # [s] after the result, of each star
+STARS_AFTER = (0.5, 1.0, 1.5)  # [s] from the result to each of its three stars
 STAR, STAR_DROP, STAR_GROWTH = (
     18,
     0.15,
     120.0,
-)  # [px] of a star, [s] that it drops for, [px/s] that it shrinks meanwhile
-MOST_GEMS = 8  # room for secrets
+)  # size of a star [px]; time in which it drops in [s]; rate at which it shrinks meanwhile [px/s]
+MOST_GEMS = 8  # greatest number of secrets that are shown
 HOLE = (255, 0, 255)
 TITLES = {"meadow": "THE MEADOW", "cave": "THE HOLLOW", "keep": "THE KEEP"}
 TITLE_TIME, TITLE_FADE = 2.4, 0.35  # [s] duration of an act's name; of its fades
@@ -32,7 +32,7 @@ TITLE_Y = 58  # [canvas px]
 
 
 def draw_board(canvas, scene, view):
-    """Draw all of it. view: world point at the canvas' top left."""
+    """Draw the heads-up display. `view`: world point at the top left corner of the canvas."""
     opened = _opened(scene)
     if opened < 1.0:
         _draw_iris(canvas, scene, view, opened)
@@ -45,13 +45,13 @@ def draw_board(canvas, scene, view):
 
 
 def clock_text(ticks):
-    """Return steps as minutes, seconds and tenths."""
+    """Return a number of steps of 1/60 s as a text "minutes:seconds.tenths"."""
     tenths = ticks * 10 // 60
     return f"{tenths // 600}:{tenths // 10 % 60:02d}.{tenths % 10}"
 
 
 def stars(scene):
-    """Return (earned, condition) of the three stars."""
+    """Return a tuple of (whether it is earned, text of its condition) for each of the three stars."""
     return (
         (True, "the flag"),
         (scene.secrets == scene.things.secrets_in_all, "all secrets"),
@@ -79,7 +79,7 @@ def _draw_counters(canvas, scene):
 
 
 def _draw_gems(canvas, scene, x):
-    """Draw a place for each secret: empty, or with its gem."""
+    """Draw a gem for each secret found, and a silhouette for each secret not found yet."""
     icon = load_atlas("ui")["icon_gem"]
     lift, places = whole(4 * scene.look.gem_pulse), min(scene.things.secrets_in_all, MOST_GEMS)
     for number in range(places):
@@ -91,7 +91,7 @@ def _draw_gems(canvas, scene, x):
 
 @lru_cache(maxsize=4)
 def _empty(icon):
-    """Return the silhouette of an icon, for an empty place."""
+    """Return a dark silhouette of an icon, which stands for a secret not found yet."""
     image = icon.copy()
     image.fill((60, 60, 96, 200), special_flags=pygame.BLEND_RGBA_MULT)
     return image
@@ -114,7 +114,7 @@ def _draw_title(canvas, look):
 
 
 def _draw_signs(canvas, scene):
-    """Draw the text of the sign at the hero, at the bottom, where it never hides him."""
+    """Draw the text of the sign that the hero stands at. It is at the bottom, where it never hides him."""
     x, y = scene.hero.character.position
     for sign in scene.level.map.things_of("sign"):
         if abs(x - sign.x - sign.width / 2) < SIGN_REACH[0] and abs(y - sign.y) < SIGN_REACH[1]:
@@ -133,9 +133,9 @@ def _draw_signs(canvas, scene):
 
 
 def _opened(scene):
-    """Return the opening of the iris, 0..1: it closes before a new life and opens with it."""
+    """Return how far the iris wipe is open, 0..1. It closes at the end of a life and opens at the next."""
     if scene.phase == "won" or (scene.phase == "playing" and not scene.deaths):
-        return 1.0  # the first life begins with a visible level: a replay may be frozen there
+        return 1.0  # the first life begins with the iris open: a replay may be frozen at its first frame
     left = scene.since if scene.phase == "playing" else scene.life_after - scene.since
     return min(left / steps(IRIS), 1.0)
 
@@ -181,7 +181,7 @@ def _draw_result(canvas, scene):
 
 
 def _draw_star(canvas, image, x, y, shown, age):
-    """Draw a star that drops in, or its shadow."""
+    """Draw a star of the result, which drops in at `age` 0 [s], or its silhouette if not `shown`."""
     size = STAR + (whole((STAR_DROP - age) * STAR_GROWTH) if shown and age < STAR_DROP else 0)
     star = pygame.transform.scale(image, (size, size))
     if not shown:

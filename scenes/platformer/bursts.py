@@ -1,6 +1,6 @@
-"""Particles of the platformer: dust, grit, sparks and confetti, each with its colours. No game rule reads them.
+"""Particles of the platformer: dust, grit, sparks and confetti. They never influence the game rules.
 
-Every function takes the scene's Particles and a place in the world [px]; speeds are px/s, lives s.
+Every function takes the scene's Particles and a place in the world [px]. Speeds are in px/s, life times in s.
 """
 
 from math import pi
@@ -31,13 +31,13 @@ def dust(particles, x, y, count, speed):
 
 
 def slide(particles, x, y, side):
-    """Emit dust rubbed off a wall at the side -1 or 1 of a hero at (x, y)."""
+    """Emit dust of a hero at (x, y) who slides down a wall at his `side`: -1 left, 1 right."""
     x, y, heading = x + 5 * side, y + 4, DOWN * (1 + side)
     particles.burst(x, y, 2, DUST, speed=(5, 26), life=(0.2, 0.4), angle=heading, spread=1.6, gravity=60.0)
 
 
 def wall_jump(particles, x, y, away):
-    """Emit dust of a kick off a wall; the hero at (x, y) leaps to the side `away`, -1 or 1."""
+    """Emit dust of a hero at (x, y) who jumps off a wall to the side `away`: -1 left, 1 right."""
     x, y, heading = x - 6 * away, y + 4, 0.0 if away > 0 else pi
     particles.burst(x, y, 10, DUST, speed=(20, 90), life=(0.2, 0.45), angle=heading, spread=1.8, gravity=120.0)
 
@@ -53,13 +53,13 @@ def squash(particles, x, y):
 
 
 def knock(particles, x, y, force):
-    """Emit particles of an impact with a force 0..1."""
+    """Emit dust of an impact: the greater `force` (0..1), the more and the faster particles."""
     count, speed, life = 2 + round(16 * force), (10, 30 + 80 * force), (0.2, 0.3 + 0.4 * force)
     particles.burst(x, y, count, DUST, speed=speed, life=life, angle=UP, spread=2.6, gravity=60.0)
 
 
 def trickle(particles, box):
-    """Emit grit from the underside of a shaking stone (left, top, right, bottom)."""
+    """Emit grit from the underside of a shaking stone; `box`: its left, top, right, bottom."""
     left, _, right, bottom = box
     x = left + (right - left) * particles.random.uniform(0, 1)
     particles.burst(
@@ -73,7 +73,7 @@ def rubble(particles, x, y):
 
 
 def mote(particles, view, act):
-    """Emit one speck in the air of an act, at a random place in the view (left, top, width, height)."""
+    """Emit one floating speck in the colours of an act, at a random place in `view` (left, top, width, height)."""
     left, top, width, height = view
     x = left + width * particles.random.uniform(0, 1)
     y = top + height * particles.random.uniform(0.2, 1)
@@ -88,33 +88,33 @@ def ember(particles, x, y):
 
 
 def kindle(particles, x, y):
-    """Emit sparks of a lantern that is lit."""
+    """Emit sparks when a lantern is lit."""
     particles.burst(x, y, 26, EMBER, speed=(20, 110), life=(0.3, 0.9), drag=3.0, gravity=-20.0)
 
 
 def coin(particles, x, y):
-    """Emit sparkles of a taken coin."""
+    """Emit sparkles when a coin is taken."""
     particles.burst(x, y, 9, GOLDEN, speed=(20, 90), life=(0.25, 0.6), size=(1, 1), gravity=120.0)
 
 
 def gem(particles, x, y):
-    """Emit a slow ring and a fast one, for a found secret."""
+    """Emit a slow and a fast ring of particles when a secret is found."""
     for speed in ((30, 60), (90, 150)):
         particles.burst(x, y, 26, GEM, speed=speed, life=(0.5, 1.2), drag=1.8)
 
 
 def hurt(particles, x, y):
-    """Emit particles of a hurt hero."""
+    """Emit particles when the hero is hurt."""
     particles.burst(x, y, 24, BLOOD, speed=(30, 170), life=(0.25, 0.7))
 
 
 def vanish(particles, x, y):
-    """Emit a puff where the hero was before he was put back."""
+    """Emit a puff at the place from which the hero was put back to safe ground."""
     particles.burst(x, y, 20, GEM, speed=(20, 110), life=(0.25, 0.6))
 
 
 def confetti(particles, x, y):
-    """Emit confetti of a won level."""
+    """Emit confetti when the level is won."""
     for ramp in CONFETTI:
         particles.burst(x, y, 34, ramp, speed=(60, 240), life=(0.8, 2.0), angle=UP, spread=2.2, drag=1.6, gravity=150.0)
 
@@ -125,7 +125,7 @@ def fuse(particles, x, y):
 
 
 def blast(particles, x, y):
-    """Emit a burst: fast fire, falling stones, lasting dust."""
+    """Emit the particles of an explosion: fast fire, falling grit, lasting dust."""
     particles.burst(x, y, 50, EMBER, speed=(60, 280), life=(0.25, 0.7), drag=3.0)
     particles.burst(x, y, 40, GRIT, speed=(50, 220), life=(0.4, 0.9), angle=UP, spread=5.0, gravity=420.0)
     particles.burst(x, y, 40, DUST, speed=(10, 70), life=(0.7, 1.6), drag=2.2, gravity=-8.0)

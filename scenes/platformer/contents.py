@@ -1,4 +1,4 @@
-"""All contents of a level, by kind and by body id, and their own step."""
+"""All objects of a level (platforms, crates, enemies, pick-ups, bombs, ...), and their steps."""
 
 from scenes.platformer.blasting import CARRIED, BlastWall, Bomb, Rubble, shove
 from scenes.platformer.bridge import Bridge
@@ -7,11 +7,14 @@ from scenes.platformer.things import TRIGGERS, Belt, Crate, Crumble, Platform, T
 
 NEARBY = (400.0, 300.0)  # [px] from the hero within which enemies move: the picture's size and some more
 ENEMIES = ("walker", "hedgehog", "bat")
-BELOW = 64  # [px] under the map, below which things are lost
+BELOW = 64  # [px] things that fall farther than this below the map are lost
 
 
 class Contents:
-    """Contents of a level. Taken and flattened things are removed here and from the world."""
+    """The objects of a level, in lists by kind and dictionaries by body id.
+
+    Pick-ups that are taken and enemies that are flattened are removed here and from the world.
+    """
 
     def __init__(self, world, level, random):
         self.world, self.level = world, level
@@ -38,7 +41,7 @@ class Contents:
         self.coins_in_all, self.secrets_in_all = len(self.of("coin")), len(self.of("secret"))
 
     def _deck_under(self, one):
-        """Return the platform under a crate's or enemy's start, or None."""
+        """Return the platform on which a crate or enemy starts, or None."""
         x = one.home[0] if one.kind == "crate" else one.start[0]
         bottom = one.home[1] + one.size[1] / 2 if one.kind == "crate" else one.bottom
         for platform in self.platforms:
@@ -48,17 +51,21 @@ class Contents:
         return None
 
     def of(self, kind):
-        """Return the triggers of a kind, in the level's order."""
+        """Return the list of triggers of a kind, such as "coin", in the order of the map."""
         return [trigger for trigger in self.triggers.values() if trigger.kind == kind]
 
     @property
     def solid_boxes(self):
-        """Boxes of all solids for the hero that are no tiles."""
+        """Boxes (left, top, right, bottom) [px] of everything but tiles that is solid for the hero."""
         groups = (self.crates, self.platforms, self.belts, self.crumbles, self.walls)
         return tuple(one.box for group in groups for one in group)
 
     def step(self, tick, seen):
-        """Step platforms, stones and enemies. seen: the hero's place [px]. Return [(word, thing)] of the events."""
+        """Advance platforms, crumbling stones, bombs and enemies by one step.
+
+        `tick`: number of the step; `seen`: the hero's position [px]. Return a list of events (name, object), such as
+        ("break", stone) or ("wake", bat).
+        """
         news = []
         for platform in self.platforms:
             platform.aim(tick)
@@ -90,17 +97,20 @@ class Contents:
         return news
 
     def places(self):
-        """Return the position [px] of every body by its id, read once because it is used often."""
+        """Return {body id: position [px]} of all bodies of the world."""
         rows = self.world.bodies
         return dict(zip(rows["id"].tolist(), zip(rows["x"].tolist(), rows["y"].tolist(), strict=True), strict=True))
 
     @property
     def carried(self):
-        """The bomb in the hero's hands, or None."""
+        """The bomb that the hero carries, or None."""
         return next((bomb for bomb in self.bombs if bomb.phase == CARRIED), None)
 
     def blast(self, x, y):
-        """Apply a burst at a place [px]. Return (loose pieces of walls, whether any wall was hit)."""
+        """Apply an explosion at (x, y) [px] to walls, rubble and crates.
+
+        Return (list of Rubble that came loose, whether any wall was hit).
+        """
         loose, hit = [], False
         for wall in self.walls:
             pieces, struck = wall.blast(x, y)
@@ -112,8 +122,9 @@ class Contents:
         return loose, hit
 
     def press_stones(self, riding, begun):
-        """Press the stones under the hero (`riding`, a body or None), under enemies, and under crates of pairs that
-        touch now.
+        """Let the crumbling stones shake that carry the hero, an enemy or a crate.
+
+        `riding`: body under the hero, or None; `begun`: begin events of the step, from which crates are read.
         """
         pressed = {enemy.riding for enemy in self.enemies.values()} | ({riding.id} if riding is not None else set())
         for a, b in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
@@ -136,7 +147,10 @@ class Contents:
         enemy.remove()
 
     def go_home(self):
-        """Reset all things for a new life; taken and flattened ones stay gone."""
+        """Put crates, enemies, crumbling stones and bombs back to their starts, for a new life of the hero.
+
+        Pick-ups that were taken and enemies that were flattened stay gone.
+        """
         for one in (*self.crates, *self.enemies.values()):
             self._send_home(one)
         for crumble in self.crumbles:
@@ -153,7 +167,7 @@ class Contents:
         one.go_home(moved)
 
     def state(self):
-        """Return the state outside the world."""
+        """Return the state outside the physics world, as a flat tuple for the replay digest."""
         out: list = [trigger.lit for trigger in self.of("checkpoint")]
         for enemy in self.enemies.values():
             out += enemy.state()

@@ -1,6 +1,6 @@
 """The three enemies: walkers, which can be stomped; hedgehogs, which cannot; bats, which hang and dive.
 
-None is solid for the hero: contacts with them are read after the step. A crate that falls on one flattens it.
+The hero passes through enemies: his contacts with them are read after the step. A falling crate flattens an enemy.
 """
 
 from math import cos, pi, sin
@@ -11,20 +11,20 @@ from physics import Body, Character, Polygon
 from scenes.platformer.feel import FALL_SPEED, GRAVITY, approach
 from scenes.platformer.level import ENEMY_FILTER, TRIGGER_FILTER
 
-WALK_SPEED = {"walker": 36.0, "hedgehog": 24.0}  # [px/s] a fifth of the hero's: easy to judge and to wait for
-BOXES = {"walker": (16, 13), "hedgehog": (16, 11), "bat": (14, 9)}  # [px] smaller than the sprite, whose rim is safe
+WALK_SPEED = {"walker": 36.0, "hedgehog": 24.0}  # [px/s] at most a fifth of the hero's speed: easy to judge
+BOXES = {"walker": (16, 13), "hedgehog": (16, 11), "bat": (14, 9)}  # [px] smaller than the sprites
 # Bats
-LAIR = (104.0, 150.0)  # [px] to either side and down: a hero in it wakes the bat
-DIVE = 0.75  # [s] down to the height of the hero when it woke
+LAIR = (104.0, 150.0)  # [px] to either side and down: a hero in this area wakes the bat
+DIVE = 0.75  # [s] from waking to the end of the dive, at the height where the hero was when the bat woke
 FLY_SPEED = 84.0  # [px/s] slower than a run, so that the hero can escape
-WAVE, WAVE_TIME = 11.0, 0.9  # [px], [s] vertical wave of its flight
-FLIGHT = 2.6  # [s] until it turns back to its place
-HOME_SPEED = 120.0  # [px/s]
+WAVE, WAVE_TIME = 11.0, 0.9  # amplitude [px] and period [s] of the vertical wave of its flight
+FLIGHT = 2.6  # [s] from waking until the bat turns back to its start
+HOME_SPEED = 120.0  # [px/s] on the way back
 HANGING, FLYING, RETURNING = "hanging", "flying", "returning"
 
 
 class Creature:
-    """A box that moves by itself, base of walkers and bats. It pushes nothing: walkers turn at crates."""
+    """Base class of enemies: a kinematic character with a box shape, which pushes no other bodies."""
 
     def __init__(self, world, kind, start):
         self.kind, self.size, self.start = kind, BOXES[kind], start
@@ -32,43 +32,44 @@ class Creature:
 
     @property
     def body(self):
-        """Its body in the world."""
+        """The enemy's body in the world."""
         return self.character.body
 
     @property
     def top(self):
-        """The upper edge of its box [px]."""
+        """The y of the upper edge of the enemy's box [px]."""
         return self.character.position[1] - self.size[1] / 2
 
     @property
     def bottom(self):
-        """The lower edge of its box [px]."""
+        """The y of the lower edge of the enemy's box [px]."""
         return self.character.position[1] + self.size[1] / 2
 
 
 class Walker(Creature):
-    """An enemy that walks to and fro around its home and turns at walls and crates. When carried, its home moves
-    along.
+    """A walker or hedgehog. It walks to and fro around its `home` x, and turns at walls and crates.
+
+    A platform that carries it moves `home` along.
     """
 
     def __init__(self, world, thing, way):
         height = BOXES[thing.kind][1]
         super().__init__(world, thing.kind, (thing.x + thing.width / 2, thing.y + thing.height - height / 2))
-        self.home = self.start[0]  # [px] the middle of its range
+        self.home = self.start[0]  # x of the middle of its range [px]
         self.range = float(thing.properties.get("range", 0))
         self.way = self.first_way = way
         self.vy = 0.0
-        self.left_at = self.character.position[0]  # end of its own last move
+        self.left_at = self.character.position[0]  # x [px] after its last own move, before it was carried
         self.squeezed = False
-        self.riding = -1  # id of the body under its feet
+        self.riding = -1  # id of the body under its feet; -1: none
 
     @property
     def stompable(self):
-        """True if the hero can stomp it."""
+        """True if the hero can flatten the enemy by jumping on it."""
         return self.kind == "walker"
 
     def step(self, seen):
-        """Make one step of walking. seen: the hero's place [px]. Return False: it never wakes up."""
+        """Walk for one step. `seen` (the hero's position) is not used. Return False: no event to report."""
         x, _ = self.character.position
         if self.character.surface_speed == 0.0:
             self.home += x - self.left_at  # a platform moves its range along; a belt moves only the walker
@@ -87,11 +88,11 @@ class Walker(Creature):
         return False
 
     def rest(self, x):
-        """Make a step far from the hero, at x [px]."""
+        """Stand still for one step, because the hero is far away. `x`: the enemy's current x [px]."""
         self.left_at = x
 
     def place_after(self, seconds):
-        """Return its place after so many seconds on free ground [px]: it turns at the ends of its range."""
+        """Return the predicted x [px] after `seconds`: it turns at the ends of its range; obstacles are ignored."""
         if not self.range:
             return self.character.position[0]
         there = self.character.position[0] + self.way * WALK_SPEED[self.kind] * seconds
@@ -99,7 +100,7 @@ class Walker(Creature):
         return 2.0 * end - there if (there - end) * self.way > 0.0 else there
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Return to its start; moved: motion of the ground under it since [px]."""
+        """Move to the start. `moved`: how far the platform under the start has moved since then (x, y) [px]."""
         self.character.move_to((self.start[0] + moved[0], self.start[1] + moved[1]))
         self.home = self.left_at = self.character.position[0]
         self.way, self.vy, self.riding = self.first_way, 0.0, -1
@@ -114,7 +115,10 @@ class Walker(Creature):
 
 
 class Bat(Creature):
-    """An enemy that hangs until the hero enters its lair, dives to his height, flies on in a wave, and returns."""
+    """An enemy that hangs until the hero enters its lair, a sensor below it.
+
+    Then it dives to the hero's height, flies on in a wave, and returns to its start.
+    """
 
     stompable = True
     riding = -1
@@ -130,14 +134,14 @@ class Bat(Creature):
             filter=TRIGGER_FILTER,
             user="lair",
         )
-        self.seen = False  # the hero is in its lair
+        self.seen = False  # whether the hero is in its lair
         self._hang()
 
     def _hang(self):
         self.phase, self.count, self.way, self.from_y, self.to_y = HANGING, 0, 1, 0.0, 0.0
 
     def step(self, seen):
-        """Make one step of flight. seen: the hero's place [px]. Return whether it has just woken up."""
+        """Fly or hang for one step. `seen`: the hero's position [px]. Return whether the bat wakes up in this step."""
         x, y = self.character.position
         if self.phase == HANGING:
             if self.seen:
@@ -162,10 +166,10 @@ class Bat(Creature):
         return False
 
     def rest(self, x):
-        """Make a step far from the hero: it stays in the air."""
+        """Stay in place for one step, because the hero is far away."""
 
     def _return(self, x, y):
-        """Fly back; if rock is in the way it is moved there at once while out of view."""
+        """Fly back to the start for one step. After 3 FLIGHT seconds in all, move there at once (rock in the way)."""
         way = HOME_SPEED * STEP_SECONDS
         dx, dy = self.start[0] - x, self.start[1] - y
         far = max(abs(dx), abs(dy), 1e-9)
@@ -177,11 +181,11 @@ class Bat(Creature):
             self._hang()
 
     def place_after(self, seconds):
-        """Return its x after so many seconds without obstacles [px]."""
+        """Return the predicted x [px] after `seconds`; obstacles are ignored."""
         return self.character.position[0] + (self.way * FLY_SPEED * seconds if self.phase == FLYING else 0.0)
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Return to its start, until the hero enters its lair again."""
+        """Move to the start and hang there. `moved` is not used: bats do not ride platforms."""
         self.seen = False
         self.character.move_to(self.start)
         self._hang()

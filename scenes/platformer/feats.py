@@ -1,10 +1,10 @@
-"""Feats of a run, for the goals: each thing of a level, used at least once, with deadlines."""
+"""Feats of the hero, counted for the scene's self-check: the bot must use each element of the level in time."""
 
 from game.scene import Goal
 from scenes.platformer.feel import HEIGHT, WIDTH
 
 WORDS = {"jump": "jumps", "wall_jump": "wall jumps", "drop": "drops"}
-# feat: (object that it needs, or None; number of times or steps; deadline in steps for the level as made)
+# feat -> (kind of object that the level needs for it, or None; number of times or steps; deadline [steps])
 WANTED = {
     "slope": (None, 20, 900),
     "stomps": ("walker", 1, 1500),
@@ -28,7 +28,7 @@ TILT = 0.1  # rise per px from which ground counts as a slope
 
 
 class Feats:
-    """Feats. `done`: number of times, or of steps, by name."""
+    """The feats of a run. `done`: {name: how often, or for how many steps, the hero has done it}."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -37,14 +37,14 @@ class Feats:
         self.inside_solid = 0
 
     def count(self):
-        """Count the feats of a step."""
+        """Count the feats of the last step."""
         scene, done = self.scene, self.done
         hero = scene.hero
         left, top, _, _ = hero.box
         self.inside_solid += scene.level.blocks(left, top, WIDTH, HEIGHT)
         for word, name in WORDS.items():
             done[name] += word in hero.news
-        done["slope"] += hero.grounded and abs(hero.slope) >= TILT  # a crate tilts by less
+        done["slope"] += hero.grounded and abs(hero.slope) >= TILT  # tilted crates are flatter
         done["slid"] += hero.sliding != 0
         done["ladder"] += hero.ladder is not None
         done["belt"] += hero.grounded and hero.character.surface_speed != 0.0
@@ -69,11 +69,11 @@ class Feats:
             )
 
     def broke(self):
-        """Count a crumbled stone."""
+        """Count a crumbling stone that broke."""
         self.done["crumbled"] += 1
 
     def goals(self):
-        """Return the scene's goals."""
+        """Return the list of goals of the scene, with their deadlines and current values."""
         scene, things = self.scene, self.scene.things
         kinds = {thing.kind for thing in scene.level.map.things}
         lit = sum(trigger.lit for trigger in scene.checkpoints)

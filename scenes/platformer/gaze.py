@@ -1,4 +1,7 @@
-"""Camera: it looks ahead of a run, ignores small jumps, looks up and down on demand, and stays in the hero's zone."""
+"""Camera control of the platformer: it looks ahead of a run and ignores small jumps.
+
+The camera looks up or down while that key is held, and stays in the zone of the level in which the hero is.
+"""
 
 from math import exp
 
@@ -6,18 +9,18 @@ from game.drawing.canvas import CANVAS_SIZE
 from scenes.platformer.feel import RUN_SPEED
 
 AHEAD = 64.0  # [px] look ahead in the direction of a run
-STANDING_AHEAD = AHEAD * 0.35  # [px] and in the direction he faces when he stands
+STANDING_AHEAD = AHEAD * 0.35  # [px] look ahead in the direction that the hero faces while he stands
 AHEAD_RATE = 1.8  # [1/s] slow, so that a step back does not swing the picture
 FOLLOW_RATE = 6.5  # [1/s]
-RUNNING = 60.0  # [px/s] from which it looks in the direction of motion, below it where he faces
+RUNNING = 60.0  # [px/s] above this speed the camera looks in the direction of motion, below it where the hero faces
 DEAD_ZONE = (6.0, 10.0)  # [px] small moves leave the picture still
 RAISED = 46.0  # [px] the hero stands below the middle: there is more to see above
 JUMP_ROOM = 58.0  # [px] a jump of this height does not lift the camera; its landing does
-PEEK, PEEK_AFTER = 62.0, 24  # [px], [steps] that up or down is held on the ground
+PEEK, PEEK_AFTER = 62.0, 24  # [px] shift of the view after up or down was held on the ground for so many steps
 
 
 class Gaze:
-    """Mover of the scene's camera; owned by the look."""
+    """The control of the scene's camera."""
 
     def __init__(self, scene):
         self.scene = scene
@@ -27,25 +30,28 @@ class Gaze:
         scene.camera.keep_within(0, 0, *scene.level.size)
 
     def arrive(self, x, y):
-        """Move the picture there at once."""
+        """Center the camera at once on the hero at (x, y) [px], at the start of a life."""
         self.level_y, self.ahead, self.peeking = y, STANDING_AHEAD, 0
         self.scene.camera.center_on(*self._kept(x + self.ahead, y - RAISED))
 
     def step(self, dt):
-        """Follow the hero."""
+        """Let the camera follow the hero for a step of `dt` [s]."""
         scene, hero = self.scene, self.scene.hero
         x, y = hero.character.position
         wanted = AHEAD * hero.vx / RUN_SPEED if abs(hero.vx) > RUNNING else STANDING_AHEAD * hero.facing
         self.ahead += (max(-AHEAD, min(AHEAD, wanted)) - self.ahead) * (1.0 - exp(-AHEAD_RATE * dt))
         if hero.grounded or hero.sliding or hero.ladder is not None:
             self.level_y = y
-        self.level_y = max(min(self.level_y, y + JUMP_ROOM), y)  # below it he is always followed
+        self.level_y = max(min(self.level_y, y + JUMP_ROOM), y)  # a fall below this height is followed at once
         self.peeking = self.peeking + 1 if hero.gazing else 0
         peek = PEEK * hero.gazing if self.peeking > PEEK_AFTER else 0.0
         scene.camera.follow(*self._kept(x + self.ahead, self.level_y - RAISED + peek), dt, FOLLOW_RATE, DEAD_ZONE)
 
     def _kept(self, x, y):
-        """Return the point moved so that the view stays in the hero's zone, if that is larger."""
+        """Return the centre (x, y) of the view, moved so that the view stays in the hero's zone.
+
+        A zone smaller than the view sets no limit in that direction.
+        """
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         width, height = CANVAS_SIZE
         wide = next((zone for zone in zones if zone.width >= width), None)
@@ -58,5 +64,5 @@ class Gaze:
 
 
 def rows_of(zone):
-    """Return top and bottom [px] of the view allowed from a zone: its own, unless it sets another."""
+    """Return the y of the top and bottom limit of the view in a zone [px]: "view_top" and "view_bottom" if given."""
     return zone.properties.get("view_top", zone.y), zone.properties.get("view_bottom", zone.y + zone.height)

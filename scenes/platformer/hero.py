@@ -1,4 +1,4 @@
-"""The hero: moves with the numbers of feel.py."""
+"""The hero: running, jumping, falling, climbing and pushing, with the parameters of feel.py."""
 
 from collections.abc import Sequence
 from math import sqrt
@@ -60,8 +60,9 @@ TIMERS = ("coyote", "drop", "locked", "kept", "lift")
 
 
 class Hero:
-    """The hero: speeds, timers [steps] and `news`, the events of the last step as words for sound, dust and the
-    goals.
+    """The hero: a kinematic character with his speeds [px/s] and timers [steps].
+
+    `news`: names of the events of the last step, such as "jump" or "land", for sounds, dust and goals.
     """
 
     def __init__(self, world, level, position):
@@ -70,16 +71,16 @@ class Hero:
             world, Polygon.box(WIDTH, HEIGHT), position, filter=HERO_FILTER, user="hero", push=PUSH
         )
         self.crates: Sequence[Crate | Rubble] = ()  # bodies that he can push
-        # Boxes (left, top, right, bottom) of the solids that are no tiles, refreshed before each step.
+        # Boxes (left, top, right, bottom) of everything solid but tiles; set before each step.
         self.solids: Sequence[tuple] = ()
-        self.bridges: Sequence[Bridge] = ()  # open from below, as planks are
+        self.bridges: Sequence[Bridge] = ()  # one-way, as planks are
         self.ladders = {}  # body id -> trigger of the ladders that he touches
         self.facing = 1
         self.news = []
         self.place(position)
 
     def place(self, position):
-        """Stand still at a place, as at a start."""
+        """Move the hero to a position [px], at rest, and reset all timers."""
         self.character.move_to(position)
         self.character.move(0.0, 0.0)  # clears a squeeze that was not reported yet
         self.before = self.character.position
@@ -97,13 +98,13 @@ class Hero:
 
     @property
     def box(self):
-        """Left, top, right, bottom in whole pixels."""
+        """Left, top, right, bottom of the hero's box, in whole pixels."""
         x, y = self.character.position
         left, top = round(x - WIDTH / 2), round(y - HEIGHT / 2)
         return left, top, left + WIDTH, top + HEIGHT
 
     def step(self, inputs):
-        """Make one step of moves."""
+        """Move the hero for one step, as the inputs say."""
         self.news.clear()
         self.before = self.character.position
         way = inputs.held("right") - inputs.held("left") if self.locked == 0 else self.locked_way
@@ -124,11 +125,11 @@ class Hero:
         self._travel()
 
     def listen(self, inputs):
-        """Record a press of jump, which counts for a moment; also while the picture is frozen."""
+        """Record a press of jump, which stays valid for BUFFER seconds; called also while the picture is frozen."""
         self.buffer = steps(BUFFER) if inputs.pressed("jump") else max(self.buffer - 1, 0)
 
     def rest(self):
-        """Make a step without keys: he slows down and falls to the ground (the goal is reached)."""
+        """Move the hero for one step without keys, after he has reached the goal: he slows down and falls."""
         self.news.clear()
         self.before = self.character.position
         self.ladder, self.gazing = None, 0
@@ -158,7 +159,7 @@ class Hero:
             return
         limit = FALL_SPEED
         if down:
-            # The limit grows from the plain to the fast one, so that a tap of down is not yet a plunge.
+            # The limit grows from FALL_SPEED to FAST_FALL_SPEED, so that a tap of down has little effect.
             limit = min(max(FALL_SPEED, self.vy + FAST_FALL_GAIN * STEP_SECONDS), FAST_FALL_SPEED)
         elif way and way == self.wall and self.vy >= 0.0 and self.grip > 0:
             tired = 1.0 - self.grip / steps(SLIDE_TIME)
@@ -209,14 +210,14 @@ class Hero:
         self.grip = steps(SLIDE_TIME)
 
     def on_boards(self):
-        """Return whether he stands on one-way ground, through which down and jump drop him."""
+        """Return whether the hero stands on one-way ground (planks, bridge), through which down and jump drop him."""
         left, _, right, bottom = self.box
         return self.level.on_plank(left, bottom, WIDTH) or any(one.bears(left, right, bottom) for one in self.bridges)
 
     # --- ladders ---------------------------------------------------------------------------------------------------
 
     def _grab(self, up, down):
-        """Hold on to a touched ladder: with up from beside or below, with down from its top."""
+        """Hold on to a ladder that the hero touches: with up from beside or below, with down from its top."""
         if up == down or self.vy < 0.0:
             return
         bottom = self.box[3]
@@ -229,18 +230,18 @@ class Hero:
                 return
 
     def _climb(self, way, turn, down):
-        """Make one step on the ladder. turn: -1 up, 1 down."""
+        """Climb for one step, or leave the ladder. `way`: -1 left, 1 right; `turn`: -1 up, 1 down; `down`: key held."""
         if self.buffer:
             self.ladder, self.coyote = None, 0 if down else 1
             self.vx = self.vy = 0.0
             if down:
-                self.buffer = 0  # let go
+                self.buffer = 0  # down and jump: let go without a jump
             else:
                 self._jump(way, False)
             return
         ladder = self.ladder
         if ladder is None or ladder.body.id not in self.ladders or (way and not turn):
-            self.ladder, self.coyote = None, steps(COYOTE)  # left behind, or stepped off
+            self.ladder, self.coyote = None, steps(COYOTE)  # the ladder has ended, or he steps off it
             self.vx, self.vy = way * RUN_SPEED * 0.5, 0.0
             return
         if way:
@@ -250,10 +251,10 @@ class Hero:
         self.vy = turn * CLIMB_SPEED
         if turn < 0:
             self.vy = max(self.vy, (ladder.top - self.box[3]) / STEP_SECONDS)
-        self.drop = 2 if turn > 0 else 0  # past its own top
+        self.drop = 2 if turn > 0 else 0  # going down, he passes the one-way ground at the ladder's top
 
     def _leave_ladder(self, moved, ladder):
-        """Leave the ladder at its foot, or stand on its top."""
+        """Leave the ladder if the hero has reached its foot or its top. `moved`: result of his last move."""
         if self.vy > 0.0 and moved.grounded:
             self.ladder, self.drop, self.grounded = None, 0, True
         elif self.box[3] <= ladder.top:
@@ -264,18 +265,18 @@ class Hero:
     # --- what happens to him -----------------------------------------------------------------------------------------
 
     def launch(self):
-        """Throw him by a spring, to the same height whatever is held."""
+        """Throw the hero up by a spring. The height does not depend on the keys held."""
         self._rise(SPRING_SPEED)
         self.rise = 0
         self.news.append("launch")
 
     def bounce(self):
-        """Bounce off an enemy's back."""
+        """Let the hero bounce off an enemy's back."""
         self._rise(STOMP_SPEED)
         self.news.append("stomp")
 
     def throw(self, way):
-        """Throw him back, in place of a hurt."""
+        """Throw the hero up and to the side `way` (-1, 1), in cases where a hit costs no life."""
         self._rise(THROWN[1])
         self.rise, self.kept, self.drop = 0, 0, 0
         self.locked, self.locked_way, self.vx = steps(THROWN_TIME), way, way * THROWN[0]
@@ -284,7 +285,7 @@ class Hero:
     # --- the way through the world -----------------------------------------------------------------------------------
 
     def _travel(self):
-        # The speed is along the ground: the same uphill, where a pixel along x is a longer path.
+        # vx is the speed along the ground, so that a slope needs less motion along x.
         along = 1.0 / sqrt(1.0 + self.slope * self.slope) if self.grounded else 1.0
         dx, dy = self.vx * along * STEP_SECONDS, self.vy * STEP_SECONDS
         if self.ladder is None and self._nearly_up():
@@ -316,7 +317,7 @@ class Hero:
         self.grounded = grounded
 
     def _remember_lift(self):
-        """Record the speed of the ground that carries him: a platform's, a crate's, a belt's."""
+        """Record the velocity of the platform, crate or belt that carries the hero, to be added to a jump."""
         vx, vy = self.riding.velocity if self.riding is not None else (0.0, 0.0)
         vx += self.character.surface_speed
         if (vx, vy) != (0.0, 0.0):
@@ -324,7 +325,7 @@ class Hero:
             self.lift = steps(LIFT_TIME)
 
     def _nearly_up(self):
-        """Return whether he rises, with his feet just under the top of a plank."""
+        """Return whether the hero rises through a plank or bridge with his feet just below its top."""
         if self.vy > 0.0 or self.grounded:
             return False
         left, _, right, bottom = self.box
@@ -332,7 +333,10 @@ class Hero:
         return any(within(left, right, bottom, POP_REACH) for within in boards)
 
     def _bump(self, dy):
-        """React to a hit of the head: slip past its corner, or stop rising."""
+        """React to a hit of the head on a ceiling: slip past a near corner, or stop rising.
+
+        `dy`: the motion that was blocked [px].
+        """
         sides = (1, -1) if self.vx == 0.0 else (1 if self.vx > 0.0 else -1,)
         for reach in range(1, CORNER + 1):
             for side in sides:
@@ -346,7 +350,7 @@ class Hero:
         self.news.append("bump")
 
     def _slip_out(self):
-        """Move out to the nearer side when squeezed by a corner. Return whether there was room."""
+        """Move a squeezed hero to the nearer free side, at most CORNER px. Return whether a side was free."""
         x, y = self.character.position
         for reach in range(1, CORNER + 1):
             for side in (-1, 1):
@@ -356,7 +360,7 @@ class Hero:
         return False
 
     def _blocked(self, dx, dy):
-        """Return whether the box, shifted by whole pixels, would overlap a solid."""
+        """Return whether the hero's box, shifted by (dx, dy) whole pixels, would overlap anything solid."""
         left, top, right, bottom = self.box
         left, top, right, bottom = left + dx, top + dy, right + dx, bottom + dy
         return self.level.blocks(left, top, WIDTH, HEIGHT) or any(
@@ -373,7 +377,7 @@ class Hero:
         return None
 
     def state(self):
-        """Return all state that the next step depends on outside the world."""
+        """Return the hero's state outside the physics world, as a flat tuple for the replay digest."""
         return (
             self.vx,
             self.vy,

@@ -1,4 +1,4 @@
-"""The level: the map's solid tiles as one body, and fast queries about single tiles."""
+"""The level: its solid tiles as one static body, and fast queries about single tiles."""
 
 from functools import lru_cache
 from math import floor
@@ -41,11 +41,11 @@ GLOWS = {
     "crystal_1": (0, 0),
     "glowcap": (0, 0),
     "window": (0, 0),
-}  # [px] of the light
+}  # offset of the light from the tile's middle [px]
 
 
 class Level:
-    """A TileMap and its solid layer. Boxes are whole pixels: left, top, width, height."""
+    """A level: its TileMap, and queries about the layer of solid tiles. All lengths are in whole pixels."""
 
     def __init__(self, tilemap, picture=None):
         self.map, self.picture = tilemap, picture
@@ -62,10 +62,10 @@ class Level:
         self.hints = sorted(self.map.things_of("hint"), key=lambda hint: hint.properties["order"])
 
     def __deepcopy__(self, memo):
-        return self  # it is constant, and its pictures are cached by it
+        return self  # a Level never changes, and pictures are cached by its identity
 
     def _find_lights(self):
-        """Return (x, y, name) of every glowing tile of the decoration [px]."""
+        """Yield (x [px], y [px], name) of every tile of the decoration that glows."""
         names = {number: tile.get("name") for number, tile in self.map.tiles.items() if tile.get("name") in GLOWS}
         layer = self.map.layers.get("decor", np.zeros((0, 0), int))
         for row, line in enumerate(layer.tolist()):
@@ -75,18 +75,24 @@ class Level:
                     yield (column + 0.5) * self.tile + dx, (row + 0.5) * self.tile + dy, names[number]
 
     def zones_at(self, x, y):
-        """Return the zones that contain a point [px], in the map's order; the first one decides the act."""
+        """Return the list of zones that contain a point [px], in the order of the map. The first decides the act."""
         return [zone for zone in self.zones if zone.x <= x < zone.x + zone.width and zone.y <= y < zone.y + zone.height]
 
     def add_to(self, world):
-        """Put the tiles into a world as one static body, without the planks if it has no one-way platforms."""
+        """Add the tiles to a world as one static body. Return the body.
+
+        Planks are left out if the world's effect `one_way` is off.
+        """
         grid = self.grid
         if not world.effects.one_way:
             grid = TileGrid(grid.solid, grid.tile_size, slopes=grid.slopes)
         return world.add_body(grid, kind="static", filter=TILE_FILTER, user="tiles")
 
     def kind(self, column, row):
-        """Return the kind of a tile. Beside the map there is rock, above and below it nothing."""
+        """Return the kind of a tile: EMPTY, SOLID, PLANK or SLOPE.
+
+        Tiles beside the map are SOLID, tiles above and below it EMPTY.
+        """
         if not 0 <= column < self.map.columns:
             return SOLID
         return self.kinds[row][column] if 0 <= row < self.map.rows else EMPTY
@@ -96,7 +102,7 @@ class Level:
         return self.kind(floor(x / self.tile), floor(y / self.tile))
 
     def surface(self, column, row, x):
-        """Return the top of a tile's ground at the column of pixels x [px], or None without ground."""
+        """Return the y [px] of the ground in a tile, at x [px], or None if the tile has no solid ground."""
         kind = self.kind(column, row)
         if kind == SOLID:
             return row * self.tile
@@ -108,7 +114,7 @@ class Level:
         return (row + 1 - low - (high - low) * share) * self.tile
 
     def blocks(self, left, top, width, height):
-        """Return whether a box overlaps rock or the ground of a slope. Planks are one-way, so they never block."""
+        """Return whether a box [px] overlaps solid tiles or slopes. Planks are one-way, so they never block."""
         bottom = top + height
         for row in range(floor(top / self.tile), floor((bottom - 1) / self.tile) + 1):
             for column in range(floor(left / self.tile), floor((left + width - 1) / self.tile) + 1):
@@ -124,7 +130,7 @@ class Level:
         return False
 
     def on_plank(self, left, bottom, width):
-        """Return whether feet at the height `bottom` stand on planks alone."""
+        """Return whether feet at y = bottom, from x = left on for `width` px, stand on planks and nothing else."""
         if bottom % self.tile:
             return False
         row = bottom // self.tile
@@ -135,14 +141,17 @@ class Level:
         return PLANK in under and under <= {PLANK, EMPTY}
 
     def plank_within(self, left, right, bottom, reach):
-        """Return whether feet at the height `bottom` are in a plank, by at most `reach` px."""
+        """Return whether feet at y = bottom, from x = left to right [px], are in a plank by at most `reach` px."""
         row = (bottom - 1) // self.tile
         if not 0 < bottom - row * self.tile <= reach:
             return False
         return any(self.kind(column, row) == PLANK for column in range(left // self.tile, (right - 1) // self.tile + 1))
 
     def drop_to_ground(self, x, y, most):
-        """Return the distance from y down to the ground at x [px], at most `most`. Planks do not count."""
+        """Return the distance [px] from (x, y) straight down to the ground, `most` if it is farther.
+
+        Planks do not count as ground.
+        """
         row = floor(y / self.tile)
         column = floor(x / self.tile)
         while row * self.tile < y + most:
@@ -155,19 +164,25 @@ class Level:
 
 @lru_cache(maxsize=4)
 def load_level(path=None, stamp=None):
-    """Return a playable level, read once per path and stamp (its time of change). Raises FileError."""
+    """Return the Level in a map file; without a path, the level of the game. Raises FileError if it is not playable.
+
+    Results are cached by path and `stamp`, the file's time of change [ns].
+    """
     tilemap = load_tilemap(LEVELS / "platformer.tmj" if path is None else path, LARGEST)
     check_level(tilemap)
     return Level(tilemap, map_picture(tilemap))
 
 
 def level_of(path=None):
-    """Return the level at a path, read again if the file has changed; None: the game's own. Raises FileError."""
+    """Return the Level in a map file, read again if the file has changed; without a path, the level of the game.
+
+    Raises FileError if the file is not a playable level.
+    """
     if path is None:
         return load_level()
     path = Path(path)
     try:
         stamp = path.stat().st_mtime_ns
-    except (OSError, ValueError):  # reading it reports the reason
+    except (OSError, ValueError):  # load_level() raises an error with the reason
         stamp = None
     return load_level(path, stamp)

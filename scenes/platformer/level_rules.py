@@ -1,11 +1,11 @@
-"""Requirements of a playable map: each error names file, place and reason."""
+"""Validation of the maps of the platformer. Each error names the file, the place in it and the reason."""
 
 from dataclasses import dataclass
 
 from game.errors import FileError
 
 TILE_SIZE = 16
-SMALLEST, LARGEST = (30, 17), (1024, 256)  # [tiles] the picture; the limit for quick checks and painting
+SMALLEST, LARGEST = (30, 17), (1024, 256)  # [tiles] size of the picture; greatest size that is quick to check and draw
 MOST_THINGS = 1500
 ACTS = ("meadow", "cave", "keep")
 HINTS = ("run", "jump", "climb", "kick", "ride", "drop", "push", "fall", "spring", "throw")
@@ -14,7 +14,11 @@ FAR = 1e5  # [px] beyond any map
 
 @dataclass(frozen=True)
 class Kind:
-    """Limits of a kind: number of its objects, and its properties: name -> (type, least, most, needed)."""
+    """Requirements of a kind of object in a map.
+
+    `least`, `most`: allowed number of such objects; `properties`: tuples (name, type, least value or allowed values,
+    greatest value, whether the property is required).
+    """
 
     least: int = 0
     most: int = MOST_THINGS
@@ -60,7 +64,7 @@ KINDS = {
 
 
 def check_level(tilemap):
-    """Raise FileError for the first unplayable thing in a map."""
+    """Raise FileError for the first error in a map that makes it unplayable."""
     _check_size(tilemap)
     for thing in tilemap.things:
         _check_thing(tilemap, thing)

@@ -1,4 +1,4 @@
-"""Light: glows that brighten the picture, and the dark of the cave beyond all light."""
+"""Light of the platformer: glows that brighten the picture, and darkness in the cave where no light reaches."""
 
 from functools import lru_cache
 
@@ -9,10 +9,11 @@ from game.drawing.sprites import load_atlas
 
 AMBIENT = (136, 132, 180)  # share of each colour left where the cave is darkest
 STEPS = 12  # levels of darkness, each with light discs of its own
-GRAIN = 2  # [px] between the radii of a flickering light, so that few pictures are cached
-BRIGHTEST = 0.62  # of a light's colour in the middle of its disc
+GRAIN = 2  # [px] step between the radii of a flickering light, so that few pictures are cached
+BRIGHTEST = 0.62  # share of a light's colour in the middle of its disc
 WARM = ("torch", "lantern", "window", "fuse")  # these keep their drawn colours, the others are cold
-# Lights: (flicker share, its speed, radius of its glow, radius of the light in the dark [px], colour)
+# name -> (share of the radius that flickers, speed of the flicker [rad/s], radius of the glow [px], radius of the
+# light in the dark [px], colour)
 SHINES = {
     "torch": (0.10, 11.0, 32, 92, (255, 206, 150)),
     "lantern": (0.05, 5.0, 32, 100, (255, 220, 170)),
@@ -30,13 +31,16 @@ SHINES = {
 
 
 class Lighting:
-    """Drawing of light, over the world and under the words."""
+    """The renderer of light, drawn above the world and below the heads-up display."""
 
     def __init__(self):
         self.cover = pygame.Surface(CANVAS_SIZE)
 
     def draw(self, surface, lights, dark, time):
-        """Draw the lights: (canvas x, canvas y, name); dark 0..1."""
+        """Darken the picture where no light reaches, and draw the glows.
+
+        `lights`: list of (canvas x, canvas y, name); `dark`: darkness, 0..1; `time` [s] drives the flicker.
+        """
         level = whole(dark * STEPS)
         if level:
             self.cover.fill([whole(255 - (255 - part) * level / STEPS) for part in AMBIENT])
@@ -61,13 +65,16 @@ class Lighting:
 
 
 def flickering(radius, share, speed, time, x):
-    """Return the radius of a light at a time [s]; two lights do not flicker together."""
+    """Return the current radius [px] of a light of radius `radius` that flickers.
+
+    `share`: part of the radius that flickers; `speed` [rad/s]; `x`: place of the light, so that lights differ.
+    """
     return GRAIN * whole(radius * (1.0 - share + share * wave(time * speed / 6.28 + x * 0.013)) / GRAIN)
 
 
 @lru_cache(maxsize=128)
 def glow(radius, warm):
-    """Return the drawn light at another size; cold ones have red and blue swapped."""
+    """Return the picture of a glow of the given radius [px]. A cold glow (not `warm`) has red and blue swapped."""
     image = pygame.transform.scale(load_atlas("things")["lantern_light"], (2 * radius, 2 * radius))
     if not warm:
         pixels = pygame.surfarray.pixels3d(image)
@@ -78,7 +85,7 @@ def glow(radius, warm):
 
 @lru_cache(maxsize=128)
 def disc(radius, color, share):
-    """Return a round light that falls off in rings, in proportion to the darkness."""
+    """Return the picture of a round light, in rings that darken outwards. `share`: darkness around it, 0..1."""
     image = pygame.Surface((2 * radius, 2 * radius))
     rings = max(radius // 5, 3)
     for ring in range(rings):
@@ -93,6 +100,6 @@ def disc(radius, color, share):
 
 
 def wave(turns):
-    """Return a soft wave -1..1 per turn, of two parabolas: no table and no sine per coin."""
+    """Return an approximation of sin(2 pi turns) by two parabolas, which is cheaper than a sine."""
     part = turns % 1.0
     return 16.0 * part * (0.5 - part) if part < 0.5 else -16.0 * (part - 0.5) * (1.0 - part)

@@ -1,4 +1,7 @@
-"""Effects of the platformer: squash and stretch, dust, trails, sparkles, an act's light. No game rule reads them."""
+"""Visual effects and sounds of the platformer: squash and stretch, dust, afterimages, light, camera.
+
+They never influence the game rules.
+"""
 
 from math import cos, exp, sin
 
@@ -8,7 +11,7 @@ from scenes.platformer.blasting import THROWN
 from scenes.platformer.feel import FALL_SPEED, HEIGHT, RUN_SPEED
 from scenes.platformer.gaze import Gaze
 
-# Squash and stretch: (width, height) at its start, and the rate at which it fades
+# Squash and stretch of the hero's picture by event: factors on width and height, which fade at STRETCH_RATE.
 STRETCHES = {
     "jump": (0.60, 1.40),
     "wall_jump": (0.60, 1.40),
@@ -32,17 +35,17 @@ SOUNDS = {
     "drop": ("blip", 0.4),
     "thrown": ("hit", 0.7),
 }
-FALLEN = 260.0  # [px/s] speed of a hurt hero up, before he falls out of the picture
+FALLEN = 260.0  # [px/s] speed up of a hurt hero, before he falls out of the picture
 FALLEN_GRAVITY = 1100.0  # [px/s2]
 RUN_DUST = 11  # steps between puffs of a run
 MOTE_EVERY = 9  # steps between motes of light in the air
 EMBER_EVERY = 5  # steps between sparks of a flame
 RUNG = 14.0  # [px] of climbing between two sounds
-LOUDEST = 400000.0  # [density px3/s] impulse of the loudest hit: the large crate from 10 tiles
-FAINTEST, SHAKING = 0.02, 0.25  # shares of that: a weaker hit is silent, a stronger one shakes the picture
+LOUDEST = 400000.0  # [density px3/s] impulse of the loudest impact: the large crate after a fall of 10 tiles
+FAINTEST, SHAKING = 0.02, 0.25  # shares of LOUDEST: a weaker impact is silent; a stronger one shakes the picture
 SQUASHED = 0.5  # [s] that a flattened walker is visible
 TUMBLED = 1.2  # [s] that a flattened bat or hedgehog is seen falling
-QUICK, AFTERIMAGES = 250.0, 7  # [px/s] speed from which he leaves so many afterimages
+QUICK, AFTERIMAGES = 250.0, 7  # [px/s] speed above which the hero leaves afterimages; steps for which each is shown
 DARKEN = 2.2  # [1/s] rate at which the light changes to another act
 COVER_RATE = 7.0  # [1/s] rate at which a covered room opens and closes
 PULSE_FADE, GEM_FADE = 4.0, 1.5  # [1/s] rate at which the counters' pulses end
@@ -51,18 +54,18 @@ FUSE_SOUND = 12  # steps between two sounds of a fuse that burns
 FUSE = (4.0, -7.5)  # [px] from the middle of a bomb to the end of its fuse
 PUFF_LIFE = 0.3  # [s] all frames of dust or a sparkle
 HELD_STEP = STEP_SECONDS / 4  # [s] per step for lights and coins while the picture is frozen
-SPLIT_TIME = 2.6  # [s] that the time at a checkpoint against the best run's is shown
-WINDOW = 20.0, 72.0  # [px] window in which the ghost passed a checkpoint
+SPLIT_TIME = 2.6  # [s] for which the difference in time from the best run is shown at a checkpoint
+WINDOW = 20.0, 72.0  # [px] distance (x, y) from a checkpoint within which the ghost of the best run passes it
 
 
 class Look:
-    """The effects; owned by the scene, which reports its events."""
+    """The effects of the scene. The methods below hear() show one event each, with pictures and sound."""
 
     def __init__(self, scene):
         self.scene = scene
         self.time = 0.0
-        self.width = self.height = 1.0  # the hero's stretch
-        self.run = self.climb = 0.0  # [px] path on the ground and on ladders, which drives the frames
+        self.width = self.height = 1.0  # stretch of the hero's picture
+        self.run = self.climb = 0.0  # [px] path run and climbed so far, which selects the animation frames
         self.blasts = []  # [x, y, age s]
         self.puffs = []  # [animation, x, y, age s]
         self.flat = []  # flattened enemies: [kind, x, bottom, way, age s]
@@ -71,41 +74,41 @@ class Look:
         self.gem_pulse = 0.0
         self.fall = self.fall_speed = 0.0  # a hurt hero's fall
         self.bodies, self.angles = {}, {}  # body id -> place, and angle of a crate, before this step
-        self.act = "meadow"  # without a zone
+        self.act = "meadow"  # outside all zones
         self.act = self.last_act = self._act()
         self.act_age = 0.0  # [s] in this act
         self.dark = 1.0 if self.act == "cave" else 0.0
         self.open = [0.0] * len(scene.level.covers)  # opening of each covered room, 0..1
-        self.split = None  # (seconds against the ghost's, time shown)
+        self.split = None  # (seconds behind the ghost of the best run, seconds since it is shown), or None
         self.gaze = Gaze(scene)
         self.arrive()
 
     @property
     def foot(self):
-        """Place of the hero's drawn feet [px]."""
+        """The y of the hero's feet in the picture [px], also while he falls out of it."""
         return self.scene.hero.box[3] + (self.fall if self.scene.phase == "hurt" else 0.0)
 
     def _act(self):
-        """Return the act of the zone that the hero is in; between zones, that of the last one."""
+        """Return the act of the zone that the hero is in; between zones, the act of the last zone."""
         zones = self.scene.level.zones_at(*self.scene.hero.character.position)
         return zones[0].properties["act"] if zones else self.act
 
     def begin_step(self):
-        """Record the places before the step."""
+        """Record positions and angles of all bodies before the step, to interpolate from."""
         rows = self.scene.world.bodies
         self.bodies = self.scene.things.places()
         self.angles = dict(zip(rows["id"].tolist(), rows["angle"].tolist(), strict=True))
 
     def hold(self):
-        """Make a step of the frozen picture: sparks fly on, lights and coins slow down."""
+        """Advance the effects while the game is frozen: lights and coins go on slowly."""
         self.time += HELD_STEP
 
     def before(self, body):
-        """Return the place of a body before the last step [px]."""
+        """Return the position of a body before the last step [px]."""
         return self.bodies.get(body.id, body.position)
 
     def step(self, dt):
-        """Update the effects after the step."""
+        """Advance all effects after a step of `dt` [s] of the world."""
         scene, hero = self.scene, self.scene.hero
         self.time += dt
         back = 1.0 - exp(-STRETCH_RATE * dt)
@@ -162,7 +165,7 @@ class Look:
             self.split = (self.split[0], self.split[1] + dt) if self.split[1] < SPLIT_TIME else None
 
     def _burn_fuses(self):
-        """Emit sparks and the hiss of every lit fuse."""
+        """Emit sparks, and play the hiss, of every burning fuse."""
         for bomb in self.scene.things.bombs:
             if bomb.phase == THROWN:
                 bursts.fuse(self.scene.particles, *fuse_end(bomb))
@@ -181,21 +184,21 @@ class Look:
             self.open[number] += (float(inside) - self.open[number]) * (1.0 - exp(-COVER_RATE * dt))
 
     def hidden(self, x, y):
-        """Return whether a cover hides a point: light from there must not show."""
+        """Return whether the point (x, y) [px] is in a covered room that is closed, so that its light must not show."""
         return any(
             seen < 0.5 and cover.x <= x <= cover.x + cover.width and cover.y <= y <= cover.y + cover.height
             for cover, seen in zip(self.scene.level.covers, self.open, strict=True)
         )
 
     def _leave_images(self, hero):
-        """Leave afterimages while he is faster than by running or falling."""
+        """Leave afterimages while the hero is faster than a run or a plain fall."""
         quick = hero.vy < -QUICK or hero.vy > FALL_SPEED + 20.0 or (abs(hero.vx) > QUICK - 20.0 and not hero.grounded)
         if quick and self.scene.frame % 2 == 0 and self.scene.phase == "playing" and self.scene.trail:
             x, bottom, name, way = self.scene.trail[-1]
             self.afterimages.append([x, bottom, name, way, 0])
 
     def _air(self, scene):
-        """Emit motes in the air of an act, and sparks from flames."""
+        """Emit floating specks in the air, and sparks from torches."""
         left, top = scene.camera.view()
         width, height = scene.camera.size
         if scene.frame % MOTE_EVERY == 0:
@@ -206,10 +209,10 @@ class Look:
                 if name == "torch" and seen and not self.hidden(x, y):
                     bursts.ember(scene.particles, x, y)
 
-    # --- what the scene reports --------------------------------------------------------------------------------------
+    # --- events of the scene -----------------------------------------------------------------------------------------
 
     def hear(self, news):
-        """Turn the words of the hero's step into sound, stretch and dust."""
+        """Show the events of the hero's step (names such as "jump") by sound, stretch and dust."""
         for word in news:
             if word in STRETCHES:
                 self.width, self.height = STRETCHES[word]
@@ -228,7 +231,7 @@ class Look:
                 bursts.launch(self.scene.particles, *self._feet())
 
     def show(self, word, thing):
-        """Show an event: a stone shakes, breaks or is back, a bat wakes."""
+        """Show the event `word` of a stone ("shake", "break", "back"), a bat ("wake") or a bomb."""
         scene = self.scene
         if word == "wake":
             self._sound_at("blip", thing.character.position[0], 0.35)
@@ -248,7 +251,7 @@ class Look:
             self._puff("sparkle", x, y)
 
     def _show_bomb(self, word, x, y):
-        """Show a bomb that is taken, thrown, or back at its place."""
+        """Show that a bomb at (x, y) [px] is taken, thrown, or back on its stand (`word`)."""
         if word == "taken":
             self._sound_at("hook", x, 0.5)
             self._puff("sparkle", x, y)
@@ -260,7 +263,7 @@ class Look:
             self._sound_at("blip", x, 0.4)
 
     def burst(self, x, y, loose, hit):
-        """Show a bursting bomb; loose pieces of a wall leave dust at their places."""
+        """Show the explosion of a bomb at (x, y) [px]. `loose`: Rubble of walls; `hit`: whether a wall was hit."""
         scene = self.scene
         self.blasts.append([x, y, 0.0])
         bursts.blast(scene.particles, x, y)
@@ -275,7 +278,7 @@ class Look:
             self._sound_at("crumble", x, 1.0)
 
     def took(self, trigger):
-        """Show a taken coin or gem."""
+        """Show that the hero takes a coin or a gem."""
         if trigger.kind == "secret":
             bursts.gem(self.scene.particles, trigger.x, trigger.y)
             self.gem_pulse = 1.0
@@ -288,12 +291,12 @@ class Look:
         self._sound("coin", 0.6)
 
     def threw(self, trigger):
-        """Show a spring that has thrown a crate."""
+        """Show that a spring has thrown a crate."""
         self._sound_at("spring", trigger.x, 0.7)
         bursts.launch(self.scene.particles, trigger.x, trigger.foot[1] - 8)
 
     def lit(self, trigger):
-        """Show a lit lantern, and the time against the ghost's."""
+        """Show that a checkpoint is reached: its lantern is lit, and the time is compared with that of the best run."""
         x, bottom = trigger.foot
         bursts.kindle(self.scene.particles, x, bottom - 24)
         self._sound("checkpoint", 0.8)
@@ -303,7 +306,7 @@ class Look:
                 break
 
     def squashed(self, enemy):
-        """Show a flattened enemy."""
+        """Show that an enemy is flattened."""
         x, _ = enemy.character.position
         self.flat.append([enemy.kind, x, enemy.bottom, enemy.way, 0.0])
         bursts.squash(self.scene.particles, x, enemy.bottom - 6)
@@ -312,7 +315,7 @@ class Look:
             self._sound_at("stomp", x, 0.6)
 
     def struck(self, x, y, impulse):
-        """Show an impact at a point, in proportion to its impulse."""
+        """Show an impact of a crate at (x, y) [px], with dust and sound in proportion to its impulse."""
         force = min(impulse / LOUDEST, 1.0)
         if force < FAINTEST or not self._in_picture(x, y):
             return
@@ -322,7 +325,7 @@ class Look:
             self.scene.camera.shake(0.35 * force)
 
     def hurt(self):
-        """Show the hurt hero thrown out of the picture."""
+        """Begin to show a hurt hero, who is thrown up and falls out of the picture."""
         x, y = self.scene.hero.character.position
         self.fall, self.fall_speed = 0.0, -FALLEN
         bursts.hurt(self.scene.particles, x, y)
@@ -331,17 +334,17 @@ class Look:
         self._sound("hurt", 0.9)
 
     def vanished(self):
-        """Show a puff where the hero was before he was put back."""
+        """Show a puff at the hero's place, before he is put back to safe ground."""
         bursts.vanish(self.scene.particles, *self.scene.hero.character.position)
         self.scene.camera.shake(0.25)
 
     def won(self, trigger):
-        """Show confetti."""
+        """Show confetti at the goal."""
         bursts.confetti(self.scene.particles, trigger.x, trigger.y - 10)
         self._sound("goal", 1.0)
 
     def arrive(self):
-        """Move the picture to the start of a life at once."""
+        """Move the camera at once to the place where a life starts."""
         self.gaze.arrive(*self.scene.spawn)
         self.afterimages.clear()
         self.width, self.height = 0.5, 1.4
@@ -370,7 +373,7 @@ class Look:
 
 
 def fuse_end(bomb):
-    """Return the place of a bomb's burning fuse [px]."""
+    """Return the position (x, y) [px] of the burning end of a bomb's fuse."""
     x, y = bomb.place
     angle = 0.0 if bomb.body is None else bomb.body.angle
     return x + cos(angle) * FUSE[0] - sin(angle) * FUSE[1], y + sin(angle) * FUSE[0] + cos(angle) * FUSE[1]

@@ -1,8 +1,8 @@
-"""The scripted player: it follows the map's hints and presses keys by rules.
+"""The platformer's bot: it follows hints in the map, and presses keys by rules.
 
-A hint gives the next place and the way to it: run (and jump at obstacles), jump at once, climb, kick from wall to wall,
-ride a platform, drop through a plank, push, fall, throw a bomb, or let a spring throw it. The bot finds the moment
-itself: whether a platform is docked, where an enemy will be, whether there is ground ahead.
+A hint is a place in the map and the way to reach it: run (with jumps at obstacles), jump at once, climb, kick from wall
+to wall, ride a platform, drop through a plank, push, fall, throw a bomb, or jump by a spring. The rules find the right
+moment: when a platform is at its end, where an enemy will be, whether there is ground ahead.
 """
 
 from math import sqrt
@@ -11,21 +11,21 @@ from scenes.platformer.blasting import CARRIED, WAITING
 from scenes.platformer.feel import GRAVITY, RUN_SPEED
 
 NEAR_X, NEAR_Y, NEAR_UP = 9, 8, 18  # [px] beside, below and above a hint (on a crate) that count as reached
-EDGE = 10  # [px] before an edge at which it jumps
-STEP = 18  # [px] lower ground ahead is no gap
+EDGE = 10  # [px] before an edge at which the bot jumps
+STEP = 18  # [px] ground that is lower by no more than this is not a gap
 HOLD = 40  # steps that jump is held
 FLIGHT = 0.63  # [s] from a full jump's start to an enemy's back
 REACH = (100, 128)  # [px] range of a full jump in that time
-CLOSE, FAST_CLOSE = 34, 54  # [px] last chance to jump over an enemy, over a flying one
-RUN_UP = 62  # [px] before an obstacle that needs a jump at full speed
-PAUSE, LONGEST_PAUSE = 37, 90  # steps
-DOCK = 1.5  # [px] from its end at which a platform is docked
-THROW_FROM, AWAY = 62, 96  # [px] distance of a bomb's throw from its target, and then from the burst
-KICK_SPEED = -90.0  # [px/s] it kicks when rising slower than this
+CLOSE, FAST_CLOSE = 34, 54  # [px] distance at which the bot jumps over an enemy on the ground, over a flying one
+RUN_UP = 62  # [px] run-up needed for a jump over a hedgehog
+PAUSE, LONGEST_PAUSE = 37, 90  # steps of waiting before a new life: PAUSE more for each life, modulo LONGEST_PAUSE
+DOCK = 1.5  # [px] distance from an end of its path within which a platform counts as docked
+THROW_FROM, AWAY = 62, 96  # [px] distance from the hint at which a bomb is thrown; least distance from it afterwards
+KICK_SPEED = -90.0  # [px/s] vy above which the bot kicks off a wall (up is negative)
 
 
 class Runner:
-    """The bot: the next hint, the next one at the last checkpoint, and whether jump must be released."""
+    """The bot. `next`: index of the hint it heads for; `kept`: the same at the last checkpoint."""
 
     def __init__(self):
         self.next = self.kept = 0
@@ -33,22 +33,25 @@ class Runner:
         self.start_again()
 
     def remember(self):
-        """Record the hint at a lit checkpoint."""
+        """Record the current hint at a checkpoint, to resume from it in the next life."""
         self.kept = self.next
 
     def start_again(self):
-        """Start a new life after a wait, of another length each time, because the same steps would end the same way."""
+        """Begin a new life at the hint of the last checkpoint, after a wait.
+
+        The wait differs from life to life, because identical steps would end in the same loss.
+        """
         self.next = self.kept
         self.lives += 1
         self.pause = self.lives * PAUSE % LONGEST_PAUSE
-        self.hold = 0  # steps for which jump is held
-        self.fresh = True  # the hint has just become the next one
-        self.boarded = None  # the platform that it rides
-        self.thrown = False  # a spring has thrown it towards this hint
+        self.hold = 0  # remaining steps for which jump is held
+        self.fresh = True  # the hint has just become the current one
+        self.boarded = None  # the platform that the hero rides
+        self.thrown = False  # a spring has thrown the hero towards this hint
         self.dropped = False
 
     def keys(self, scene):
-        """Return the actions of the next step."""
+        """Return the set of actions that are held in the next step."""
         hints = scene.level.hints
         if scene.phase != "playing" or self.next >= len(hints) or self.pause:
             self.pause = max(self.pause - 1, 0)
@@ -64,8 +67,9 @@ class Runner:
         return self._press(scene.hero, set(keys), jump)
 
     def _press(self, hero, keys, jump):
-        """Press jump: held while it rises, and released for one step before the next press, because only a fresh press
-        jumps.
+        """Return the actions, with jump added while it is held.
+
+        Jump is held while the hero rises, and released for one step before the next press: only a new press jumps.
         """
         if jump and self.hold == 0:
             self.hold = HOLD
@@ -86,7 +90,7 @@ class Runner:
             return abs(x - _middle(hint)) <= NEAR_X
         return near and hero.grounded
 
-    # --- the acts: (keys, whether to jump) ---------------------------------------------------------------------------
+    # --- one method for each kind of hint: return (keys, whether to jump) --------------------------------------------
 
     def _run(self, scene, hero, hint):
         way = _way(hero, hint)
@@ -103,7 +107,7 @@ class Runner:
         return _keys(way), self._must_jump(scene, hero, hint, way)
 
     def _needs_a_run_up(self, scene, hero, way):
-        """Return whether walking spikes are so near that a jump from here, at this speed, would end on them."""
+        """Return whether a hedgehog ahead is so near that a jump at the present speed would end on it."""
         x, feet = hero.character.position[0], hero.box[3]
         return (
             hero.vx * way < 120.0
@@ -117,7 +121,7 @@ class Runner:
         )
 
     def _waits_at_edge(self, scene, hero, hint, way):
-        """Return whether walking spikes are where a step down from here would end."""
+        """Return whether a hedgehog is below the edge ahead, where a step down would end."""
         x, feet = hero.character.position[0], hero.box[3]
         if _foot(hint) < feet + STEP or self._ground(scene, x + 16 * way, feet):
             return False
@@ -129,7 +133,7 @@ class Runner:
         )
 
     def _landing_aside(self, scene, hero):
-        """Return the direction to steer in the air so as not to land on walking spikes; 0 if there are none."""
+        """Return the direction (-1, 1) in which to steer so as not to land on a hedgehog; 0 if no hedgehog is there."""
         x, feet = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             depth = enemy.top - feet
@@ -138,7 +142,7 @@ class Runner:
             time = (sqrt(hero.vy * hero.vy + 2.0 * GRAVITY * depth) - hero.vy) / GRAVITY
             lands, there = x + hero.vx * time, enemy.place_after(time)
             if abs(lands - there) < 26:
-                # Past it if he is nearly there, else short of it.
+                # Land past the hedgehog if that is nearly reached, else short of it.
                 return 1 if lands > there + 6 * (1 if hero.vx > 0.0 else -1) else -1
         return 0
 
@@ -185,7 +189,7 @@ class Runner:
     def _spring(self, scene, hero, hint):
         self.thrown = hero.vy < -300.0 or (self.thrown and not hero.grounded)
         if self.thrown:
-            # With a wall in reach and still too low, the kicks begin where the throw ends.
+            # If the throw ends at a wall below the hint, the hero goes on by kicks off the wall.
             return self._kick(scene, hero, hint) if hero.wall or hero.locked else (_keys(_way(hero, hint, 3)), False)
         spring = min(
             scene.things.of("spring"),
@@ -197,7 +201,7 @@ class Runner:
         return _keys(way), hero.wall == way or self._enemy_ahead(scene, hero, way)
 
     def _throw(self, scene, hero, hint):
-        """Return the keys to take the bomb, throw it within range of the hint, and stay away until the dust settles."""
+        """Return the keys to take the bomb, throw it near the hint, and stay away until it has burst."""
         bomb = min(scene.things.bombs, key=lambda one: abs(one.home[0] - _middle(hint)))
         x = hero.character.position[0]
         if bomb.phase == CARRIED:
@@ -213,12 +217,12 @@ class Runner:
         if self.boarded is None:
             return self._board(scene, hero, hint)
         platform = self.boarded
-        # Wherever it boarded, the exit is at the hint.
+        # The hero leaves the platform at the end of its path that is nearer to the hint.
         there = _nearest_end(platform, _middle(hint), _foot(hint))
         left, _, right, _ = platform.box
         on_it = left - 4 <= x <= right + 4 and feet <= platform.box[1] + 4
         if not on_it and hero.grounded and hero.riding is None:
-            return self._run(scene, hero, hint)  # off it, on the other side or still on this one
+            return self._run(scene, hero, hint)  # the hero stands beside the platform, on either side
         if _docked(platform, there):
             way = _way(hero, hint)
             return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
@@ -255,7 +259,7 @@ class Runner:
         return _keys(way), hero.grounded and (hero.wall == way or self._must_jump(scene, hero, hint, way))
 
     def _place_on(self, scene, platform, x):
-        """Return the landing place on a platform: on its large crate, if it has one, else in its middle."""
+        """Return the x [px] at which to land on a platform: on the large crate that it carries, else in its middle."""
         left, top, right, _ = platform.box
         for crate in scene.things.crates:
             at, _ = crate.body.position
@@ -263,10 +267,13 @@ class Runner:
                 return at
         return (left + right) / 2
 
-    # --- what to do there --------------------------------------------------------------------------------------------
+    # --- obstacles and enemies ---------------------------------------------------------------------------------------
 
     def _must_jump(self, scene, hero, hint, way):
-        """Return whether to jump because of an obstacle: a wall, a gap that does not lead to the hint, an enemy."""
+        """Return whether to jump because of a wall, spikes, an enemy, or a gap that does not lead down to the hint.
+
+        `way`: direction of the run, -1 or 1; 0: the hero stands.
+        """
         if not way:
             return self._enemy_near(scene, hero)
         left, _, right, bottom = hero.box
@@ -282,7 +289,7 @@ class Runner:
         return self._enemy_ahead(scene, hero, way)
 
     def _ground(self, scene, x, bottom):
-        """Return whether there is ground at x, at most a step lower."""
+        """Return whether there is ground at x [px], at most STEP px lower than y = bottom."""
         level = scene.level
         if level.drop_to_ground(x, bottom - 4, STEP + 4) < STEP + 4 or level.kind_at(x, bottom + 2) == "one_way":
             return True
@@ -298,7 +305,7 @@ class Runner:
         return False
 
     def _enemy_ahead(self, scene, hero, way):
-        """Return whether to jump now, onto a stompable enemy or over another one."""
+        """Return whether to jump now, onto an enemy that can be stomped or over another enemy."""
         x, bottom = hero.character.position[0], hero.box[3]
         for enemy in scene.things.enemies.values():
             there = (enemy.character.position[0] - x) * way
@@ -312,7 +319,7 @@ class Runner:
         return False
 
     def _enemy_near(self, scene, hero):
-        """Return whether an enemy approaches from either side while he stands."""
+        """Return whether an enemy near the hero approaches from either side."""
         x, bottom = hero.character.position[0], hero.box[3]
         return any(
             0.0 < (x - enemy.character.position[0]) * enemy.way < CLOSE and abs(enemy.bottom - bottom) < 10
@@ -329,7 +336,7 @@ def _foot(hint):
 
 
 def _nearest_end(platform, x, y):
-    """Return the nearest of the two ends [px] of a platform's path."""
+    """Return the end (x, y) [px] of a platform's path that is nearer to the point (x, y)."""
     return min((platform.start, platform.end), key=lambda end: abs(x - end[0]) + abs(y - end[1]))
 
 
@@ -352,7 +359,10 @@ def _docked(platform, place):
 
 
 def _soon(platform, place, tick, within):
-    """Return whether it is docked there now or within some steps, and not about to leave."""
+    """Return whether a platform is docked at `place`, the end of its path, or will soon be there.
+
+    `tick`: current step; `within`: number of steps after which it must be nearer than now.
+    """
     here = platform.place_at(tick)
     far = abs(here[0] - place[0]) + abs(here[1] - place[1])
     then = platform.place_at(tick + within)

@@ -1,4 +1,4 @@
-"""The platformer: a hero, one level, and the rules between them."""
+"""The platformer's rules: lives, pick-ups, enemies, bombs and the goal. They are read from the events of each step."""
 
 from math import hypot
 
@@ -18,10 +18,10 @@ from scenes.platformer.view import hero_frame, level_view
 MOURNING = 0.6  # [s] from the hurt to the next life: long enough to see the reason, short enough to try again
 MERCY = 1.2  # [s] in which enemies do not hurt after a new life or a throw back
 APPLAUSE = 1.6  # [s] from the goal to its result
-HIT_STOP = 4  # [steps] that the picture is frozen when he is hurt: 67 ms
-STOMP_STOP = 3  # [steps] and when he stomps
-STRIKE = 60.0  # [px/s] a slower crate is pushed or rocks: two steps of gravity
-CRUSHING = 120000.0  # [density px3/s] the large crate after a fall of a tile
+HIT_STOP = 4  # [steps] for which the picture is frozen when the hero is hurt: 67 ms
+STOMP_STOP = 3  # [steps] for which the picture is frozen when he stomps an enemy
+STRIKE = 60.0  # [px/s] slower impacts are ignored: a crate that is pushed or rocks (two steps of gravity)
+CRUSHING = 120000.0  # [density px3/s] impulse from which a crate crushes: the large crate after a fall of one tile
 STOMP_DEPTH = 9  # [px] below an enemy's top at which feet still stomp it
 COIN_WORTH, SECRET_WORTH = 100, 1000
 PLAYING, HURT, WON = "playing", "hurt", "won"
@@ -70,7 +70,7 @@ class Platformer(Scene):
     life_after = steps(MOURNING)
 
     def build(self):
-        """Build the level and its contents."""
+        """Build the world with the level, its objects and the hero."""
         self.level = level_of(self.level_file)
         self.add_world(gravity=(0.0, GRAVITY))
         self.level.add_to(self.world)
@@ -83,15 +83,15 @@ class Platformer(Scene):
         self.touched = set()  # ids of the enemies in contact
         self.phase, self.since, self.mercy, self.stop = PLAYING, 0, 0, 0
         self.coins = self.secrets = self.deaths = 0
-        self.clock = 0  # [steps] of the run, with its hurts, without the frozen steps
-        self.ticks = 0  # [steps] of the world
-        self.safe = self.spawn  # his last place on plain ground, where the assist puts him back from spikes
+        self.clock = 0  # [steps] time of the run, including the pauses after hurts, without frozen steps
+        self.ticks = 0  # number of steps of the world
+        self.safe = self.spawn  # last position on static ground, to which an invincible hero returns from spikes
         self.feats = Feats(self)
         self.runner = Runner()
         self.look = Look(self)
 
     def update(self, inputs):
-        """Move things and the hero, step the world, and read the events."""
+        """Move the objects of the level and the hero, step the world, and read its events."""
         if self.stop:
             self.stop -= 1
             self.hero.listen(inputs)
@@ -145,7 +145,7 @@ class Platformer(Scene):
             self._lose()
 
     def _handle_bombs(self, inputs):
-        """Take a bomb that he reaches; throw it, or lay it down, at a press."""
+        """Let the hero take a bomb that he reaches. If he carries one, throw it or lay it down at a press of focus."""
         hero, bomb = self.hero, self.things.carried
         if bomb is None:
             for each in self.things.bombs:
@@ -160,7 +160,7 @@ class Platformer(Scene):
             self.look.show("thrown", bomb)
 
     def _burst(self, bomb):
-        """Burst a bomb: walls break, enemies are flattened, and a hero too near is thrown back without a hurt."""
+        """Apply the explosion of a bomb: walls break, enemies are flattened, and a near hero is thrown back unhurt."""
         x, y = bomb.place
         loose, hit = self.things.blast(x, y)
         self.feats.done["walls blown"] += bool(loose)
@@ -173,7 +173,7 @@ class Platformer(Scene):
             self.hero.throw(1 if me[0] >= x else -1)
             self.look.hear(("thrown",))
 
-    # --- what the world has seen -------------------------------------------------------------------------------------
+    # --- events of the world -----------------------------------------------------------------------------------------
 
     def _read_events(self):
         events, things, me = self.world.events, self.things, self.hero.character.body.id
@@ -198,7 +198,7 @@ class Platformer(Scene):
         self.mercy = max(self.mercy - 1, 0)
 
     def _read_springs(self, begun):
-        """Throw crates that have landed on a spring."""
+        """Throw up the crates that have landed on a spring. `begun`: sensor begin events of the step."""
         things = self.things
         for pair in zip(begun["body_a"].tolist(), begun["body_b"].tolist(), strict=True):
             for crate, spring in (pair, pair[::-1]):
@@ -209,7 +209,10 @@ class Platformer(Scene):
                     self.feats.done["crates thrown"] += 1
 
     def _strike(self, hit, me):
-        """Process an impact of a crate by its impulse: it flattens an enemy and hurts a hero under it."""
+        """Process an impact `hit` of a crate. A strong one from above flattens an enemy or hurts the hero.
+
+        `me`: body id of the hero.
+        """
         impulse, pair = float(hit["normal_impulse"]), (int(hit["body_a"]), int(hit["body_b"]))
         enemies = self.things.enemies
         self.look.struck(float(hit["point_x"]), float(hit["point_y"]), impulse)
@@ -257,11 +260,11 @@ class Platformer(Scene):
             self.look.lit(trigger)
 
     def _meet(self, enemy):
-        """Process a contact with an enemy: some can be stomped; all else hurts."""
+        """Process a contact of the hero with an enemy: he stomps it if it can be stomped, else it hurts him."""
         hero = self.hero
         if self.phase != PLAYING:
             return
-        # His feet one step before: a fast fall must not count as a hit from the side.
+        # The depth of the hero's feet one step before, because a fast fall must not count as a hit from the side.
         depth = hero.box[3] - hero.vy * STEP_SECONDS - enemy.top
         if enemy.stompable and hero.vy > 0.0 and depth <= STOMP_DEPTH:
             self._flatten(enemy)
@@ -273,7 +276,7 @@ class Platformer(Scene):
             self._hurt(1 if hero.character.position[0] >= enemy.character.position[0] else -1)
 
     def _hurt(self, away):
-        """Hurt him: he loses this life, or with the assist is thrown `away` (-1, 1)."""
+        """Hurt the hero: he loses a life, or is thrown to the side `away` (-1, 1) if the assist `invincible` is on."""
         if self.phase != PLAYING or (self.mercy and self.assist["invincible"]):
             return
         if self.assist["invincible"]:
@@ -284,7 +287,7 @@ class Platformer(Scene):
             self._lose()
 
     def _impale(self):
-        """Process spikes: he loses a life, or with the assist goes back to his last ground."""
+        """Process a touch of spikes: the hero loses a life, or returns to safe ground if `invincible` is on."""
         if not self.assist["invincible"]:
             self._lose()
             return
@@ -322,18 +325,18 @@ class Platformer(Scene):
             ),
         )
 
-    # --- the rest of a scene -----------------------------------------------------------------------------------------
+    # --- self-check, bot, replay, picture ----------------------------------------------------------------------------
 
     def check(self):
-        """Return the goals: all that the level teaches, with deadlines for the bot."""
+        """Return the goals that the bot must reach in the level, with deadlines."""
         return self.feats.goals()
 
     def bot(self):
-        """Return the scripted player."""
+        """Return the actions that the bot holds in the next step."""
         return self.runner.keys(self)
 
     def state(self):
-        """Return all state outside the world."""
+        """Return the scene's state outside the physics world, as a flat tuple for the replay digest."""
         return (
             self.frame,
             self.ticks,
@@ -353,11 +356,11 @@ class Platformer(Scene):
         )
 
     def draw(self, canvas, alpha):
-        """Draw the picture."""
+        """Draw the scene at `alpha` (0..1) between the last two steps."""
         level_view(self.level).draw(self, canvas, 1.0 if self.stop else alpha)
 
 
 def others(rows, identity):
-    """Return the bodies that share an event with `identity`."""
+    """Return the set of ids of the bodies that share an event with body `identity`."""
     a, b = rows["body_a"], rows["body_b"]
     return {*b[a == identity].tolist(), *a[b == identity].tolist()}

@@ -1,4 +1,4 @@
-"""Things without walking: triggers, platforms, belts, crumbling stones, crates."""
+"""Objects of a level: triggers (coins, springs, spikes, ladders, ...), platforms, belts, crumbling stones, crates."""
 
 from math import ceil, cos, floor, pi, sin
 
@@ -18,24 +18,27 @@ from scenes.platformer.level import (
     TRIGGER_FILTER,
 )
 
-CRATE_DENSITY = 0.5  # the large one weighs two and a half heroes: the hero tips what he stands on
-CRATE_FRICTION = 0.3  # the ground's is twice that
-SLIDES = 0.1  # [px] a step from which a crate counts as moving
+CRATE_DENSITY = 0.5  # the large crate weighs two and a half times as much as the hero, so that he can tip it
+CRATE_FRICTION = 0.3  # half of the friction of the ground
+SLIDES = 0.1  # [px per step] motion from which a crate counts as moving
 SPRING_KEEPS = 0.5  # share of its speed along x that a crate keeps on a spring, which throws upwards
-COIN_REACH = 2  # [px] around a coin in which it is taken
-LANTERN_SHINES = 64  # [px] above a checkpoint in which it counts, so that a jump does not miss it
-SPRING_INSET = (2, 7)  # [px] the plate lies low in its tile
-LADDER_INSET, LADDER_OVER = (3, 4)  # [px] from its sides; above its top, in reach of the feet of a hero on it
+COIN_REACH = 2  # [px] by which the sensor of a coin is larger on each side
+LANTERN_SHINES = 64  # [px] by which the sensor of a checkpoint is higher, so that a jump does not miss it
+SPRING_INSET = (2, 7)  # [px] by which the sensor of a spring is smaller at the sides and at the top: the plate is low
+LADDER_INSET, LADDER_OVER = (3, 4)  # [px] narrower at each side; higher, to reach the feet of a hero on its top
 TRIGGERS = ("coin", "secret", "spring", "spikes", "checkpoint", "goal", "ladder")
-SHAKES = 0.5  # [s] that a crumbling stone holds after the first foot
-GONE = 3.0  # [s] until it is back, if its place is free
-BITS = ((-10.0, 2.0), (0.0, -3.0), (10.0, 2.0))  # [px] starts of its pieces
+SHAKES = 0.5  # [s] for which a crumbling stone holds after something has stepped on it
+GONE = 3.0  # [s] from breaking until it is back, if its place is free
+BITS = ((-10.0, 2.0), (0.0, -3.0), (10.0, 2.0))  # [px] starts of its pieces, relative to its centre
 BIT_SIZE, BIT_DENSITY = 7, 0.2
 BIT_LIFE = 1.6  # [s]
 
 
 class Trigger:
-    """A sensor body of the level. `lit`: a reached checkpoint; `touched`: the step of the last touch."""
+    """An object of the level with a sensor: coin, secret, spring, spikes, checkpoint, goal or ladder.
+
+    `lit`: whether a checkpoint has been reached; `touched`: step in which it was last touched, or None.
+    """
 
     def __init__(self, world, thing):
         self.kind, self.thing = thing.kind, thing
@@ -78,12 +81,12 @@ class Trigger:
 
     @property
     def foot(self):
-        """The middle of its lower edge [px]."""
+        """The middle (x, y) of the object's lower edge [px]."""
         return self.thing.x + self.thing.width / 2, self.thing.y + self.thing.height
 
 
 class Platform:
-    """A kinematic box that moves between two places, slowly near the ends, for boarding."""
+    """A kinematic box that moves to and fro between two places. It is slow near the ends, so that boarding is easy."""
 
     kind = "platform"
 
@@ -104,7 +107,7 @@ class Platform:
         )
 
     def place_at(self, tick):
-        """Return its centre after so many steps of the world [px]."""
+        """Return the centre (x, y) [px] of the platform in step `tick` of the world."""
         share = (1.0 - cos(2.0 * pi * tick * STEP_SECONDS / self.period)) / 2.0
         return (
             self.start[0] + (self.end[0] - self.start[0]) * share,
@@ -112,21 +115,21 @@ class Platform:
         )
 
     def aim(self, tick):
-        """Set the velocity that moves it to its next place in one step, so that it carries bodies."""
+        """Set the velocity that moves the platform to its place of the next step, so that it carries bodies."""
         x, y = self.body.position
         next_x, next_y = self.place_at(tick + 1)
         self.body.velocity = ((next_x - x) / STEP_SECONDS, (next_y - y) / STEP_SECONDS)
 
     @property
     def box(self):
-        """Left, top, right, bottom in whole pixels, as for characters."""
+        """Left, top, right, bottom of the platform in whole pixels, rounded as characters see it."""
         x, y = self.body.position
         left, top = int(x - self.size[0] / 2 + 0.5), int(y - self.size[1] / 2 + 0.5)
         return left, top, left + int(self.size[0]), top + int(self.size[1])
 
 
 class Block:
-    """A static box of the level that is no tile: a belt, or a crumbling stone."""
+    """Base class of the static boxes of the level that are not tiles: belts and crumbling stones."""
 
     def __init__(self, world, thing):
         self.world, self.thing, self.kind = world, thing, thing.kind
@@ -137,7 +140,7 @@ class Block:
 
 
 class Belt(Block):
-    """A belt. Its surface moves at `speed` [px/s] to the right and carries bodies on it."""
+    """A conveyor belt. Its surface moves to the right at `speed` [px/s] (left if negative), and carries bodies."""
 
     def __init__(self, world, thing):
         super().__init__(world, thing)
@@ -153,7 +156,7 @@ class Belt(Block):
 
 
 class Crumble(Block):
-    """A stone that shakes under the first foot or crate on it, breaks into pieces, and comes back."""
+    """A stone that shakes when something steps on it, then breaks into pieces, and comes back after a while."""
 
     FREE = Filter(PLATFORM, HERO | ENEMY | CRATE)
 
@@ -180,11 +183,14 @@ class Crumble(Block):
         self.box, self.count, self.shaking = self.whole, 0, False
 
     def press(self):
-        """Begin to shake, because it carries a load."""
+        """Begin to shake, because the stone carries a load."""
         self.shaking = self.body is not None
 
     def step(self):
-        """Make one step. Return "shake" or "break" when that begins, or "back"."""
+        """Advance the stone and its pieces by one step.
+
+        Return "shake" when it begins to shake, "break" when it breaks, "back" when it is whole again, else None.
+        """
         for bit in self.bits:
             bit[1] += 1
         for body, _ in [bit for bit in self.bits if bit[1] > steps(BIT_LIFE)]:
@@ -223,7 +229,7 @@ class Crumble(Block):
 
 
 class Crate:
-    """A dynamic body: it falls, stacks, tips over, and can be pushed, ridden, thrown and carried."""
+    """A crate: a dynamic box that can be pushed, stacked, tipped over, ridden, thrown and carried."""
 
     kind = "crate"
 
@@ -237,28 +243,28 @@ class Crate:
             user="crate",
             material=Material(CRATE_DENSITY, CRATE_FRICTION),
             continuous="toi",
-        )  # otherwise a fall of two tiles ends 5 px deep in the ground
+        )  # without continuous collision, a fall of two tiles would end 5 px deep in the ground
 
     def slides(self, way):
-        """Return whether it moved that way (-1, 1) in the last step."""
+        """Return whether the crate moved to the side `way` (-1, 1) in the last step."""
         row = self.body.world.bodies[self.body.world.rows(self.body.id)]
         return (row["x"] - row["previous_x"]) * way > SLIDES
 
     def launch(self):
-        """Throw it by a spring's impulse, as high as the hero, whatever its mass."""
+        """Throw the crate up by a spring: as high as the hero, whatever the crate's mass."""
         vx, vy = self.body.velocity
         mass = self.body.mass
         self.body.apply_impulse(((SPRING_KEEPS - 1.0) * vx * mass, -(SPRING_SPEED + vy) * mass))
 
     def go_home(self, moved=(0.0, 0.0)):
-        """Return to its start; moved: motion of the ground under it since [px]."""
+        """Move to the start, at rest. `moved`: how far the platform under the start has moved since (x, y) [px]."""
         self.body.move_to((self.home[0] + moved[0], self.home[1] + moved[1]), 0.0)
         self.body.velocity = (0.0, 0.0)
         self.body.angular_velocity = 0.0
 
     @property
     def box(self):
-        """Left, top, right, bottom of its bounding box in whole pixels."""
+        """Left, top, right, bottom of the crate's bounding box in whole pixels."""
         x, y = self.body.position
         c, s = abs(cos(self.body.angle)), abs(sin(self.body.angle))
         half_width, half_height = (c * self.size[0] + s * self.size[1]) / 2, (s * self.size[0] + c * self.size[1]) / 2

@@ -1,4 +1,4 @@
-"""The picture of the platformer: background, tiles in chunks, things, the hero and his ghost, lights, and words on top.
+"""The picture of the platformer: background, tiles, objects, the hero, the ghost of the best run, lights, and texts.
 
 Drawing changes no state; pictures are cached.
 """
@@ -24,23 +24,23 @@ from scenes.platformer.things import SHAKES
 STRIDE = 13.0  # [px] of path per frame of the run, so that feet do not slide
 PUSH_STRIDE, RUNG_STRIDE = 9.0, 7.0
 ABOVE_BOARDS = 12  # [px] start of a bridge's ropes above the ends of its boards
-STANDING = 12.0  # [px/s] below which he is drawn standing
+STANDING = 12.0  # [px/s] speed below which the hero is drawn standing
 FRAME = 24  # [px] width and height of the hero's pictures
 NEAR = 40  # [px] around the picture in which things are drawn
-LIT_FROM = 100  # [px] around the picture from which light reaches into it
-COIN_WAVE = 0.9  # [px] bobbing of coins, in a wave along the level
-GHOST = (96, 190, 255)  # added to a ghost's colours
+LIT_FROM = 100  # [px] distance from the picture within which a light reaches into it
+COIN_WAVE = 0.9  # [px] amplitude of the bobbing of coins, in a wave along the level
+GHOST = (96, 190, 255)  # added to the colours of the ghost
 GHOST_ALPHA = 130
-IMAGE = (120, 130, 220)  # to an afterimage's
-IMAGE_ALPHA, ALPHA_STEP = 110, 22  # of a fresh one; it fades in steps, so that few pictures are cached
+IMAGE = (120, 130, 220)  # added to the colours of an afterimage
+IMAGE_ALPHA, ALPHA_STEP = 110, 22  # alpha of a new afterimage; it fades in steps, so that few pictures are cached
 SPARED_BLINK = 8  # [steps] of one blink of a hero who was just hurt
-TUMBLE = (30.0, 90.0, 420.0)  # [px/s], [px/s], [px/s2] aside, up and down, of flattened bats and hedgehogs
+TUMBLE = (30.0, 90.0, 420.0)  # speed aside and up [px/s], and gravity [px/s2], of flattened bats and hedgehogs
 LAYERS = ("wall", "decor", "solid")
 SHINING = ("secret", "goal", "coin")
 
 
 class View:
-    """Drawing of one level; made for the first picture."""
+    """The renderer of a level, with its caches of pictures."""
 
     def __init__(self, level):
         self.level = level
@@ -59,7 +59,7 @@ class View:
         self.covers = [self._cover(thing) for thing in level.covers]
 
     def _paint_ahead(self):
-        """Paint every chunk of tiles now: 0.2 s once, instead of a hitch of 10 ms at each border while playing."""
+        """Draw all tiles once, to fill the cache: 0.2 s at the start, instead of pauses of 10 ms while playing."""
         canvas, camera = Canvas(), Camera()
         for left in range(0, self.level.size[0], CANVAS_SIZE[0]):
             for top in range(0, self.level.size[1], CANVAS_SIZE[1]):
@@ -69,7 +69,7 @@ class View:
                         self.layers[name].draw(canvas, camera)
 
     def _cover(self, thing):
-        """Return (picture, left, top) of the cover of a room, with its walls."""
+        """Return (picture, left, top) of the tiles that cover a hidden room and its walls."""
         tile = self.level.tile
         left, top = int(thing.x) - tile, int(thing.y) - tile
         canvas = Canvas(pygame.Surface((int(thing.width) + 2 * tile, int(thing.height) + 2 * tile), pygame.SRCALPHA))
@@ -80,7 +80,7 @@ class View:
         return canvas.surface, left, top
 
     def draw(self, scene, canvas, alpha):
-        """Draw the whole picture."""
+        """Draw the scene at `alpha` (0..1) between the last two steps."""
         left, top = scene.camera.view(alpha)
         self.left, self.top = left, top
         self.near = [
@@ -114,7 +114,7 @@ class View:
         )
 
     def _stand(self, canvas, image, x, bottom):
-        """Draw an image with the middle of its lower edge at a world point."""
+        """Draw an image with the middle of its lower edge at the world point (x, bottom)."""
         width, height = image.get_size()
         canvas.surface.blit(image, (whole(x) - width // 2 - self.left, whole(bottom) - height - self.top))
 
@@ -227,7 +227,7 @@ class View:
                 canvas.surface.blit(picture, place)
 
     def _lights(self, scene, alpha):
-        """Return (canvas x, canvas y, name) of the lights in the picture."""
+        """Yield (canvas x, canvas y, name) of every light that reaches into the picture."""
         for x, y, name in self.level.lights:
             if self._sees(x, y, LIT_FROM) and not scene.look.hidden(x, y):
                 yield x - self.left, y - self.top, name
@@ -270,7 +270,7 @@ class View:
         self._stand(canvas, image, x, bottom)
 
     def _draw_ghost(self, canvas, scene):
-        """Draw the best run at the same moment, half transparent."""
+        """Draw the ghost: the hero of the best run at the same time, half transparent."""
         if not scene.ghost or scene.clock >= len(scene.ghost) or scene.phase == "won":
             return
         x, bottom, name, way = scene.ghost[max(scene.clock - 1, 0)]
@@ -285,7 +285,7 @@ class View:
         return image if way > 0 else pygame.transform.flip(image, True, False)
 
     def _tinted(self, name, way, color, alpha):
-        """Return a frame in one light colour, half transparent."""
+        """Return a frame of the hero with `color` added and the given alpha (0..255). `way`: -1 mirrors it."""
         image = self.shaped(name, way, FRAME, FRAME).copy()
         image.fill((*color, 0), special_flags=pygame.BLEND_RGBA_ADD)
         image.fill((255, 255, 255, alpha), special_flags=pygame.BLEND_RGBA_MULT)
@@ -293,7 +293,7 @@ class View:
 
 
 def hero_frame(scene):
-    """Return (frame name, direction he faces) of the hero in his current state."""
+    """Return (name of the frame, direction -1 or 1) in which the hero is drawn."""
     hero, look, frames = scene.hero, scene.look, load_atlas("hero")
     if scene.phase == "hurt":
         return "hurt_0", hero.facing
@@ -318,13 +318,13 @@ def hero_frame(scene):
 
 @lru_cache(maxsize=2)
 def level_view(level):
-    """Return the View of a level; its pictures are kept over a restart."""
+    """Return the View of a level. It is cached, so that a restart of the scene keeps the pictures."""
     return View(level)
 
 
 @lru_cache(maxsize=8)
 def deck(width):
-    """Return a platform of any width: the ends of the drawn one, with its middle repeated."""
+    """Return the picture of a platform of `width` px: both ends of the image, with its middle repeated."""
     image = load_atlas("things")["platform"]
     out = pygame.Surface((width, image.get_height()), pygame.SRCALPHA)
     for x in range(16, width - 16, 16):
@@ -336,32 +336,33 @@ def deck(width):
 
 @lru_cache(maxsize=64)
 def flipped(image, mirrored, upside_down=False):
-    """Return a picture, mirrored or upside down if asked for."""
+    """Return a picture, mirrored and turned upside down as the arguments say."""
     return pygame.transform.flip(image, mirrored, upside_down) if mirrored or upside_down else image
 
 
 def between(before, now, alpha):
-    """Return a place interpolated between two steps."""
+    """Return the point (x, y) at `alpha` (0..1) between the positions `before` and `now`."""
     return before[0] + (now[0] - before[0]) * alpha, before[1] + (now[1] - before[1]) * alpha
 
 
 def cycle(animation, seconds):
-    """Return the name of the frame after so many seconds."""
+    """Return the name of the frame that an animation shows after `seconds`."""
     return animation.names[animation.index_at(seconds)]
 
 
 def strode(animation, way, stride):
-    """Return the name of the frame after so much path [px]."""
+    """Return the name of the frame that an animation shows after a path of `way` px, at `stride` px per frame."""
     return animation.names[int(way / stride) % len(animation.names)]
 
 
 def lowered(level, hero):
-    """Return the offset of the drawn hero below his box [px]: on a slope it stands on its corner, his feet at their
-    middle.
+    """Return how far below his box the hero is drawn [px].
+
+    On a slope the box stands on one of its lower corners, but the drawn feet touch the ground at their middle.
     """
     if hero.slope == 0.0:
         return 0.0
     left, _, right, bottom = hero.box
     half = 0.5 * (right - left)
-    # No further than the slope falls from his corner to his middle: a slightly tilted crate counts as ground, too.
+    # Limited by the fall of the slope from the corner to the middle, because tilted crates count as ground, too.
     return min(level.drop_to_ground((left + right) / 2, bottom, half), abs(hero.slope) * half)
