@@ -1,4 +1,4 @@
-"""The billiard table: cloth, cushions, pockets and the rack, and the paths that a cue ball may take."""
+"""The billiard table: geometry of cushions, pockets and rack, and functions that find a shot for the cue ball."""
 
 from math import cos, hypot, pi
 
@@ -17,7 +17,7 @@ RACK = (1, 9, 2, 10, 8, 3, 4, 11, 5, 12, 13, 6, 14, 7, 15)
 
 
 def cushions():
-    """Return six cushions with slanted jaws, and the wooden frame behind the pockets."""
+    """Return the shapes of the six cushions and of the wooden frame behind the pockets."""
     left, top, right, bottom, middle = CLOTH.left, CLOTH.top, CLOTH.right, CLOTH.bottom, CLOTH.centerx
     shapes = []
     for y, way in ((top, -1), (bottom, 1)):
@@ -38,7 +38,7 @@ def cushions():
 
 
 def rack(random):
-    """Return (number, place) of the fifteen balls, each slightly off its spot, so that no two racks are equal."""
+    """Yield (number, place [px]) of the fifteen racked balls, each moved slightly at random from its spot."""
     step_x, step_y = (2 * BALL + RACK_GAP) * cos(pi / 6), BALL + RACK_GAP / 2
     numbers = iter(RACK)
     for row in range(5):
@@ -49,9 +49,10 @@ def rack(random):
 
 
 def first_in_the_way(start, heading, balls):
-    """Return the distance [px] of a cue ball from `start` to a ball or a cushion's line, and that ball's place or None.
+    """Return how far [px] the cue ball can move from `start` before it meets a ball or cushion, and that ball's place.
 
-    heading: a unit vector; balls: places of the other balls.
+    The place is None if a cushion comes first. `heading`: unit vector of the motion; `balls`: places of the other
+    balls.
     """
     (x, y), (c, s) = start, heading
     room = CLOTH.inflate(-2 * BALL, -2 * BALL)
@@ -71,7 +72,7 @@ def first_in_the_way(start, heading, balls):
 
 
 def best_point(cue, balls):
-    """Return the place of the cue ball for potting a ball [whole canvas px]: the straightest and nearest shot."""
+    """Return the point [whole canvas px] to aim the cue ball at, for the straightest and nearest shot to pot a ball."""
     x, y = cue
     best = (-2.0, (round(x) + 40, round(y)))
     for bx, by in balls:

@@ -155,8 +155,9 @@ class Billiards(Scene):
         self.play("hit", self.cue.position[0], 0.4 + 0.6 * self.power)
 
     def _keep_books(self, before):
-        """Compare the momentum with the cue ball's until a cushion is hit, and the energy with that of the step
-        before.
+        """Compare the total momentum with the cue ball's at the break, until a cushion is hit.
+
+        Compare the kinetic energy with the energy before the step, `before`.
         """
         keep = 1.0 / (1.0 + self.values["drag"] * self.world.dt)
         self.energy = kinetic_energy(self.world)
@@ -187,7 +188,7 @@ class Billiards(Scene):
         self.budget = (px, py, steps)
 
     def _three_met(self):
-        """Return whether a body was in two contacts in this step: the result is then the solver's choice, not a law."""
+        """Return whether a body had two contacts in this step. Physics then does not determine the result alone."""
         contacts = self.world.contacts
         both = np.concatenate((contacts["body_a"], contacts["body_b"]))
         return len(np.unique(both)) < len(both)
@@ -301,8 +302,9 @@ class Billiards(Scene):
             pygame.draw.line(frame.surface, SKY, lens.points(*struck), lens.points(*far), max(1, frame.scale - 1))
 
     def check(self):
-        """Return the goals: momentum to nine digits until the first cushion, energy never grows, the rack scatters,
-        balls are potted.
+        """Return the goals of the self-check.
+
+        Momentum to nine digits until the first cushion, energy never grows, the rack scatters, balls are potted.
         """
         places = {identity: self.world.body(identity).position for identity in self.ball_names}
         moved = len(self.potted) + sum(
@@ -340,7 +342,7 @@ class Billiards(Scene):
         return f"{sentence}; a collision of two added {max(self.grown, 0.0):.1g} of the energy at most"
 
     def bot(self):
-        """Return the bot: break, then shoot at the best aligned ball and pocket."""
+        """Return the bot's input for the next step. Its plan: break, then shoot at the best aligned ball and pocket."""
         if self.calm == CALM and self.shots:
             return InputFrame(frozenset(), best_point(self.cue.position, self._others()))
         if self.calm == CALM + 1:
@@ -348,7 +350,7 @@ class Billiards(Scene):
         return InputFrame(frozenset(), self.last_pointer)
 
     def state(self):
-        """Return the score and the measurements; the world holds the balls."""
+        """Return the score and the measurements, for the replay digest; the balls are part of the physics state."""
         budget = self.budget or (0.0, 0.0, -1)
         return (
             self.frame,

@@ -91,8 +91,9 @@ class Broadphases(Scene):
             populate(self.add_world(broadphase=strategy), self.layout, int(self.values["bodies"]), self.seed)
 
     def measured(self):
-        """Return the runs to measure: a step of each broad phase in this layout, for every size and for the current
-        number.
+        """Return the runs to time beside the game.
+
+        A step of each broad phase in this layout, for every size and for the current number.
         """
         sizes = sorted({*SIZES, min(int(self.values["bodies"]), LARGEST)})
         names = [(self.layout, size, strategy) for size in sizes for strategy in STRATEGIES]
@@ -104,7 +105,7 @@ class Broadphases(Scene):
         return MeasuredRun([made], strategy, stage="broad_phase")
 
     def growth(self, strategy):
-        """Return the measured points of a broad phase in this layout, and the power law of the largest of them."""
+        """Return the measured points (number, cost) of a broad phase in this layout, and the fitted power law."""
         known = [(size, self.figures.get((self.layout, size, strategy))) for size in SIZES]
         points = [(size, figures.cost) for size, figures in known if figures is not None]
         done = all(figures is not None and figures.sure for _, figures in known)
@@ -180,7 +181,10 @@ class Broadphases(Scene):
         return f"{self.layout}, {SIZES[-FITTED]:,} to {LARGEST:,} bodies: a step costs {grown}"
 
     def check(self):
-        """Return the goals: the same pairs from all, and fewer tests than brute force from the three others."""
+        """Return the goals of the self-check.
+
+        The same pairs from all, and fewer tests than brute force from the three others.
+        """
         cheaper = all(self.tests[name] < self.tests["brute"] for name in STRATEGIES[1:])
         return [
             Goal(
@@ -200,12 +204,12 @@ class Broadphases(Scene):
         ]
 
     def bot(self):
-        """Return the bot: another layout every two seconds."""
+        """Return the bot's input for the next step. Its plan: another layout every two seconds."""
         turn = self.frame > 0 and self.frame % 120 == 0
         return InputFrame(frozenset(("right",)) if turn else frozenset())
 
     def state(self):
-        """Return the settings and the results; the worlds hold the rest."""
+        """Return the settings and the results, for the replay digest; everything else is part of the physics state."""
         return (
             self.frame,
             self.values["bodies"],
@@ -226,13 +230,13 @@ def bounce(world):
 
 
 def tests_of(world):
-    """Return the number of box tests in the last step's broad phase: of two shapes, or of a shape and a tree node."""
+    """Return how many box tests the broad phase made in the last step, of shapes with shapes or with tree nodes."""
     counters = world.profile.counters
     return counters["pairs_tested"] + counters["nodes_visited"]
 
 
 def draw_dots(surface, world, camera, color):
-    """Draw every body as a canvas pixel, red while it is in a pair, and the giant as a ring."""
+    """Draw every body as one canvas pixel, red while it is in a pair, and the one giant body as a ring."""
     bodies, view = world.bodies, camera.viewport
     x, y = camera.to_canvas(bodies["x"], bodies["y"])
     paired = np.unique(np.concatenate((world.contacts["body_a"], world.contacts["body_b"])))

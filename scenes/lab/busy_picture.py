@@ -1,4 +1,4 @@
-"""The picture of the yard of lab/effects: static and moving things, and outlines of those elsewhere in another yard."""
+"""The picture of lab/effects: the bodies of a yard, and outlines of bodies that are elsewhere in a second yard."""
 
 import numpy as np
 import pygame
@@ -20,7 +20,7 @@ DASH = 6  # [px] of the belt's marks
 
 
 class BusyPicture:
-    """The picture: draw() on the canvas, draw_ghost() at window resolution."""
+    """The renderer of a BusyYard on the canvas."""
 
     def __init__(self):
         self.ground = Yard(int(FLOOR), dim=70)
@@ -28,7 +28,7 @@ class BusyPicture:
         self.planks = load_atlas("tiles")
 
     def draw(self, canvas, yard, alpha, way):
-        """Draw a yard interpolated between its last two steps; way [px]: motion of the belt."""
+        """Draw a yard at `alpha` (0..1) between its last two steps. `way`: how far the belt has moved [px]."""
         surface = canvas.surface
         surface.blit(self.ground.picture, (0, 0))
         surface.fill(INK, (LEFT - 2, 0, 2, FLOOR))
@@ -67,7 +67,7 @@ class BusyPicture:
 
 
 def draw_ghost(frame, camera, yard, numbers, color):
-    """Draw the outlines of a yard's things by number; boxes for sprites."""
+    """Draw the outlines of the bodies of a yard with the given numbers, at window resolution; sprites as boxes."""
     world, lens = yard.world, frame.lens(camera)
     shapes, ids = world.shapes, [yard.ids[number] for number in numbers]
     rows = np.flatnonzero(np.isin(shapes["body"], ids) & (shapes["role"] != PART))

@@ -1,4 +1,4 @@
-"""The yard of lab/effects, with so many kinds of things that each effect acts on one."""
+"""The yard of lab/effects: a world with bodies of many kinds, so that each effect of the engine acts on some."""
 
 from dataclasses import dataclass
 from math import sqrt
@@ -25,7 +25,7 @@ CRATE = Polygon.box(14, 14)
 
 @dataclass(frozen=True)
 class Kind:
-    """One kind of scheduled thing: its interval in steps, and its lifetime."""
+    """A kind of body that is added at intervals: one every `every` steps, from step `first` on, for `life` steps."""
 
     name: str
     shape: Circle | Polygon | Capsule | PixelMask
@@ -55,9 +55,10 @@ PLACED = 1000000  # first number of things that are there from the start; the st
 
 
 class BusyYard:
-    """A world with its schedule. `ids`: {number: body id} of moving things.
+    """A world to which bodies are added and from which they are removed by a schedule.
 
-    A number denotes the same thing in every world copied from one, whatever happened in it.
+    `ids`: {number: body id} of its moving bodies. Copies of a yard use the same numbers, so that a number denotes the
+    same body in all copies, even if the worlds develop differently.
     """
 
     def __init__(self, world):
@@ -68,7 +69,7 @@ class BusyYard:
         self.worked = 0  # bodies moved, pairs tested and rows solved, over all steps
 
     def furnish(self):
-        """Add the static things, and those that lie there from the start."""
+        """Add the static bodies, and the moving bodies that are there from the start."""
         world, middle = self.world, (LEFT + RIGHT) / 2
         world.add_body(Polygon.box(800, 40), position=(middle, FLOOR + 20), kind="static", material=GRIP)
         for x in (LEFT - 10, RIGHT + 10):
@@ -92,7 +93,7 @@ class BusyYard:
         self.ids[number], self.kinds[number] = body.id, name
 
     def _renew_rock(self):
-        """Replace the rock by a whole one: things in its place are removed, and the star is reset."""
+        """Replace the carved rock by a whole rock. Bodies in its place are removed; the star moves to its start."""
         x, y, width, height = ROCK
         star, numbers = PLACED, {identity: number for number, identity in self.ids.items()}
         for body in self.world.query_aabb((x, y - ROOM), (x + width, y + height)):
@@ -112,14 +113,14 @@ class BusyYard:
         self.rock = self.world.add_body(mask, position=(x, y), kind="static", material=GRIP).id
 
     def beside(self, world):
-        """Return the same yard in another world, which has the same bodies."""
+        """Return a copy of this yard for another world, which must have the same bodies with the same ids."""
         other = BusyYard(world)
         other.ids, other.kinds, other.ends = dict(self.ids), dict(self.kinds), dict(self.ends)
         other.rock = self.rock
         return other
 
     def step(self, clock):
-        """Do what is scheduled for a step, make the step, and count."""
+        """Add, remove and carve bodies as scheduled for step `clock`; step the world; add up events and work."""
         world = self.world
         for number in [number for number, end in self.ends.items() if end == clock]:
             self._remove(number)
@@ -158,17 +159,17 @@ class BusyYard:
         self.worked += sum(counters[name] for name in ("bodies_integrated", "narrow_tests", "solver_rows"))
 
     def places(self, numbers):
-        """Return (n, 2) centres [px] of things by number."""
+        """Return the centres of mass of the bodies with the given numbers, an array (n, 2) [px]."""
         rows = self.world.bodies[self.world.rows([self.ids[number] for number in numbers])]
         return np.column_stack([rows["center_x"], rows["center_y"]])
 
 
 def apart(one, other):
-    """Return (numbers of the common things of two yards, (n,) distances between their two places [px])."""
+    """Return (numbers of the bodies that both yards have, array of the distances between their positions [px])."""
     numbers = sorted(one.ids.keys() & other.ids.keys())
     return numbers, np.hypot(*(one.places(numbers) - other.places(numbers)).T) if numbers else np.zeros(0)
 
 
 def rms(values):
-    """Return the root of the mean square; 0 without values."""
+    """Return the root mean square of the values; 0 if there are none."""
     return sqrt(float((values * values).mean())) if len(values) else 0.0

@@ -216,7 +216,10 @@ class CardHouse(Scene):
                 pygame.draw.circle(frame.surface, GOLD, lens.points(*card.center), 2 * frame.scale, 1)
 
     def check(self):
-        """Return the goals: it stands for ten seconds, the pairs follow theory, and at a low friction it falls."""
+        """Return the goals of the self-check.
+
+        It stands for ten seconds, the pairs follow theory, and at a low friction it falls.
+        """
         slid, stood = (self.stands(cards) for cards in self.pairs)
         moved = self.wandered if self.held is None else self.held
         return [
@@ -245,12 +248,12 @@ class CardHouse(Scene):
         return f"{sentence}; a pair slides at {LESS:.3f} and stands at {MORE:.3f}, as theory says: {NEEDED:.3f}"
 
     def bot(self):
-        """Return the bot: watch for ten seconds, then make the cards slippery."""
+        """Return the bot's input for the next step. Its plan: watch for ten seconds, then make the cards slippery."""
         changes = (("slider:friction", SLIPPERY),) if self.frame == SLIPPERY_AT else ()
         return InputFrame(changes=changes)
 
     def state(self):
-        """Return the measurements; the world holds the cards."""
+        """Return the measurements, for the replay digest; the cards are part of the physics state."""
         return (
             self.frame,
             self.since,

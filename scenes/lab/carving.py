@@ -173,7 +173,10 @@ class Carving(Scene):
         return carved.removed
 
     def measured(self):
-        """Return the runs to measure: this tool in this size, at up to sixty places of the current ground."""
+        """Return the runs to time beside the game.
+
+        This tool in this size, at up to sixty places of the current ground.
+        """
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
         masks = self.world.body(self.ground).shapes
@@ -271,7 +274,7 @@ class Carving(Scene):
         pygame.draw.lines(frame.surface, GOLD, True, points, max(1, frame.scale - 1))
 
     def check(self):
-        """Return the goals: no pixel is lost, undermined ground fell, and all comes to rest."""
+        """Return the goals of the self-check: no pixel is lost, undermined ground fell, and all comes to rest."""
         bodies = self.world.bodies
         finite = all(np.isfinite(bodies[name]).all() for name in ("x", "y", "angle", "vx", "vy"))
         inside = bool((bodies["y"][bodies["inverse_mass"] > 0.0] < BOTTOM).all())
@@ -297,13 +300,14 @@ class Carving(Scene):
         return f"{tiles}; of {self.whole:,} pixels {self.removed + self.crumbs:,} were taken and {lost} lost"
 
     def bot(self):
-        """Return the bot: cut down the bridge, the rock on its neck, the cliff; dig under the crates; stamp a
-        sprite.
+        """Return the bot's input for the next step.
+
+        Its plan: cut down the bridge, the rock on its neck, the cliff; dig under the crates; stamp a sprite.
         """
         return plan(self.frame)
 
     def state(self):
-        """Return the counts; the world holds the pixels."""
+        """Return the counts, for the replay digest; the pixels are part of the physics state."""
         return (
             self.frame,
             *self.values.values(),

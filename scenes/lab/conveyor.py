@@ -257,7 +257,10 @@ class Conveyor(Scene):
             )
 
     def check(self):
-        """Return the goals: all shapes reach the speed of every belt; without the effect nothing moves."""
+        """Return the goals of the self-check.
+
+        All shapes reach the speed of every belt; without the effect nothing moves.
+        """
         worst = max(self.worst.values())
         everywhere = all(len(belts) == len(BELTS) for belts in self.seen.values())
         return [
@@ -297,7 +300,7 @@ class Conveyor(Scene):
         )
 
     def bot(self):
-        """Return the bot: watch, then raise the speed."""
+        """Return the bot's input for the next step. Its plan: watch, then raise the speed."""
         return InputFrame(frozenset(("right",))) if self.frame in (420, 424) else frozenset()
 
     def state(self):

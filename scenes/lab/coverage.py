@@ -1,4 +1,4 @@
-"""Coverage of the pixels of a picture by shapes: a pixel is covered if its centre lies in one of them."""
+"""Coverage of pixels by shapes: a pixel is covered if its centre is inside one of the shapes."""
 
 import numpy as np
 
@@ -8,7 +8,7 @@ from scenes.lab.pieces import hull, signed_distance
 
 
 def covered(shapes, x, y):
-    """Return a bool array: whether each centre (x, y) [px], in body space, lies in one of the shapes."""
+    """Return a bool array: whether each point (x, y) [px, body space] is inside at least one of the shapes."""
     found = np.zeros(np.shape(x), bool)
     for shape in shapes:
         found |= _inside(shape, x, y)

@@ -134,8 +134,9 @@ class Cradle(Scene):
         self.results[key] = tuple(max(pair) for pair in zip(found, self.results.get(key, found), strict=True))
 
     def measured(self):
-        """Return the runs to measure: a step of each channel, over one trip of a ball to its wall and back, with every
-        chain of collisions.
+        """Return the runs to time beside the game.
+
+        A step of each channel, over one trip of a ball to its wall and back, with every chain of collisions.
         """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
         return RunRequest(
@@ -151,10 +152,10 @@ class Cradle(Scene):
         )
 
     def others(self, index):
-        """Return the error of a channel against the ideal: as many balls at the strikers' speed as strikers, the rest
-        at rest.
+        """Return the error of a channel against the ideal collision.
 
-        It is the greatest error of a ball's speed, as a share of the strikers'; 1 if the number of fast balls is wrong.
+        Ideally as many balls as struck leave at the strikers' speed, and all others are at rest. The error is the
+        greatest error of a ball's speed, relative to the strikers' speed; 1 if the number of fast balls is wrong.
         """
         speeds = [abs(body.velocity[0]) / SPEED for body in self.balls[index]]
         fast = sum(speed > 0.5 for speed in speeds)
@@ -239,7 +240,7 @@ class Cradle(Scene):
                     )
 
     def check(self):
-        """Return the goals: one in, one out; two in, two out; nothing lost."""
+        """Return the goals of the self-check: one in, one out; two in, two out; nothing lost."""
         goals = []
         for name in SOLVERS:
             for strikers, due in ((1, 200), (2, SWITCH_AT + 200)):
@@ -275,11 +276,11 @@ class Cradle(Scene):
         return f"{strikers} in, {strikers} out; speeds are off by {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot: one striker, then two."""
+        """Return the bot's input for the next step. Its plan: one striker, then two."""
         return InputFrame(frozenset(("up",)) if self.frame == SWITCH_AT else frozenset())
 
     def state(self):
-        """Return the measurements; the worlds hold the balls."""
+        """Return the measurements, for the replay digest; the balls are part of the physics state."""
         found = [value for key in sorted(self.results) for value in (*key, *self.results[key])]
         drift = [value for key in sorted(self.drift) for value in (*key, self.drift[key])]
         return (self.frame, *self.values.values(), self.touched, *found, *drift)

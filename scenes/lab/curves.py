@@ -1,4 +1,4 @@
-"""Live curves at window resolution: one line per series, on a logarithmic scale, with the current values beside it."""
+"""Live curves at window resolution: one line for each series of values, on a logarithmic scale."""
 
 from collections import deque
 from math import log10
@@ -13,8 +13,9 @@ HISTORY = 150  # default number of steps: 2.5 seconds
 
 
 class Curves:
-    """Curves. Call note(values) once per step; draw() paints into a canvas rect. `names`: series -> colour; kept:
-    steps.
+    """A plot of the last `kept` steps of some series. `names`: {series: colour}.
+
+    Call note() once per step, and draw() to paint the plot.
     """
 
     def __init__(self, title, names, kept=HISTORY):
@@ -23,17 +24,17 @@ class Curves:
         self.figures = {name: Typical() for name in names}
 
     def note(self, values):
-        """Add one value per series; negative ones count as 0."""
+        """Add the values of a step, {series: value}. Negative values count as 0."""
         for name, value in values.items():
             self.history[name].append(max(float(value), 0.0))
             self.figures[name].note(value)
 
     def typical(self, name):
-        """Return the median of a series' last second, for the figures beside the curve."""
+        """Return the median of a series over the last second, for the figure beside its curve."""
         return self.figures[name].value
 
     def draw(self, frame, canvas_rect):
-        """Draw ground, grid and curves; title and decades are written if there is room."""
+        """Draw the plot into a rectangle of the canvas. Labels of the decades are written where there is room."""
         rect = frame.from_canvas(canvas_rect)
         scale = frame.plot_scale
         surface = frame.surface
@@ -65,6 +66,6 @@ class Curves:
 
 
 def _power(decade):
-    """Return a power of ten as text: 10, 100, 1k, 10k, 100k, 1M ..."""
+    """Return 10 to the power `decade` as text: 10, 100, 1k, 10k, 100k, 1M ..."""
     digits = 10 ** (decade % 3)
     return f"{digits}{('', 'k', 'M', 'G')[decade // 3]}"

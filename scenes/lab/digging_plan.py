@@ -6,7 +6,7 @@ from game.input.inputs import InputFrame
 
 
 class Move(NamedTuple):
-    """A stroke from `start` to `end` [canvas px] with the pointer down, over so many steps."""
+    """A stroke of the pressed pointer from `start` to `end` [canvas px], from frame `frame` on for `steps` steps."""
 
     frame: int
     steps: int
@@ -27,7 +27,7 @@ NAMES = ("blast", "dig", "box", "sprite", "hand")
 
 
 def plan(frame):
-    """Return the input of one step."""
+    """Return the bot's input for the step of number `frame`."""
     changes = ()
     if frame in SETTINGS:
         name, radius = SETTINGS[frame]

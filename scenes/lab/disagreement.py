@@ -113,7 +113,7 @@ class Disagreement(Shooter):
         canvas.text(f"{self.reference.moments:,} moments, {hits:,} true hits", SIDE.x + 6, 260, FOG, SMALL)
 
     def _draw_row(self, canvas, tier, y):
-        """Draw a tier's share of wrong hits, as a bar with its interval, and of missed ones."""
+        """Draw a tier's share of wrong hits, as a bar with its confidence interval, and its share of missed hits."""
         wrong, missed, color = self.reference.wrong[tier], self.reference.missed[tier], COLORS[tier]
         if tier == self.reference.lit:
             canvas.surface.fill(DUSK, (SIDE.x + 2, y - 3, SIDE.width - 3, ROW - 1))
@@ -162,7 +162,10 @@ class Disagreement(Shooter):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals: simple shapes report wrong hits; tiers made of the outline hardly ever do."""
+        """Return the goals of the self-check.
+
+        Simple shapes report wrong hits; tiers made of the outline hardly ever do.
+        """
         wrong, missed = self.reference.wrong, self.reference.missed
         caught = [tier for tier in LIARS if wrong[tier].count]
         all_caught = len(caught) == len(LIARS)
@@ -193,9 +196,7 @@ class Disagreement(Shooter):
 
 
 def rehearse(effects):
-    """Evaluate every tier once, for two planes and an overlapping disc, so that its kernels are compiled before the
-    game.
-    """
+    """Evaluate every tier once on two planes and a disc, so that all kernels are compiled before the game begins."""
     world, reference = World(effects, BROADPHASES["sweep"]()), ReferenceTier(FIRST)
     masks = [load_atlas("planes").mask(name) for name in ("player", "gunship_0")]
     for x, mask in zip((0.0, 9.0), masks, strict=True):
@@ -207,6 +208,6 @@ def rehearse(effects):
 
 
 def from_then_on(stage, start):
-    """Return a stage without its waves before a time [s]."""
+    """Return a copy of a stage that begins at time `start` [s], without the earlier waves."""
     kept = [each for each in stage.events if each.at >= start or each.event in ("backdrop", "pace")]
     return replace(stage, events=tuple(replace(each, at=max(0.0, each.at - start)) for each in kept))

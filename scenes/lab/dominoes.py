@@ -212,7 +212,10 @@ class Dominoes(Scene):
                 pygame.draw.line(frame.surface, faded(COLORS[index], 0.3), (x, y), (x, y - 52 * s))
 
     def check(self):
-        """Return the goals: all fall, none falls by itself, and the speeds have the ratio two to one."""
+        """Return the goals of the self-check.
+
+        All fall, none falls by itself, and the speeds have the ratio two to one.
+        """
         ratio = self.ratio()
         angles = [[body.angle for body in row] for row in self.rows]
         least = min(min(row) for row in angles)
@@ -244,9 +247,9 @@ class Dominoes(Scene):
         return f"{sentence}, not {small / meter:.2f}; Froude's rule says {sqrt(SCALES[1] / SCALES[0]):.0f}"
 
     def bot(self):
-        """Return the bot: one push."""
+        """Return the bot's input for the next step. Its plan: one push."""
         return InputFrame(frozenset(("fire",)) if self.frame == PUSHED_AT else frozenset())
 
     def state(self):
-        """Return the times; the worlds hold the dominoes."""
+        """Return the times, for the replay digest; the dominoes are part of the physics state."""
         return (self.frame, self.since, self.pushed, *self.values.values(), *(at for row in self.passed for at in row))

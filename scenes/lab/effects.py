@@ -43,7 +43,7 @@ BOX = (4, 6)  # [px] left side and size of a box to tick
 
 
 class Outcome(NamedTuple):
-    """Differences after two seconds without an effect."""
+    """Differences between a yard with an effect and its copy without the effect, after two seconds."""
 
     apart: float  # [px] root mean square distance over all moving things
     events: int  # number of further events with it, of all kinds
@@ -96,16 +96,16 @@ class EffectsLab(Scene):
 
     @property
     def marked(self):
-        """Name of the effect that the ghost lacks."""
+        """Name of the selected effect, which the second yard lacks."""
         return NAMES[int(self.values["effect"])]
 
     @property
     def is_on(self):
-        """True if the yard with it is visible."""
+        """True if the yard with the selected effect is visible; False if the yard without it is."""
         return bool(self.values["it is"])
 
     def _part(self):
-        """Copy the world: from here on one has the marked effect, the other has not."""
+        """Copy the yard. From now on, the original has the selected effect and the copy does not."""
         world = self._new_world()
         world.restore(self.real.world.snapshot())
         self.real.world.set_effects(world.effects)  # all wake in both
@@ -121,7 +121,7 @@ class EffectsLab(Scene):
         self.worlds = [(self.real if self.is_on else self.other).world]
 
     def solver_choices(self):
-        """Return none: without stacking a world has another solver."""
+        """Return no choices: a world without the effect `stacking` uses another solver anyway."""
         return ()
 
     def change(self, name, value):
@@ -169,8 +169,9 @@ class EffectsLab(Scene):
         )
 
     def measured(self):
-        """Return the runs to measure: a step of the yard at the first look at an effect, all awake, with the effect and
-        without it.
+        """Return the runs to time beside the game.
+
+        A step of the yard at the first look at an effect, all awake, with the effect and without it.
         """
         return RunRequest([self._run_name(name, on) for name in self.looked for on in (True, False)], self._make)
 
@@ -184,12 +185,12 @@ class EffectsLab(Scene):
         return MeasuredRun([made], self.broadphase, WINDOW)
 
     def stages(self):
-        """Return (stages that only the marked effect needs, those that replace them without it)."""
+        """Return (stages of the step that only the selected effect needs, stages that replace them without it)."""
         real, other = self.real.world.stages, self.other.world.stages
         return [name for name in real if name not in other], [name for name in other if name not in real]
 
     def price(self, name):
-        """Return the time per step of an effect [us]; below 0: a saving. None before it was measured."""
+        """Return the time per step that an effect costs [us], negative if it saves time; None if not measured yet."""
         real, other = (cost_of(self, self._run_name(name, on)) for on in (True, False))
         return None if real is None or other is None else 1e6 * (real - other)
 
@@ -253,7 +254,7 @@ class EffectsLab(Scene):
             canvas.text(line, rect.x + 4, rect.y + 3 + 7 * number, color, SMALL)
 
     def draw_on_frame(self, frame):
-        """Draw the outlines of things that differ in place, in both yards."""
+        """Draw the outlines of the bodies whose positions differ between the two yards."""
         numbers, gaps = apart(self.real, self.other)
         far = [number for number, gap in zip(numbers, gaps.tolist(), strict=True) if gap > VISIBLE]
         frame.surface.set_clip(frame.from_canvas((SIDE + 1, HEAD, 480 - SIDE, 254)))
@@ -262,7 +263,7 @@ class EffectsLab(Scene):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals: each effect matters."""
+        """Return the goals of the self-check: each effect matters."""
         goals = []
         for turn, name in enumerate(self.effects.names(), 1):
             outcome = self.found.get(name)
@@ -272,7 +273,10 @@ class EffectsLab(Scene):
         return goals
 
     def bot(self):
-        """Return the bot: one effect after the other, two seconds beside its ghost, then off for a moment."""
+        """Return the bot's input for the next step.
+
+        Its plan: one effect after the other, two seconds beside its ghost, then off for a moment.
+        """
         turn, step = divmod(self.frame, BOT_NEXT)
         if step == 0:
             return InputFrame(changes=(("slider:effect", turn % len(NAMES)),))
@@ -287,7 +291,7 @@ class EffectsLab(Scene):
 
 
 def short(outcome, name):
-    """Return an outcome in a few words."""
+    """Return the Outcome of an effect as short text."""
     if name == "sleeping":
         return f"{-outcome.work:,} tasks saved"
     if outcome.apart > VISIBLE:

@@ -109,18 +109,18 @@ class Filters(Scene):
             self.switch(self.marked)
 
     def switch(self, cell):
-        """Switch the row's yes to the column."""
+        """Toggle whether the mask of the row's kind contains the column's kind. `cell`: (row, column)."""
         row, column = cell
         self.masks[row] ^= 1 << column
         self.clicks += 1
         self.fill()
 
     def says_yes(self, row, column):
-        """Return whether the row's mask contains the column."""
+        """Return whether the mask of the row's kind contains the column's kind."""
         return bool(self.masks[row] >> column & 1)
 
     def _judge(self):
-        """Check that every pair of overlapping discs whose kinds agree is in contact, and no other."""
+        """Check that overlapping discs are in contact if both masks allow it, and that no other discs are."""
         self.touching[:] = False
         for a, b in zip(self.world.contacts["body_a"].tolist(), self.world.contacts["body_b"].tolist(), strict=True):
             self.wrong += self.cell_of[a] != self.cell_of[b]
@@ -200,7 +200,7 @@ class Filters(Scene):
             canvas.text(f"{value}", SIDE_X + 80, y, PAPER, SMALL, align="right")
 
     def check(self):
-        """Return the goals: contacts are those allowed, and a click changes them."""
+        """Return the goals of the self-check: contacts are those allowed, and a click changes them."""
         return [
             Goal(
                 "contacts are those both sides allow",
@@ -229,7 +229,10 @@ class Filters(Scene):
         )
 
     def bot(self):
-        """Return the bot: three clicks, one yes taken, one given, the first given back."""
+        """Return the bot's input for the next step.
+
+        Its plan: three clicks, one yes taken, one given, the first given back.
+        """
         cell = BOT_CLICKS.get(self.frame)
         if cell is None:
             return frozenset()
@@ -242,21 +245,21 @@ class Filters(Scene):
 
 
 def cell_rect(row, column):
-    """Return the canvas rect of a cell."""
+    """Return the canvas rectangle of a cell of the grid."""
     return pygame.Rect(LEFT + column * CELL_WIDTH, TOP + row * CELL_HEIGHT, CELL_WIDTH - 2, CELL_HEIGHT - 2)
 
 
 def cell_center(row, column):
-    """Return the middle of a cell, slightly above its marks [px]."""
+    """Return the point of a cell [px] about which its discs swing: the middle, slightly above its marks."""
     return LEFT + (column + 0.5) * CELL_WIDTH - 1.0, TOP + (row + 0.5) * CELL_HEIGHT - 3.0
 
 
 def cell_at(x, y):
-    """Return (row, column) under a canvas point, or None."""
+    """Return the (row, column) of the cell at a canvas point, or None if there is no cell."""
     column, row = (x - LEFT) // CELL_WIDTH, (y - TOP) // CELL_HEIGHT
     return (row, column) if 0 <= row < len(KINDS) and 0 <= column < len(KINDS) else None
 
 
 def bits(word):
-    """Return the six bits of a word, lowest first, in the order of the grid's columns."""
+    """Return the lowest six bits of a filter word, lowest first, which is the order of the grid's columns."""
     return "".join("1" if word >> index & 1 else "0" for index in range(len(KINDS)))

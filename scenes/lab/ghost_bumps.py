@@ -157,8 +157,9 @@ class GhostBumps(Scene):
         self.curves[floor].append((error_now, height_now))
 
     def measured(self):
-        """Return the runs to measure: a step of each floor, from a state with at least another second of floor
-        ahead.
+        """Return the runs to time beside the game.
+
+        A step of each floor, from a state with at least another second of floor ahead.
         """
         ahead = (LENGTH - 4) * TILE - START_X["box"] - self.nominal
         if self.run == 0 or ahead < self.values["speed"]:
@@ -259,7 +260,7 @@ class GhostBumps(Scene):
             frame.fix(rect)
 
     def check(self):
-        """Return the goals: no seam is felt, of any floor."""
+        """Return the goals of the self-check: no seam is felt, of any floor."""
         goals = []
         for floor in FLOORS:
             worst = max(self.slowed[floor, kind] for kind in KINDS)
@@ -292,11 +293,11 @@ class GhostBumps(Scene):
         return f"of the speed was lost after {self.run} tiles: {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot: watch."""
+        """Return the bot's input for the next step. Its plan: watch."""
         return frozenset()
 
     def state(self):
-        """Return the counts; the worlds hold the sliders."""
+        """Return the counts, for the replay digest; the sliders are part of the physics state."""
         tallies = (self.slowed, self.raised, self.aloft, self.set_back)
         return (
             self.frame,

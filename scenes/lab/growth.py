@@ -1,6 +1,4 @@
-"""Growth of cost with number: measured points on logarithmic scales at window resolution, with an exponent at each
-line.
-"""
+"""Plot of cost against number of bodies, on logarithmic scales, with a fitted power law for each series."""
 
 from collections.abc import Mapping, Sequence
 from math import ceil, floor, log10
@@ -21,7 +19,9 @@ UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "us"), (1e-9, "ns"))
 
 
 class Series(NamedTuple):
-    """A curve. points: (number, cost), smallest number first; law: through the last `fitted`, None: unknown."""
+    """A series of the plot. `points`: (number, cost), smallest number first; `law`: power law fitted to the last
+    `fitted` points, or None if unknown.
+    """
 
     color: Color
     points: Sequence[tuple[int, Cost]]
@@ -30,7 +30,7 @@ class Series(NamedTuple):
 
 
 def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str, Series], here: int) -> None:
-    """Draw into a canvas rect. here: the current number, marked below."""
+    """Draw the plot into a rectangle of the canvas. `here`: the current number, marked on the lower axis."""
     rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
     surface.fill(INK, rect)
     pygame.draw.rect(surface, SLATE, rect, 1)
@@ -50,7 +50,7 @@ def draw_growth(frame: Frame, canvas_rect: Box, title: str, series: Mapping[str,
 
 
 class _LogAxes:
-    """Transform of numbers and seconds into a plot, both by their logarithms."""
+    """Transform of numbers and times [s] into the plot's pixels, on logarithmic scales."""
 
     def __init__(self, plot, points):
         self.plot = plot
@@ -93,7 +93,7 @@ def _draw_series(surface, axes, series, frame):
 
 
 def _write_laws(frame, axes, series, rect, scale):
-    """Write the exponents beside the ends of their lines without overlaps, then the decades of the lines."""
+    """Write the exponents of the power laws at the ends of their lines, without overlap, and label the decades."""
     ends = sorted((axes.y(each.points[-1][1].least), name) for name, each in series.items() if each.points)
     step, top = LINE * scale, axes.plot.top
     last = rect.bottom - 10 * scale - step * len(ends)
@@ -110,6 +110,6 @@ def _write_laws(frame, axes, series, rect, scale):
 
 
 def in_units(seconds: float) -> str:
-    """Return a round number of seconds as short text: 10 us, 1 ms."""
+    """Return a power of ten of a time [s] as short text: "10 us", "1 ms"."""
     size, unit = next(((size, unit) for size, unit in UNITS if seconds >= 0.999 * size), UNITS[-1])
     return f"{seconds / size:.0f} {unit}"

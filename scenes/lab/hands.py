@@ -1,4 +1,4 @@
-"""Two things that a person drags, rotates and moves, of any kind."""
+"""Control of two objects that the player drags, rotates and moves."""
 
 from math import pi
 
@@ -8,8 +8,8 @@ MOVE_SPEED = 70.0  # [px/s] with the keys
 
 
 class Hands:
-    """The two things. `poses`: [x, y, angle] of both; `chosen`: the one that wheel and keys move; it stays within
-    `room`, a Rect.
+    """The poses of two objects under the player's control. `poses`: [x, y, angle] of both; `chosen`: index of the one
+    that wheel and keys move, which stays inside the Rect `room`.
     """
 
     def __init__(self, poses, chosen, room):
@@ -18,12 +18,12 @@ class Hands:
         self.dragged, self.grip = None, (0.0, 0.0)
 
     def take(self, which, x, y):
-        """Grab one of them at (x, y)."""
+        """Begin to drag the object of index `which` at (x, y)."""
         self.chosen = self.dragged = which
         self.grip = (self.poses[which][0] - x, self.poses[which][1] - y)
 
     def move(self, inputs):
-        """Make one step: move the chosen one by pointer, wheel and keys."""
+        """Move the chosen object for one step, by pointer, wheel and keys."""
         if not inputs.pointer_down:
             self.dragged = None
         pose = self.poses[self.chosen]

@@ -77,7 +77,7 @@ class Ladder(Scene):
     level_suffix = ".png"
 
     def build(self):
-        """Show the first sprite: the player's picture, if there is one."""
+        """Show the first sprite: the picture file given by the player, if there is one."""
         self.choices = [self.level_file.name] if self.level_file is not None else []
         self.choices += [name for name, _, _ in SPRITES]
         self.seen: dict[str, dict[str, tuple[int, int]]] = {}  # {sprite: {tier: pixels too many, left out}}
@@ -86,7 +86,7 @@ class Ladder(Scene):
         self._show(0)
 
     def _show(self, choice):
-        """Put a sprite into a world per tier."""
+        """Show sprite number `choice`: make a world for each tier with the sprite in it."""
         self.choice, self.worlds = choice, []
         self.image, self.mask = self._sprite()
         self.shapes = {tier: fit(self.mask, tier) for tier in TIERS}
@@ -123,7 +123,7 @@ class Ladder(Scene):
         return load_atlas(atlas)[name], load_atlas(atlas).mask(name)
 
     def _lit(self, tier):
-        """Return the sprite with the surplus of a tier in red and its gaps in blue, pixel by pixel."""
+        """Return the picture of the sprite with the errors of a tier: surplus pixels in red, missing pixels in blue."""
         size, (ox, oy) = 2 * self.reach, self.mask.origin
         left, top = np.floor(self.middle[0] - self.reach), np.floor(self.middle[1] - self.reach)
         column, row = np.meshgrid(np.arange(size), np.arange(size))
@@ -208,7 +208,10 @@ class Ladder(Scene):
             pygame.draw.rect(frame.surface, SLATE, rect, 1)
 
     def check(self):
-        """Return the goals: containing tiers leave no pixel out; tiers made of the pixels are exact."""
+        """Return the goals of the self-check.
+
+        Containing tiers leave no pixel out; tiers made of the pixels are exact.
+        """
         held = [tier for counts in self.seen.values() for tier in HOLDING if counts[tier][1]]
         exact = [tier for counts in self.seen.values() for tier in ("pixels", "mask") if any(counts[tier])]
         closer = all(
@@ -238,12 +241,12 @@ class Ladder(Scene):
         return f"{sentence}; a hit takes {times} ns"
 
     def _balance(self, tier):
-        """Return the surplus of pixels that a tier covers."""
+        """Return the number of pixels that a tier covers in excess, minus the number that it leaves out."""
         over, missed = self.counts[tier]
         return over - missed
 
     def bot(self):
-        """Return the bot: one sprite after the other."""
+        """Return the bot's input for the next step. Its plan: one sprite after the other."""
         return InputFrame(frozenset({"right"}) if self.frame % BOT_LOOKS == BOT_LOOKS - 1 else frozenset())
 
     def state(self):
@@ -252,7 +255,7 @@ class Ladder(Scene):
 
 
 def _times(hit, miss):
-    """Return both in one unit; in us if the text would overlap its name."""
+    """Return the times of a hit and of a miss as text, in one unit."""
     sentence = f"{1e9 * hit:,.0f}, {1e9 * miss:,.0f} ns"
     return sentence if len(sentence) <= ROOM else f"{1e6 * hit:.3g}, {1e6 * miss:.2f} us"
 

@@ -1,6 +1,6 @@
-"""Drawing of a world's bodies: pieces in the game's style if they are large enough, plain shapes if they are tiny.
+"""Drawing of a world's bodies: with shaded pictures in the game's style if large enough, else as plain shapes.
 
-Pieces are drawn on the canvas; shapes of a few canvas pixels, and pixels of masks, are drawn at window resolution.
+Shaded pictures are drawn on the canvas. Shapes of a few canvas pixels, and pixel masks, are drawn at window resolution.
 """
 
 from functools import lru_cache
@@ -24,7 +24,7 @@ NEAR = 100  # [canvas px] around the view
 
 
 class Looks:
-    """The bodies of one world, drawn through one camera."""
+    """The renderer of the bodies of one world, through one camera."""
 
     def __init__(self, world, camera):
         self.world, self.camera = world, camera
@@ -41,7 +41,7 @@ class Looks:
         return self.known[identity]
 
     def draw(self, canvas, alpha):
-        """Draw grounds and pieces, interpolated between the last two steps, clipped to the view."""
+        """Draw static shapes and the shaded pictures, at `alpha` (0..1) between the last two steps."""
         bodies, zoom = self.world.bodies, self.camera.zoom
         x, y, angle = poses_between(bodies, alpha)
         x, y = self.camera.to_canvas(x, y, alpha)
@@ -59,7 +59,7 @@ class Looks:
         canvas.surface.set_clip(None)
 
     def draw_on_frame(self, frame):
-        """Draw tiny shapes and pixels at the poses of the last step, and the paths of fast bodies."""
+        """Draw tiny shapes and pixel masks at the poses of the last step, and the paths of fast bodies."""
         bodies, lens = self.world.bodies, frame.lens(self.camera)
         surface = frame.surface
         surface.set_clip(lens.clip)
@@ -88,7 +88,7 @@ class Looks:
 
 @lru_cache(maxsize=256)
 def is_piece(shape, zoom):
-    """Return whether the size of a shape suits a picture of its own."""
+    """Return whether a shape has the right size on the canvas to be drawn as a shaded picture."""
     if not isinstance(shape, Convex):
         return False
     points, radius = hull(shape)
@@ -102,7 +102,7 @@ def is_round(shape):
 
 
 def draw_ground(surface, shape, zoom, pose, sensor):
-    """Draw a static shape on the canvas; a sensor in one colour."""
+    """Draw a static shape on the canvas; a sensor is drawn in one colour."""
     if isinstance(shape, PixelMask):
         return
     if isinstance(shape, TileGrid):
@@ -135,7 +135,7 @@ def draw_tiles(surface, grid, zoom, pose):
 
 
 def draw_plain(surface, shape, zoom, pose, ramp):
-    """Draw a tiny, or a huge, convex shape in two colours."""
+    """Draw a convex shape that is too small or too large for a shaded picture, in two colours."""
     rim, inside, *_ = ramp
     points = placed(shape, zoom, pose)
     if len(points) == 1:
@@ -167,7 +167,7 @@ def draw_mask(surface, mask, zoom, place, ramp):
 
 @lru_cache(maxsize=32)
 def mask_picture(mask, color):
-    """Return the solid pixels in one colour, half transparent so that an overlap shows."""
+    """Return the picture of a mask's solid pixels in one colour, half transparent so that overlaps are visible."""
     solid = mask.solid
     picture = pygame.Surface((solid.shape[1], solid.shape[0]), pygame.SRCALPHA, 32)
     picture.fill((*color, 0))

@@ -136,7 +136,7 @@ class MaskStack(Scene):
         return found
 
     def _kinds(self):
-        """Return (kind, middle of its pile) from below."""
+        """Return (kind of sprite, x of the middle of its pile) for each sprite, from the bottom up."""
         high, choice = int(self.values["high"]), CHOICES[int(self.values["sprites"])]
         if choice != "mixed":
             return ((choice, TOWER),) * high
@@ -168,9 +168,7 @@ class MaskStack(Scene):
             self._measure(way, world, top)
 
     def _measure_one_fit(self):
-        """Measure the fit of one sprite's shapes. All take seconds without the compiler, and would delay the first
-        picture.
-        """
+        """Measure how well the shapes of one sprite fit. One sprite a step, because all take seconds without numba."""
         for way in WAYS:
             for name, mask, shapes in self.laid[way]:
                 if (name, way) not in self.fits:
@@ -194,7 +192,7 @@ class MaskStack(Scene):
             self.asleep[way], self.changed[way] = asleep, self.since
 
     def measured(self):
-        """Return the runs to measure: a step of each pile, kept awake, from its start."""
+        """Return the runs to time beside the game: a step of each pile, kept awake, from its start."""
         if self.since < WARM:
             return None
         worlds = dict(zip(WAYS, self.worlds, strict=True))
@@ -270,7 +268,10 @@ class MaskStack(Scene):
             frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals: outlines stand and sleep; boxes and hulls hold air that no outline holds."""
+        """Return the goals of the self-check.
+
+        Outlines stand and sleep; boxes and hulls hold air that no outline holds.
+        """
         corners, air, _ = (dict(zip(WAYS, column, strict=True)) for column in zip(*map(self.share, WAYS), strict=True))
         finite = all(np.isfinite(world.bodies[name]).all() for world in self.worlds for name in ("x", "y", "angle"))
         return [
@@ -305,11 +306,11 @@ class MaskStack(Scene):
         return "; ".join(parts)
 
     def bot(self):
-        """Return the bot: watch them come to rest, nudge once, watch again."""
+        """Return the bot's input for the next step. Its plan: watch them come to rest, nudge once, watch again."""
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """Return the measurements; the worlds hold the rest."""
+        """Return the measurements, for the replay digest; everything else is part of the physics state."""
         measured = (self.sinks, self.sways, self.asleep, self.changed)
         return (
             self.frame,
@@ -321,7 +322,7 @@ class MaskStack(Scene):
 
 
 def whole(value):
-    """Return a number without its fraction as text; UNKNOWN for nan."""
+    """Return a number as text without its fraction, UNKNOWN for nan."""
     return UNKNOWN if isnan(value) else f"{value:,.0f}"
 
 

@@ -253,7 +253,7 @@ class MaskSweep(Scene):
                 frame.text_if_free(f"{fraction:.2f}", *at, GOLD, SMALL, frame.plot_scale, "right", True)
 
     def check(self):
-        """Return the goals: none passes if swept; many do otherwise."""
+        """Return the goals of the self-check: none passes if swept; many do otherwise."""
         passed, fired, hit = self.passed, self.fired, self.hit
         flying = {way: sum(WAYS[of] == way for of, *_ in self.shots) for way in WAYS}
         all_accounted = all(
@@ -291,26 +291,26 @@ class MaskSweep(Scene):
         return f"{sentence}; swept, {rates['toi'].count} of {rates['toi'].total} (95 %: at most {most:.1f} %)"
 
     def _ended(self):
-        """Return (shots that passed, all that did or hit)."""
+        """Return (number of shots that passed the wall, number of shots that passed or hit it)."""
         return self.passed, {key: count + self.passed[key] for key, count in self.hit.items()}
 
     def bot(self):
-        """Return the bot: watch; later only swords, faster."""
+        """Return the bot's input for the next step. Its plan: watch; later only swords, faster."""
         return frozenset(("right",)) if self.frame in (200, 210, 220) else frozenset()
 
     def state(self):
-        """Return the counts; the worlds hold the shots."""
+        """Return the counts, for the replay digest; the shots are part of the physics state."""
         counts = (self.fired, self.hit, self.passed)
         return (self.frame, *self.values.values(), len(self.shots), *(v for count in counts for v in count.values()))
 
 
 def middle(lane):
-    """Return the height of a lane's middle [px] in its world."""
+    """Return the y of a lane's middle [px] in its world."""
     return lane * LANE_HEIGHT + MIDDLE - 1.0
 
 
 def picture_of(wall):
-    """Return a wall as its pixels."""
+    """Return the picture of a wall's pixels."""
     solid = wall.solid
     image = pygame.Surface(solid.shape[::-1], pygame.SRCALPHA, 32)
     for y, x in np.argwhere(solid).tolist():
@@ -319,5 +319,5 @@ def picture_of(wall):
 
 
 def placed(lines, pose, other):
-    """Return lines (n, 4) of one pose, moved to another."""
+    """Return line segments (n, 4) that belong to a body at `pose`, moved along with the body to the pose `other`."""
     return moved(("lines", lines.reshape(-1, 2)), pose, other)[1].reshape(-1, 4)

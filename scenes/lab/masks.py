@@ -201,7 +201,10 @@ class Masks(Scene):
         frame.surface.set_clip(None)
 
     def check(self):
-        """Return the goals: the pixels are right in every step, and each cheap shape was wrong once."""
+        """Return the goals of the self-check.
+
+        The pixels are right in every step, and each cheap shape was wrong once.
+        """
         return [
             Goal(
                 "the pixel verdict equals a slow count",
@@ -231,7 +234,10 @@ class Masks(Scene):
         return f"{wrong:.1f} % of the box's hits are none; it takes {times[0]:,.0f} ns a hit, the exact {times[1]:,.0f}"
 
     def bot(self):
-        """Return the bot: drag the first plane around and over the second, with turns."""
+        """Return the bot's input for the next step.
+
+        Its plan: drag the first plane around and over the second, with turns.
+        """
         leg, step = divmod(self.frame, BOT_LEG)
         (ax, ay), (bx, by) = BOT_PATH[leg % len(BOT_PATH)], BOT_PATH[(leg + 1) % len(BOT_PATH)]
         share = step / BOT_LEG
@@ -245,8 +251,9 @@ class Masks(Scene):
 
 
 def share_a_pixel(masks, poses):
-    """Return the slow reference: draw both rotated pictures on one pixel grid and search for a pixel that is solid in
-    both.
+    """Return whether two rotated masks share a solid pixel.
+
+    This is the slow reference: it draws both on one pixel grid and searches for a pixel that is solid in both.
     """
     boxes = []
     for mask, (x, y, angle) in zip(masks, poses, strict=True):

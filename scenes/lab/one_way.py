@@ -312,7 +312,10 @@ class OneWay(Scene):
             x = canvas.text(text, x, 6, color, SMALL, align="right").left - 12
 
     def check(self):
-        """Return the goals: both kinds come through from below, both land, and the lift loses neither."""
+        """Return the goals of the self-check.
+
+        Both kinds come through from below, both land, and the lift loses neither.
+        """
         return [
             Goal("bodies come through from below", 600, self.passed["body"] >= 6, f"{self.passed['body']} times"),
             Goal("bodies land on planks", 600, self.landed["body"] >= 3, f"{self.landed['body']} times"),
@@ -338,13 +341,13 @@ class OneWay(Scene):
         )
 
     def bot(self):
-        """Return the bot: up the left planks, down through two, and up again."""
+        """Return the bot's input for the next step. Its plan: up the left planks, down through two, and up again."""
         frame = self.frame % 400
         held = {action for start, end, actions in BOT if start <= frame < end for action in actions.split()}
         return InputFrame(frozenset(held))
 
     def state(self):
-        """Return the hero and the counts; the world holds the rest."""
+        """Return the hero and the counts, for the replay digest; everything else is part of the physics state."""
         return (
             self.frame,
             *self.values.values(),
@@ -370,6 +373,6 @@ def level(effects):
 
 
 def lift_at(clock):
-    """Return the lift's middle after so many steps of its clock [px]."""
+    """Return the position of the lift's middle [px] in step `clock` of its clock."""
     turn = 2.0 * pi * clock / 240.0
     return LIFT_AT[0] + LIFT_WAY[0] * cos(turn), LIFT_AT[1] + LIFT_WAY[1] * sin(2.0 * turn + 0.5 * pi) * 0.5

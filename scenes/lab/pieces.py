@@ -1,7 +1,7 @@
-"""Pictures of convex shapes in the game's style, made from the shape itself, so that the drawn shape collides.
+"""Shaded pictures of convex shapes in the game's style, computed from the collision shape itself.
 
-They have a dark outline, a light rim and a dithered inside, the same from every side, so that the light does not rotate
-with the body.
+They have a dark outline, a light rim and a dithered inside. The shading has no direction, so that rotation of the body
+does not rotate the light.
 """
 
 from functools import lru_cache
@@ -28,13 +28,14 @@ RAMPS = {
 
 @lru_cache(maxsize=128)
 def turning(shape, ramp):
-    """Return the picture of a shape, to be drawn at any angle with the shape's origin at a point."""
+    """Return the cached picture of a shape, a RotatedPicture, which draws it at any angle about the shape's origin."""
     return RotatedPicture(piece(shape, ramp))
 
 
 def piece(shape, ramp, marked=True):
-    """Return a surface with the shape's origin in its middle. ramp: a name of RAMPS; marked: with a spot that shows
-    rotation.
+    """Return the picture of a shape, a surface with the shape's origin in its middle.
+
+    `ramp`: name of its colours in RAMPS; `marked`: draw a mark that makes rotation visible.
     """
     points, radius = hull(shape)
     reach = ceil(float(np.hypot(points[:, 0], points[:, 1]).max()) + radius) + 1
@@ -74,12 +75,12 @@ def hull(shape):
 
 @lru_cache(maxsize=256)
 def scaled(shape, zoom):
-    """Return a convex shape, scaled."""
+    """Return the corners and rounding radius of a convex shape, multiplied by `zoom`."""
     return Scaled(tuple((x * zoom, y * zoom) for x, y in shape.points), shape.radius * zoom)
 
 
 def placed(shape, zoom, pose):
-    """Return the corners of a convex shape, or of a chain, scaled and at a pose of a surface."""
+    """Return the corners of a convex shape or chain, scaled by `zoom`, at a pose (x, y, angle) on a surface."""
     x, y, angle = pose
     c, s = cos(angle) * zoom, sin(angle) * zoom
     return [(x + c * px - s * py, y + s * px + c * py) for px, py in shape.points]

@@ -8,14 +8,14 @@ SOLVERS = ("projection", "sequential_impulse", "soft_step")
 
 
 def with_effects(world, effects):
-    """Return the snapshot of a world in its current state, with these effects; all bodies are awake."""
+    """Return a snapshot of the current state of a world, with other effects. All bodies are awake in it."""
     other = _like(world)
     other.set_effects(effects)
     return other.snapshot()
 
 
 def with_substeps(world, substeps):
-    """Return the snapshot of a world in its current state, with another number of substeps; None: its own."""
+    """Return a snapshot of the current state of a world, with `substeps` substeps; None keeps the world's number."""
     other = _like(world)
     if substeps is not None:
         other.substeps = substeps

@@ -1,7 +1,4 @@
-"""Pictures of carved masks: each is drawn from its own pixels, cut out of one print.
-
-A print is the picture of a mask when it was whole. A fragment keeps its part of it.
-"""
+"""Pictures of carved masks: the remaining pixels of each mask are cut out of the picture of the whole mask."""
 
 from functools import lru_cache
 from math import cos, pi, sin
@@ -19,7 +16,7 @@ EDGE = (24, 18, 30)  # colour of a new edge
 
 
 class Print(NamedTuple):
-    """A print. `image`: of the whole; `left`, `top`: the place in it [px] of the mask's raster."""
+    """The source of a mask's picture. `image`: picture of the whole; `left`, `top`: place of the mask in it [px]."""
 
     image: pygame.Surface
     left: int
@@ -27,7 +24,7 @@ class Print(NamedTuple):
 
 
 class Prints:
-    """The prints. `of`: body id -> Print. Its pictures are cached while the body's mask stays the same."""
+    """The renderer of carved bodies. `of`: Print by body id. Pictures are cached until the body's mask changes."""
 
     def __init__(self):
         self.of = {}
@@ -39,7 +36,10 @@ class Prints:
         return body
 
     def add_piece(self, piece, parent):
-        """Add a fragment of another body before it has moved. parent: its (Print, mask, pose)."""
+        """Add a fragment that has just been carved off a body, before it moves.
+
+        `parent`: (Print, mask, pose) of that body before it was carved.
+        """
         (image, left, top), mask, (x, y, angle) = parent
         (own,) = piece.shapes
         dx, dy = piece.position[0] - x, piece.position[1] - y
@@ -54,7 +54,7 @@ class Prints:
         self.kept.pop(identity, None)
 
     def draw(self, canvas, camera, world, alpha):
-        """Draw all bodies with a print, interpolated between the last two steps."""
+        """Draw all added bodies, at `alpha` (0..1) between the last two steps."""
         bodies = world.bodies
         rows = world.rows(np.array(sorted(self.of), np.int64))
         x, y, angle = (each[rows] for each in poses_between(bodies, alpha))
@@ -79,7 +79,7 @@ class Prints:
 
 
 class Piece:
-    """One picture at any angle."""
+    """The picture of one mask, with a cache of its rotated copies."""
 
     def __init__(self, image):
         self.image = image
@@ -90,7 +90,7 @@ class Piece:
         return self
 
     def at(self, angle):
-        """Return the picture rotated clockwise by the nearest cached angle [rad]."""
+        """Return the picture, rotated clockwise by `angle` [rad], rounded to one of ANGLES steps."""
         return self.turned(round(angle / (2.0 * pi) * ANGLES) % ANGLES)
 
     def _turned(self, number):
@@ -98,7 +98,7 @@ class Piece:
 
 
 def cut_out(part, solid):
-    """Return the solid pixels of a print, dark along the new edges."""
+    """Return the picture of the pixels `solid`, cut out of the Print `part`, dark along the edges of holes."""
     height, width = solid.shape
     out = pygame.Surface((width, height), pygame.SRCALPHA, 32)
     out.blit(part.image, (0, 0), (part.left, part.top, width, height))

@@ -136,8 +136,9 @@ class Pyramid(Scene):
         return int(self.values["rows"]), solver, substeps if solver in SUBSTEPPED else None, self.broadphase
 
     def measured(self):
-        """Return the runs to measure: this pyramid under every solver and number of substeps, from its start: time of a
-        step, and errors.
+        """Return the runs to time beside the game.
+
+        This pyramid under every solver and number of substeps, from its start: time of a step, and errors.
         """
         names = [self._run_name(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
         return RunRequest(
@@ -254,7 +255,10 @@ class Pyramid(Scene):
             pygame.draw.polygon(frame.surface, color, [(x, y), (x - wide, y - high), (x + wide, y - high)])
 
     def check(self):
-        """Return the goals: it stood without creep, sag or gain of energy; the ball then knocks it down."""
+        """Return the goals of the self-check.
+
+        It stood without creep, sag or gain of energy; the ball then knocks it down.
+        """
         rows = int(self.values["rows"])
         sunk = abs(self.still[1] + (rows - 0.5) * SIZE) / SIZE if self.still else 1.0
         aside = abs(self.still[0]) / SIZE if self.still else 1.0
@@ -289,11 +293,11 @@ class Pyramid(Scene):
         ]
 
     def bot(self):
-        """Return the bot: watch it stand, then drop the ball."""
+        """Return the bot's input for the next step. Its plan: watch it stand, then drop the ball."""
         return InputFrame(frozenset(("fire",)) if self.frame == DROP_AT else frozenset())
 
     def state(self):
-        """Return the measurements; the world holds the rest."""
+        """Return the measurements, for the replay digest; everything else is part of the physics state."""
         x, y = self.still or (0.0, 0.0)
         return (
             self.frame,
@@ -310,7 +314,7 @@ class Pyramid(Scene):
 
 
 def pile_up(world, rows):
-    """Add the ground and a pyramid of so many rows to a world. Return [(crate, row + column)]."""
+    """Add the ground and a pyramid of `rows` rows to a world. Return a list of (crate, row + column)."""
     world.add_body(Polygon.box(200 * SIZE, 2 * SIZE), position=(0.0, SIZE), kind="static")
     shape, width, crates = Polygon.box(SIZE, SIZE), SIZE * (1.0 + GAP), []
     for row in range(rows):

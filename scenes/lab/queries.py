@@ -194,7 +194,10 @@ class Queries(Scene):
         self.curves.note({name: sum(looked) for name, looked in self.work.items()})
 
     def measured(self):
-        """Return the runs to measure: this kind of query at two hundred places of the picture, by each strategy."""
+        """Return the runs to time beside the game.
+
+        This kind of query at two hundred places of the picture, by each strategy.
+        """
         made = []  # one snapshot for all unknown ones
 
         def make(name):
@@ -237,7 +240,7 @@ class Queries(Scene):
                 canvas.text(f"{value:,}", 473, y + 12 + 10 * row, PAPER, SMALL, align="right")
 
     def _said(self):
-        """Return the answer in a word."""
+        """Return the answer to the query as short text."""
         if self.query == "closest":
             return f"{self.answer[0][5]:.1f} px away" if self.answer else "none"
         if self.query in ("ray", "cast"):
@@ -305,7 +308,7 @@ class Queries(Scene):
                 pygame.draw.line(surface, YELLOW, end, lens.points(*self.answer[0][1:3]), thick)
 
     def _cast_end(self):
-        """Return the end of the cast."""
+        """Return the position of the cast shape at the end of the cast."""
         share = self.answer[0][5] if self.answer else 1.0
         (x, y), (to_x, to_y) = self.origin, self.target
         return x + share * (to_x - x), y + share * (to_y - y)
@@ -327,7 +330,10 @@ class Queries(Scene):
             frame.text_if_free(text, px + 4 * scale, py + 3 * scale, WHITE, SMALL, scale, "left", True)
 
     def check(self):
-        """Return the goals: the same answers from all, to every query; and three visit less than brute force."""
+        """Return the goals of the self-check.
+
+        The same answers from all, to every query; and three visit less than brute force.
+        """
         cheaper = all(self.looked[name] < self.looked["brute"] for name in STRATEGIES[:-1])
         return [
             Goal(
@@ -356,7 +362,10 @@ class Queries(Scene):
         return f"{sentence}; {self.disagreements} of {self.asked:,} answers differed"
 
     def bot(self):
-        """Return the bot: point along a slow curve; change the query now and then, the strategy more often."""
+        """Return the bot's input for the next step.
+
+        Its plan: point along a slow curve; change the query now and then, the strategy more often.
+        """
         at = self.frame / 40.0
         pointer = (
             round(VIEW[0] + VIEW[2] * (0.55 + 0.38 * sin(at))),

@@ -1,4 +1,4 @@
-"""The queries of lab/queries, and their answers as rows that can be compared."""
+"""The queries of lab/queries, and their results as rows that can be compared between broad phases."""
 
 from itertools import count
 from math import atan2, hypot
@@ -11,7 +11,10 @@ ALONG, ACROSS = 0.7548776662466927, 0.5698402909980532
 
 
 def ask(world, query, origin, target, size):
-    """Return a world's answer to a query."""
+    """Run a query of the given name in a world. Return its results as a list.
+
+    Rays and casts go from `origin` to `target`; the other queries are at `target`. `size` [px] scales the shapes.
+    """
     way = target[0] - origin[0], target[1] - origin[1]
     if query == "ray":
         return [world.ray_cast(origin, way)]
@@ -29,7 +32,7 @@ def ask(world, query, origin, target, size):
 
 
 def asking(world, query, origin, area, size):
-    """Return a function that runs a query at each call, at places all over an area (width, height) [px]."""
+    """Return a function that runs the query once per call, each time elsewhere in `area` (width, height) [px]."""
     numbers = count()
 
     def ask_the_next():
@@ -40,7 +43,7 @@ def asking(world, query, origin, area, size):
 
 
 def rows_of(found):
-    """Return an answer as rows (body id, x, y, normal x, normal y, fraction or distance), 0 for missing values."""
+    """Return results as rows (body id, x, y, normal x, normal y, fraction or distance); missing values are 0."""
     rows = []
     for each in found:
         if each is None:
@@ -56,6 +59,6 @@ def rows_of(found):
 
 
 def angle_of(origin, target):
-    """Return the angle of the box of overlap queries: along the line from the origin [rad]."""
+    """Return the angle [rad] of the line from `origin` to `target`, at which the box of overlap queries lies."""
     dx, dy = target[0] - origin[0], target[1] - origin[1]
     return atan2(dy, dx) if hypot(dx, dy) > 0.0 else 0.0

@@ -15,7 +15,7 @@ LEAST_SPAN = 0.3  # [decades] least span of a scale
 
 
 class Dot(NamedTuple):
-    """A setting. name: short, written at the dot if there is room; tried: it has run in the scene itself."""
+    """A dot of the plot, for one setting. `cost` [us]; `name`: label; `tried`: whether it has run in the scene."""
 
     cost: float
     error: float  # 0 lies on the bottom line
@@ -25,7 +25,10 @@ class Dot(NamedTuple):
 
 
 def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[object, Dot], here: object) -> None:
-    """Draw dots into a canvas rect; the current one, dots[here], gets a ring. Dots only measured are hollow."""
+    """Draw the plot into a rectangle of the canvas, with a ring around the current setting, dots[here].
+
+    Settings that have not run in the scene are hollow dots.
+    """
     rect, scale, surface = frame.from_canvas(canvas_rect), frame.plot_scale, frame.surface
     surface.fill(INK, rect)
     pygame.draw.rect(surface, SLATE, rect, 1)
@@ -48,7 +51,7 @@ def draw_scatter(frame: Frame, canvas_rect: Box, title: str, dots: Mapping[objec
 
 
 def _span(values):
-    """Return the first and last power of ten of a scale that contains these values."""
+    """Return the decimal logarithms of both ends of a scale that contains the values."""
     low, high = log10(min(values)), log10(max(values))
     wider = max(LEAST_SPAN - (high - low), 0.0) / 2
     return low - wider, high + wider
@@ -60,7 +63,7 @@ def _spans(dots):
 
 
 def _place(plot, dots):
-    """Return {key: place in the frame}."""
+    """Return {key of a dot: its place (x, y) in the frame}."""
     (left, right), (low, high) = _spans(dots)
     places = {}
     for key, dot in dots.items():
@@ -71,7 +74,7 @@ def _place(plot, dots):
 
 
 def _draw_scale(frame, plot, dots, scale):
-    """Draw lines at the powers of ten, and the ends of the scale of costs below."""
+    """Draw grid lines at the powers of ten of the error, and label both ends of the cost axis."""
     (left, right), (low, high) = _spans(dots)
     for power in range(ceil(low), floor(high) + 1):
         y = plot.bottom - plot.height * (power - low) / (high - low)

@@ -124,7 +124,7 @@ class Sensors(Scene):
         self.flying[body.id] = speed
 
     def _steer(self):
-        """Set the velocities that move the zones to their next places in one step."""
+        """Set the velocities that move the zones to their places of the next step."""
         (_, middle, _), body = ZONES["drifter"], self.zones["drifter"]
         y = middle[1] + DRIFT[0] * sin(2.0 * pi * (self.frame + 1) / DRIFT[1])
         body.velocity = (0.0, (y - body.position[1]) * 60)
@@ -307,7 +307,7 @@ class Sensors(Scene):
         canvas.text(f"{self.unpaired}", 474, y, GREEN if self.unpaired == 0 else RED, SMALL, align="right")
 
     def check(self):
-        """Return the goals: every entry is reported once, with one exit, and none is false."""
+        """Return the goals of the self-check: every entry is reported once, with one exit, and none is false."""
         missed, false = sum(self.missed.values()), sum(self.false.values())
         balance = all(
             self.entered[name] - self.left[name] == sum(1 for zone, _ in self.inside if zone == name) for name in ZONES
@@ -344,13 +344,13 @@ class Sensors(Scene):
         return f"{sentence}, with {self.fastest:.0f} px in a step through zones down to 1 px"
 
     def bot(self):
-        """Return the bot: watch, and make both faster."""
+        """Return the bot's input for the next step. Its plan: watch, and make both faster."""
         faster = 200 <= self.frame < 250 and self.frame % 4 == 0
         tap = "right" if faster else "up" if self.frame in (320, 330) else ""
         return InputFrame(frozenset((tap,))) if tap else frozenset()
 
     def state(self):
-        """Return the counts; the world holds the bodies."""
+        """Return the counts, for the replay digest; the bodies are part of the physics state."""
         tallies = (self.entered, self.left, self.due, self.missed, self.false)
         return (
             self.frame,
@@ -364,8 +364,9 @@ class Sensors(Scene):
 
 
 def least_gap(start, end, zone_start, zone_end, half):
-    """Return the least distance [px] of a point from a box while both move in straight lines from start to end; finely
-    sampled.
+    """Return the least distance [px] between a point and a box while both move on straight lines from start to end.
+
+    The motion is sampled finely. `half`: half width and half height of the box [px].
     """
     x = np.array([start[0] - zone_start[0], end[0] - zone_end[0]])
     y = np.array([start[1] - zone_start[1], end[1] - zone_end[1]])

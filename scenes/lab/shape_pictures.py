@@ -1,4 +1,4 @@
-"""The pictures of lab/shapes: projections of two shapes on their best axis, and the set of all their differences."""
+"""The pictures of lab/shapes: projections of two shapes on the best axis of SAT, and their Minkowski difference."""
 
 from math import cos, sin
 
@@ -16,7 +16,7 @@ MARGIN = 12  # [canvas px] around the picture of the differences
 
 
 def draw_shadows(frame, lens, placed, axes, colors):
-    """Draw all axes as short strokes on their edges, and both projections on a ruler along the best axis."""
+    """Draw the tested axes as short strokes on their edges, and both projections on a ruler along the best axis."""
     for row in axes[::-1]:
         points, radius = placed[int(row["owner"])]
         edge = int(row["edge"])
@@ -73,7 +73,11 @@ def draw_shadows(frame, lens, placed, axes, colors):
 
 
 def draw_differences(frame, rect, placed, meets, step):
-    """Draw the differences of the cores and, around it, with the radii; the origin; the step's simplex or polytope."""
+    """Draw the Minkowski difference of two shapes, without and with their rounding radii, and the origin.
+
+    `placed`: (corners, radius) of both; `meets`: whether they overlap; `step`: iteration of GJK or EPA whose simplex
+    or polytope is drawn, or None.
+    """
     core = difference(placed[0][0], placed[1][0])
     radius = placed[0][1] + placed[1][1]
     outer = np.array(ring(core, radius, 2.0))
@@ -121,9 +125,7 @@ def placed_hull(shape, pose):
 
 
 def difference(a, b):
-    """Return the corners of the hull of all differences of points of a and of b, clockwise on the screen (monotone
-    chain).
-    """
+    """Return the corners of the Minkowski difference of two point sets, clockwise on the screen (monotone chain)."""
     points = sorted({(round(ax - bx, 9), round(ay - by, 9)) for ax, ay in a for bx, by in b})
     if len(points) < 3:
         return [list(point) for point in points]

@@ -103,7 +103,7 @@ class Shapes(Scene):
 
     @property
     def shapes(self):
-        """The two shapes chosen."""
+        """The two chosen shapes."""
         return [CHOICES[NAMES[int(self.values[side])]] for side in "AB"]
 
     @property
@@ -287,7 +287,7 @@ class Shapes(Scene):
                 pygame.draw.circle(frame.surface, color, place, 2 * frame.scale, 1)
 
     def check(self):
-        """Return the goals: the methods agree along the whole tour."""
+        """Return the goals of the self-check: the methods agree along the whole tour."""
         return [
             Goal(
                 "shapes seen apart and in each other",
@@ -327,7 +327,10 @@ class Shapes(Scene):
         return f"{sentence}; SAT and GJK are {self.worst['axis']:.1g} px apart at most, after {self.rounds} rounds"
 
     def bot(self):
-        """Return the bot: another pair every 25 steps; B is dragged into A and out again, with rotation."""
+        """Return the bot's input for the next step.
+
+        Its plan: another pair every 25 steps; B is dragged into A and out again, with rotation.
+        """
         leg, step = divmod(self.frame, LEG)
         changes = ()
         if step == 0:

@@ -1,6 +1,6 @@
-"""The shots of lab/tunnelling: start, obstacle, and by geometry whether they must meet.
+"""The shots of lab/tunnelling: their start, their obstacle, and whether they must meet by geometry.
 
-A lane's middle is y = 0 here.
+In this module the middle of a lane is at y = 0.
 """
 
 from math import ceil, pi
@@ -24,8 +24,11 @@ SAMPLE = 0.1  # [px] between two samples of the slow reference for rods
 
 
 def aim(kind, speed, plate, random):
-    """Return (shots, gap): each (shape, place, velocity, angle, spin), from anywhere within the path of a step, to vary
-    the times of impact; and their distance from the target [px], below 0 if they meet it.
+    """Choose a shot at random. Return (shots, gap).
+
+    `shots`: list of (shape, place, velocity, angle, spin), two for bullets that meet. The start varies by the path of a
+    step, so that impacts occur at any time of a step. `gap`: least distance from the target by geometry [px], negative
+    if they must meet.
     """
     start = GUN_X + random.uniform(0.0, speed / 60)
     if kind == "balls":
@@ -49,7 +52,7 @@ def _aside(kind, random):
 
 
 def shoot(world, shots, kind, lane, middle=0.0):
-    """Add shots to a world. lane: kind of sweep; middle: y [px]. Return the bodies."""
+    """Add shots to a world. Return their bodies. `lane`: their `continuous` mode; `middle`: y of the lane [px]."""
     return [
         world.add_body(
             shape,
@@ -65,17 +68,17 @@ def shoot(world, shots, kind, lane, middle=0.0):
 
 
 def raise_plate(world, width, middle=0.0):
-    """Add the plate that shots fly at, so wide [px], its middle at y `middle`. Return the body."""
+    """Add the plate that shots fly at, `width` px wide, with its middle at y = middle. Return its body."""
     return world.add_body(Polygon.box(width, 2 * PLATE_HALF), position=(PLATE_X, middle), kind="static")
 
 
 def steps_of_flight(speed):
-    """Return the steps of 1/60 s from the gun to the end of a lane."""
+    """Return how many steps of 1/60 s a shot flies from the gun to the end of a lane."""
     return ceil(60.0 * (END_X - GUN_X) / speed)
 
 
 def flights(world, kind, lane, speed, plate, count, random):
-    """Return snapshots of so many single shots as they leave the gun, each in an empty world with the plate."""
+    """Return a list of `count` snapshots, each of a world with the plate and one random shot that leaves the gun."""
     if kind != "bullets":
         raise_plate(world, plate)
     found = []
@@ -87,7 +90,7 @@ def flights(world, kind, lane, speed, plate, count, random):
 
 
 def rod_gap(start, offset, speed, angle, spin, plate):
-    """Return the least distance of a spinning rod from its plate [px], by geometry alone; negative if they meet."""
+    """Return the least distance of a flying, spinning rod from the plate [px], negative if they meet, by geometry."""
     reach = ROD_HALF + ROD_RADIUS + plate
     first, last = max((PLATE_X - reach - start) / speed, 0.0), (PLATE_X + reach - start) / speed
     count = int((last - first) * (speed + abs(spin) * ROD_HALF) / SAMPLE) + 2

@@ -185,8 +185,9 @@ class Sleeping(Scene):
         self.play("land")
 
     def measured(self):
-        """Return the runs to measure: a step of these heaps while all sleep, and of the same heaps in a world without
-        sleeping.
+        """Return the runs to time beside the game.
+
+        A step of these heaps while all sleep, and of the same heaps in a world without sleeping.
         """
         if self.awake or not self.asleep or self.thrown:
             return None
@@ -201,7 +202,7 @@ class Sleeping(Scene):
         return MeasuredRun([made], self.broadphase)
 
     def _count(self, islands):
-        """Count bodies awake and asleep, and islands. islands: that of each body."""
+        """Count the bodies awake and asleep, and the islands. `islands`: the island of each body."""
         bodies = self.world.bodies
         moves = bodies["inverse_mass"] > 0.0
         awake = int(np.count_nonzero(bodies["awake"] & moves))
@@ -297,8 +298,9 @@ class Sleeping(Scene):
             curves.draw(frame, rect)
 
     def check(self):
-        """Return the goals: all fall asleep and cost nothing; a knock wakes one island first, then others; then all
-        sleep again.
+        """Return the goals of the self-check.
+
+        All fall asleep and cost nothing; a knock wakes one island first, then others; then all sleep again.
         """
         woken = sum(count for _, count in self.waves)
         slept = f"after {self.slept_at} steps" if self.slept_at >= 0 else f"{self.awake} awake"
@@ -329,11 +331,14 @@ class Sleeping(Scene):
         return "; ".join(parts)
 
     def bot(self):
-        """Return the bot: wait until all sleep, then throw a ball at the top of the first column."""
+        """Return the bot's input for the next step.
+
+        Its plan: wait until all sleep, then throw a ball at the top of the first column.
+        """
         return InputFrame(frozenset(("fire",)) if self.frame == KNOCK else frozenset())
 
     def state(self):
-        """Return the counts; the world holds the rest."""
+        """Return the counts, for the replay digest; everything else is part of the physics state."""
         return (
             self.frame,
             *self.values.values(),

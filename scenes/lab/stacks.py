@@ -125,7 +125,7 @@ class Stacks(Scene):
         self.standing[name] += hypot(x - MIDDLE, self.sag[name]) < SIZE
 
     def measured(self):
-        """Return the runs to measure: a step of each column, once it has settled."""
+        """Return the runs to time beside the game: a step of each column, once it has settled."""
         if self.since < SETTLED:
             return None
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
@@ -197,7 +197,10 @@ class Stacks(Scene):
                 pygame.draw.line(frame.surface, PAPER, (x, y), (x + 3 * frame.scale, y))
 
     def check(self):
-        """Return the goals: warm started impulses hold the column, even after a nudge; projection does not."""
+        """Return the goals of the self-check.
+
+        Warm started impulses hold the column, even after a nudge; projection does not.
+        """
         pushed, kept, soft = SOLVERS
         tall = self.values["crates"] * SIZE
         return [
@@ -251,11 +254,11 @@ class Stacks(Scene):
         return "; ".join(parts)
 
     def bot(self):
-        """Return the bot: watch, and nudge once."""
+        """Return the bot's input for the next step. Its plan: watch, and nudge once."""
         return InputFrame(frozenset(("fire",)) if self.frame == 240 else frozenset())
 
     def state(self):
-        """Return the measurements; the worlds hold the rest."""
+        """Return the measurements, for the replay digest; everything else is part of the physics state."""
         measured = (self.sag, self.sway, self.calm_sway, self.depth, self.standing)
         values = (row[name] for row in measured for name in SOLVERS)
         return (self.frame, self.since, self.nudged, *self.values.values(), *values)

@@ -12,7 +12,7 @@ RADIUS = 27.0  # [px] of the ring's middle line
 
 
 def wall_of(shape):
-    """Return the wall's mask, its origin in its middle."""
+    """Return the pixel mask of a wall, with its origin in the middle."""
     size = 2 * HALF + 1
     if shape == "straight":
         return PixelMask.from_array(np.ones((size, 1), bool))
@@ -28,7 +28,7 @@ def wall_of(shape):
 
 
 def is_beyond(shape, x, y):
-    """Return whether a shot's middle, relative to the wall, is where only a shot through the wall can be."""
+    """Return whether a shot at (x, y), relative to the wall's middle, must have passed through the wall."""
     if shape == "straight":
         return x > 0.5
     if shape == "aslant":

@@ -15,7 +15,7 @@ GOLDEN = 0.6180339887498949  # its multiples, modulo 1, are never near one anoth
 
 
 class Tool:
-    """A tool. `name`: one of TOOLS; `radius` [px]. cut() gives the shape while the pointer is held."""
+    """The tool in use. `name`: one of TOOLS; `radius` [px]. cut() returns the shape to carve from step to step."""
 
     def __init__(self):
         self.name, self.radius = TOOLS[0], 0
@@ -62,7 +62,7 @@ class Tool:
         return self.stamp, now
 
     def ring(self):
-        """Return points around it, its middle at (0, 0) [px]."""
+        """Return the points of the tool's outline around (0, 0) [px]."""
         if self.name == "box":
             return list(self.stamp.points)
         angles = [2.0 * pi * k / 40 for k in range(40)]
@@ -73,8 +73,9 @@ class Tool:
 
 
 def carving(world, name, radius, ground, crumb):
-    """Return a function that carves a body of pixels with this tool at each call, at solid places far from one
-    another.
+    """Return a function that carves the body `ground` once per call, each time at another solid pixel.
+
+    `name`, `radius`: the tool. Successive places are far apart.
     """
     tool = Tool()
     tool.choose(name, radius)

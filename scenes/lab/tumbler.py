@@ -144,8 +144,9 @@ class Tumbler(Scene):
         return {words.get(substeps, f"{substeps} substeps"): (*name, substeps) for substeps in asked}
 
     def measured(self):
-        """Return the runs to measure: a step of this drum once the load has settled, with the current number of
-        substeps and another.
+        """Return the runs to time beside the game.
+
+        A step of this drum once the load has settled, with the current number of substeps and another.
         """
         return RunRequest(list(self.ways().values()), self._make) if self.since > SETTLED else None
 
@@ -180,7 +181,7 @@ class Tumbler(Scene):
         return (2.0 * self.energy / mass) ** 0.5 if mass else 0.0
 
     def check(self):
-        """Return the goals: no shape gets out, the load is carried up, and it is not thrown about."""
+        """Return the goals of the self-check: no shape gets out, the load is carried up, and it is not thrown about."""
         fall = 2.0 * 9.8 * 32.0 * 2.0 * INSIDE  # [px2/s2] energy of a fall through the whole drum
         mass = float(self.world.bodies["mass"][1:].sum())
         return [
@@ -220,11 +221,11 @@ class Tumbler(Scene):
         return f"{sentence}; a step takes {', '.join(f'{microseconds(cost)} ({word})' for word, cost in costs.items())}"
 
     def bot(self):
-        """Return the bot: watch."""
+        """Return the bot's input for the next step. Its plan: watch."""
         return InputFrame()
 
     def state(self):
-        """Return the measurements; the world holds the rest."""
+        """Return the measurements, for the replay digest; everything else is part of the physics state."""
         return (
             self.frame,
             self.since,
@@ -239,7 +240,7 @@ class Tumbler(Scene):
 
 
 def drum_boxes():
-    """Return the walls, slightly longer than a side so that the corners close, and every other one with a blade."""
+    """Return the boxes of the drum: its walls, slightly longer than a side to close the corners, and its blades."""
     side = 2.0 * (INSIDE + WALL) * np.tan(pi / SIDES)
     boxes = []
     for number in range(SIDES):
@@ -256,7 +257,7 @@ def radial(distance, angle):
 
 
 def places(count):
-    """Return so many places inside the drum, in rows from the bottom up."""
+    """Return `count` places inside the drum, in rows from the bottom up."""
     step, room = 24.0, INSIDE - 20.0
     across = [step * column for column in range(-int(room / step), int(room / step) + 1)]
     found = [(x, y) for y in reversed(across) for x in across if hypot(x, y) < room and not in_blade(x, y)]
@@ -264,7 +265,7 @@ def places(count):
 
 
 def in_blade(x, y):
-    """Return whether a shape placed here would start inside a blade of the drum at rest."""
+    """Return whether a shape at (x, y) would overlap a blade of the drum in its starting position."""
     for number in range(0, SIDES, 2):
         c, s = radial(1.0, 2 * pi * number / SIDES)
         if c * x + s * y > INSIDE - FIN - 14.0 and abs(c * y - s * x) < WALL / 4 + 14.0:

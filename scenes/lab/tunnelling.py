@@ -159,8 +159,9 @@ class Tunnelling(Scene):
             self.due[kind, lane] += trial["must"]
 
     def measured(self):
-        """Return the runs to measure: a step of each lane, with one shot in it from the gun to the end, over as many
-        shots as make 60 steps.
+        """Return the runs to time beside the game.
+
+        A step of each lane, with one shot in it from the gun to the end, over as many shots as make 60 steps.
         """
         speed, plate = float(self.values["speed"]), float(self.values["plate"])
         steps = steps_of_flight(speed)
@@ -291,7 +292,10 @@ class Tunnelling(Scene):
         pygame.draw.circle(surface, WHITE, (round(pose[0]), round(pose[1])), max(radius - 3, 1))
 
     def check(self):
-        """Return the goals: the time of impact misses nothing; each other lane has the misses of its method."""
+        """Return the goals of the self-check.
+
+        The time of impact misses nothing; each other lane has the misses of its method.
+        """
         missed, due = self.missed, self.due
         made_up = sum(count for (kind, lane), count in self.false.items() if kind != "rods" or lane == "toi")
 
@@ -348,12 +352,12 @@ class Tunnelling(Scene):
         return f"{kind}: {', '.join(parts)}"
 
     def bot(self):
-        """Return the bot: watch balls, rods and bullets; make it faster once."""
+        """Return the bot's input for the next step. Its plan: watch balls, rods and bullets; make it faster once."""
         tap = {100: "right", 220: "fire", 420: "fire"}.get(self.frame)
         return InputFrame(frozenset((tap,)) if tap else frozenset())
 
     def state(self):
-        """Return the counts; the world holds the shots."""
+        """Return the counts, for the replay digest; the shots are part of the physics state."""
         counts = (self.fired, self.due, self.hit, self.missed, self.false)
         return (self.frame, *self.values.values(), *(value for count in counts for value in count.values()))
 

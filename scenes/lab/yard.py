@@ -1,4 +1,4 @@
-"""The ground of the lab's piles: dusk behind, grass or a wooden table below; and the head line of all labs."""
+"""The background of the labs with piles (dusk sky, grass or a wooden table), and the head line of all labs."""
 
 import pygame
 
@@ -12,7 +12,10 @@ HEAD = 16  # [canvas px] of the dark head line
 
 
 class Yard:
-    """A picture of the canvas's size, drawn once. ground: canvas y of the floor, or several; dim darkens the sky."""
+    """A background picture of the canvas's size, drawn once.
+
+    `ground`: canvas y of the floor, or a tuple of several; `dim`: darkening of the sky; `table`: boards, not grass.
+    """
 
     def __init__(self, ground, dim=40, table=False):
         canvas = Canvas()
@@ -22,26 +25,26 @@ class Yard:
         self.picture = canvas.surface
 
     def draw(self, canvas, title, question):
-        """Draw the ground of the picture and its head line."""
+        """Draw the background and the head line."""
         canvas.surface.blit(self.picture, (0, 0))
         draw_head(canvas, title, question)
 
 
 def draw_head(canvas, title, question):
-    """Draw the dark line on top, with the scene's name and its question."""
+    """Draw the dark head line at the top, with the scene's title and its question."""
     canvas.surface.fill(INK, (0, 0, CANVAS_SIZE[0], HEAD))
     canvas.text(title, 4, 4, GOLD)
     canvas.text(question, CANVAS_SIZE[0] - 6, 6, FOG, SMALL, align="right")
 
 
 def plate(canvas, rect, ground=(20, 16, 32, 205)):
-    """Draw a dark transparent plate for text, kept on top of overlays."""
+    """Draw a dark transparent plate for text, on which overlays are not drawn."""
     darken(canvas, rect, ground)
     canvas.fix(rect)
 
 
 def darken(canvas, rect, ground=(20, 16, 32, 205)):
-    """Draw a dark transparent ground in a picture."""
+    """Darken a rectangle of the canvas with a transparent colour."""
     shade = pygame.Surface(pygame.Rect(rect).size, pygame.SRCALPHA)
     shade.fill(ground)
     canvas.surface.blit(shade, rect[:2])

@@ -1,4 +1,4 @@
-"""Pages of contacts that must add no speed and no energy: a gate on a crate, a disc in a bowl, an eccentric wheel."""
+"""Gallery pages about contacts that must not add speed or energy: gate on a crate, disc in a bowl, eccentric wheel."""
 
 from math import cos, hypot, pi, sin
 
@@ -23,7 +23,7 @@ SUBSTEPS, SHARE = 4, 0.2  # of the simulated wheel; the share of Box2D Lite
 
 
 def build_gates(side, speed=GATE_SPEED):
-    """Build three gates, and a crate under each; speed: of the gates [px/s]."""
+    """Build three gates and a crate under each. `speed`: speed of the gates [px/s]."""
     floor(side.world)
     side.kept.update(chance=np.random.default_rng(4), speed=speed, gates=[], crates=[])
     for number, (x, offset) in enumerate(zip(GATES, OFFSETS, strict=True)):
@@ -35,7 +35,7 @@ def build_gates(side, speed=GATE_SPEED):
 
 
 def move_gates(side):
-    """Lower the gates onto the crates, and raise them; begin again at another part of a step."""
+    """Lower the gates onto the crates and raise them again. Each round touches the crates at another time of a step."""
     step, speed = side.steps % ROUND, side.kept["speed"]
     if step == 0:
         for number, (gate, crate) in enumerate(zip(side.kept["gates"], side.kept["crates"], strict=True)):
@@ -52,12 +52,12 @@ def move_gates(side):
 
 
 def step_crates(side):
-    """Step the crates with all of an overlap made speed."""
+    """Step the crates with a naive solver that turns the whole overlap into velocity in one step."""
     step_naively(side, side.kept["crates"], 1, 1.0)
 
 
 def thrown(side):
-    """Return the speed of the fastest crate [px/s]; mark crates that are faster than the limit."""
+    """Return the speed of the fastest crate [px/s], and mark crates that are faster than the limit."""
     speeds = [hypot(*crate.velocity) for crate in side.kept["crates"]]
     for crate, speed in zip(side.kept["crates"], speeds, strict=True):
         if speed > side.page.limit:
@@ -66,7 +66,7 @@ def thrown(side):
 
 
 def build_bowl(side, radius=20.0, turn=0.7):
-    """Build a bowl of 240 links and a disc at rest on its wall; turn: its place on the rim, of half a turn."""
+    """Build a bowl, a chain of 240 links, and a disc at rest on its wall. `turn`: place on the rim, 0 (right) .. 1."""
     corners = [(RIM * cos(at), RIM * sin(at)) for at in np.linspace(pi, 0.0, LINKS + 1)]
     side.world.add_body(Chain(corners), kind="static")
     reach = RIM - GAP - radius
@@ -75,7 +75,7 @@ def build_bowl(side, radius=20.0, turn=0.7):
 
 
 def build_wheel(side, angle=1.3):
-    """Build a wheel with a heavy part off its middle, turned by an angle [rad] from rest."""
+    """Build a wheel with a heavy part off its middle, rotated by `angle` [rad] from its equilibrium."""
     floor(side.world)
     heavy = Circle(HEAVY, (0.0, OUT)).with_(material=Material(density=DENSE))
     wheel = side.world.add_body(Circle(WHEEL), heavy, position=(0.0, -WHEEL), angle=angle)
@@ -85,18 +85,18 @@ def build_wheel(side, angle=1.3):
 
 
 def step_wheel(side):
-    """Step the wheel with four substeps, as the other side, and a fifth of an overlap removed in a step."""
+    """Step the wheel with a naive solver: four substeps, as on the other side; a step removes 1/5 of an overlap."""
     step_naively(side, [side.kept["body"]], SUBSTEPS, SHARE)
 
 
 def begin_energy(side, body, bottom):
-    """Note a body whose energy is measured; bottom: lowest y [px] of its centre of mass."""
+    """Begin to measure the energy of a body. `bottom`: greatest y [px] that its centre of mass can reach."""
     side.kept.update(body=body, bottom=bottom, way=0.0, share=1.0, most=0.0)
     side.kept["start"] = energy(side)
 
 
 def energy(side):
-    """Return the mechanical energy of the measured body, over that at rest in its lowest place [mass px2/s2]."""
+    """Return the kinetic and potential energy of the measured body [mass px2/s2]; 0 at rest in its lowest place."""
     row = side.world.bodies[side.world.rows([side.kept["body"].id])[0]]
     moving = row["mass"] * (row["vx"] ** 2 + row["vy"] ** 2) + row["inertia"] * row["angular_velocity"] ** 2
     height = side.kept["bottom"] - row["center_y"]
@@ -104,7 +104,7 @@ def energy(side):
 
 
 def share(side):
-    """Return the energy as a share of that at the start; mark the places where the body turns back."""
+    """Return energy / energy at the start of the measured body, and mark the places where the body turns back."""
     kept = side.kept
     kept["share"] = energy(side) / kept["start"]
     kept["most"] = max(kept["most"], kept["share"])
@@ -116,22 +116,22 @@ def share(side):
 
 
 def changed(side):
-    """Return the change of the energy [%], gained or lost."""
+    """Return the change of the measured body's energy since the start [%], gained or lost."""
     return 100.0 * abs(share(side) - 1.0)
 
 
 def gained(side):
-    """Return the energy gained [%]."""
+    """Return the energy that the measured body has gained since the start [%], 0 if it has lost energy."""
     return 100.0 * max(0.0, share(side) - 1.0)
 
 
 def energy_text(side):
-    """Return the energy now and its greatest value as text, as shares of that at the start."""
+    """Return the current and the greatest energy as text, relative to the energy at the start."""
     return f"energy {100.0 * side.kept['share']:.1f} %, most {100.0 * side.kept['most']:.1f} %"
 
 
 def limit_text(side):
-    """Return the parts of the limit as text."""
+    """Return the three speeds that add up to the limit of the page "gate", as text."""
     return f"gate {GATE_SPEED:.0f}, push-out {PUSH_OUT:.0f}, fall {FALL:.0f}"
 
 

@@ -1,4 +1,4 @@
-"""Pages of extremes: all at one point, too many for their room, far away, a wrong scale; and sleep."""
+"""Gallery pages about extremes: all bodies at one point, an overfull room, great distance, a wrong scale; and sleep."""
 
 import numpy as np
 
@@ -17,37 +17,37 @@ APEX = 0.8**2 * 2.0  # [m] first apex of a ball after a fall of two metres
 
 
 def build_point(side):
-    """Build boxes, all at (0, 0)."""
+    """Build the boxes of the page, all at (0, 0)."""
     fill_point(side.world, LIVE)
 
 
 def fill_point(world, count):
-    """Add so many boxes, all at (0, 0)."""
+    """Add `count` boxes to a world, all at (0, 0)."""
     world.add_bodies(Polygon.box(8.0, 8.0), np.zeros((count, 2)))
 
 
 def snapshot_of_thousand(settings):
-    """Return a snapshot of a thousand such boxes; settings: of the world."""
+    """Return a snapshot of a world with a thousand boxes at (0, 0). `settings`: arguments of World."""
     world = World(POINT, **settings)
     fill_point(world, THOUSAND)
     return world.snapshot()
 
 
 def fastest_move(side):
-    """Return the greatest motion of a body in the step, as a speed [m/s]."""
+    """Return the greatest distance that a body moved in the last step, divided by the step's time [m/s]."""
     b = dynamic(side.world)
     way = np.hypot(b["x"] - b["previous_x"], b["y"] - b["previous_y"])
     return float(way.max()) / side.world.dt / METER
 
 
 def farthest_move(figures):
-    """Return the same for the run beside the game."""
+    """Return the greatest distance that a body moved in a step of the run beside the game, as a speed [m/s]."""
     assert figures.farthest is not None  # set, because it was judged
     return figures.farthest * 60.0 / METER
 
 
 def build_crowd(side):
-    """Build 625 discs of a metre in a room with space for 496 if they were liquid."""
+    """Build 625 discs of 1 m diameter in a room whose area is that of only 496 discs."""
     wide = CROWD * ROOM * METER
     for x, y, width, height in (
         (0.0, 0.5 * (wide + WALL), wide + 2.0 * WALL, WALL),
@@ -63,13 +63,13 @@ def build_crowd(side):
 
 
 def unrest(side):
-    """Return the root mean square of all speeds [m/s]."""
+    """Return the root mean square of the speeds of all dynamic bodies [m/s]."""
     b = dynamic(side.world)
     return float(np.sqrt((b["vx"] ** 2 + b["vy"] ** 2).mean())) / METER
 
 
 def build_pyramid(side, origin):
-    """Build eight rows of crates about a point this far right and down."""
+    """Build a pyramid of eight rows of crates at x = y = origin [px]."""
     floor_at = (origin, origin + 2.0 * METER)
     side.world.add_body(Polygon.box(100.0 * METER, 4.0 * METER), position=floor_at, kind="static")
     places = [
@@ -82,14 +82,14 @@ def build_pyramid(side, origin):
 
 
 def apart(side):
-    """Return the greatest distance between the places of a body on both sides [mm]."""
+    """Return the greatest difference, along x or y, between the positions of a body in both worlds [mm]."""
     b, other = dynamic(side.world), dynamic(side.other.world)
     shift = side.kept["origin"] - side.other.kept["origin"]
     return MM * max(float(np.abs(b[axis] - other[axis] - shift).max()) for axis in ("x", "y"))
 
 
 def build_metres(side):
-    """Build a world in metres: a ball of half a metre two metres above the floor."""
+    """Build a world with lengths in metres: a ball of 0.5 m diameter, 2 m above the floor."""
     material = Material(restitution=0.8)
     shape = Polygon.box(40.0, 4.0)
     side.world.add_body(shape, position=(0.0, 2.0), kind="static", material=material)
@@ -98,7 +98,7 @@ def build_metres(side):
 
 
 def low(side):
-    """Return the shortfall of a ball's first apex after a bounce [%]."""
+    """Return the error of the height of the ball's first apex after the bounce [%]; 0 before that apex."""
     ball, kept = side.kept["ball"], side.kept
     kept["fell"] |= ball.velocity[1] <= 0.0 and side.steps > 5
     if not kept["fell"]:
@@ -109,7 +109,7 @@ def low(side):
 
 
 def build_piles(side):
-    """Build twelve columns of ten crates, at rest."""
+    """Build twelve columns of ten crates at rest."""
     floor(side.world)
     places = [
         ((column - (PILES - 1) / 2) * 2.0 * METER, -(row + 0.5) * METER)
@@ -120,7 +120,7 @@ def build_piles(side):
 
 
 def moved(side):
-    """Return the number of bodies that the step moved."""
+    """Return the number of bodies that the last step integrated, which sleeping bodies are not."""
     return float(side.world.profile.counters["bodies_integrated"])
 
 

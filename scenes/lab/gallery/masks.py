@@ -1,4 +1,4 @@
-"""Pages of pixels: a ball in a ring's hole, squares that share less than a pixel."""
+"""Gallery pages about pixel masks: a ball in the hole of a ring, and squares that overlap by less than a pixel."""
 
 from math import cos, hypot, sin
 
@@ -16,7 +16,7 @@ SEEN = Effects()
 
 
 def disc(radius, hole=0.0):
-    """Return the pixels of a disc, or a ring, whose origin is its middle."""
+    """Return the PixelMask of a disc, or of a ring if `hole` (radius [px]) is not 0, with its origin in the middle."""
     side = int(2 * radius)
     y, x = np.mgrid[0:side, 0:side] + 0.5 - radius
     far = np.hypot(x, y)
@@ -24,7 +24,7 @@ def disc(radius, hole=0.0):
 
 
 def build_rings(side, tier):
-    """Build rings, and a ball for each."""
+    """Build rings and a ball for each, at shape tier `tier`."""
     ring, ball = (disc(OUTER, INNER), disc(BALL))
     if tier != "mask":
         (ring,), (ball,) = fit(ring, tier), fit(ball, tier)
@@ -43,8 +43,9 @@ def swing(side):
 
 
 def wrong(side):
-    """Return the verdicts refuted by geometry, of all clear ones so far [%]: they touch from 6 to 30 px between
-    middles.
+    """Return the share of verdicts (touching or not) that geometry refutes, of all so far [%].
+
+    Ring and ball touch if their middles are 6 to 30 px apart. Distances near these limits are not counted.
     """
     met = {frozenset(pair) for pair in side.world.contacts[["body_a", "body_b"]].tolist()}
     for ring, ball in side.kept["balls"]:
@@ -57,7 +58,7 @@ def wrong(side):
 
 
 def build_squares(side, snap):
-    """Build pairs of full squares of 32 px."""
+    """Build pairs of square pixel masks of 32 px. `snap`: whether masks are tested at whole pixels."""
     square = PixelMask.from_array(np.ones((SIZE, SIZE), bool), snap=snap)
     side.kept.update(judged=0, missed=0, chance=np.random.default_rng(7), pairs=[])
     for place in SQUARES:
@@ -66,14 +67,14 @@ def build_squares(side, snap):
 
 
 def scatter(side):
-    """Move each second square to a random overlap with the first, between pixels, too."""
+    """Move the second square of each pair to a random place, not on whole pixels, where it overlaps the first."""
     offsets = side.kept["chance"].uniform(-SIZE, SIZE, (len(SQUARES), 2))
     for (x, y), (_, other), (dx, dy) in zip(SQUARES, side.kept["pairs"], offsets.tolist(), strict=True):
         other.move_to((x + dx, y + dy), 0.0)
 
 
 def missed(side):
-    """Return the overlaps not reported, of all so far [%]."""
+    """Return the share of overlaps that were not reported, of all so far [%]."""
     side.kept["judged"] += len(SQUARES)
     side.kept["missed"] += len(SQUARES) - len(side.world.contacts)
     return 100.0 * side.kept["missed"] / side.kept["judged"]

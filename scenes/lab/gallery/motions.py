@@ -1,4 +1,4 @@
-"""Pages of motions with a known end: bounces, glancing blows, a slope, seams."""
+"""Gallery pages about motions whose result is known: bounces, glancing collisions, a slope, seams of the ground."""
 
 from math import cos, hypot, pi, radians, sin, sqrt, tan
 
@@ -30,7 +30,7 @@ SETTLED = 60  # steps after which a box has settled
 
 
 def build_ball(side):
-    """Build a ball over a floor, both without loss of speed."""
+    """Build a ball above a floor, both with restitution 1."""
     elastic = Material(restitution=1.0)
     floor(side.world, material=elastic)
     side.kept["ball"] = side.world.add_body(Circle(BALL), position=(0.0, -BALL - DROP), material=elastic)
@@ -38,10 +38,10 @@ def build_ball(side):
 
 
 def apex(side):
-    """Return the greatest error of the first seventeen apexes against the height of the fall [%], of the parabola
-    through three steps.
+    """Return the error of an apex of the bouncing ball against the height of its first fall [%], else 0.
 
-    If the bounces end early, missing apexes count in full.
+    The apex is that of the parabola through three steps. Only the first seventeen are measured. If the ball stops
+    bouncing too early, the error is 100 %.
     """
     kept, found = side.kept, 0.0
     kept["heights"] = [*kept["heights"][-2:], -BALL - side.kept["ball"].position[1]]
@@ -56,13 +56,13 @@ def apex(side):
 
 
 def blows():
-    """Return (offset in diameters, speed [px/s], additional distance [px]) of 24 glancing blows."""
+    """Return (offset [diameters], speed [px/s], additional distance at the start [px]) of 24 glancing collisions."""
     chance = np.random.default_rng(5)
     return [(0.1 + 0.8 * k / 7, v, float(chance.uniform()) * v / 60) for v in SPEEDS for k in range(8)]
 
 
 def build_discs(side):
-    """Build discs that each fly past the middle of another one at rest, without friction."""
+    """Build pairs of frictionless discs: one flies at the other, which rests, off its middle."""
     side.kept["pairs"] = []
     for number, (offset, speed, further) in enumerate(blows()):
         x, y = 5.0 * METER * (number % 8), 4.0 * METER * (number // 8)
@@ -74,8 +74,9 @@ def build_discs(side):
 
 
 def glance(side):
-    """Return the greatest error of a disc's velocity after the blow, against the line of centres, as a share of its
-    speed [%].
+    """Return the greatest error of a disc's velocity after its collision [% of its initial speed].
+
+    The exact velocity follows from the line of centres at the touch.
     """
     worst = 0.0
     for disc, offset, speed in side.kept["pairs"]:
@@ -87,7 +88,7 @@ def glance(side):
 
 
 def build_slope(side, share):
-    """Build a box on a slope of 30 degrees, with this share of the friction that holds it."""
+    """Build a box on a slope of 30 degrees. `share`: its friction, relative to the least that holds the box."""
     material = Material(friction=share * tan(SLOPE))
     c, s = cos(SLOPE), sin(SLOPE)
     plank = Polygon.box(40.0 * METER, 2.0 * METER)
@@ -98,7 +99,7 @@ def build_slope(side, share):
 
 
 def creep(side):
-    """Return the motion of the box down the slope after the first second [mm]."""
+    """Return how far the box has moved since the end of the first second [mm]."""
     x, y = side.kept["box"].position
     if side.steps == SETTLED:
         side.kept["at"] = x, y
@@ -108,7 +109,7 @@ def creep(side):
 
 
 def pieces(ground):
-    """Return (x [px], shape) of the pieces of level ground at y = 0: two tile grids, or boxes, or chains."""
+    """Return a list of (x [px], shape) that make level ground at y = 0, from tile grids, boxes or chains."""
     half, long = TILES // 2, 4
     return {
         "grids": [(TILE * half * k, TileGrid(np.ones((1, half), bool), TILE)) for k in range(2)],
@@ -118,7 +119,7 @@ def pieces(ground):
 
 
 def build_seams(side, speeds=SLIDING):
-    """Build three lanes of level ground in pieces, with four sliders each; speeds: of each lane [px/s]."""
+    """Build three lanes of level ground made of pieces, with four sliders each. `speeds`: of each lane [px/s]."""
     smooth = Material(friction=0.0)
     side.kept.update(chance=np.random.default_rng(6), speeds=speeds, sliders=[], lost=0.0, hop=0.0)
     for lane, ground in enumerate(GROUNDS):
@@ -132,7 +133,7 @@ def build_seams(side, speeds=SLIDING):
 
 
 def slide(side):
-    """Begin a lap, at another part of a step."""
+    """Put the sliders at their starts every LAP steps, each time shifted at random by part of a step's motion."""
     if side.steps % LAP == 0:
         side.kept["tripped"] = set()
         for slider, (x, y), speed in side.kept["sliders"]:
@@ -141,7 +142,7 @@ def slide(side):
 
 
 def slowed(side):
-    """Return the greatest change of a slider's speed [%]; mark the places where one trips, and note the highest hop."""
+    """Return the greatest change of a slider's speed [%]. Mark places where one trips, and record the highest hop."""
     kept, worst = side.kept, 0.0
     for slider, (_, y), speed in kept["sliders"]:
         lost = 100.0 * abs(slider.velocity[0] - speed) / speed
@@ -153,7 +154,7 @@ def slowed(side):
 
 
 def hop_text(side):
-    """Return the highest hop as text."""
+    """Return the height of the sliders' highest hop as text."""
     return f"hops of {side.kept['hop']:.2f} px at most"
 
 

@@ -1,7 +1,7 @@
-"""Pages of the gallery: a hard case as data, with functions that set it up, move it and read its error.
+"""Pages of the gallery. A page is a hard case that runs in two worlds side by side: a naive method, and the engine's.
 
-A way is the setup of one of the two worlds; a side is that world while it runs. Lengths in the worlds are in pixels, 32
-to the metre, the default of physics; errors have the unit that the page names.
+A Way is the setup of one of the two worlds, and a Side is that world while it runs. Lengths are in pixels, 32 to the
+metre. Each page has functions that build its bodies, move them and read its error, in a unit that the page names.
 """
 
 from collections.abc import Callable, Mapping
@@ -20,9 +20,10 @@ WORST, LAST = "worst", "last"  # error of a run that is compared with the limit
 
 @dataclass(frozen=True)
 class Way:
-    """One of a page's two ways. world: arguments of its World; bodies: arguments of its build(); without: effects.
+    """The setup of one of a page's two worlds. `world`: arguments of World; `bodies`: arguments of the page's build();
+    `without`: effects that are off.
 
-    step: makes a step of its side instead of World.step(), for a method that the engine does not have.
+    `step`: function that steps the Side instead of World.step(), for a method that the engine does not have.
     """
 
     name: str
@@ -33,8 +34,9 @@ class Way:
 
 
 def auto(accuracy):
-    """Return the setting that takes enough substeps to limit the sag of contacts to this [mm]; no cap is hit while 32
-    suffice.
+    """Return the Way whose world chooses as many substeps as limit the sag of contacts to `accuracy` [mm].
+
+    This holds as long as 32 substeps suffice.
     """
     name = f'substeps="auto", to {accuracy} mm'
     return Way(name, {"substeps": "auto", "accuracy": accuracy / MM})
@@ -48,10 +50,10 @@ PLAIN = Way("projection", PUSHED.world, without=("stacking",))
 
 @dataclass(frozen=True)
 class Larger:
-    """The same case at a size too large for a frame: it is stepped beside the game.
+    """The case of a page at a size that is too large for real time. It runs beside the game.
 
-    maker: "module:function" of a snapshot, with a way's `world` as its argument. steps: number of judged steps, from
-    the start.
+    `maker`: "module:function" that returns its snapshot; the argument is a Way's `world`. `steps`: how many steps from
+    the start are judged.
     """
 
     name: str  # "1,000 boxes"
@@ -62,7 +64,10 @@ class Larger:
 
 @dataclass(frozen=True)
 class Page:
-    """A hard case. The naive way must exceed the limit and the other keep it; if they are alike, both must keep it."""
+    """A hard case. The expected result: the error of the naive way exceeds `limit`, and that of the other does not.
+
+    If `alike`, both must stay within the limit.
+    """
 
     name: str
     title: str
@@ -86,9 +91,9 @@ class Page:
 
 
 class Side:
-    """A world of a page while it runs.
+    """One of a page's two worlds while it runs. `other`: the Side of the other world.
 
-    kept: data of build, act and error between steps; marks: (x, y [px], good or bad, step) to be drawn there.
+    `kept`: data that the page's functions keep between steps; `marks`: (x, y [px], good, step) of marks to draw.
     """
 
     def __init__(self, page: Page, way: Way, world: World):
@@ -100,12 +105,12 @@ class Side:
         self.now = self.worst = 0.0
 
     def begin(self, other: "Side"):
-        """Add the bodies; other: the other side."""
+        """Add the bodies of the page. `other`: the Side of the other world."""
         self.other = other
         self.page.build(self)
 
     def step(self):
-        """Make one step, without its error: the sides are measured after both have moved."""
+        """Make one step. The error is read later by measure(), after both worlds have moved."""
         if self.page.act is not None:
             self.page.act(self)
         if self.way.step is None:
@@ -115,18 +120,18 @@ class Side:
         self.steps += 1
 
     def mark(self, place, good):
-        """Mark the place of a good or bad end; old marks are removed."""
+        """Mark a place (x, y) [px] as a good or bad result, and remove old marks."""
         self.marks = [each for each in self.marks if self.steps - each[3] < MARKED]
         self.marks.append((*place, good, self.steps))
 
     def measure(self):
-        """Read the error after a step."""
+        """Read the page's error after a step."""
         self.now = float(self.page.error(self))
         self.worst = max(self.worst, self.now)
 
     @property
     def error(self):
-        """Error that is compared with the limit."""
+        """The error that is compared with the limit: the worst or the last, as the page says."""
         return self.worst if self.page.judged == WORST else self.now
 
     @property
@@ -136,12 +141,12 @@ class Side:
 
 
 def dynamic(world):
-    """Return the rows of dynamic bodies."""
+    """Return the rows of all dynamic bodies of a world."""
     bodies = world.bodies
     return bodies[bodies["inverse_mass"] > 0.0]
 
 
 def floor(world, half=100.0 * METER, **options):
-    """Return a thick floor whose surface is at y = 0."""
+    """Add a thick static floor whose surface is at y = 0. Return its body. `half`: half its width [px]."""
     shape = Polygon.box(2.0 * half, FLOOR_DEPTH)
     return world.add_body(shape, position=(0.0, FLOOR_DEPTH / 2), kind="static", **options)

@@ -1,4 +1,4 @@
-"""Pages of loads: crooked columns, mass ratios, cards, a load that is removed."""
+"""Gallery pages about loads: crooked columns, mass ratios, cards, a load that is removed."""
 
 from math import cos, radians, sin
 
@@ -24,7 +24,7 @@ CARD = (0.02 * METER, 1.0 * METER)  # half thickness and half height
 
 
 def build_column(side):
-    """Build crates on top of each other, each off by up to 2 cm."""
+    """Build a column of crates, each shifted sideways at random by up to 2 cm."""
     floor(side.world)
     aside = np.random.default_rng(1).uniform(-ASKEW, ASKEW, CRATES)
     side.world.add_bodies(CRATE, np.column_stack([aside, -(np.arange(CRATES) + 0.5) * METER]))
@@ -32,19 +32,19 @@ def build_column(side):
 
 
 def sway(side):
-    """Return the greatest sideways distance of a body from its start [mm]."""
+    """Return the greatest distance along x of a body from its start [mm]."""
     return MM * float(np.abs(dynamic(side.world)["x"] - side.kept["x"]).max())
 
 
 def build_heavy(side):
-    """Build a thousand times its mass on one crate."""
+    """Build a crate, and on it a crate of a thousand times its mass."""
     floor(side.world)
     side.world.add_body(CRATE, position=(0.0, -0.5 * METER))
     side.world.add_body(CRATE, position=(0.0, -1.5 * METER), material=Material(density=1000.0))
 
 
 def build_huge(side):
-    """Build a crate of 16 m on two of half a metre, and one of those on top."""
+    """Build a crate of 16 m on two crates of half a metre, and another small crate on top."""
     floor(side.world)
     tiny, top = Polygon.box(TINY, TINY), -TINY - HUGE
     for x in (-0.4 * HUGE, 0.4 * HUGE):
@@ -55,7 +55,7 @@ def build_huge(side):
 
 
 def sunk(side):
-    """Return the distance of the load from its place on rigid crates [mm]."""
+    """Return the vertical distance of the load from its place if the crates below were rigid [mm]."""
     return MM * abs(side.kept["load"].position[1] - side.kept["y"])
 
 
@@ -93,7 +93,7 @@ def build_load(side):
 
 
 def take_away(side):
-    """Remove the load after three seconds; with FORCES_KEPT, move it away by writing its column x."""
+    """Remove the load after three seconds. With the way FORCES_KEPT, move it away by writing its x instead."""
     if side.steps != GONE:
         return
     load = side.kept["load"]
@@ -105,13 +105,14 @@ def take_away(side):
 
 
 def rise(side):
-    """Return the rise of the upper crate over its place after the load is gone [mm]."""
+    """Return how far the upper crate rises above its place after the load is gone [mm]."""
     return MM * max(0.0, -1.5 * METER - side.kept["top"].position[1]) if side.steps > GONE else 0.0
 
 
 def build_cards(side):
-    """Build four storeys of cards of 4 cm x 2 m that lean on each other at 25 degrees, with one lying on every two
-    pairs.
+    """Build a house of cards of 4 cm x 2 m with four storeys.
+
+    Pairs of cards lean on each other at 25 degrees. A card lies across every two neighbouring pairs.
     """
     floor(side.world, material=Material(friction=0.7))
     thick, high = CARD

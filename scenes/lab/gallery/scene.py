@@ -137,7 +137,7 @@ class Gallery(Scene):
             cost.note(step_seconds(side.world) * 1e6)
 
     def measured(self):
-        """Return the runs to measure: the page at its full size, if that is too large for a frame."""
+        """Return the runs to time beside the game: the page at its full size, if that is too large for a frame."""
         if self.page.larger is None:
             return None
         return RunRequest([self._run_name(side) for side in self.sides], self._make)
@@ -152,7 +152,7 @@ class Gallery(Scene):
         return MeasuredRun([made], self.broadphase, STEPS_OF_LARGER, judged=(1, larger.steps))
 
     def larger(self, side):
-        """Return (error, RunFigures) of a side at the page's full size; None before it was stepped."""
+        """Return (error, RunFigures) of a way at the page's full size, or None before that has run."""
         figures = self.figures.get(self._run_name(side))
         if self.page.larger is None or figures is None:
             return None
@@ -241,8 +241,9 @@ class Gallery(Scene):
         frame.fix(rect)
 
     def check(self):
-        """Return the goals: on each judged page the naive way exceeds the limit and the other keeps it; or both are
-        alike.
+        """Return the goals of the self-check.
+
+        On each judged page the naive way exceeds the limit and the other keeps it; or both are alike.
         """
         return [
             Goal(
@@ -276,7 +277,10 @@ class Gallery(Scene):
         return f"{sentence}, limit {amount(page.limit)}{judged}"
 
     def bot(self):
-        """Return the bot: a short look at each page; then each until it is judged."""
+        """Return the bot's input for the next step.
+
+        Its plan: a short look at each page; then each until it is judged.
+        """
         if self.frame < TOURED:
             number = GLANCES.get(self.frame)
             return InputFrame(changes=() if number is None else (("slider:page", number),))
@@ -293,7 +297,7 @@ class Gallery(Scene):
 
 
 def is_met(page, naive, ours):
-    """Return whether a page has the expected result."""
+    """Return whether the errors of both ways are as the page expects."""
     return ours <= page.limit and (naive <= page.limit) == page.alike
 
 

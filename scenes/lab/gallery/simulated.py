@@ -1,4 +1,4 @@
-"""Naive contacts, simulated by the scene: the world finds the contacts, and this file solves them for one body."""
+"""A naive contact solver for the gallery: the world only finds the contacts; this module solves them for one body."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -10,7 +10,7 @@ SEEN_ONLY = ("response", "gravity", "friction", "stacking")  # effects that the 
 
 
 class Motion(NamedTuple):
-    """Velocity of the centre of mass [px/s], and angular velocity [rad/s]."""
+    """The motion of a body: velocity of the centre of mass [px/s] and angular velocity [rad/s]."""
 
     vx: float
     vy: float
@@ -19,9 +19,10 @@ class Motion(NamedTuple):
 
 @dataclass
 class Push:
-    """A contact of the body: normal towards it, arm from its centre of mass [px], velocity of the other side [px/s].
+    """A contact of the body. `normal`: towards the body; `arm`: from its centre of mass to the contact [px]; `other`:
+    velocity of the other body [px/s].
 
-    speed: separation speed [px/s] that the solver asks for. along, across: accumulated impulses.
+    `speed`: separation speed that the solver wants [px/s]; `along`, `across`: accumulated normal and friction impulse.
     """
 
     normal: tuple[float, float]
@@ -35,9 +36,9 @@ class Push:
 def step_naively(side, bodies, substeps, share):
     """Step a world without response by sequential impulses with Baumgarte stabilisation (Box2D Lite).
 
-    bodies: the dynamic ones, each solved by itself against static and kinematic ones.
-    share: part of the overlap that a step removes. The removal is a velocity of the body, which keeps it. The arms are
-    those of the start of the step in each of its substeps.
+    `bodies`: the dynamic bodies, each solved by itself against static and kinematic bodies. `share`: part of the
+    overlap that a step removes, by a velocity that the body keeps afterwards. All substeps use the moment arms of the
+    start of the step. Both are the errors that the gallery shows.
     """
     world, gravity = side.world, side.other.world.gravity
     ends = [solved_step(world, body, gravity, substeps, share) for body in bodies]
@@ -47,7 +48,10 @@ def step_naively(side, bodies, substeps, share):
 
 
 def solved_step(world, body, gravity, substeps, share):
-    """Give a body the mean velocity of a step, by which its world moves it; return its motion at the end."""
+    """Solve the contacts of a body for a step, and give it the mean velocity of the step, by which the world moves it.
+
+    Return its Motion at the end of the step.
+    """
     row = world.bodies[world.rows([body.id])[0]]
     pushes = pushes_on(world, body, row, share)
     inverse = 1.0 / float(row["mass"]), 1.0 / float(row["inertia"])
@@ -68,7 +72,7 @@ def solved_step(world, body, gravity, substeps, share):
 
 
 def pushes_on(world, body, row, share):
-    """Return the contacts of a body with static and kinematic ones, as at the end of the last step."""
+    """Return a Push for each contact of a body at the end of the last step. `row`: its row in world.bodies."""
     found, middle = [], (float(row["center_x"]), float(row["center_y"]))
     for contact in world.contacts:
         pair = int(contact["body_a"]), int(contact["body_b"])
@@ -89,7 +93,10 @@ def pushes_on(world, body, row, share):
 
 
 def solved(motion, push, inverse):
-    """Return the motion after the normal and the friction impulse of a contact; inverse: of mass and inertia."""
+    """Apply the normal and the friction impulse of a contact. Return the new Motion.
+
+    `inverse`: (1 / mass, 1 / inertia).
+    """
     (nx, ny), along = push.normal, push.along
     change, arm = impulse(motion, push, (nx, ny), push.speed, inverse)
     push.along = max(0.0, along + change)
@@ -101,7 +108,7 @@ def solved(motion, push, inverse):
 
 
 def impulse(motion, push, axis, wanted, inverse):
-    """Return (impulse, moment arm [px]) that gives the contact a wanted speed along an axis."""
+    """Return (impulse, its moment arm [px]) that gives the contact the relative speed `wanted` [px/s] along an axis."""
     (rx, ry), (x, y) = push.arm, axis
     arm = rx * y - ry * x
     speed = (motion.vx - motion.spin * ry - push.other[0]) * x + (motion.vy + motion.spin * rx - push.other[1]) * y
@@ -109,7 +116,7 @@ def impulse(motion, push, axis, wanted, inverse):
 
 
 def struck(motion, axis, arm, amount, inverse):
-    """Return the motion after an impulse."""
+    """Return the Motion after an impulse of size `amount` along an axis, with moment arm `arm` [px]."""
     x, y = axis
     return Motion(
         motion.vx + amount * x * inverse[0],

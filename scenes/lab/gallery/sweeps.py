@@ -1,4 +1,4 @@
-"""Pages of fast bodies: a thin wall, a spinning rod, bullets that meet, a sensor of one pixel."""
+"""Gallery pages about fast bodies: a thin wall, spinning rods, bullets that meet, a sensor one pixel wide."""
 
 import numpy as np
 
@@ -19,7 +19,7 @@ PUSHED = Effects(response=True, stacking=True, continuous=True)
 
 
 def chance(side):
-    """Return the same random numbers on both sides."""
+    """Return the random generator of a side. Both sides get the same random numbers."""
     return side.kept.setdefault("chance", np.random.default_rng(3))
 
 
@@ -31,7 +31,10 @@ def build_wall(side):
 
 
 def shoot(side):
-    """Shoot a ball at the wall every few steps, from anywhere within the path of a step; count the finished ones."""
+    """Shoot a ball at the wall every EVERY steps, and count the shots that have ended.
+
+    The start varies by the path of a step, so that impacts occur at any time of a step.
+    """
     for identity in list(side.kept["flying"]):
         body = side.world.body(identity)
         x, _ = body.position
@@ -50,19 +53,19 @@ def shoot(side):
 
 
 def count(side, place, missed):
-    """Count a finished shot, and whether it missed a body that it had to meet."""
+    """Count a shot that has ended at `place`, and whether it `missed` a body that it had to meet."""
     side.kept["fired"] += 1
     side.kept["through"] += missed
     side.mark(place, not missed)
 
 
 def through(side):
-    """Return the shots that came through, of the finished ones [%]."""
+    """Return the share of shots that missed what they had to meet, of all that have ended [%]."""
     return 100.0 * side.kept["through"] / max(1, side.kept["fired"])
 
 
 def build_rods(side):
-    """Build pegs, each near the end of a future rod."""
+    """Build the pegs. The rods, which spin() adds later, must strike them with their ends."""
     side.kept.update(fired=0, through=0, flying={}, met=set())
     for lane in range(6):
         x, y = rod_place(lane)
@@ -70,12 +73,12 @@ def build_rods(side):
 
 
 def rod_place(lane):
-    """Return the middle of a rod [px]."""
+    """Return the position (x, y) [px] of the middle of the rod in a lane."""
     return (lane % 3 - 1) * 64.0, (lane // 3 - 0.5) * 64.0
 
 
 def spin(side):
-    """Add rods that rotate in place, at any angle, until they have met their peg or passed it."""
+    """Add rods at random angles that rotate in place, and replace them after TURN steps. Count those that missed."""
     side.kept["met"] |= {int(row[name]) for row in side.world.events.begin for name in ("body_a", "body_b")}
     if side.steps % TURN == 0:
         for identity in list(side.kept["flying"]):
@@ -96,12 +99,12 @@ def spin(side):
 
 
 def build_bullets(side):
-    """Build nothing: the bullets come with time."""
+    """Reset the counts. Bodies are not built here: duel() adds the bullets."""
     side.kept.update(fired=0, through=0, flying={})
 
 
 def duel(side):
-    """Shoot two bullets at each other in a lane every few steps."""
+    """Shoot two bullets at each other every EVERY steps, and count the pairs that met or missed."""
     for one, other in list(side.kept["flying"].items()):
         a, b = side.world.body(one), side.world.body(other)
         met = a.velocity[0] < 0.5 * FAST
@@ -129,7 +132,7 @@ def build_beam(side):
 
 
 def cross(side):
-    """Shoot a ball through the beam every few steps; check for its report."""
+    """Shoot a ball through the sensor every EVERY steps, and count the balls that it did not report."""
     side.kept["met"] |= {int(row[name]) for row in side.world.events.sensor_begin for name in ("body_a", "body_b")}
     for identity in list(side.kept["flying"]):
         x, y = side.world.body(identity).position
