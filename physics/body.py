@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import carving, checks, edit, step
+from physics import carving, checks, edit, step, teleport
 from physics.carving import Carved
 from physics.checks import Pair, Pose
 from physics.collision.areas import with_areas
@@ -46,7 +46,7 @@ class Body(Handle):
 
     @position.setter
     def position(self, value: Pair) -> None:
-        edit.move_to(self.world, self.id, checks.position("position", value), None)
+        teleport.move_to(self.world, self.id, checks.position("position", value), None)
 
     @property
     def angle(self) -> float:
@@ -55,7 +55,7 @@ class Body(Handle):
 
     @angle.setter
     def angle(self, value: float) -> None:
-        edit.move_to(self.world, self.id, self.position, checks.number("angle", value))
+        teleport.move_to(self.world, self.id, self.position, checks.number("angle", value))
 
     @property
     def center(self) -> Vec2:
@@ -85,7 +85,7 @@ class Body(Handle):
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
         """Teleport the body to a position [px] and an angle [rad]; nothing in between is swept."""
-        edit.move_to(
+        teleport.move_to(
             self.world,
             self.id,
             checks.position("position", position),

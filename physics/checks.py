@@ -108,7 +108,7 @@ def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
     if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name} must be whole numbers (got {shown(value)})")
     array = array.astype(np.int64).ravel()
-    if not repeats and len(np.unique(array)) != len(array):
+    if not repeats and not (array[1:] > array[:-1]).all() and len(np.unique(array)) != len(array):
         raise ValueError(f"{name} must name each body once (got {array.tolist()})")
     return array
 
@@ -141,10 +141,10 @@ def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
     return value
 
 
-def columns(name: str, value: Any, count: int | None = None, width: int = 2) -> np.ndarray:
+def columns(name: str, value: Any, count: int | None = None, width: int = 2, like: str = "positions") -> np.ndarray:
     """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All must be finite.
 
-    count: required n, None: any. Raises TypeError or ValueError.
+    count: required n, the number of rows of the argument `like`; None: any. Raises TypeError or ValueError.
     """
     try:
         array = np.array(value)
@@ -159,7 +159,7 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2) -> 
     if array.ndim != (2 if width > 1 else 1) or (width > 1 and array.shape[1] != width):
         raise ValueError(f"{name} must have shape {shape} (got {array.shape})")
     if count is not None and len(array) != count:
-        raise ValueError(f"{name} must have {count} rows, as positions has (got {len(array)})")
+        raise ValueError(f"{name} must have {count} rows, as {like} has (got {len(array)})")
     bad = ~np.isfinite(array)
     if bad.any():
         row = int(np.argwhere(bad)[0][0])

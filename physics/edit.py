@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from physics import checks
 from physics.broadphase.proxies import write_rectangles
-from physics.checks import Pair, Points
+from physics.checks import Points
 from physics.contacts.cache import shift_center
 from physics.contacts.matching import KeptImpulses
 from physics.dynamics.integrate import refresh_centers
@@ -20,7 +20,6 @@ from physics.shapes.mask import PixelMask
 from physics.shapes.outline import is_tiled, keep_tiles, polygons, tiled_parts
 from physics.shapes.shape import Filter, Material, Shape
 from physics.shapes.values import TileGrid
-from physics.solver.contact_lanes import forget_loads
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
 from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
 from physics.tables.table import rows_of
@@ -185,6 +184,7 @@ def replace_mask(
         _rewrite_own_values(world, at, shape_id, mask)
     world._tidy_library()
     append_parts(world, world.shapes[own], fresh)
+    world._write_run(at)
     _weigh(world, at, used)
     new = np.arange(len(world.shapes) - len(fresh.shapes), len(world.shapes))
     _rejoin(world, at, np.append(own, new) if still else rows_of_parent(world, shape_id))
@@ -285,7 +285,9 @@ def _wake_at_cells(world, at, rows):
     dynamic = bodies["kind"] == DYNAMIC
     sleep.wake(world, bodies["island"][dynamic & ~bodies["awake"]].tolist())
     others = bodies["id"][~dynamic]
-    told = [table[["body_a", "body_b"]] for table in (world.sleeping_set.touching, world.sleeping_set.sensing)]
+    told = [
+        table[["body_a", "body_b"]] for table in (world.sleeping_set.touching_pairs, world.sleeping_set.sensing_pairs)
+    ]
     mine = world.bodies["id"][at]
     met = [np.where(each["body_a"] == mine, each["body_b"], -1) for each in told]
     met += [np.where(each["body_b"] == mine, each["body_a"], -1) for each in told]
@@ -404,14 +406,14 @@ def refresh_pose(world: WorldState, identity: int) -> None:
     at = world._row_number(identity)
     sleep.disturb(world, [identity])
     refresh_centers(np.array([at]), world.bodies)
-    world.pairs.touch(world.shapes["proxy"][world.shapes["body"] == identity])
+    world.pairs.touch(world.shapes["proxy"][world._shape_rows(at)])
 
 
 def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
     """Return the ids of a body's shapes, in their order."""
-    world._row_number(identity)
-    own = (world.shapes["body"] == identity) & (world.shapes["role"] != PART)
-    return tuple(world.shapes["id"][own].tolist())
+    at = world._row_number(identity)
+    own = world.shapes[world._shape_rows(at)]
+    return tuple(own["id"][own["role"] != PART].tolist())
 
 
 def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
@@ -490,6 +492,7 @@ def _add(world, identity, shapes, new) -> np.ndarray:
     at = world._row_number(identity)
     world._shapes_of[identity] = shapes
     ids = add_shapes(world, at, 1, new)
+    world._write_run(at)
     refresh_mass(world, identity)
     if world.bodies["quarantined"][at]:
         own = world.shapes["body"] == identity
@@ -613,7 +616,10 @@ def add_rows(
         world.awake.mark_dirty(ids.tolist())
     set_mass(rows, mass, used, world.effects.response)
     refresh_centers(np.arange(n), rows)
+    first = world._next_shape
     add_shapes(world, world._bodies.count - n, n, used)
+    runs, each = world._runs.append(n), (world._next_shape - first) // n
+    runs["first"], runs["count"] = np.arange(first, world._next_shape, each) if each else 0, each
     source = tuple(shapes)  # one tuple for all: each body of a swarm costs two entries and no object
     for identity in ids.tolist():
         world._shapes_of[identity] = used
@@ -737,29 +743,6 @@ def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
     if value:
         row["angular_velocity"] = 0.0
     refresh_mass(world, identity)
-
-
-def move_to(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
-    """Move a body to a position [px] and an angle [rad] (None: unchanged). Raises ValueError for a rotated TileGrid."""
-    world._unlocked()
-    row = world._body_row(identity)
-    check_grid_stands(world._shapes_of[identity], angle or 0.0, "angle")
-    row["x"], row["y"] = position
-    if angle is not None:
-        row["angle"] = angle
-    world._targets.pop(identity, None)
-    refresh_pose(world, identity)
-    if row["kind"] == DYNAMIC:
-        forget_loads(world, [identity])
-
-
-def touch(world: WorldState, ids: Any) -> None:
-    """Refresh what follows from the columns of bodies. Raises KeyError, TypeError, ValueError."""
-    numbers = world._identities("ids", ids)
-    rows = world.rows(numbers)
-    sleep.disturb(world, numbers)
-    refresh_centers(rows, world.bodies)
-    world.pairs.touch(world.shapes["proxy"][np.isin(world.shapes["body_row"], rows)])
 
 
 def set_kind(world: WorldState, identity: int, kind: str) -> None:

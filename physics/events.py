@@ -352,10 +352,10 @@ class Events:
 @stage(
     "events",
     reads=(
-        "effects", "tolerances", "bodies", "contact_rows", "sensed", "fell_asleep", "touching", "sensing",
+        "effects", "tolerances", "bodies", "contact_rows", "sensed", "fell_asleep", "touching_pairs", "sensing_pairs",
         "sleeping_set", "events", "reported",
     ),
-    writes=("touching", "sensing", "sleeping_set", "events", "reported", "work"),
+    writes=("touching_pairs", "sensing_pairs", "sleeping_set", "events", "reported", "work"),
 )  # fmt: skip
 def report_events(state: StepState) -> None:
     """Compare the touching pairs with those of the step before, and write the changes to the world's Events."""
@@ -364,13 +364,13 @@ def report_events(state: StepState) -> None:
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed
     compared = order = None
     if keys is None:
-        compared = state.touching.compare(contacts, fell_asleep, *usual)
+        compared = state.touching_pairs.compare(contacts, fell_asleep, *usual)
     if compared is None:
         whole, order = by_parent(contacts)
         fell_asleep, parked_order = by_parent(fell_asleep)
         if keys is not None and parked_order is not None:
             keys = keys[parked_order]
-        compared = state.touching.compare(whole, fell_asleep, *usual)
+        compared = state.touching_pairs.compare(whole, fell_asleep, *usual)
     events.begin, events.persist, events.end, events.hits = (
         compared.begin,
         compared.persist,
@@ -383,8 +383,8 @@ def report_events(state: StepState) -> None:
         keep[order] = compared.keep
     if effects.sensors:
         sensed = contacts if state.sensed is None else state.sensed
-        if len(sensed) or state.sensing.count:
-            found = state.sensing.compare(sensed, NOTHING, True, False, 0.0, np.inf)
+        if len(sensed) or state.sensing_pairs.count:
+            found = state.sensing_pairs.compare(sensed, NOTHING, True, False, 0.0, np.inf)
             events.sensor_begin, events.sensor_end = found.begin, found.end
         if state.sensed is None:
             keep = keep & ~contacts["sensor"]

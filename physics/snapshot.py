@@ -219,12 +219,12 @@ def take(world: WorldState) -> Snapshot:
         "given": world._definitions.rows.copy(),
         "shapes": world.shapes.copy(),
         "characters": world.characters.rows.copy(),
-        "touching": world.touching.rows.copy(),
-        "sensing": world.sensing.rows.copy(),
+        "touching": world.touching_pairs.rows.copy(),
+        "sensing": world.sensing_pairs.rows.copy(),
         "reported": world.reported_rows().copy(),
         "contact_rows": world.contact_rows.copy(),
-        "resting_touching": world.sleeping_set.touching.copy(),
-        "resting_sensing": world.sleeping_set.sensing.copy(),
+        "resting_touching": world.sleeping_set.touching_pairs.copy(),
+        "resting_sensing": world.sleeping_set.sensing_pairs.copy(),
         "dirty": np.unique(np.array(world.awake.dirty, np.int64)),
         "aimed": np.array([*world._targets], np.int64),
         "targets": np.array([*world._targets.values()], np.float64).reshape(-1, 3),
@@ -283,8 +283,9 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     ):
         table.count = 0
         table.append(len(arrays[name]))[:] = arrays[name]
-    world.touching.restore(arrays["touching"])
-    world.sensing.restore(arrays["sensing"])
+    world._write_runs()
+    world.touching_pairs.restore(arrays["touching"])
+    world.sensing_pairs.restore(arrays["sensing"])
     world.report_contacts(arrays["reported"].copy())
     world.contact_rows = arrays["contact_rows"].copy()
     world.sleeping_set = _sleepers(arrays)
@@ -325,7 +326,8 @@ def _sleepers(arrays) -> SleepingSet:
     }
     for number, key in enumerate(arrays["island_keys"].tolist()):
         sleeping_set.put(key, Island(*(parts[name][number].copy() for name in fields)))
-    sleeping_set.touching, sleeping_set.sensing = arrays["resting_touching"].copy(), arrays["resting_sensing"].copy()
+    sleeping_set.touching_pairs = arrays["resting_touching"].copy()
+    sleeping_set.sensing_pairs = arrays["resting_sensing"].copy()
     return sleeping_set
 
 

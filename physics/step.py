@@ -284,7 +284,7 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.library, state.pairs = world.library, world.pairs
     state.awake, state.sleeping_set = world.awake, world.sleeping_set
     state.contact_rows = world.contact_rows
-    state.touching, state.sensing = world.touching, world.sensing
+    state.touching_pairs, state.sensing_pairs = world.touching_pairs, world.sensing_pairs
     state.sensed, state.swept_sensors = world.sensed, NO_CONTACTS
     state.impacts, state.changed_count, state.non_finite_count = NO_IMPACTS, 0, 0
     state.ghosts = state.fell_asleep = state.kept_forces = None
@@ -364,7 +364,7 @@ def _touching(state: StepState) -> np.ndarray:
 
     A contact touches if it overlaps, has an impulse, was hit by the sweep, or touched before and is within the slop.
     """
-    rows, before = state.contact_rows, state.touching.rows
+    rows, before = state.contact_rows, state.touching_pairs.rows
     second = rows["count"] > 1
     gap = np.minimum(rows["separation_1"], np.where(second, rows["separation_2"], np.inf))
     old = np.isin(rows["shape_a"] << 32 | rows["shape_b"], before["shape_a"] << 32 | before["shape_b"])

@@ -166,6 +166,7 @@ def _small_world(effects, solver, strategy, pair):
     contacts_of(world.contact_rows)
     second.move_to((3, 2))
     second.velocity = 0.0, 0.0
+    world.move([second], [(3, 2)])
     world.step()
     world.remove_body(first)  # while it is touched
     world.step()

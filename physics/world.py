@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks, edit, snapshot
+from physics import checks, edit, snapshot, teleport
 from physics.body import Body
 from physics.broadphase.proxies import PairList, Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
@@ -28,8 +28,9 @@ from physics.settings import ACCURACY, PIXELS_PER_METER, POSITION_LIMIT, STANDAR
 from physics.shapes.library import Library
 from physics.shapes.shape import Filter, Material, Shape
 from physics.snapshot import Snapshot, digest
+from physics.solver.loads import ContactLists
 from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_effects, plans, step_length
-from physics.tables.body import BODY, BODY_DEF, DYNAMIC
+from physics.tables.body import BODY, BODY_DEF, DYNAMIC, RUN
 from physics.tables.character import CHARACTER
 from physics.tables.contact import CONTACT
 from physics.tables.shape import SHAPE
@@ -103,7 +104,7 @@ class World(WorldState):
         self._substeps, self._accuracy = checked_substeps(substeps), checked_accuracy(accuracy)
         self._solver = self._checked_solver(own_solver(effects) if solver is None else solver)
         self._bodies, self._definitions, self._shapes, self.characters = map(Table, (BODY, BODY_DEF, SHAPE, CHARACTER))
-        self.library = Library()
+        self._runs, self.library = Table(RUN), Library()
         self._stepping = False
         self._next_body = self._next_shape = self._carved_pixels = 0
         self._users, self._shapes_of, self._tiers, self._sources, self._targets = {}, {}, {}, {}, {}
@@ -111,7 +112,8 @@ class World(WorldState):
         self.pairs, self.awake, self.sleeping_set = PairList(), Awake(False), SleepingSet()
         self.contact_rows = np.zeros(0, CONTACT)
         self.sensed = self.ghosts = self.workspace = None
-        self.touching, self.sensing = Pairs(), Pairs()
+        self.touching_pairs, self.sensing_pairs = Pairs(), Pairs()
+        self.contact_lists = ContactLists()
         # Results of the last step.
         self.report_contacts(self.contact_rows)
         self.queries, self.events, self.steps, self.time, self.span = QueryIndex(), Events(), 0, 0.0, 0.0
@@ -244,6 +246,22 @@ class World(WorldState):
         """
         self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
+    def move(
+        self,
+        ids: Body | int | Iterable[Body | int] | np.ndarray,
+        positions: ArrayLike,
+        angles: ArrayLike | None = None,
+        velocities: ArrayLike | None = None,
+    ) -> None:
+        """Teleport bodies to positions (n, 2) [px], as Body.position does, in one call.
+
+        ids: n Bodies or ids, each once. angles (n,) [rad] and velocities (n, 2) [px/s]: None leaves them unchanged.
+        Bodies wake, and so does what they touched; targets are cancelled. Raises KeyError for a body that is not in the
+        world, TypeError, ValueError, also for velocities of static bodies other than 0 and for the rotation of a
+        TileGrid, RuntimeError during a step. Nothing is moved then.
+        """
+        teleport.move(self, ids, positions, angles, velocities)
+
     def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
         """Report that columns of these bodies were written: dynamic bodies wake, and the boxes are refreshed in the
         next step.
@@ -252,7 +270,7 @@ class World(WorldState):
         KeyError, TypeError, ValueError. Nothing is touched then.
         """
         self._unlocked()
-        edit.touch(self, ids)
+        teleport.touch(self, ids)
 
     def clear(self) -> None:
         """Remove all bodies and the geometry of their shapes. Ids continue where they were."""

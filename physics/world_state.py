@@ -1,6 +1,5 @@
 """WorldState: the tables and settings that a world keeps between steps, and the times of its stages."""
 
-from bisect import bisect_left
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -20,10 +19,10 @@ from physics.queries.index import QueryIndex
 from physics.settings import Tolerances
 from physics.shapes.library import Library
 from physics.shapes.shape import Shape
-from physics.solver.contact_lanes import forget_loads
-from physics.tables.body import STATIC
+from physics.solver.loads import ContactLists, forget_loads
+from physics.tables.body import SCATTERED, STATIC
 from physics.tables.step_state import COUNTERS
-from physics.tables.table import Table, rows_of
+from physics.tables.table import Table, row_number, rows_in, rows_of
 
 # ---- profile ---------------------------------------------------------------------------------------------------------
 # Time and work of a step, by stage. Counters are an int64 array that kernels add to.
@@ -118,8 +117,9 @@ class WorldState:
     contact_rows: np.ndarray
     sensed: np.ndarray | None
     ghosts: np.ndarray | None
-    touching: Pairs
-    sensing: Pairs
+    touching_pairs: Pairs
+    sensing_pairs: Pairs
+    contact_lists: ContactLists
     queries: QueryIndex
     events: Events
     steps: int  # number of steps so far
@@ -145,6 +145,7 @@ class WorldState:
     _bodies: Table
     _definitions: Table  # BODY_DEF rows, one beside each body
     _shapes: Table
+    _runs: Table  # RUN, beside the bodies
     _next_body: int
     _next_shape: int
     _carved_pixels: int  # since the last step
@@ -202,7 +203,7 @@ class WorldState:
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
         ids = np.asarray(ids, np.int64)
-        rows = rows_of(self.bodies, ids.ravel())
+        rows = rows_in(self._bodies, ids.ravel())
         if (rows < 0).any():
             raise checks.NoSuchId(f"no body {ids.ravel()[rows < 0][0]} in this world")
         return rows.reshape(ids.shape)
@@ -250,14 +251,57 @@ class WorldState:
             raise RuntimeError("the world cannot be changed during its step: read the events after it")
 
     def _row_number(self, identity: int) -> int:
-        ids, count = self._bodies.data["id"], self._bodies.count
-        row = identity - ids.item(0)  # true unless an earlier body was removed
-        if 0 <= row < count and ids.item(row) == identity:
-            return row
-        row = bisect_left(ids, identity, 0, count)
-        if row == count or ids.item(row) != identity:
+        row = row_number(self._bodies, identity)
+        if row < 0:
             raise checks.NoSuchId(f"body {identity} is not in this world (removed, or never added)")
         return row
+
+    def _shape_rows(self, row: int) -> np.ndarray:
+        """Return the SHAPE rows of a body row, ascending."""
+        run = self._runs.data
+        count = run["count"].item(row)
+        if count == SCATTERED:
+            return np.flatnonzero(self.shapes["body_row"] == row)
+        if count == 0:
+            return np.zeros(0, np.int64)
+        first = row_number(self._shapes, run["first"].item(row))
+        return np.arange(first, first + count)
+
+    def _shape_rows_of(self, rows: np.ndarray) -> np.ndarray:
+        """Return the SHAPE rows of body rows, in any order."""
+        runs, shapes = self._runs.data[rows], self.shapes
+        firsts, counts = runs["first"], runs["count"]
+        least = int(counts.min()) if len(rows) else 0
+        if least == SCATTERED:
+            mine = np.zeros(self._bodies.count, bool)
+            mine[rows] = True
+            return np.flatnonzero(mine[shapes["body_row"]])
+        if least == 0:
+            firsts, counts = firsts[counts > 0], counts[counts > 0]
+        if not len(firsts):
+            return np.zeros(0, np.int64)
+        starts = rows_in(self._shapes, firsts)
+        if (counts == 1).all():
+            return starts
+        ends = np.cumsum(counts)
+        return np.repeat(starts - ends + counts, counts) + np.arange(ends[-1])
+
+    def _write_runs(self) -> None:
+        """Write which SHAPE rows belong to each body, after the tables were replaced."""
+        bodies, owners, ids = self._bodies.count, self.shapes["body_row"], self.shapes["id"]
+        self._runs.count = 0
+        runs, numbers = self._runs.append(bodies), np.arange(len(owners))
+        starts, ends = np.zeros(bodies, np.int64), np.zeros(bodies, np.int64)
+        starts[owners[::-1]], ends[owners] = numbers[::-1], numbers
+        counts = np.bincount(owners, minlength=bodies)
+        runs["count"] = np.where((counts > 0) & (ends - starts + 1 != counts), SCATTERED, counts)
+        runs["first"][counts > 0] = ids[starts[counts > 0]]
+
+    def _write_run(self, row: int) -> None:
+        """Write which SHAPE rows belong to a body, after its shapes changed."""
+        mine, run = np.flatnonzero(self.shapes["body_row"] == row), self._runs.data
+        run["count"][row] = len(mine) if not len(mine) or mine[-1] - mine[0] + 1 == len(mine) else SCATTERED
+        run["first"][row] = self.shapes["id"][mine[0]] if len(mine) else 0
 
     def _identity(self, name: str, value: Any) -> int:
         """Return the id of a Body of this world; a valid id is returned as it is. name: of the argument, for messages.
@@ -285,7 +329,14 @@ class WorldState:
             return checks.ids(name, value, repeats)
         if isinstance(value, (str, bytes)) or not isinstance(value, Iterable):
             raise TypeError(f"{name} must be Bodies or ids (got {checks.shown(value)})")
-        each = [self._identity(f"{name}[{k}]", one) for k, one in enumerate(value)]
+        value = [*value]
+        kinds = set(map(type, value))
+        if kinds == {int} and 0 <= min(value) and max(value) < 2**62:
+            each = value
+        elif len(kinds) == 1 and issubclass(next(iter(kinds)), Handle) and {one._world for one in value} == {self}:
+            each = [one._id for one in value]
+        else:
+            each = [self._identity(f"{name}[{k}]", one) for k, one in enumerate(value)]
         return checks.ids(name, np.array(each, np.int64), repeats)
 
     def _tidy_library(self) -> None:
@@ -317,6 +368,7 @@ class WorldState:
         self._drop_shapes(keep[self.shapes["body_row"]])
         self._bodies.keep(keep)
         self._definitions.keep(keep)
+        self._runs.keep(keep)
         self.awake.keep_rows(keep)
         self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
         gone = set(ids.tolist())

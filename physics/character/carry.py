@@ -541,10 +541,10 @@ def carry_characters(state: StepState) -> None:
     "weigh",
     reads=(
         "effects", "tolerances", "gravity", "bodies", "shapes", "characters", "contact_rows", "awake", "sleeping_set",
-        "pairs", "touching", "sensing",
+        "pairs", "touching_pairs", "sensing_pairs",
     ),
     writes=(
-        "characters", "contact_rows", "awake", "sleeping_set", "pairs", "touching", "sensing",
+        "characters", "contact_rows", "awake", "sleeping_set", "pairs", "touching_pairs", "sensing_pairs",
         *(f"bodies.{name}" for name in ("awake", "active", "sleep_time", "island", "vx", "vy")),
         *(f"bodies.{name}" for name in ("force_x", "force_y", "torque")),
     ),

@@ -196,11 +196,11 @@ NO_ROWS = np.zeros(0, np.int64)
 LARGEST = 1e100  # of inverse masses and of surface values: products of two larger ones overflow a double
 REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
 READS = (
-    "bodies", "shapes", "awake", "sleeping_set", "pairs", "contact_rows", "touching", "sensing", "tolerances",
-    "library", "effects", "gravity", "characters", "dt",
+    "bodies", "shapes", "awake", "sleeping_set", "pairs", "contact_rows", "touching_pairs", "sensing_pairs",
+    "tolerances", "library", "effects", "gravity", "characters", "dt",
 )  # fmt: skip
 WRITES = (
-    "events", "pairs", "awake", "sleeping_set", "contact_rows", "touching", "sensing", "shapes.proxy",
+    "events", "pairs", "awake", "sleeping_set", "contact_rows", "touching_pairs", "sensing_pairs", "shapes.proxy",
     "bodies.sleep_time", "bodies.island",
     *(f"bodies.{name}" for name in ("x", "y", "angle", "center_x", "center_y", "awake", "active", "quarantined")),
     *(f"bodies.settled_{name}" for name in ("x", "y", "angle")), "bodies.has_current_contacts",

@@ -190,8 +190,8 @@ class Awake:
 
 @stage(
     "awake",
-    reads=("bodies", "shapes", "characters", "awake", "sleeping_set", "pairs", "touching", "sensing"),
-    writes=("awake", "sleeping_set", "pairs", "touching", "sensing", "bodies.active", "bodies.dirty"),
+    reads=("bodies", "shapes", "characters", "awake", "sleeping_set", "pairs", "touching_pairs", "sensing_pairs"),
+    writes=("awake", "sleeping_set", "pairs", "touching_pairs", "sensing_pairs", "bodies.active", "bodies.dirty"),
 )
 def list_awake(state: StepState) -> None:
     """List the rows of this step, and update non-dynamic bodies that begin or cease to move."""

@@ -42,8 +42,8 @@ class SleepingSet:
     def __init__(self) -> None:
         self.islands = {}
         self.links = {}  # id of a body outside -> islands with a manifold that refers to it
-        self.touching = np.zeros(0, EVENT)  # pairs with no side awake or in a sleeping island
-        self.sensing = np.zeros(0, EVENT)
+        self.touching_pairs = np.zeros(0, EVENT)  # pairs with no side awake or in a sleeping island
+        self.sensing_pairs = np.zeros(0, EVENT)
 
     def put(self, key: int, island: Island) -> None:
         """Store an island."""
@@ -115,18 +115,18 @@ class SleepingSet:
 
     def keep_reported(self, tables: WorldTables) -> None:
         """Store the touching and sensed pairs that have no side in the step any longer."""
-        self.touching = np.concatenate([self.touching, tables.touching.take_resting(tables.bodies)])
-        self.sensing = np.concatenate([self.sensing, tables.sensing.take_resting(tables.bodies)])
+        self.touching_pairs = np.concatenate([self.touching_pairs, tables.touching_pairs.take_resting(tables.bodies)])
+        self.sensing_pairs = np.concatenate([self.sensing_pairs, tables.sensing_pairs.take_resting(tables.bodies)])
 
     def return_all(self, tables: WorldTables) -> None:
         """Return all stored pairs to the step."""
-        for name in ("touching", "sensing"):
+        for name in ("touching_pairs", "sensing_pairs"):
             getattr(tables, name).give_back(getattr(self, name))
             setattr(self, name, np.zeros(0, EVENT))
 
     def return_reported(self, tables: WorldTables, ids: np.ndarray) -> None:
         """Return the stored pairs that refer to one of these bodies to the step."""
-        for name in ("touching", "sensing"):
+        for name in ("touching_pairs", "sensing_pairs"):
             kept = getattr(self, name)
             if len(kept):
                 back = np.isin(kept["body_a"], ids) | np.isin(kept["body_b"], ids)
@@ -151,7 +151,7 @@ def in_order(manifolds: np.ndarray) -> np.ndarray:
 # have not ended. See "rest" below for the condition of sleep.
 #
 # These functions take a world, between steps, or the StepState of a step. Both have the tables, `manifolds`, `anchors`,
-# `awake`, `sleepers`, `pairs`, `touching` and `sensing`.
+# `awake`, `sleepers`, `pairs`, `touching_pairs` and `sensing_pairs`.
 
 
 def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
@@ -159,22 +159,37 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
     The bodies take part in the next step, and their sleep time begins at 0.
     """
-    awake, sleeping_set = tables.awake, tables.sleeping_set
-    if not awake.sleeping:
+    if not tables.awake.sleeping:
         return
     ids = [int(each) for each in ids]
-    sleeping_set.return_reported(tables, ids)
-    awake.mark_dirty(ids)
     rows = rows_of(tables.bodies, ids)
-    tables.bodies["sleep_time"][rows[rows >= 0]] = 0.0
-    keys = set()
-    for identity, row in zip(ids, rows.tolist(), strict=True):
-        keys |= sleeping_set.links.get(identity, set())
-        own = int(tables.bodies["island"][row]) if row >= 0 else -1
-        if own in sleeping_set.islands and row >= 0 and not tables.bodies["awake"][row]:
-            keys.add(own)
-            keys |= _islands_beside(tables, sleeping_set.islands[own].contacts, identity)
+    keys = islands_at(tables, ids, rows)
+    stir(tables, ids, rows[rows >= 0])
     wake(tables, keys)
+
+
+def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
+    """Let bodies, by id and row, take part in the next step of a world with sleeping, with a sleep time of 0."""
+    tables.sleeping_set.return_reported(tables, ids)
+    tables.awake.mark_dirty(ids)
+    tables.bodies["sleep_time"][rows] = 0.0
+
+
+def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int]:
+    """Return the keys of the sleeping islands of bodies, by id and row (-1: none), and of those that touch them."""
+    islands, links, keys = tables.sleeping_set.islands, tables.sleeping_set.links, set()
+    if not islands:
+        return keys
+    for identity in links.keys() & set(ids):
+        keys |= links[identity]
+    there = rows >= 0
+    asleep = np.flatnonzero(there)[~tables.bodies["awake"][rows[there]]]
+    for k in asleep.tolist():
+        own = tables.bodies["island"].item(rows[k])
+        if own in islands:
+            keys.add(own)
+            keys |= _islands_beside(tables, islands[own].contacts, ids[k])
+    return keys
 
 
 def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bool:
@@ -186,7 +201,7 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
     row = rows_of(tables.bodies, [identity])[0]
     if not tables.awake.sleeping or tables.bodies["active"][row]:
         return False
-    for kept in (sleeping_set.touching, sleeping_set.sensing):
+    for kept in (sleeping_set.touching_pairs, sleeping_set.sensing_pairs):
         if len(kept) and ((kept["body_a"] == identity) | (kept["body_b"] == identity)).any():
             return False
     keys, some = [], set(shapes.tolist())
@@ -233,7 +248,7 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
     bodies["awake"][rows] = True
     bodies["sleep_time"][rows] = 0.0
     bodies["island"][rows] = -1
-    tables.touching.give_back(joined(told))
+    tables.touching_pairs.give_back(joined(told))
     sleeping_set.return_reported(tables, ids)
     tables.awake.include(tables, rows)
     _bring_back(tables, joined(parts))
@@ -343,14 +358,24 @@ def find_run_over(
 
 @stage(
     "wake",
-    reads=("bodies", "shapes", "contact_rows", "awake", "sleeping_set", "pairs", "touching", "sensing", "dt"),
+    reads=(
+        "bodies",
+        "shapes",
+        "contact_rows",
+        "awake",
+        "sleeping_set",
+        "pairs",
+        "touching_pairs",
+        "sensing_pairs",
+        "dt",
+    ),
     writes=(
         "contact_rows",
         "awake",
         "sleeping_set",
         "pairs",
-        "touching",
-        "sensing",
+        "touching_pairs",
+        "sensing_pairs",
         "bodies.awake",
         "bodies.active",
         "bodies.sleep_time",

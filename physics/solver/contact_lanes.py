@@ -6,7 +6,7 @@ affect each other: the motion of kinematic bodies between them depends on the ti
 """
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -24,7 +24,7 @@ from physics.islands.graph import (
 )
 from physics.jit import kernel, subkernel
 from physics.math2d import norm
-from physics.settings import AUTO_SUBSTEPS, BLOW, COLORS, EASE_TIME, HERTZ_SHARE, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
+from physics.settings import AUTO_SUBSTEPS, COLORS, EASE_TIME, HERTZ_SHARE, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
 from physics.solver.energy import find_squeezed
 from physics.solver.lanes import (
@@ -45,8 +45,7 @@ from physics.solver.motions import Motions
 from physics.solver.restitution import make_impacts, restore_bounces
 from physics.solver.step_context import StepContext
 from physics.tables.contact import SQUEEZE
-from physics.tables.step_state import CAP_HITS, StepState, WorldTables
-from physics.tables.table import rows_of
+from physics.tables.step_state import CAP_HITS, StepState
 
 BOTH = (False, True)
 CHOICES = np.array(AUTO_SUBSTEPS, np.int64)
@@ -385,49 +384,6 @@ class Selection:
         ]
         # Kinematic bodies move even if no dynamic body does.
         return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, 0, motions.island_bodies, plan.starts[: colors + 1])]
-
-
-# ---- unloading -------------------------------------------------------------------------------------------------------
-# Release of cached forces under a heavy load that is removed; otherwise those forces would throw the bodies below.
-#
-# A contact starts from the force at the end of the step before. After a load of a thousand times the mass of a body is
-# removed, the cached force is a thousand times the force needed. A pass removes only a part of it, which depends on the
-# order of the contacts; the rest becomes velocity.
-
-FORCES = ("normal_force_1", "tangent_force_1", "normal_force_2", "tangent_force_2", "rolling_force")
-
-
-def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
-    """Clear the cached forces below bodies that are removed or moved, if their load was heavy.
-
-    ids: body ids. It was heavy if the force on the body below was more than BLOW times the weight of that body. Then
-    all contacts of the stack below, through dynamic bodies, lose their cached forces. O(contacts · depth of the stack),
-    only in worlds with stacking.
-    """
-    contacts, bodies = tables.contact_rows, tables.bodies
-    if not len(contacts) or not tables.stacks:
-        return  # contacts are not cached
-    ids_a, ids_b = contacts["body_a"], contacts["body_b"]
-    going_a, going_b = np.isin(ids_a, ids), np.isin(ids_b, ids)
-    lost = going_a != going_b
-    if not lost.any():
-        return
-    left = rows_of(bodies, np.where(going_a, ids_b, ids_a)[lost])
-    force = (contacts["normal_force_1"] + np.where(contacts["count"] == 2, contacts["normal_force_2"], 0.0))[lost]
-    reached = np.zeros(len(bodies), bool)
-    weight = math.hypot(*tables.gravity) if tables.effects.gravity else 0.0
-    reached[left[(force > 0.0) & (force * bodies["inverse_mass"][left] > BLOW * weight)]] = True
-    if not reached.any():
-        return
-    row_a, row_b, loose = rows_of(bodies, ids_a), rows_of(bodies, ids_b), bodies["inverse_mass"] > 0.0
-    inner = loose[row_a] & loose[row_b] & ~(going_a | going_b)
-    a, b = row_a[inner], row_b[inner]
-    while (reached[a] != reached[b]).any():
-        reached[a[reached[b]]] = True
-        reached[b[reached[a]]] = True
-    borne = reached[row_a] | reached[row_b]
-    for name in FORCES:
-        contacts[name][borne] = 0.0
 
 
 # ---- estimate --------------------------------------------------------------------------------------------------------

@@ -85,3 +85,10 @@ BODY_DEF = np.dtype(
     ],
     align=True,
 )
+RUN = np.dtype(
+    [  # beside BODY, row by row: the SHAPE rows of the body
+        ("first", np.int64),  # id of its first shape
+        ("count", np.int64),  # number of its rows, which follow each other; SCATTERED: they do not
+    ]
+)
+SCATTERED = -1

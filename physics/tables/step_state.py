@@ -37,8 +37,8 @@ class WorldTables(Protocol):
     awake: Any  # islands.awake.Awake
     sleeping_set: Any  # islands.sleep.SleepingSet
     pairs: Any  # broadphase.proxies.PairList
-    touching: Any  # events.Pairs
-    sensing: Any
+    touching_pairs: Any  # events.Pairs
+    sensing_pairs: Any
     library: Any  # shapes.library.Library
     tolerances: Tolerances
     workspace: Any  # step.Workspace
@@ -116,8 +116,8 @@ STAGE_FIELDS = (
     "ghosts",  # (n, 8) bodies stopped by a sweep: id, path, fraction; None without any
     "fell_asleep",  # CONTACT rows of islands that fell asleep in this step
     # reports
-    "touching",  # the touching pairs
-    "sensing",  # the pairs with a sensor
+    "touching_pairs",  # the touching pairs
+    "sensing_pairs",  # the pairs with a sensor
     "events",
     "reported",  # contacts to report: (CONTACT rows, flags of the rows that count)
     "work",  # counters, int64
@@ -162,8 +162,8 @@ class StepState:
     swept_sensors: np.ndarray
     ghosts: np.ndarray | None
     fell_asleep: tuple[np.ndarray, np.ndarray] | None
-    touching: Any  # events.Pairs
-    sensing: Any
+    touching_pairs: Any  # events.Pairs
+    sensing_pairs: Any
     events: Any  # events.Events
     reported: tuple[np.ndarray, np.ndarray | None]
     work: np.ndarray

@@ -1,5 +1,6 @@
 """Structured arrays that grow and are aligned to cache lines, search for rows by id, and union-find over rows."""
 
+from bisect import bisect_left
 from collections.abc import Sequence
 from typing import Any
 
@@ -110,6 +111,26 @@ def rows_of(table: np.ndarray, ids: ArrayLike) -> np.ndarray:
     rows = np.empty(len(ids), np.int64)
     find_rows(table, ids, rows)
     return rows
+
+
+def row_number(table: Table, identity: int) -> int:
+    """Return the row number of an id in a table sorted by id, or -1. O(1) if no row was removed, else O(log rows)."""
+    ids, count = table.data["id"], table.count
+    row = identity - ids.item(0)
+    if 0 <= row < count and ids.item(row) == identity:
+        return row
+    row = bisect_left(ids, identity, 0, count)
+    return row if row < count and ids.item(row) == identity else -1
+
+
+def rows_in(table: Table, ids: np.ndarray) -> np.ndarray:
+    """Return the same as rows_of, faster for a table of which no row was removed. ids (n) int64."""
+    if table.count and len(ids):
+        known = table.rows["id"]
+        rows = ids - known[0]
+        if rows.min() >= 0 and rows.max() < len(known) and (known[rows] == ids).all():
+            return rows
+    return rows_of(table.rows, ids)
 
 
 def joined(tables: Sequence[np.ndarray]) -> np.ndarray:

@@ -1,0 +1,209 @@
+"""Bodies moved between steps without a motion: one, or many at once."""
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from physics import checks
+from physics.checks import Pair
+from physics.dynamics.integrate import refresh_center, refresh_centers
+from physics.edit import check_grid_stands, refresh_pose
+from physics.islands import sleep
+from physics.jit import kernel
+from physics.settings import POSITION_LIMIT
+from physics.solver.loads import blow_of, is_any_blow
+from physics.tables.body import DYNAMIC, SCATTERED, STATIC
+from physics.tables.table import joined, row_of
+from physics.world_state import WorldState
+
+NOT_SET = np.zeros((1, 2))
+
+
+def move_to(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
+    """Move a body to a position [px] and an angle [rad] (None: unchanged). Raises ValueError for a rotated TileGrid."""
+    world._unlocked()
+    at = world._row_number(identity)
+    row = world._bodies.data[at]
+    check_grid_stands(world._shapes_of[identity], angle or 0.0, "angle")
+    row["x"], row["y"] = position
+    if angle is not None:
+        row["angle"] = angle
+    world._targets.pop(identity, None)
+    refresh_pose(world, identity)
+    if row["kind"] == DYNAMIC:
+        world.contact_lists.forget_loads(world, world.steps, np.array([at]))
+
+
+class Motions(NamedTuple):
+    """Where bodies are moved to. Arrays of one row stand for values that stay."""
+
+    positions: np.ndarray  # (n, 2) float64 px
+    angles: np.ndarray  # (n,) float64 rad
+    velocities: np.ndarray  # (n, 2) float64 px/s
+    turns: bool  # the angles are set
+    speeds: bool  # the velocities are set
+
+
+@kernel
+def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout):
+    """Write the rows of bodies, and those of the dynamic ones among them. Return the number of these, -1 on any fault.
+
+    Faults are an id that is absent or listed twice, numbers that are not finite, a position at the limit [px] or
+    beyond, and a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; marks_inout (bodies) bool: all
+    False, and again at the end. O(n) if no body was removed, else O(n log bodies).
+    """
+    found = 0
+    known = 0
+    sound = True
+    for k in range(len(ids)):
+        row = ids[k] - bodies[0].id if len(bodies) > 0 else -1
+        if row < 0 or row >= len(bodies) or bodies[row].id != ids[k]:
+            row = row_of(bodies, ids[k])
+        if row < 0 or marks_inout[row]:
+            sound = False
+            break
+        marks_inout[row] = True
+        rows_out[k] = row
+        known += 1
+        sound = abs(motions.positions[k, 0]) < limit and abs(motions.positions[k, 1]) < limit
+        if motions.turns:
+            sound = sound and abs(motions.angles[k]) < math.inf
+        if motions.speeds:
+            vx, vy = motions.velocities[k, 0], motions.velocities[k, 1]
+            sound = sound and abs(vx) < math.inf and abs(vy) < math.inf
+            sound = sound and (bodies[row].kind != STATIC or (vx == 0.0 and vy == 0.0))
+        if not sound:
+            break
+        if bodies[row].kind == DYNAMIC:
+            dynamic_out[found] = row
+            found += 1
+    for k in range(known):
+        marks_inout[rows_out[k]] = False
+    return found if sound else -1
+
+
+@kernel
+def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
+    """Write the poses and velocities of bodies, and mark their boxes for the broad phase of the next step.
+
+    runs: RUN rows. The boxes of bodies whose shapes are SCATTERED are left to the caller; return the number of these.
+    O(shapes of these bodies) if no shape was removed, else O(log shapes) more for each body.
+    """
+    scattered = 0
+    for k in range(len(rows)):
+        b = bodies_inout[rows[k]]
+        b.x, b.y = motions.positions[k, 0], motions.positions[k, 1]
+        if motions.turns:
+            b.angle = motions.angles[k]
+        if motions.speeds:
+            b.vx, b.vy = motions.velocities[k, 0], motions.velocities[k, 1]
+            b.sleep_time = 0.0
+        refresh_center(b)
+        run = runs[rows[k]]
+        if run.count == SCATTERED:
+            scattered += 1
+        if run.count <= 0:
+            continue
+        first = run.first - shapes[0].id
+        if first >= len(shapes) or shapes[first].id != run.first:
+            first = row_of(shapes, run.first)
+        for at in range(first, first + run.count):
+            if shapes[at].proxy >= 0:
+                proxies_inout[shapes[at].proxy].changed = True
+    return scattered
+
+
+def move(
+    world: WorldState, ids: Any, positions: ArrayLike, angles: ArrayLike | None, velocities: ArrayLike | None
+) -> None:
+    """Move bodies, named once each, to positions (n, 2) [px] and angles (n,) [rad], with velocities (n, 2) [px/s].
+
+    The same as position, angle and velocity of each Body, set one after the other in the order of ids. None: unchanged.
+    Raises KeyError, TypeError, ValueError, RuntimeError during a step; nothing is changed then.
+    """
+    world._unlocked()
+    ids = world._identities("ids", ids, repeats=True)
+    n = len(ids)
+    motions = Motions(
+        _numbers("positions", positions, n),
+        NOT_SET[0] if angles is None else _numbers("angles", angles, n, 1),
+        NOT_SET if velocities is None else _numbers("velocities", velocities, n),
+        angles is not None,
+        velocities is not None,
+    )
+    rows, dynamic, marks = np.empty(n, np.int64), np.empty(n, np.int64), np.zeros(len(world.bodies), np.bool_)
+    count = find_movable(ids, motions, POSITION_LIMIT, world.bodies, rows, dynamic, marks)
+    if count < 0:
+        _explain(world, ids, motions)
+    if motions.turns and world.library.grids.count:
+        for k in np.flatnonzero(motions.angles).tolist():
+            check_grid_stands(world._shapes_of[int(ids[k])], motions.angles.item(k), f"angles[{k}]")
+    if n:
+        _move(world, ids, rows, dynamic[:count], motions)
+
+
+def _numbers(name, value, count, width=2) -> np.ndarray:
+    """Return an argument as a float64 array of `count` rows. Raises TypeError, ValueError."""
+    if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.c_contiguous:
+        if value.shape == ((count, width) if width > 1 else (count,)):
+            return value
+    return checks.columns(name, value, count, width, like="ids")
+
+
+def _explain(world, ids, motions):
+    """Raise the error of the first argument of move that is wrong."""
+    checks.ids("ids", ids)
+    rows = world.rows(ids)
+    positions = checks.columns("positions", motions.positions)
+    for k in np.flatnonzero(np.abs(positions).max(axis=1) >= POSITION_LIMIT).tolist():
+        raise ValueError(
+            f"positions[{k}] must lie within {POSITION_LIMIT:g} px of the origin (got {tuple(positions[k].tolist())})"
+        )
+    if motions.turns:
+        checks.columns("angles", motions.angles, width=1)
+    velocities = checks.columns("velocities", motions.velocities)
+    for k in np.flatnonzero((world.bodies["kind"][rows] == STATIC) & velocities.any(axis=1)).tolist():
+        raise ValueError(f"velocities[{k}] must be (0, 0) for static body {ids[k]} (got {velocities[k].tolist()})")
+
+
+def _move(world, ids, rows, dynamic, motions):
+    bodies, keys = world.bodies, set()
+    sleeping, listed = world.awake.sleeping, ids.tolist() if world.awake.sleeping or world._targets else []
+    if sleeping:
+        keys = sleep.islands_at(world, listed, rows)
+    if keys and is_any_blow(bodies, _contacts_at(world, keys), bodies["id"][dynamic], blow_of(world)):
+        # The forces that a body releases depend on the islands that were woken before.
+        for k, identity in enumerate(listed):
+            angle = motions.angles.item(k) if motions.turns else None
+            move_to(world, identity, motions.positions[k].tolist(), angle)
+        dynamic = dynamic[:0]
+    elif sleeping:
+        sleep.stir(world, listed, rows)
+        sleep.wake(world, keys)
+    for identity in world._targets.keys() & set(listed) if world._targets else ():
+        del world._targets[identity]
+    proxies = world.pairs.proxies
+    if place_bodies(rows, motions, world._runs.rows, world.shapes, bodies, proxies):
+        world.pairs.touch(world.shapes["proxy"][world._shape_rows_of(rows)])
+    world.contact_lists.forget_loads(world, world.steps, dynamic)
+
+
+def _contacts_at(world, keys):
+    """Return the CONTACT rows of the step, of sleeping islands, and of those that refer to bodies of these."""
+    sleeping_set = world.sleeping_set
+    keys = set(keys)
+    for key in [*keys]:
+        for identity in sleeping_set.links.keys() & set(sleeping_set.islands[key].bodies.tolist()):
+            keys |= sleeping_set.links[identity]
+    return joined([world.contact_rows, *(sleeping_set.islands[key].contacts for key in keys)])
+
+
+def touch(world: WorldState, ids: Any) -> None:
+    """Refresh what follows from the columns of bodies. Raises KeyError, TypeError, ValueError."""
+    numbers = world._identities("ids", ids)
+    rows = world.rows(numbers)
+    sleep.disturb(world, numbers)
+    refresh_centers(rows, world.bodies)
+    world.pairs.touch(world.shapes["proxy"][world._shape_rows_of(rows)])
