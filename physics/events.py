@@ -14,7 +14,7 @@ from physics.islands.sleep import in_order
 from physics.jit import copy_row, kernel, subkernel
 from physics.shapes.placement import PLACED
 from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
-from physics.tables.step_state import CONTACTS, StepState, stage
+from physics.tables.step_state import CONTACTS, StepState, WorldTables, stage
 from physics.tables.table import joined, rows_of
 
 NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, CONTACT), np.zeros(0, EVENT), np.zeros(0, HIT)
@@ -286,6 +286,21 @@ class Pairs:
             self._make_room(2 * len(touching))
         self.count = len(touching)
         self.last.now[: self.count] = touching
+
+
+def touching_bodies(world: WorldTables) -> np.ndarray:
+    """Return the (n, 2) int64 ids a < b of the bodies that touch, awake or asleep, each pair once and in order."""
+    asleep = world.sleeping_set
+    parts = [world.touching_pairs.rows, asleep.touching_pairs, *(each.touching for each in asleep.islands.values())]
+    rows = joined(parts)
+    for side in ("shape_a", "shape_b"):  # a removed shape has touched nothing since
+        there = rows_of(world.shapes, rows[side]) >= 0
+        rows = rows if there.all() else rows[there]
+    pairs = np.sort(np.stack([rows["body_a"], rows["body_b"]], axis=1), axis=1)
+    pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
+    new = np.ones(len(pairs), bool)
+    new[1:] = (pairs[1:] != pairs[:-1]).any(axis=1)
+    return pairs[new]
 
 
 # ---- sensors ---------------------------------------------------------------------------------------------------------

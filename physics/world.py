@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from time import perf_counter
-from typing import Any
+from typing import Any, Literal, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +15,7 @@ from physics.broadphase.spatial_hash import SpatialHashGrid
 from physics.checks import Pair, Pose
 from physics.edit import rebuild_masks
 from physics.effects import Effects
-from physics.events import Events, Pairs
+from physics.events import Events, Pairs, touching_bodies
 from physics.islands import sleep
 from physics.islands.awake import Awake
 from physics.islands.sleep import SleepingSet
@@ -275,6 +275,29 @@ class World(WorldState):
     def clear(self) -> None:
         """Remove all bodies and the geometry of their shapes. Ids continue where they were."""
         self.remove_bodies(self.bodies["id"])
+
+    # --- pairs -------------------------------------------------------------------------------------------------------
+
+    @overload
+    def touching(self, users: Literal[False] = False) -> np.ndarray: ...
+
+    @overload
+    def touching(self, users: Literal[True]) -> list[tuple[Any, Any]]: ...
+
+    def touching(self, users: bool = False) -> np.ndarray | list[tuple[Any, Any]]:
+        """Return the pairs of bodies that touch after the last step, (n, 2) int64 ids a < b, each once and sorted; with
+        users=True a list of pairs of their `user` values, in the same order.
+
+        They are the pairs that `events.begin` has reported and `events.end` has not, pairs that sleep included. Without
+        response, masks touch where they share pixels, other shapes where separation <= 0. With response, a pair begins
+        at separation <= 0, by an impulse or by a sweep that hits, and ends beyond the slop without an impulse. A sensor
+        touches nothing: `events.sensor_begin` and `.sensor_end` report its overlaps. Raises TypeError.
+        """
+        pairs = touching_bodies(self)
+        if not checks.flag("users", users):
+            return pairs
+        user = self._users.get
+        return [(user(a), user(b)) for a, b in pairs.tolist()]
 
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
