@@ -1,1 +1,1 @@
-"""The lab: one small scene per idea of the physics."""
+"""The lab: small scenes, each of which shows and measures one subject of the physics."""

@@ -95,7 +95,7 @@ class Billiards(Scene):
         return body
 
     def change_slider(self, name, value):
-        """Rack the balls again."""
+        """Apply a change of a slider: rack the balls again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -107,7 +107,7 @@ class Billiards(Scene):
 
     @property
     def offer(self):
-        """True once all object balls are potted."""
+        """Text that offers a new run once all object balls are potted; "" otherwise."""
         return "racks them again" if len(self.ball_names) == 1 else ""
 
     def update(self, inputs):
@@ -331,8 +331,8 @@ class Billiards(Scene):
         ]
 
     def finding(self):
-        """Return the loss of a break's momentum before its first cushion, and the gain of energy in collisions of
-        two.
+        """Return a sentence with the loss of a break's momentum before its first cushion, and the gain of energy in
+        collisions of two.
         """
         if not self.compared:
             return "not yet: a ball has to be hit and to run a step before it meets a cushion"

@@ -93,7 +93,7 @@ class Broadphases(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        A step of each broad phase in this layout, for every size and for the current number.
+        They are: a step of each broad phase in this layout, for every size and for the current number.
         """
         sizes = sorted({*SIZES, min(int(self.values["bodies"]), LARGEST)})
         names = [(self.layout, size, strategy) for size in sizes for strategy in STRATEGIES]
@@ -113,7 +113,7 @@ class Broadphases(Scene):
         return Series(BROADPHASE_COLORS[strategy], points, law, FITTED)
 
     def change_slider(self, name, value):
-        """Fill the worlds again after a change of number or layout."""
+        """Apply a change of a slider: fill the worlds again after a change of number or layout."""
         super().change_slider(name, value)
         if name == "bodies":
             self.tests = dict.fromkeys(STRATEGIES, 0)  # among few bodies all need as many as brute force
@@ -145,7 +145,7 @@ class Broadphases(Scene):
         self.curves[1].note({name: tests_of(w) for name, w in by_name.items()})
 
     def views(self):
-        """Return one picture per world."""
+        """Return (world, camera) of the picture of each world."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -172,7 +172,7 @@ class Broadphases(Scene):
         draw_growth(frame, GROWTH, "time of a step over bodies [log]", series, int(self.values["bodies"]))
 
     def finding(self):
-        """Return the exponent of each strategy's cost in this layout."""
+        """Return a sentence with the exponent of each strategy's cost in this layout."""
         laws = {name: self.growth(name).law for name in STRATEGIES}
         if None in laws.values():
             known = sum((self.layout, size, name) in self.figures for size in SIZES for name in STRATEGIES)

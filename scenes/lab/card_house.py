@@ -126,7 +126,7 @@ class CardHouse(Scene):
         return cards
 
     def change_slider(self, name, value):
-        """Build everything again."""
+        """Apply a change of a slider: build everything again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -169,7 +169,7 @@ class CardHouse(Scene):
 
     @property
     def offer(self):
-        """True once the house has fallen."""
+        """Text that offers a new run once the house has fallen; "" otherwise."""
         return "" if self.stands(self.cards) else "builds it again"
 
     def draw(self, canvas, alpha):
@@ -235,7 +235,9 @@ class CardHouse(Scene):
         ]
 
     def finding(self):
-        """Return the time that the house stands at its friction, and the two frictions that bracket a pair's need."""
+        """Return a sentence with the time that the house stands at its friction, and the two frictions that bracket a
+        pair's need.
+        """
         if self.since < 60:
             return "not yet: the cards have to stand, or slide, for a second"
         house = f"{len(self.cards)} cards at a friction of {self.values['friction'] / 100:.2f}"

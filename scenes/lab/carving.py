@@ -143,7 +143,7 @@ class Carving(Scene):
         self._follow()
 
     def _carve(self, shape, pose):
-        """Carve the tool out of all masks in reach."""
+        """Carve the tool's shape out of all masks in its reach."""
         x, y = self.pointed
         tiles = self._tiles()
         reached = sorted(self.world.query_aabb(*self.tool.reach), key=lambda each: each.id)
@@ -175,7 +175,7 @@ class Carving(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        This tool in this size, at up to sixty places of the current ground.
+        They are: this tool in this size, at up to sixty places of the current ground.
         """
         if self.tool.name == "hand" or self.ground not in self.world:
             return None
@@ -194,7 +194,7 @@ class Carving(Scene):
         return self.tool.name, self.tool.radius
 
     def _tiles(self):
-        """Return {tile of the ground: ids of its parts}; a rebuilt tile has new ids."""
+        """Return {tile of the ground: ids of its collision parts}. A tile that was rebuilt has new ids."""
         shapes = self.world.shapes
         mine = shapes[(shapes["body"] == self.ground) & (shapes["role"] == PART)]
         found = {}
@@ -292,7 +292,7 @@ class Carving(Scene):
         ]
 
     def finding(self):
-        """Return the share of the ground that the last carve rebuilt, and whether a pixel was lost."""
+        """Return a sentence with the share of the ground that the last carve rebuilt, and whether a pixel was lost."""
         if not self.carves:
             return "not yet: something has to be carved"
         lost = self.whole - self.left - self.removed - self.crumbs

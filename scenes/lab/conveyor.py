@@ -112,7 +112,7 @@ class Conveyor(Scene):
                 belts[name] = world.add_body(Capsule(start, end, BELT_RADIUS), kind="static", material=material)
 
     def change_slider(self, name, value):
-        """Rebuild the belts at once; measurements start again after SETTLE."""
+        """Apply a change of a slider: rebuild the belts at once; measurements start again after SETTLE."""
         before = self.values[name]
         super().change_slider(name, value)
         if self.values[name] != before:
@@ -136,7 +136,7 @@ class Conveyor(Scene):
         self._collect()
 
     def _drop(self, index):
-        """Add the next crate, once the place is free."""
+        """Add the next crate to world number `index`, once its place is free."""
         world = self.worlds[index]
         every = max(1, round(APART / self.values["speed"] * 60))
         if self.frame % every or (index == 1 and self.dropped[1] >= len(KINDS)):
@@ -178,7 +178,7 @@ class Conveyor(Scene):
                     self.seen[kind].add(name)
 
     def _rest(self):
-        """Record the motion of a crate without the effect since a second after its fall."""
+        """Record how far a crate in the world without the effect has moved since one second after its fall."""
         for identity in self.kinds[1]:
             x, y = self.worlds[1].body(identity).position
             age, start = self.fallen.get(identity, (0, None))
@@ -214,7 +214,7 @@ class Conveyor(Scene):
                     self.play("coin", x, 0.25)
 
     def views(self):
-        """Return both worlds."""
+        """Return (world, camera) of both worlds."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -285,7 +285,9 @@ class Conveyor(Scene):
         ]
 
     def finding(self):
-        """Return the errors of speed of the last crates on each belt, and their creep without the effect."""
+        """Return a sentence with the errors of speed of the last crates on each belt, and their creep without the
+        effect.
+        """
         if not self.last:
             return "not yet: a crate has to come to the end of a belt that runs as it does now"
         speed = float(self.values["speed"])
@@ -304,7 +306,7 @@ class Conveyor(Scene):
         return InputFrame(frozenset(("right",))) if self.frame in (420, 424) else frozenset()
 
     def state(self):
-        """Return the measurements."""
+        """Return the measurements, for the replay digest."""
         return (
             self.frame,
             self.values["speed"],

@@ -96,12 +96,12 @@ class Cradle(Scene):
         self.touched = False  # a ball is dragged: measurements end
 
     def change_slider(self, name, value):
-        """Add the balls again."""
+        """Apply a change of a slider: add the balls again."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Process keys, make three steps, and measure."""
+        """Process keys, step all worlds, and update the measurements."""
         for name, forth, back in (("strikers", "up", "down"), ("gap", "right", "left")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -136,7 +136,7 @@ class Cradle(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        A step of each channel, over one trip of a ball to its wall and back, with every chain of collisions.
+        They are: a step of each channel, over one trip of a ball to its wall and back, with every chain of collisions.
         """
         worlds = dict(zip(SOLVERS, self.worlds, strict=True))
         return RunRequest(
@@ -145,7 +145,7 @@ class Cradle(Scene):
         )
 
     def struck(self, index):
-        """Return whether a ball of the row has moved, or moves."""
+        """Return whether a ball of the row in channel number `index` has moved from its start."""
         row = self.balls[index][-ROW:]
         return any(
             body.velocity[0] != 0.0 or body.position[0] != x for body, x in zip(row, self.laid[index], strict=True)
@@ -165,11 +165,11 @@ class Cradle(Scene):
 
     @property
     def offer(self):
-        """True if balls move that should not: the row does not recover by itself."""
+        """Text that offers a new run if balls of the row move that should rest (they stay disordered); "" otherwise."""
         return "lays them in anew" if any(self.others(index) > SCATTERED for index in range(len(SOLVERS))) else ""
 
     def views(self):
-        """Return one picture per channel."""
+        """Return (world, camera) of the picture of each channel."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -208,7 +208,7 @@ class Cradle(Scene):
         canvas.text(words, 470, y, color, SMALL, align="right")
 
     def verdict(self, index):
-        """Return (words, colour) of a channel's current state."""
+        """Return (text, colour) that describe the current state of channel number `index`."""
         if self.touched:
             return "dragged: nothing is promised", FOG
         if not self.struck(index):
@@ -266,7 +266,7 @@ class Cradle(Scene):
         return goals
 
     def finding(self):
-        """Return the error of each row before its first ball reached the wall, and the time of a step."""
+        """Return a sentence with the error of each row until its first ball reached the wall, and the step's time."""
         strikers, parts = int(self.values["strikers"]), []
         for name in SOLVERS:
             found = self.results.get((name, strikers, int(self.values["gap"])))

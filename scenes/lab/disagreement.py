@@ -177,7 +177,7 @@ class Disagreement(Shooter):
         ]
 
     def finding(self):
-        """Return the share of the chosen tier's hits that are wrong in this traffic, with its interval."""
+        """Return a sentence with the share of the chosen tier's hits that are wrong, with its confidence interval."""
         lit = self.reference.lit
         wrong, missed = self.reference.wrong[lit], self.reference.missed[lit]
         if not wrong.total:

@@ -104,7 +104,7 @@ class Dominoes(Scene):
         self.passed = [[None] * count for _ in SCALES]  # [steps] time of the wave, between steps
 
     def change_slider(self, name, value):
-        """Build the rows again."""
+        """Apply a change of a slider: build the rows again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -155,18 +155,18 @@ class Dominoes(Scene):
         return (last - STEADY) * spacing / ((passed[last] - passed[STEADY]) * self.worlds[index].dt)
 
     def ratio(self):
-        """Return the ratio of the speeds of both waves, or None."""
+        """Return the ratio of the speeds of both waves, or None before both are known."""
         small, large = self.speed(0), self.speed(1)
         return None if small is None or large is None else large / small
 
     @property
     def offer(self):
-        """True once both waves have passed."""
+        """Text that offers a new run once both waves have passed; "" otherwise."""
         through = all(at is not None for row in self.passed for at in row)
         return "sets them up again" if through else ""
 
     def views(self):
-        """Return one picture per row."""
+        """Return (world, camera) of the picture of each row."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -236,7 +236,7 @@ class Dominoes(Scene):
         ]
 
     def finding(self):
-        """Return the ratio of the speeds, beside that of Froude's rule."""
+        """Return a sentence with the measured ratio of the waves' speeds, and the ratio by Froude's rule."""
         small, large = self.speed(0), self.speed(1)
         if small is None or large is None:
             return "not yet: both waves have to run through their rows"

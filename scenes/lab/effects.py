@@ -171,7 +171,7 @@ class EffectsLab(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        A step of the yard at the first look at an effect, all awake, with the effect and without it.
+        They are: a step of the yard at the first look at an effect, all awake, with the effect and without it.
         """
         return RunRequest([self._run_name(name, on) for name in self.looked for on in (True, False)], self._make)
 
@@ -195,7 +195,9 @@ class EffectsLab(Scene):
         return None if real is None or other is None else 1e6 * (real - other)
 
     def finding(self):
-        """Return the results of the last two seconds with and without each effect, once all were compared."""
+        """Return a sentence with the results of the last two seconds with and without each effect, once all were
+        compared.
+        """
         if len(self.found) < len(self.effects.names()):
             return f"not yet: {len(self.found)} of {len(self.effects.names())} effects were looked at"
         far = max(self.found, key=lambda name: self.found[name].apart)

@@ -214,8 +214,8 @@ class Filters(Scene):
         ]
 
     def finding(self):
-        """Return the number of box pairs that the filter dropped in the last step, and whether contacts are those
-        allowed.
+        """Return a sentence with the number of box pairs that the filter dropped in the last step, and whether contacts
+        are those allowed.
         """
         if not self.steps:
             return "not yet: the discs have to swing"

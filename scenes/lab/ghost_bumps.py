@@ -159,7 +159,7 @@ class GhostBumps(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        A step of each floor, from a state with at least another second of floor ahead.
+        They are: a step of each floor, from a state with at least another second of floor ahead.
         """
         ahead = (LENGTH - 4) * TILE - START_X["box"] - self.nominal
         if self.run == 0 or ahead < self.values["speed"]:
@@ -178,7 +178,7 @@ class GhostBumps(Scene):
                 camera.place(x, 0.0)
 
     def views(self):
-        """Return one picture per floor."""
+        """Return (world, camera) of the picture of each floor."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -282,7 +282,7 @@ class GhostBumps(Scene):
         return goals
 
     def finding(self):
-        """Return the greatest loss of speed on each floor, and the time of a step."""
+        """Return a sentence with the greatest loss of speed on each floor, and the time of a step."""
         if self.run == 0:
             return "not yet: the sliders have to come over some tiles"
         parts = (
@@ -321,7 +321,7 @@ def lay_floor(world, floor):
 
 
 def share(number, value):
-    """Return the place of a value in a curve, 0 at the bottom to 1 at the top."""
+    """Return the height of a value in a curve, 0 (bottom) .. 1 (top)."""
     if number == 1:
         return min(max(value / HEIGHT_TOP, 0.0), 1.0)
     return (log10(min(max(value, LEAST), 1.0)) - log10(LEAST)) / -log10(LEAST)

@@ -155,7 +155,7 @@ class Ladder(Scene):
             world.step()
 
     def views(self):
-        """Return a cell per tier."""
+        """Return (world, camera) of the cell of each tier."""
         return [(world, camera) for world, camera, _ in self.cells.values()]
 
     def draw(self, canvas, alpha):
@@ -230,7 +230,7 @@ class Ladder(Scene):
         ]
 
     def finding(self):
-        """Return the empty share of three shapes around this sprite, and the time of a hit."""
+        """Return a sentence with the empty share of three shapes around this sprite, and the time of a hit."""
         empty = [100 * self.counts[tier][0] / (self.mask.area + self._balance(tier)) for tier in IN_FINDING]
         names = [NAMES.get(tier, tier) for tier in IN_FINDING]
         shares = ", ".join(f"{share:.0f} % of its {name}" for name, share in zip(names, empty, strict=True))

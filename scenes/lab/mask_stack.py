@@ -144,12 +144,12 @@ class MaskStack(Scene):
         return (*tower, ("discs", BESIDE), ("stars", BESIDE))
 
     def change_slider(self, name, value):
-        """Build other piles at once."""
+        """Apply a change of a slider: build other piles at once."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Process keys, make five steps, and measure."""
+        """Process keys, step all worlds, and update the measurements."""
         for name, forth, back in (("sprites", "right", "left"), ("high", "up", "down")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -207,16 +207,16 @@ class MaskStack(Scene):
         return *self.chosen, way
 
     def stands_now(self, way):
-        """Return whether the top of the pile is near its start."""
+        """Return whether the top sprite of the pile `way` is still near its start."""
         return self.sinks[way] < FALLEN
 
     @property
     def offer(self):
-        """True once no pile is left to nudge."""
+        """Text that offers a new run once no pile is left to nudge; "" otherwise."""
         return "" if any(self.stands_now(way) for way in WAYS) else "piles them up again"
 
     def views(self):
-        """Return one picture per collision shape."""
+        """Return (world, camera) of the picture of each collision shape."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -293,7 +293,7 @@ class MaskStack(Scene):
         ]
 
     def finding(self):
-        """Return the air that three shapes hold, their corners, and the sag of their towers."""
+        """Return a sentence with the air that three shapes hold, their corners, and the sag of their towers."""
         if self.since <= WARM:
             return "not yet: the piles have to settle for half a second"
         if any(isnan(corners) for corners, _, _ in map(self.share, WAYS)):

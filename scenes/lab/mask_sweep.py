@@ -177,7 +177,7 @@ class MaskSweep(Scene):
         )
 
     def views(self):
-        """Return both worlds."""
+        """Return (world, camera) of both worlds."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -281,7 +281,9 @@ class MaskSweep(Scene):
         ]
 
     def finding(self):
-        """Return the number of shots through the walls, swept and not, with the upper limit of the rate."""
+        """Return a sentence with the number of shots through the walls, swept and not, with the upper limit of the
+        rate.
+        """
         passed, met = ({way: sum(each[way, shape] for shape in SHAPES) for way in WAYS} for each in self._ended())
         if not all(met.values()):
             return "not yet: shots have to come to the walls"

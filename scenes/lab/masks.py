@@ -81,7 +81,7 @@ class Masks(Scene):
     hides_pointer = False
 
     def build(self):
-        """Build a world per tier."""
+        """Build a world with both planes for each tier."""
         atlas = load_atlas("planes")
         self.masks = [atlas.mask(name) for name in SPRITES]
         self.planes = [RotatedSprites(atlas[name], mask) for name, mask in zip(SPRITES, self.masks, strict=True)]
@@ -178,7 +178,7 @@ class Masks(Scene):
             canvas.text(text, right, y + 9, PAPER, SMALL, align="right")
 
     def _notes(self):
-        """Return the planes' depth of overlap, and the origin of the figures."""
+        """Return the text notes: depth of the planes' overlap, and where the figures were measured."""
         poses = [tuple(pose) for pose in self.hands.poses]
         found = collide(self.masks[0], poses[0], self.masks[1], poses[1])
         depth = max(0.0, -min(found.separations.tolist(), default=0.0))
@@ -226,7 +226,7 @@ class Masks(Scene):
         ]
 
     def finding(self):
-        """Return the error rate of the box, and the ratio of its time to that of the exact pixels."""
+        """Return a sentence with the error rate of the box, and the ratio of its time to that of the exact pixels."""
         box, exact = self.figures.get("aabb"), self.figures.get("mask")
         if box is None or exact is None:
             return f"not yet: {POSES:,} poses of the two planes have to be tested beside the game"

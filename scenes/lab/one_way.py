@@ -330,7 +330,7 @@ class OneWay(Scene):
         ]
 
     def finding(self):
-        """Return the numbers of passes and landings of both kinds, and the slip of the lift's riders."""
+        """Return a sentence with the passes and landings of bodies and hero, and the slip of the lift's riders."""
         if not all((*self.passed.values(), *self.landed.values())):
             return "not yet: a body and the hero have to come up through a plank, and to land on one"
         body, hero = (f"{self.passed[who]} times up, {self.landed[who]} landings" for who in ("body", "hero"))

@@ -99,7 +99,7 @@ class Pyramid(Scene):
         self.most_energy = self.energy
 
     def change_slider(self, name, value):
-        """Continue with the same crates under another solver; build again for another number."""
+        """Apply a change of a slider. Another solver continues with the same crates; other changes rebuild them."""
         super().change_slider(name, value)
         if name == "solver":
             self.solver = self.world.solver = SOLVERS[int(self.values["solver"])]
@@ -107,7 +107,7 @@ class Pyramid(Scene):
             self.fill()
 
     def update(self, inputs):
-        """Process keys, make one step, and measure."""
+        """Process keys, step all worlds, and update the measurements."""
         for name, forth, back in (("rows", "right", "left"), ("substeps", "up", "down")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -138,7 +138,7 @@ class Pyramid(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        This pyramid under every solver and number of substeps, from its start: time of a step, and errors.
+        They are: this pyramid under every solver and number of substeps, from its start: time of a step, and errors.
         """
         names = [self._run_name(solver, substeps) for substeps in SUBSTEPS for solver in SOLVERS]
         return RunRequest(
@@ -187,12 +187,12 @@ class Pyramid(Scene):
 
     @property
     def offer(self):
-        """True once the top is down."""
+        """Text that offers a new run once the top is down; "" otherwise."""
         down = self.top.position[1] - self._built_at()[1] > SIZE
         return "piles them up again" if down else ""
 
     def _built_at(self):
-        """Return the start of the top crate [px]."""
+        """Return the starting position of the top crate [px]."""
         return 0.0, -(int(self.values["rows"]) - 0.5) * SIZE
 
     def _drop(self):

@@ -196,7 +196,7 @@ class Queries(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        This kind of query at two hundred places of the picture, by each strategy.
+        They are: this kind of query at two hundred places of the picture, by each strategy.
         """
         made = []  # one snapshot for all unknown ones
 
@@ -260,7 +260,7 @@ class Queries(Scene):
         self.curves.draw(frame, PLOT)
 
     def _draw_visited(self, frame, lens, world):
-        """Draw the boxes that the query entered in the strategy's colour, rejected ones darker."""
+        """Draw the boxes that the query visited, in the colour of the broad phase; rejected boxes are darker."""
         found, color = debug.visited(world), BROADPHASE_COLORS[STRATEGIES[self.shown]]
         left, top = lens.points(found.rects[:, 0], found.rects[:, 1])
         right, bottom = lens.points(found.rects[:, 2], found.rects[:, 3])
@@ -353,7 +353,7 @@ class Queries(Scene):
         ]
 
     def finding(self):
-        """Return the counts of each strategy for this query, and the number of different answers."""
+        """Return a sentence with the counts of each strategy for this query, and the number of different answers."""
         if not self.usual["tree"].last:
             return "not yet: something has to be asked"
         looks = ", ".join(f"the {name} at {self.usual[name].value:,.0f}" for name in STRATEGIES[:-1])
@@ -379,7 +379,7 @@ class Queries(Scene):
         return InputFrame(frozenset(taps), pointer)
 
     def state(self):
-        """Return the query and its answer, which no broad phase may change; the worlds hold the rest."""
+        """Return the query and its result for the replay digest. The result must not depend on the broad phase."""
         return (
             self.frame,
             *self.values.values(),

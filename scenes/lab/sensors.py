@@ -167,7 +167,7 @@ class Sensors(Scene):
                     self.play("blip", 60.0, 0.12)
 
     def _compare(self, before, after):
-        """Compute by geometry alone which bodies met which zones in this step. A crossing is judged when it is over."""
+        """Compute by geometry which bodies met which zones in this step. After a crossing, compare with the events."""
         for name, zone in self.zones.items():
             half = np.array(ZONES[name][0]) / 2.0
             for identity in [*self.flying, *self.mines]:
@@ -336,7 +336,7 @@ class Sensors(Scene):
         ]
 
     def finding(self):
-        """Return the numbers of missed and false entries, and the greatest motion in a step."""
+        """Return a sentence with the numbers of missed and false entries, and the greatest motion in a step."""
         due, missed, false = (sum(each.values()) for each in (self.due, self.missed, self.false))
         if not due:
             return "not yet: something has to cross a zone"

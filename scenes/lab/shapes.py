@@ -112,7 +112,7 @@ class Shapes(Scene):
         return self.steps[min(int(self.values["step"]), len(self.steps) - 1)] if self.steps else None
 
     def change_slider(self, name, value):
-        """Put another shape at the same place."""
+        """Apply a change of a slider: put another shape at the same place."""
         super().change_slider(name, value)
         if name in "AB":
             which = "AB".index(name)
@@ -272,7 +272,7 @@ class Shapes(Scene):
             )
 
     def _draw_witness(self, frame, lens):
-        """Draw the nearest points, and those of the shown step."""
+        """Draw the nearest points of both shapes, and the witness points of the shown iteration."""
         a, b = lens.points(*self.gap.point_a), lens.points(*self.gap.point_b)
         pygame.draw.line(frame.surface, GOLD, a, b, max(1, frame.scale - 1))
         for place in (a, b):
@@ -318,7 +318,7 @@ class Shapes(Scene):
         ]
 
     def finding(self):
-        """Return the number of compared poses, and the greatest difference between the methods."""
+        """Return a sentence with the number of compared poses, and the greatest difference between the methods."""
         if not self.compared:
             return "not yet: the shapes have to be compared"
         wrong = self.disagreed + self.mirrored

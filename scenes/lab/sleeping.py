@@ -136,7 +136,7 @@ class Sleeping(Scene):
             world.add_body(STONES[number % 3], position=(x, -(0.6 + 0.9 * row) * METER), angle=0.4 * (number % 4))
 
     def change_slider(self, name, value):
-        """Build the heaps again."""
+        """Apply a change of a slider: build the heaps again."""
         super().change_slider(name, value)
         self.fill()
 
@@ -187,7 +187,7 @@ class Sleeping(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        A step of these heaps while all sleep, and of the same heaps in a world without sleeping.
+        They are: a step of these heaps while all sleep, and of the same heaps in a world without sleeping.
         """
         if self.awake or not self.asleep or self.thrown:
             return None
@@ -318,7 +318,9 @@ class Sleeping(Scene):
         ]
 
     def finding(self):
-        """Return the cost of sleeping against that of being awake, and the number of islands that a knock woke."""
+        """Return a sentence with the cost of sleeping against that of being awake, and the number of islands that a
+        knock woke.
+        """
         parts = [f"{self.awake} of {self.awake + self.asleep} bodies are awake"]
         awake, asleep = (cost_of(self, self._run_name(how)) for how in SLEPT)
         if awake is not None and asleep is not None:

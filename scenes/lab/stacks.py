@@ -90,12 +90,12 @@ class Stacks(Scene):
         self.tops.append(body)
 
     def change_slider(self, name, value):
-        """Build another column at once."""
+        """Apply a change of a slider: build another column at once."""
         super().change_slider(name, value)
         self.fill()
 
     def update(self, inputs):
-        """Process keys, make three steps, and measure."""
+        """Process keys, step all worlds, and update the measurements."""
         for name, forth, back in (("crates", "right", "left"), ("top crate", "up", "down")):
             way = inputs.pressed(forth) - inputs.pressed(back)
             if way:
@@ -135,7 +135,7 @@ class Stacks(Scene):
         )
 
     def stands(self, name):
-        """Return whether the top crate was always within a crate's size of its place."""
+        """Return whether the top crate under the solver `name` was always within a crate's size of its place."""
         return self.standing[name] == self.since
 
     def stands_now(self, index):
@@ -145,12 +145,12 @@ class Stacks(Scene):
 
     @property
     def offer(self):
-        """True once no column is left to nudge."""
+        """Text that offers a new run once no column is left to nudge; "" otherwise."""
         fallen = not any(self.stands_now(index) for index in range(len(SOLVERS)))
         return "piles them up again" if fallen else ""
 
     def views(self):
-        """Return one picture per solver."""
+        """Return (world, camera) of the picture of each solver."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -243,7 +243,7 @@ class Stacks(Scene):
         ]
 
     def finding(self):
-        """Return the sag and sway of each column, and the time of a step."""
+        """Return a sentence with the sag and sway of each column, and the time of a step."""
         if self.since <= SETTLED:
             return "not yet: the columns have to settle for two seconds"
         parts = []

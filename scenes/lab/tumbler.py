@@ -104,7 +104,7 @@ class Tumbler(Scene):
         self.since = 0
 
     def change_slider(self, name, value):
-        """Fill the drum again for another number; another speed only turns it."""
+        """Apply a change of a slider: fill the drum again for another number; another speed only turns it."""
         super().change_slider(name, value)
         if name == "bodies":
             self.fill()
@@ -136,7 +136,7 @@ class Tumbler(Scene):
             self.pressed += (deep - self.pressed) / (self.since - SETTLED)
 
     def ways(self):
-        """Return {name: run} of the current number of substeps and another one."""
+        """Return {name: run} for two runs to time: with the current number of substeps, and with another number."""
         now, solver = self.world.substeps, self.world.solver
         asked = (now, SUBSTEPS if now == "auto" else "auto") if solver in SUBSTEPPED else (None,)
         name = (int(self.values["bodies"]), round(float(self.values["speed"]), 1), solver, self.broadphase)
@@ -146,7 +146,7 @@ class Tumbler(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        A step of this drum once the load has settled, with the current number of substeps and another.
+        They are: a step of this drum once the load has settled, with the current number of substeps and another.
         """
         return RunRequest(list(self.ways().values()), self._make) if self.since > SETTLED else None
 
@@ -208,7 +208,7 @@ class Tumbler(Scene):
         ]
 
     def finding(self):
-        """Return the number of shapes out after so many turns, and the overlap in the load."""
+        """Return a sentence with the number of shapes out after so many turns, and the overlap in the load."""
         if self.since < SETTLED + 60:
             return "not yet: the load has to settle for two seconds, and to be looked at for one"
         turns = abs(self.drum.angle) / (2 * pi)

@@ -115,7 +115,7 @@ class Tunnelling(Scene):
             self.plates = {lane: raise_plate(self.world, self.values["plate"], middle(lane)) for lane in LANES}
 
     def change_slider(self, name, value):
-        """Build other plates at once; shots in flight are no longer counted."""
+        """Apply a change of a slider: build other plates at once; shots in flight are no longer counted."""
         super().change_slider(name, value)
         if name != "speed":
             self.world.remove_bodies([*self.of_body, *self.spent])
@@ -161,7 +161,7 @@ class Tunnelling(Scene):
     def measured(self):
         """Return the runs to time beside the game.
 
-        A step of each lane, with one shot in it from the gun to the end, over as many shots as make 60 steps.
+        They are: a step of each lane, with one shot in it from the gun to the end, over as many shots as make 60 steps.
         """
         speed, plate = float(self.values["speed"]), float(self.values["plate"])
         steps = steps_of_flight(speed)
@@ -340,7 +340,7 @@ class Tunnelling(Scene):
         ]
 
     def finding(self):
-        """Return the misses of each lane among its due hits, and the time of a step."""
+        """Return a sentence with the misses of each lane among its due hits, and the time of a step."""
         kind = self.kind
         ended = {lane: self.hit[kind, lane] + self.missed[kind, lane] for lane in LANES}
         if not all(ended.values()):
@@ -368,7 +368,7 @@ def middle(lane):
 
 
 def inside(lane):
-    """Return the canvas rect of a lane's picture, without its frame."""
+    """Return the canvas rectangle inside the frame of a lane."""
     return pygame.Rect(5, LANE_TOP + LANES.index(lane) * LANE_HEIGHT + 10, 378, LANE_HEIGHT - 14)
 
 

@@ -159,7 +159,7 @@ class Gallery(Scene):
         return self.page.larger.read(figures), figures
 
     def views(self):
-        """Return one picture per side."""
+        """Return (world, camera) of the picture of each side."""
         return list(zip(self.worlds, self.cameras, strict=True))
 
     def draw(self, canvas, alpha):
@@ -206,7 +206,7 @@ class Gallery(Scene):
             self._draw_errors(frame, index)
 
     def _draw_marks(self, frame, index):
-        """Draw the marks of good and bad ends."""
+        """Draw the marks of good and bad results on the picture of side number `index`."""
         side, lens = self.sides[index], frame.lens(self.cameras[index])
         frame.surface.set_clip(lens.clip)
         for x, y, good, step in side.marks:
@@ -217,7 +217,7 @@ class Gallery(Scene):
         frame.surface.set_clip(None)
 
     def _draw_errors(self, frame, index):
-        """Draw a curve on a logarithmic scale, with the limit across it."""
+        """Draw the error of side number `index` over time on a logarithmic scale, with a line at the limit."""
         left, top, width, height = PLOT
         rect = frame.from_canvas((left + VIEWS[index][0], top, width, height))
         surface, scale, limit = frame.surface, frame.scale, self.page.limit
@@ -262,7 +262,9 @@ class Gallery(Scene):
         return f"{amount(naive)} and {amount(ours)} {page.unit}, limit {amount(page.limit)}"
 
     def finding(self):
-        """Return the errors of both ways on this page so far, and the number of pages with the expected result."""
+        """Return a sentence with the errors of both ways on this page so far, and the number of pages with the expected
+        result.
+        """
         naive, ours = self.sides
         if not naive.steps:
             return "not yet: the page has to be stepped"
@@ -290,7 +292,7 @@ class Gallery(Scene):
         return InputFrame()
 
     def state(self):
-        """Return the page, its errors, and all verdicts; the worlds hold the rest."""
+        """Return the page, its errors and all verdicts, for the replay digest."""
         sides = (value for side in self.sides for value in (side.steps, side.now, side.worst))
         verdicts = (value for pair in self.verdicts.values() for value in pair)
         return (self.frame, self.values["page"], *sides, *self.verdicts, *verdicts)
