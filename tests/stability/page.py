@@ -15,15 +15,14 @@ TITLE = """# Stability
 The hard cases of this engine's tests: cases that broke the best engines, from their test suites, samples, issues and
 papers. Limits are theirs if they name one. The tests are in [tests/stability](../tests/stability), a file per section,
 with the row's id in the name of the test; the measured value is the worst over all its variants. Margin: the factor by
-which it could grow before the limit; *exact*: one value is right, and it was measured. A test also fails on a value
-more than twice as bad as the one here. Rows of worlds that stack run with 4 substeps, the first value, and under the
-settings of `World()`, the second; a limit beside that is its own. Rows with a phase, a seed or an angle run over ten.
+which it could grow before the limit; *exact*: one value is right, and it was measured. Rows of worlds that stack run
+with 4 substeps, the first value, and under the settings of `World()`, the second; a limit beside that is its own.
 
 Lengths are in the scene's own unit, m unless it says px. This page is generated:
 
 ```sh
-python -m pytest tests/stability -m "" --stability-json docs/stability.json   # measures, nightly phases too
-python -m tests.stability                                                    # writes this page
+python -m pytest tests/stability -m "not nightly" --stability-json docs/stability.json   # measures
+python -m tests.stability                                                               # writes this page
 ```
 """
 HEADER = (

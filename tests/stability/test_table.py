@@ -99,15 +99,3 @@ def test_page_has_a_line_for_every_figure_and_says_why_there_is_none():
         "| Z3 | sag | sag <= 1 | 2 | outside | – | – |  | nobody |\n| | **open:** too soft | | | | | | | |",
     ):
         assert line in found
-
-
-@pytest.mark.parametrize("limit, kept, near, far", [
-    (at_most("a", 10.0), 2.0, (0.0, 1.0, 4.0), (4.1, 9.0)),
-    (at_most("a", 10.0), 1e-6, (0.0, 0.01), (0.0101, 5.0)),
-    (at_most("a", 10.0), 0.0, (0.0, 0.01), (0.02,)),
-    (at_least("a", 1.0), 8.0, (4.0, 100.0), (3.9, 1.0)),
-    (exactly("a", 3.0), 3.0, (3.0,), ()),
-])  # fmt: skip
-def test_values_are_held_to_twice_those_on_record(limit, kept, near, far):
-    assert all(limit.near(value, kept) for value in near)
-    assert not any(limit.near(value, kept) for value in far)

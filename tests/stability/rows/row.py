@@ -7,9 +7,6 @@ from dataclasses import dataclass, field
 SENSES = ("<=", ">=", "==")
 
 
-NOISE = 1e-3  # of a limit
-
-
 @dataclass(frozen=True)
 class Limit:
     """A figure by name, and what it has to be."""
@@ -24,14 +21,6 @@ class Limit:
         if self.sense == "<=":
             return measured <= self.value
         return measured >= self.value if self.sense == ">=" else measured == self.value
-
-    def near(self, measured, kept):
-        """Return whether a measured value is at most twice as bad as the one on record: what has become worse is told
-        long before the limit. Of values below a thousandth of the limit nothing is said: they are rounding.
-        """
-        if self.sense == "<=":
-            return measured <= max(2.0 * kept, NOISE * self.value)
-        return measured >= 0.5 * kept if self.sense == ">=" else True
 
     def worse(self, one, two):
         """The worse of two measured values."""
