@@ -46,7 +46,7 @@ class Body(Handle):
 
     @position.setter
     def position(self, value: Pair) -> None:
-        teleport.move_to(self.world, self.id, checks.position("position", value), None)
+        teleport.move_to(self._world, self._id, checks.position("position", value), None)
 
     @property
     def angle(self) -> float:
@@ -55,7 +55,7 @@ class Body(Handle):
 
     @angle.setter
     def angle(self, value: float) -> None:
-        teleport.move_to(self.world, self.id, self.position, checks.number("angle", value))
+        teleport.move_to(self._world, self._id, None, checks.number("angle", value))
 
     @property
     def center(self) -> Vec2:
@@ -110,13 +110,14 @@ class Body(Handle):
 
     @velocity.setter
     def velocity(self, value: Pair) -> None:
-        self.world._unlocked()
+        world, identity = self._world, self._id
+        world._unlocked()
         value = checks.vector("velocity", value)
-        row = self._row
-        if row["kind"] == STATIC and value != (0.0, 0.0):
-            raise ValueError(f"velocity must be (0, 0) for static body {self.id} (got {value})")
-        row["vx"], row["vy"] = value
-        self.world._targets.pop(self.id, None)
+        row, columns = world._row_number(identity), world._bodies.columns
+        if columns["kind"][row] == STATIC and value != (0.0, 0.0):
+            raise ValueError(f"velocity must be (0, 0) for static body {identity} (got {value})")
+        columns["vx"][row], columns["vy"][row] = value
+        world._targets.pop(identity, None)
         self._stir(row)
 
     @property
@@ -133,11 +134,11 @@ class Body(Handle):
         self.world._unlocked()
         value = checks.number("angular_velocity", value)
         self.world._needs("rotation", "angular_velocity", value != 0.0)
-        row = self._row
-        if row["kind"] == STATIC and value != 0.0:
+        row, columns = self.world._row_number(self.id), self.world._bodies.columns
+        if columns["kind"][row] == STATIC and value != 0.0:
             raise ValueError(f"angular_velocity must be 0 for static body {self.id} (got {value})")
         edit.check_grid_stands(self.shapes, value)
-        row["angular_velocity"] = value
+        columns["angular_velocity"][row] = value
         self.world._targets.pop(self.id, None)
         self._stir(row)
 
@@ -179,30 +180,32 @@ class Body(Handle):
         force = checks.vector("force", force)
         self.world._needs_velocities("apply_force")
         point = None if point is None else checks.vector("point", point)
-        row = self._dynamic("apply_force")
-        total = checks.vector("sum of forces", (row["force_x"].item() + force[0], row["force_y"].item() + force[1]))
-        row["force_x"], row["force_y"] = total
+        row, columns = self._dynamic("apply_force")
+        total = checks.vector("sum of forces", (columns["force_x"][row] + force[0], columns["force_y"][row] + force[1]))
+        columns["force_x"][row], columns["force_y"][row] = total
         self._stir(row)
         if point is not None:
             x, y = point
-            row["torque"] += (x - row["center_x"]) * force[1] - (y - row["center_y"]) * force[0]
+            columns["torque"][row] += (x - columns["center_x"][row]) * force[1] - (
+                y - columns["center_y"][row]
+            ) * force[0]
 
     def apply_impulse(self, impulse: Pair, point: Pair | None = None) -> None:
         """Change the velocity by impulse / mass, at a point [px] off the centre the angular velocity, too."""
         self.world._unlocked()
         impulse = checks.vector("impulse", impulse)
         point = None if point is None else checks.vector("point", point)
-        row = self._dynamic("apply_impulse")
+        row, columns = self._dynamic("apply_impulse")
         self._stir(row)
-        inverse_mass = row["inverse_mass"].item()
-        row["vx"], row["vy"] = checks.vector(
+        inverse_mass = columns["inverse_mass"][row]
+        columns["vx"][row], columns["vy"][row] = checks.vector(
             "velocity after the impulse",
-            (row["vx"].item() + inverse_mass * impulse[0], row["vy"].item() + inverse_mass * impulse[1]),
+            (columns["vx"][row] + inverse_mass * impulse[0], columns["vy"][row] + inverse_mass * impulse[1]),
         )
         if point is not None and self.world.effects.rotation:
             x, y = point
-            row["angular_velocity"] += row["inverse_inertia"] * (
-                (x - row["center_x"]) * impulse[1] - (y - row["center_y"]) * impulse[0]
+            columns["angular_velocity"][row] += columns["inverse_inertia"][row] * (
+                (x - columns["center_x"][row]) * impulse[1] - (y - columns["center_y"][row]) * impulse[0]
             )
 
     def apply_torque(self, torque: float) -> None:
@@ -210,15 +213,16 @@ class Body(Handle):
         self.world._unlocked()
         torque = checks.number("torque", torque)
         self.world._needs("rotation", "apply_torque", True)
-        row = self._dynamic("apply_torque")
+        row, columns = self._dynamic("apply_torque")
         self._stir(row)
-        row["torque"] += torque
+        columns["torque"][row] += torque
 
-    def _dynamic(self, what):
-        row = self._row
-        if row["kind"] != DYNAMIC:
+    def _dynamic(self, what) -> tuple[int, dict[str, memoryview]]:
+        """Return the row number and the columns of a dynamic body. Raises ValueError."""
+        row, columns = self._world._row_number(self._id), self._world._bodies.columns
+        if columns["kind"][row] != DYNAMIC:
             raise ValueError(f"{what} needs a dynamic body; body {self.id} is {self.kind}")
-        return row
+        return row, columns
 
     # --- contacts, carving, sleep, removal ----------------------------------------------------------------------
 
@@ -279,7 +283,7 @@ class Body(Handle):
     def user(self) -> Any:
         """A value of the game. It is not part of snapshots and digests."""
         self._must_exist()
-        return self.world._users.get(self.id)
+        return self._world._users.get(self._id)
 
     @user.setter
     def user(self, value: Any) -> None:
@@ -325,8 +329,8 @@ class Body(Handle):
     @gravity_scale.setter
     def gravity_scale(self, value: float) -> None:
         self.world._unlocked()
-        row = self._row
-        row["gravity_scale"] = checks.number("gravity_scale", value)
+        row = self.world._row_number(self.id)
+        self.world._bodies.columns["gravity_scale"][row] = checks.number("gravity_scale", value)
         self._stir(row)
 
     @property
@@ -337,8 +341,8 @@ class Body(Handle):
     @allow_sleep.setter
     def allow_sleep(self, value: bool) -> None:
         self.world._unlocked()
-        row, value = self._row, checks.flag("allow_sleep", value)
-        row["allow_sleep"] = value
+        row, value = self.world._row_number(self.id), checks.flag("allow_sleep", value)
+        self.world._bodies.columns["allow_sleep"][row] = value
         if not value:
             self._stir(row)
 
@@ -428,14 +432,14 @@ class Body(Handle):
         return self.world._body_row(self.id)
 
     def _value(self, name: str) -> Any:
-        """Return a value of the row as a Python number, read from the column (half the time of reading the row)."""
-        world = self.world
-        return world._bodies.data[name].item(world._row_number(self.id))
+        """Return a value of the row as a Python number, read from the column (a tenth of the time of the row)."""
+        world = self._world
+        return world._bodies.columns[name][world._row_number(self._id)]
 
     def _pair(self, first: str, second: str) -> Vec2:
-        world = self.world
-        row, columns = world._row_number(self.id), world._bodies.data
-        return Vec2(columns[first].item(row), columns[second].item(row))
+        world = self._world
+        row, columns = world._row_number(self._id), world._bodies.columns
+        return Vec2(columns[first][row], columns[second][row])
 
     @property
     def _definitions(self) -> np.void:
@@ -444,9 +448,11 @@ class Body(Handle):
 
     def _must_exist(self) -> None:
         """Raise KeyError for a removed body."""
-        self.world._row_number(self.id)
+        self._world._row_number(self._id)
 
-    def _stir(self, row) -> None:
-        if not row["awake"]:
-            sleep.disturb(self.world, [self.id])
-        row["sleep_time"] = 0.0
+    def _stir(self, row: int) -> None:
+        """Wake the body of a row number, and start its sleep time anew."""
+        columns = self._world._bodies.columns
+        if not columns["awake"][row]:
+            sleep.disturb(self._world, [self._id])
+        columns["sleep_time"][row] = 0.0

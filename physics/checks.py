@@ -16,6 +16,9 @@ Pair = Sequence[float] | np.ndarray  # (x, y)
 Pose = Sequence[float] | np.ndarray  # (x, y, angle), or (x, y) at angle 0
 Points = Sequence[Pair] | np.ndarray  # (n, 2)
 
+PLAIN_PAIRS, PLAIN = (tuple, Vec2, list), (float, int)  # types that need no closer look
+EXACT = 2**53  # whole numbers below it are floats, too
+
 NEAR_NAME = 0.7  # difflib similarity from which a name counts as a misspelling of another
 LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 
@@ -27,6 +30,8 @@ def number(
 
     name: name of the argument, for messages. Raises TypeError or ValueError.
     """
+    if type(value) is float and value - value == 0.0 and low is above is high is None:
+        return value
     if isinstance(value, bool) or not isinstance(value, numbers.Real):
         raise TypeError(f"{name} must be a number (got {shown(value)})")
     try:
@@ -77,6 +82,12 @@ def shown(value: Any) -> str:
 
 def vector(name: str, value: Any) -> Vec2:
     """Return a pair of numbers as a Vec2 of finite floats. Raises TypeError or ValueError."""
+    if type(value) in PLAIN_PAIRS and len(value) == 2:
+        x, y = value
+        if type(x) is type(y) is float or (type(x) in PLAIN and type(y) in PLAIN and max(abs(x), abs(y)) < EXACT):
+            found = Vec2(float(x), float(y))
+            if x - x == 0.0 and y - y == 0.0:
+                return found
     x = y = None
     if not isinstance(value, NO_PAIRS):
         try:
@@ -94,10 +105,10 @@ def position(name: str, value: Any) -> Vec2:
 
     Raises TypeError or ValueError.
     """
-    x, y = vector(name, value)
-    if max(abs(x), abs(y)) >= POSITION_LIMIT:
+    found = vector(name, value)
+    if max(abs(found[0]), abs(found[1])) >= POSITION_LIMIT:
         raise ValueError(f"{name} must lie within {POSITION_LIMIT:g} px of the origin (got {shown(value)})")
-    return Vec2(x, y)
+    return found
 
 
 def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:

@@ -22,7 +22,7 @@ from physics.shapes.shape import Filter, Material, Shape
 from physics.shapes.values import TileGrid
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
 from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
-from physics.tables.table import rows_of
+from physics.tables.table import row_number, rows_of
 from physics.world_state import WorldState
 
 # ---- shape rows ------------------------------------------------------------------------------------------------------
@@ -397,16 +397,32 @@ def _weigh(world, at, used):
 
 def refresh_mass(world: WorldState, identity: int) -> None:
     """Recompute mass and inertia of a body after its shapes, kind or material changed. Its neighbours wake."""
-    _weigh(world, world._row_number(identity), world._shapes_of[identity])
-    refresh_pose(world, identity)
-
-
-def refresh_pose(world: WorldState, identity: int) -> None:
-    """Recompute centre of mass and swept AABBs of a body after its pose changed. Its neighbours wake."""
     at = world._row_number(identity)
-    sleep.disturb(world, [identity])
-    refresh_centers(np.array([at]), world.bodies)
-    world.pairs.touch(world.shapes["proxy"][world._shape_rows(at)])
+    _weigh(world, at, world._shapes_of[identity])
+    refresh_pose(world, identity, at)
+
+
+def refresh_pose(world: WorldState, identity: int, at: int) -> None:
+    """Recompute centre of mass and swept AABBs of a body, by id and row, after it was moved. Its neighbours wake."""
+    sleep.disturb_one(world, identity, at)
+    columns, run = world._bodies.columns, world._runs.columns
+    x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
+    if angle == 0.0:  # as refresh_center
+        columns["center_x"][at], columns["center_y"][at] = (
+            x + columns["local_center_x"][at],
+            y + columns["local_center_y"][at],
+        )
+        columns["has_current_contacts"][at] = False
+        if x - x == 0.0 and y - y == 0.0:
+            columns["settled_x"][at], columns["settled_y"][at], columns["settled_angle"][at] = x, y, angle
+    else:
+        refresh_centers(np.array([at]), world.bodies)
+    if run["count"][at] == 1:
+        slot = world._shapes.columns["proxy"][row_number(world._shapes, run["first"][at])]
+        if slot >= 0:
+            world.pairs.proxies["changed"][slot] = True
+    else:
+        world.pairs.touch(world.shapes["proxy"][world._shape_rows(at)])
 
 
 def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:

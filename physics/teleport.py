@@ -21,19 +21,21 @@ from physics.world_state import WorldState
 NOT_SET = np.zeros((1, 2))
 
 
-def move_to(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
-    """Move a body to a position [px] and an angle [rad] (None: unchanged). Raises ValueError for a rotated TileGrid."""
+def move_to(world: WorldState, identity: int, position: Pair | None, angle: float | None) -> None:
+    """Move a body to a position [px] and an angle [rad], None: unchanged. Raises ValueError for a rotated TileGrid."""
     world._unlocked()
-    at = world._row_number(identity)
-    row = world._bodies.data[at]
-    check_grid_stands(world._shapes_of[identity], angle or 0.0, "angle")
-    row["x"], row["y"] = position
+    at, columns = world._row_number(identity), world._bodies.columns
+    if angle:
+        check_grid_stands(world._shapes_of[identity], angle, "angle")
+    if position is not None:
+        columns["x"][at], columns["y"][at] = position
     if angle is not None:
-        row["angle"] = angle
-    world._targets.pop(identity, None)
-    refresh_pose(world, identity)
-    if row["kind"] == DYNAMIC:
-        world.contact_lists.forget_loads(world, world.steps, np.array([at]))
+        columns["angle"][at] = angle
+    if world._targets:
+        world._targets.pop(identity, None)
+    refresh_pose(world, identity, at)
+    if columns["kind"][at] == DYNAMIC:
+        world.contact_lists.forget_loads_under(world, world.steps, at)
 
 
 class Motions(NamedTuple):

@@ -168,6 +168,19 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
     wake(tables, keys)
 
 
+def disturb_one(tables: WorldTables, identity: int, row: int) -> None:
+    """Do the same as disturb for one body, by id and row."""
+    awake, sleeping_set = tables.awake, tables.sleeping_set
+    if not awake.sleeping:
+        return
+    if len(sleeping_set.touching_pairs) or len(sleeping_set.sensing_pairs):
+        sleeping_set.return_reported(tables, [identity])
+    awake.dirty.append(identity)
+    tables.bodies["sleep_time"][row] = 0.0
+    if sleeping_set.islands:
+        wake(tables, islands_at(tables, [identity], np.array([row])))
+
+
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
     """Let bodies, by id and row, take part in the next step of a world with sleeping, with a sleep time of 0."""
     tables.sleeping_set.return_reported(tables, ids)

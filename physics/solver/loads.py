@@ -119,6 +119,13 @@ class ContactLists:
         work = self.marks, self.reached, contacts
         self.stamp = forget_in_turn(rows, tables.bodies, blow_of(tables), self.heads, self.nexts, self.stamp, *work)
 
+    def forget_loads_under(self, tables: WorldTables, step: int, row: int) -> None:
+        """Do the same as forget_loads for one dynamic body."""
+        if tables.stacks and len(tables.contact_rows):
+            self.refresh(tables, step)
+            if self.heads.item(row) != NO_SIDE:
+                self.forget_loads(tables, step, np.array([row]))
+
 
 def blow_of(tables: WorldTables) -> float:
     """Return the force per mass [px/s2] beyond which a cached force is a blow once its load is gone."""
