@@ -217,7 +217,7 @@ class Body(Handle):
         self._stir(row)
         columns["torque"][row] += torque
 
-    def _dynamic(self, what) -> tuple[int, dict[str, memoryview]]:
+    def _dynamic(self, what) -> tuple[int, dict[str, Any]]:
         """Return the row number and the columns of a dynamic body. Raises ValueError."""
         row, columns = self._world._row_number(self._id), self._world._bodies.columns
         if columns["kind"][row] != DYNAMIC:

@@ -22,7 +22,7 @@ from physics.shapes.shape import Filter, Material, Shape
 from physics.shapes.values import TileGrid
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
 from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
-from physics.tables.table import row_number, rows_of
+from physics.tables.table import Table, row_number, rows_of
 from physics.world_state import WorldState
 
 # ---- shape rows ------------------------------------------------------------------------------------------------------
@@ -174,6 +174,7 @@ def replace_mask(
         sleep.disturb(world, [identity])
     kept = KeptImpulses(world, old)
     own = rows_of(shapes, [shape_id])  # its parts come after it, so removals do not move it
+    world._templates.clear()  # geometry of a mask may be written in place
     shapes["geometry"][own] = world.library.replace(before.bare, mask.bare, changed, shapes)
     if len(old):
         keep = np.ones(len(shapes), bool)
@@ -405,24 +406,30 @@ def refresh_mass(world: WorldState, identity: int) -> None:
 def refresh_pose(world: WorldState, identity: int, at: int) -> None:
     """Recompute centre of mass and swept AABBs of a body, by id and row, after it was moved. Its neighbours wake."""
     sleep.disturb_one(world, identity, at)
-    columns, run = world._bodies.columns, world._runs.columns
-    x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
-    if angle == 0.0:  # as refresh_center
-        columns["center_x"][at], columns["center_y"][at] = (
-            x + columns["local_center_x"][at],
-            y + columns["local_center_y"][at],
-        )
-        columns["has_current_contacts"][at] = False
-        if x - x == 0.0 and y - y == 0.0:
-            columns["settled_x"][at], columns["settled_y"][at], columns["settled_angle"][at] = x, y, angle
-    else:
-        refresh_centers(np.array([at]), world.bodies)
+    write_center(world._bodies, at)
+    run = world._runs.columns
     if run["count"][at] == 1:
         slot = world._shapes.columns["proxy"][row_number(world._shapes, run["first"][at])]
         if slot >= 0:
             world.pairs.proxies["changed"][slot] = True
     else:
         world.pairs.touch(world.shapes["proxy"][world._shape_rows(at)])
+
+
+def write_center(bodies: Table, at: int) -> None:
+    """Write the centre of mass of a body, by row, and its last finite pose, as refresh_centers."""
+    columns = bodies.columns
+    x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
+    if angle != 0.0:
+        refresh_centers(np.array([at]), bodies.rows)
+        return
+    columns["center_x"][at], columns["center_y"][at] = (
+        x + columns["local_center_x"][at],
+        y + columns["local_center_y"][at],
+    )
+    columns["has_current_contacts"][at] = False
+    if x - x == 0.0 and y - y == 0.0:
+        columns["settled_x"][at], columns["settled_y"][at], columns["settled_angle"][at] = x, y, angle
 
 
 def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:

@@ -8,7 +8,7 @@ from typing import Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import checks, edit, snapshot, teleport
+from physics import body_templates, checks, edit, snapshot, teleport
 from physics.body import Body
 from physics.broadphase.proxies import PairList, Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
@@ -107,6 +107,7 @@ class World(WorldState):
         self._runs, self.library = Table(RUN), Library()
         self._stepping = False
         self._next_body = self._next_shape = self._carved_pixels = 0
+        self._templates = {}
         self._users, self._shapes_of, self._tiers, self._sources, self._targets = {}, {}, {}, {}, {}
         # Caches that later steps read.
         self.pairs, self.awake, self.sleeping_set = PairList(), Awake(False), SleepingSet()
@@ -127,11 +128,11 @@ class World(WorldState):
         object.__setattr__(self, name, value)
 
     def __getstate__(self):
-        return {name: value for name, value in vars(self).items() if name not in ("workspace", "_plans")}
+        return {name: value for name, value in vars(self).items() if name not in ("workspace", "_plans", "_templates")}
 
     def __setstate__(self, state):
         effects, solver = state["_effects"], state["_solver"]
-        vars(self).update(state, workspace=Workspace(effects, solver), _plans=plans(effects, solver))
+        vars(self).update(state, workspace=Workspace(effects, solver), _plans=plans(effects, solver), _templates={})
 
     # --- the step ------------------------------------------------------------------------------------------------
 
@@ -187,29 +188,21 @@ class World(WorldState):
 
         Raises TypeError or ValueError naming the argument. The world is then unchanged.
         """
-        ids = edit.add_rows(
-            self,
-            shapes,
-            [checks.position("position", position)],
-            [checks.vector("velocity", velocity)],
-            [checks.number("angle", angle)],
-            edit.BodyDef(
-                kind,
-                angular_velocity,
-                mass,
-                material,
-                filter,
-                sensor,
-                bullet,
-                continuous,
-                fixed_rotation,
-                gravity_scale,
-                allow_sleep,
-                tier,
-                user,
-            ),
-        )
-        return Body(self, int(ids[0]))
+        position, velocity = checks.position("position", position), checks.vector("velocity", velocity)
+        angle, spin = checks.number("angle", angle), checks.number("angular_velocity", angular_velocity)
+        values = mass, material, filter, sensor, bullet, continuous, fixed_rotation, gravity_scale, allow_sleep
+        key = None if tier is not None or self._stepping else body_templates.key_of(shapes, kind, *values)
+        known = body_templates.find(self, key)
+        identity = -1
+        if known is not None:
+            identity = body_templates.add_like(self, known, shapes, position, velocity, angle, spin)
+        if identity < 0:
+            wanted = edit.BodyDef(kind, spin, *values, tier)
+            identity = int(edit.add_rows(self, shapes, [position], [velocity], [angle], wanted)[0])
+            body_templates.keep(self, key, shapes)
+        if user is not None:
+            self._users[identity] = user
+        return Body(self, identity)
 
     def add_bodies(
         self,

@@ -81,8 +81,8 @@ class Handle:
     def __init__(self, world: "WorldState", identity: int) -> None:
         if not isinstance(world, WorldState):
             raise TypeError(f"world must be a World (got {checks.shown(world)})")
-        self._world = world
-        self._id = world._identity("identity", identity)
+        object.__setattr__(self, "_world", world)
+        object.__setattr__(self, "_id", world._identity("identity", identity))
 
     @property
     def world(self) -> "WorldState":
@@ -146,6 +146,7 @@ class WorldState:
     _definitions: Table  # BODY_DEF rows, one beside each body
     _shapes: Table
     _runs: Table  # RUN, beside the bodies
+    _templates: dict[Any, Any]  # by arguments of add_body: body_templates.Template
     _next_body: int
     _next_shape: int
     _carved_pixels: int  # since the last step

@@ -21,6 +21,7 @@ from physics.shapes.shape import Filter
 from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.shape import PART, PIXELS, PROXY
 from physics.tables.step_state import CANDIDATES, COUNTERS, FILTERED, PAIRS_TESTED, StepState, WorldTables, stage
+from physics.tables.table import columns_of
 
 # ---- proxies ---------------------------------------------------------------------------------------------------------
 # The boxes that every broad phase works on, and the overlap test of two of them.
@@ -469,9 +470,10 @@ class PairList:
         """Create the arrays that an update writes before it reads them."""
         self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
         self.states, self.keys = np.zeros(64, np.int8), np.zeros(64, np.int64)
+        self.viewed, self.views = None, {}  # proxies by column, for single ones
 
     def __getstate__(self):
-        room = ("kept", "kept_rows", "states", "keys")
+        room = ("kept", "kept_rows", "states", "keys", "viewed", "views")
         return {name: value for name, value in vars(self).items() if name not in room}
 
     def __setstate__(self, state):
@@ -513,6 +515,18 @@ class PairList:
         self.proxies["still"][slots] = still
         self.proxies["awake"][slots] = not self.sleeping
         self.proxies["row"][slots] = -1  # until its swept AABB is written
+
+    def add_proxy(self, slot: int, body: int, values: dict[str, int], still: bool) -> None:
+        """Assign a free slot to one shape. values: its membership, mask, plane and avoids."""
+        if self.viewed is not self.arena.proxies:
+            self.viewed = self.arena.proxies
+            self.views = columns_of(self.viewed)
+        views = self.views
+        self.sensors += (values["plane"] == SENSED) - (views["plane"][slot] == SENSED)
+        for name, value in values.items():
+            views[name][slot] = value
+        views["body"][slot], views["still"][slot], views["awake"][slot] = body, still, not self.sleeping
+        views["row"][slot] = -1  # until its swept AABB is written
 
     def free_proxies(self, slots: np.ndarray) -> None:
         """Remove shapes from the broad phase."""

@@ -1,0 +1,142 @@
+"""Rows of bodies that were added before: a body with the same shapes and values takes copies of them.
+
+add_rows of edit.py checks all arguments and computes the rows of a body: mass, geometry, planes of the broad phase. All
+but its pose and velocity is the same for the next body of this kind. A template keeps it, so that only pose and
+velocity are checked and written. Anything unusual goes through add_rows, which raises the errors.
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from physics.edit import write_center
+from physics.effects import Effects
+from physics.math2d import Vec2
+from physics.shapes.library import Library
+from physics.shapes.shape import Filter, Material, Shape
+from physics.tables.body import DYNAMIC, STATIC
+from physics.world_state import WorldState
+
+MOST = 256  # templates of a world: a program that never adds an equal body twice shall not fill the memory
+MOST_SHAPES = 2**30  # ids beyond are left to add_rows, which counts what is left
+NUMBERS = (float, int, type(None))
+PROXY_VALUES = ("membership", "mask", "plane", "avoids")
+POSE = tuple((name, kept + name) for kept in ("previous_", "still_", "rocking_") for name in ("x", "y", "angle"))
+
+
+class Template(NamedTuple):
+    """The rows of a body, without pose and velocity, and the state of the world on which they depend."""
+
+    effects: Effects
+    sleeps: bool
+    library: Library
+    is_static: bool
+    is_dynamic: bool
+    body: np.void  # a BODY row, a BODY_DEF row, …
+    definition: np.void
+    shapes: list[tuple[np.void, int, dict[str, int]]]  # … SHAPE rows with the offset of the parent, values of the proxy
+
+
+def key_of(
+    shapes: Sequence[Shape],
+    kind: Any,
+    mass: Any,
+    material: Any,
+    filter: Any,
+    sensor: Any,
+    bullet: Any,
+    continuous: Any,
+    fixed_rotation: Any,
+    gravity_scale: Any,
+    allow_sleep: Any,
+) -> tuple | None:
+    """Return the key of a template from arguments of add_body; None if one of them has an unusual type."""
+    plain = (
+        type(kind) is type(continuous) is str
+        and type(sensor) is type(bullet) is type(fixed_rotation) is type(allow_sleep) is bool
+        and type(material) is Material
+        and type(filter) is Filter
+        and type(mass) in NUMBERS
+        and type(gravity_scale) in NUMBERS
+    )
+    if not plain:
+        return None
+    flags = sensor, bullet, fixed_rotation, allow_sleep
+    return (shapes, kind, mass, material, filter, continuous, gravity_scale, *flags)
+
+
+def find(world: WorldState, key: tuple | None) -> Template | None:
+    """Return the template of a key if it fits the world as it is now, else None."""
+    try:
+        found = world._templates.get(key)
+    except TypeError:  # a value that cannot be hashed is no shape
+        found = None
+    if found is None or found.library is not world.library or found.effects is not world.effects:
+        return None
+    return found if found.sleeps == world.sleeps else None
+
+
+def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
+    """Keep the rows of the body that was added last as a template."""
+    if key is None or not all(shape._may_turn for shape in shapes):
+        return
+    at, kind = world._bodies.count - 1, world.bodies["kind"][-1]
+    rows = world._shape_rows(at)
+    proxies, first = world.pairs.proxies, int(world.shapes["id"][rows[0]]) if len(rows) else 0
+    parts = []
+    for row in rows.tolist():
+        shape = world.shapes[row]
+        values = {name: proxies[name][shape["proxy"]].item() for name in PROXY_VALUES}
+        parts.append((world._shapes.row_bytes(row), int(shape["parent"]) - first, values))
+    if len(world._templates) >= MOST:
+        world._templates.clear()
+    bytes_of_body, definition = world._bodies.row_bytes(at), world._definitions.row_bytes(at)
+    state = world.effects, world.sleeps, world.library
+    world._templates[key] = Template(*state, kind == STATIC, kind == DYNAMIC, bytes_of_body, definition, parts)
+
+
+def add_like(
+    world: WorldState, template: Template, shapes: tuple, position: Vec2, velocity: Vec2, angle: float, spin: float
+) -> int:
+    """Add a body with the rows of a template, and return its id; -1, with nothing added, where add_rows is needed."""
+    parts, free = template.shapes, world.pairs.free
+    moves = spin != 0.0 or velocity != (0.0, 0.0)
+    if template.is_static and moves or (spin != 0.0 and not template.effects.rotation):
+        return -1
+    if world._next_shape > MOST_SHAPES or len(free) < len(parts):
+        return -1
+    identity, first = world._next_body, world._next_shape
+    world._next_body += 1
+    world._definitions.append_bytes(template.definition)
+    at = world._bodies.append_bytes(template.body)
+    columns = world._bodies.columns
+    columns["id"][at] = identity
+    columns["x"][at], columns["y"][at] = position
+    columns["angle"][at] = angle
+    columns["vx"][at], columns["vy"][at] = velocity
+    columns["angular_velocity"][at] = spin
+    for name, kept in POSE:
+        columns[kept][at] = columns[name][at]
+    write_center(world._bodies, at)
+    if not template.is_dynamic:
+        world.awake.mark_dirty([identity])
+    _add_shapes(world, parts, identity, at)
+    world._runs.append()
+    run = world._runs.columns
+    run["first"][at], run["count"][at] = first if parts else 0, len(parts)
+    world._shapes_of[identity] = shapes
+    return identity
+
+
+def _add_shapes(world, parts, identity, at):
+    """Append the SHAPE rows of a body, and add their proxies."""
+    pairs, first = world.pairs, world._next_shape
+    world._next_shape += len(parts)
+    for number, (row_bytes, parent, values) in enumerate(parts):
+        row, slot = world._shapes.append_bytes(row_bytes), pairs.free.pop()
+        columns = world._shapes.columns
+        columns["id"][row], columns["parent"][row] = first + number, first + parent
+        columns["body"][row], columns["body_row"][row] = identity, at
+        columns["proxy"][row] = slot
+        pairs.add_proxy(slot, identity, values, bool(world._bodies.columns["kind"][at] == STATIC))
