@@ -43,10 +43,9 @@ def enter(world, sprites, filter):
 
 def hits_in_a_world(world, sprites):
     """In every frame."""
-    for sprite in sprites:
-        sprite.body.move_to(sprite.rect.topleft)
+    world.move([sprite.body for sprite in sprites], [sprite.rect.topleft for sprite in sprites])
     world.step()
-    return {(world.body(hit["body_a"]).user, world.body(hit["body_b"]).user) for hit in world.contacts}
+    return set(world.touching(users=True))
 
 
 def main():

@@ -38,10 +38,10 @@ def test_the_lines_of_the_text_are_lines_of_the_example():
     squeezed = re.sub(r"\s+", "", example)
     for line in (
         "world = World(Effects.detection())",
-        "sprite.body.move_to(sprite.rect.topleft)",
+        "world.move([sprite.body for sprite in sprites], [sprite.rect.topleft for sprite in sprites])",
         "world.step()",
+        "world.touching(users=True)",
         "PixelMask.from_surface(sprite.image, origin=(0, 0)), position=sprite.rect.topleft",
-        'world.body(hit["body_a"]).user, world.body(hit["body_b"]).user) for hit in world.contacts',
     ):
         assert re.sub(r"\s+", "", line) in squeezed
         assert re.sub(r"\s+", "", line) in re.sub(r"\s+", "", (ROOT / "docs/physics_alone.md").read_text())
