@@ -111,9 +111,9 @@ class Body(Handle):
     @velocity.setter
     def velocity(self, value: Pair) -> None:
         world, identity = self._world, self._id
-        world._unlocked()
+        world._unstepped()
         value = checks.vector("velocity", value)
-        row, columns = world._row_number(identity), world._bodies.columns
+        row, columns = world._row_at(identity), world._bodies.columns
         if columns["kind"][row] == STATIC and value != (0.0, 0.0):
             raise ValueError(f"velocity must be (0, 0) for static body {identity} (got {value})")
         columns["vx"][row], columns["vy"][row] = value
@@ -131,10 +131,10 @@ class Body(Handle):
 
     @angular_velocity.setter
     def angular_velocity(self, value: float) -> None:
-        self.world._unlocked()
+        self.world._unstepped()
         value = checks.number("angular_velocity", value)
         self.world._needs("rotation", "angular_velocity", value != 0.0)
-        row, columns = self.world._row_number(self.id), self.world._bodies.columns
+        row, columns = self.world._row_at(self.id), self.world._bodies.columns
         if columns["kind"][row] == STATIC and value != 0.0:
             raise ValueError(f"angular_velocity must be 0 for static body {self.id} (got {value})")
         edit.check_grid_stands(self.shapes, value)
@@ -176,14 +176,14 @@ class Body(Handle):
 
     def apply_force(self, force: Pair, point: Pair | None = None) -> None:
         """Add a force for the coming step, at the centre of mass or at a world point [px]."""
-        self.world._unlocked()
+        self.world._unstepped()
         force = checks.vector("force", force)
         self.world._needs_velocities("apply_force")
         point = None if point is None else checks.vector("point", point)
         row, columns = self._dynamic("apply_force")
         total = checks.vector("sum of forces", (columns["force_x"][row] + force[0], columns["force_y"][row] + force[1]))
         columns["force_x"][row], columns["force_y"][row] = total
-        self._stir(row)
+        row = self._stir(row)
         if point is not None:
             x, y = point
             columns["torque"][row] += (x - columns["center_x"][row]) * force[1] - (
@@ -192,11 +192,11 @@ class Body(Handle):
 
     def apply_impulse(self, impulse: Pair, point: Pair | None = None) -> None:
         """Change the velocity by impulse / mass, at a point [px] off the centre the angular velocity, too."""
-        self.world._unlocked()
+        self.world._unstepped()
         impulse = checks.vector("impulse", impulse)
         point = None if point is None else checks.vector("point", point)
         row, columns = self._dynamic("apply_impulse")
-        self._stir(row)
+        row = self._stir(row)
         inverse_mass = columns["inverse_mass"][row]
         columns["vx"][row], columns["vy"][row] = checks.vector(
             "velocity after the impulse",
@@ -210,16 +210,16 @@ class Body(Handle):
 
     def apply_torque(self, torque: float) -> None:
         """Add a torque for the coming step. Raises ValueError without the rotation effect."""
-        self.world._unlocked()
+        self.world._unstepped()
         torque = checks.number("torque", torque)
         self.world._needs("rotation", "apply_torque", True)
         row, columns = self._dynamic("apply_torque")
-        self._stir(row)
+        row = self._stir(row)
         columns["torque"][row] += torque
 
     def _dynamic(self, what) -> tuple[int, dict[str, Any]]:
         """Return the row number and the columns of a dynamic body. Raises ValueError."""
-        row, columns = self._world._row_number(self._id), self._world._bodies.columns
+        row, columns = self._world._row_at(self._id), self._world._bodies.columns
         if columns["kind"][row] != DYNAMIC:
             raise ValueError(f"{what} needs a dynamic body; body {self.id} is {self.kind}")
         return row, columns
@@ -270,7 +270,7 @@ class Body(Handle):
 
     def remove(self) -> None:
         """Remove the body from its world."""
-        self.world._remove([self.id])
+        self._world._remove_one(self._id)
 
     # --- kind and user value -------------------------------------------------------------------------------------
 
@@ -434,11 +434,11 @@ class Body(Handle):
     def _value(self, name: str) -> Any:
         """Return a value of the row as a Python number, read from the column (a tenth of the time of the row)."""
         world = self._world
-        return world._bodies.columns[name][world._row_number(self._id)]
+        return world._bodies.columns[name][world._row_at(self._id)]
 
     def _pair(self, first: str, second: str) -> Vec2:
         world = self._world
-        row, columns = world._row_number(self._id), world._bodies.columns
+        row, columns = world._row_at(self._id), world._bodies.columns
         return Vec2(columns[first][row], columns[second][row])
 
     @property
@@ -448,11 +448,12 @@ class Body(Handle):
 
     def _must_exist(self) -> None:
         """Raise KeyError for a removed body."""
-        self._world._row_number(self._id)
+        self._world._row_at(self._id)
 
-    def _stir(self, row: int) -> None:
-        """Wake the body of a row number, and start its sleep time anew."""
+    def _stir(self, row: int) -> int:
+        """Wake the body of a row number, start its sleep time anew, and return its row number."""
         columns = self._world._bodies.columns
         if not columns["awake"][row]:
-            sleep.disturb(self._world, [self._id])
+            row = sleep.disturb_one(self._world, self._id, row)
         columns["sleep_time"][row] = 0.0
+        return row

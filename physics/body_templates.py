@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from physics.edit import write_center
+from physics.dynamics.integrate import write_center
 from physics.effects import Effects
 from physics.math2d import Vec2
 from physics.shapes.library import Library

@@ -11,7 +11,7 @@ from physics.broadphase.proxies import write_rectangles
 from physics.checks import Points
 from physics.contacts.cache import shift_center
 from physics.contacts.matching import KeptImpulses
-from physics.dynamics.integrate import refresh_centers
+from physics.dynamics.integrate import refresh_centers, write_center
 from physics.islands import sleep
 from physics.shapes.approximate import fit
 from physics.shapes.kinds import check_shapes
@@ -22,7 +22,7 @@ from physics.shapes.shape import Filter, Material, Shape
 from physics.shapes.values import TileGrid
 from physics.tables.body import AUTO, CONTINUOUS, DYNAMIC, KINDS, KINEMATIC, OFF, STATIC
 from physics.tables.shape import MASK, PART, PIXELS, WHOLE, WHOLE_MASK
-from physics.tables.table import Table, row_number, rows_of
+from physics.tables.table import row_number, rows_of
 from physics.world_state import WorldState
 
 # ---- shape rows ------------------------------------------------------------------------------------------------------
@@ -403,9 +403,12 @@ def refresh_mass(world: WorldState, identity: int) -> None:
     refresh_pose(world, identity, at)
 
 
-def refresh_pose(world: WorldState, identity: int, at: int) -> None:
-    """Recompute centre of mass and swept AABBs of a body, by id and row, after it was moved. Its neighbours wake."""
-    sleep.disturb_one(world, identity, at)
+def refresh_pose(world: WorldState, identity: int, at: int) -> int:
+    """Recompute centre of mass and swept AABBs of a body, by id and row, after it was moved. Its neighbours wake.
+
+    Return its row, which moves if islands wake.
+    """
+    at = sleep.disturb_one(world, identity, at)
     write_center(world._bodies, at)
     run = world._runs.columns
     if run["count"][at] == 1:
@@ -413,23 +416,8 @@ def refresh_pose(world: WorldState, identity: int, at: int) -> None:
         if slot >= 0:
             world.pairs.proxies["changed"][slot] = True
     else:
-        world.pairs.touch(world.shapes["proxy"][world._shape_rows(at)])
-
-
-def write_center(bodies: Table, at: int) -> None:
-    """Write the centre of mass of a body, by row, and its last finite pose, as refresh_centers."""
-    columns = bodies.columns
-    x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
-    if angle != 0.0:
-        refresh_centers(np.array([at]), bodies.rows)
-        return
-    columns["center_x"][at], columns["center_y"][at] = (
-        x + columns["local_center_x"][at],
-        y + columns["local_center_y"][at],
-    )
-    columns["has_current_contacts"][at] = False
-    if x - x == 0.0 and y - y == 0.0:
-        columns["settled_x"][at], columns["settled_y"][at], columns["settled_angle"][at] = x, y, angle
+        world.pairs.touch(world._shapes.rows["proxy"][world._shape_rows(at)])
+    return at
 
 
 def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:

@@ -23,8 +23,8 @@ NOT_SET = np.zeros((1, 2))
 
 def move_to(world: WorldState, identity: int, position: Pair | None, angle: float | None) -> None:
     """Move a body to a position [px] and an angle [rad], None: unchanged. Raises ValueError for a rotated TileGrid."""
-    world._unlocked()
-    at, columns = world._row_number(identity), world._bodies.columns
+    world._unstepped()
+    at, columns = world._row_at(identity), world._bodies.columns
     if angle:
         check_grid_stands(world._shapes_of[identity], angle, "angle")
     if position is not None:
@@ -33,9 +33,9 @@ def move_to(world: WorldState, identity: int, position: Pair | None, angle: floa
         columns["angle"][at] = angle
     if world._targets:
         world._targets.pop(identity, None)
-    refresh_pose(world, identity, at)
+    at = refresh_pose(world, identity, at)
     if columns["kind"][at] == DYNAMIC:
-        world.contact_lists.forget_loads_under(world, world.steps, at)
+        world.contact_lists.forget_loads_under(world, at)
 
 
 class Motions(NamedTuple):
@@ -189,7 +189,7 @@ def _move(world, ids, rows, dynamic, motions):
     proxies = world.pairs.proxies
     if place_bodies(rows, motions, world._runs.rows, world.shapes, bodies, proxies):
         world.pairs.touch(world.shapes["proxy"][world._shape_rows_of(rows)])
-    world.contact_lists.forget_loads(world, world.steps, dynamic)
+    world.contact_lists.forget_loads(world, dynamic)
 
 
 def _contacts_at(world, keys):

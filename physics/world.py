@@ -107,7 +107,7 @@ class World(WorldState):
         self._runs, self.library = Table(RUN), Library()
         self._stepping = False
         self._next_body = self._next_shape = self._carved_pixels = 0
-        self._templates = {}
+        self._templates, self._removed = {}, {}
         self._users, self._shapes_of, self._tiers, self._sources, self._targets = {}, {}, {}, {}, {}
         # Caches that later steps read.
         self.pairs, self.awake, self.sleeping_set = PairList(), Awake(False), SleepingSet()
@@ -128,6 +128,8 @@ class World(WorldState):
         object.__setattr__(self, name, value)
 
     def __getstate__(self):
+        if self._removed:
+            self._drop_removed()
         return {name: value for name, value in vars(self).items() if name not in ("workspace", "_plans", "_templates")}
 
     def __setstate__(self, state):
@@ -230,7 +232,7 @@ class World(WorldState):
 
     def remove_body(self, body: Body | int) -> None:
         """Remove a body, given as a Body or an id. Raises KeyError for an unknown body, TypeError, ValueError."""
-        self._remove([self._identity("body", body)])
+        self._remove_one(self._identity("body", body))
 
     def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
         """Remove many bodies, given as Bodies or ids, in one pass over the tables. A body may be named more than once.
@@ -291,6 +293,17 @@ class World(WorldState):
             return pairs
         user = self._users.get
         return [(user(a), user(b)) for a, b in pairs.tolist()]
+
+    @property
+    def contact_rows(self) -> np.ndarray:
+        """CONTACT rows of the last step, in the order of shape ids; worlds that stack keep them for the next step."""
+        if self._removed:
+            self._drop_removed()
+        return self._contact_rows
+
+    @contact_rows.setter
+    def contact_rows(self, rows: np.ndarray) -> None:
+        self._contact_rows = rows
 
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
@@ -521,12 +534,12 @@ class World(WorldState):
     def body(self, identity: Body | int) -> Body:
         """Return the Body of an id, or of a Body. Raises KeyError for an unknown body, TypeError, ValueError."""
         identity = self._identity("identity", identity)
-        self._row_number(identity)
+        self._row_at(identity)
         return Body(self, identity)
 
     def __len__(self) -> int:
         """Return the number of bodies."""
-        return self._bodies.count
+        return self._bodies.count - len(self._removed)
 
     def __bool__(self) -> bool:
         """Return True: a world without bodies is true, too."""

@@ -114,7 +114,6 @@ class WorldState:
     pairs: PairList
     awake: Awake
     sleeping_set: SleepingSet
-    contact_rows: np.ndarray
     sensed: np.ndarray | None
     ghosts: np.ndarray | None
     touching_pairs: Pairs
@@ -128,6 +127,7 @@ class WorldState:
     profile: Profile
     workspace: Any  # a Workspace of step.py
     # Properties of World.
+    contact_rows: np.ndarray
     solver: str
     substeps: Any
     accuracy: float
@@ -146,6 +146,8 @@ class WorldState:
     _definitions: Table  # BODY_DEF rows, one beside each body
     _shapes: Table
     _runs: Table  # RUN, beside the bodies
+    _contact_rows: np.ndarray
+    _removed: dict[int, None]  # ids of removed bodies, in turn, whose rows are dropped when the tables are read
     _templates: dict[Any, Any]  # by arguments of add_body: body_templates.Template
     _next_body: int
     _next_shape: int
@@ -164,11 +166,15 @@ class WorldState:
     @property
     def bodies(self) -> np.ndarray:
         """BODY rows in the order of ids: a view, valid until a body is added or removed."""
+        if self._removed:
+            self._drop_removed()
         return self._bodies.rows
 
     @property
     def shapes(self) -> np.ndarray:
         """SHAPE rows in the order of ids: a view, valid until a body is added or removed."""
+        if self._removed:
+            self._drop_removed()
         return self._shapes.rows
 
     @property
@@ -204,6 +210,8 @@ class WorldState:
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
         ids = np.asarray(ids, np.int64)
+        if self._removed:
+            self._drop_removed()
         rows = rows_in(self._bodies, ids.ravel())
         if (rows < 0).any():
             raise checks.NoSuchId(f"no body {ids.ravel()[rows < 0][0]} in this world")
@@ -248,29 +256,47 @@ class WorldState:
     # --- for World, Body and edit -----------------------------------------------------------------------------------
 
     def _unlocked(self) -> None:
+        """Raise RuntimeError during a step. Drop the rows of removed bodies."""
+        self._unstepped()
+        if self._removed:
+            self._drop_removed()
+
+    def _unstepped(self) -> None:
+        """Raise RuntimeError during a step."""
         if self._stepping:
             raise RuntimeError("the world cannot be changed during its step: read the events after it")
 
     def _row_number(self, identity: int) -> int:
-        row = row_number(self._bodies, identity)
+        """Return the row number of a body, valid until one is removed. Raises KeyError."""
+        if self._removed:
+            self._drop_removed()
+        return self._row_at(identity)
+
+    def _row_at(self, identity: int) -> int:
+        """Return the row number of a body in the tables as they are, valid until they are read. Raises KeyError.
+
+        The rows of removed bodies may still be in the tables. So this is for single numbers, by Table.columns: `bodies`
+        and `shapes` drop these rows first, and others move.
+        """
+        row = -1 if identity in self._removed else row_number(self._bodies, identity)
         if row < 0:
             raise checks.NoSuchId(f"body {identity} is not in this world (removed, or never added)")
         return row
 
     def _shape_rows(self, row: int) -> np.ndarray:
-        """Return the SHAPE rows of a body row, ascending."""
+        """Return the SHAPE rows of a body row, ascending, in the tables as they are."""
         run = self._runs.data
         count = run["count"].item(row)
         if count == SCATTERED:
-            return np.flatnonzero(self.shapes["body_row"] == row)
+            return np.flatnonzero(self._shapes.rows["body_row"] == row)
         if count == 0:
             return np.zeros(0, np.int64)
         first = row_number(self._shapes, run["first"].item(row))
         return np.arange(first, first + count)
 
     def _shape_rows_of(self, rows: np.ndarray) -> np.ndarray:
-        """Return the SHAPE rows of body rows, in any order."""
-        runs, shapes = self._runs.data[rows], self.shapes
+        """Return the SHAPE rows of body rows, in any order, in the tables as they are."""
+        runs, shapes = self._runs.data[rows], self._shapes.rows
         firsts, counts = runs["first"], runs["count"]
         least = int(counts.min()) if len(rows) else 0
         if least == SCATTERED:
@@ -346,7 +372,8 @@ class WorldState:
             self.library = self.library.without_unused(self.shapes)
 
     def _body_row(self, identity: int) -> np.void:
-        return self._bodies.data[self._row_number(identity)]
+        row = self._row_number(identity)
+        return self._bodies.data[row]
 
     def _drop_shapes(self, keep: np.ndarray) -> None:
         self.pairs.name(self.shapes)
@@ -362,21 +389,50 @@ class WorldState:
         ids = np.asarray(ids, np.int64)
         if not len(ids):
             return
-        keep = np.ones(self._bodies.count, bool)
-        keep[self.rows(ids)] = False
+        rows = self.rows(ids)
         sleep.disturb(self, ids)
         forget_loads(self, ids)
+        for identity in ids.tolist():
+            self._forget_values(identity)
+        self._drop_rows(ids, rows)
+
+    def _remove_one(self, identity: int) -> None:
+        """Remove a body by id; its rows are dropped when the tables are read. Raises KeyError."""
+        self._unstepped()
+        if self.characters.count:
+            self._remove([identity])
+            return
+        at = sleep.disturb_one(self, identity, self._row_at(identity))
+        self.contact_lists.forget_loads_under(self, at)
+        self._bodies.columns["inverse_mass"][at] = 0.0  # the loads of other bodies do not pass it any more
+        self._forget_values(identity)
+        self._removed[identity] = None
+
+    def _forget_values(self, identity: int) -> None:
+        """Forget what is kept of a body beside the tables."""
+        del self._shapes_of[identity]
+        for values in (self._users, self._tiers, self._sources, self._targets):
+            if values:
+                values.pop(identity, None)
+
+    def _drop_removed(self) -> None:
+        """Drop the rows of the bodies that were removed one by one."""
+        ids = np.array([*self._removed], np.int64)
+        self._removed.clear()
+        self._drop_rows(ids, rows_in(self._bodies, ids))
+
+    def _drop_rows(self, ids: np.ndarray, rows: np.ndarray) -> None:
+        """Drop the rows of bodies and of their shapes and contacts."""
+        keep = np.ones(self._bodies.count, bool)
+        keep[rows] = False
         self._drop_shapes(keep[self.shapes["body_row"]])
         self._bodies.keep(keep)
         self._definitions.keep(keep)
         self._runs.keep(keep)
         self.awake.keep_rows(keep)
         self.shapes["body_row"] = (np.cumsum(keep) - 1)[self.shapes["body_row"]]
-        gone = set(ids.tolist())
-        for table in (self._users, self._shapes_of, self._tiers, self._sources, self._targets):
-            for identity in gone & table.keys():
-                del table[identity]
-        self.characters.keep(~np.isin(self.characters.rows["body"], ids))
+        if self.characters.count:
+            self.characters.keep(~np.isin(self.characters.rows["body"], ids))
         sleep.forget(self)
         self._tidy_library()
 

@@ -15,6 +15,7 @@ from physics.tables.body import DYNAMIC, STATIC
 from physics.tables.contact import QUARANTINE
 from physics.tables.shape import TILES
 from physics.tables.step_state import BODIES_INTEGRATED, StepState, stage
+from physics.tables.table import Table
 
 BOTH = (False, True)
 
@@ -124,6 +125,22 @@ def refresh_centers(rows, bodies_inout):
     """Write the world centres of mass [px] of the body rows in `rows` at their present poses. O(rows)."""
     for k in range(len(rows)):
         refresh_center(bodies_inout[rows[k]])
+
+
+def write_center(bodies: Table, at: int) -> None:
+    """Write the centre of mass of a body, by row, and its last finite pose, as refresh_centers."""
+    columns = bodies.columns
+    x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
+    if angle != 0.0:
+        refresh_centers(np.array([at]), bodies.rows)
+        return
+    columns["center_x"][at], columns["center_y"][at] = (
+        x + columns["local_center_x"][at],
+        y + columns["local_center_y"][at],
+    )
+    columns["has_current_contacts"][at] = False
+    if x - x == 0.0 and y - y == 0.0:
+        columns["settled_x"][at], columns["settled_y"][at], columns["settled_angle"][at] = x, y, angle
 
 
 # One pass per combination of the effects it depends on; made here, compiled on first use.

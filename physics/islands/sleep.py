@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -168,17 +168,24 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
     wake(tables, keys)
 
 
-def disturb_one(tables: WorldTables, identity: int, row: int) -> None:
-    """Do the same as disturb for one body, by id and row."""
-    awake, sleeping_set = tables.awake, tables.sleeping_set
+def disturb_one(world: Any, identity: int, row: int) -> int:
+    """Do the same as disturb for one body, by id and row, between steps. Return its row, which moves if islands wake.
+
+    The rows of removed bodies may still be in the tables, see World._row_at: nothing but single numbers is read, unless
+    an island wakes. Any stands for World, whose package imports this one.
+    """
+    awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
-        return
+        return row
     if len(sleeping_set.touching_pairs) or len(sleeping_set.sensing_pairs):
-        sleeping_set.return_reported(tables, [identity])
+        sleeping_set.return_reported(world, [identity])
     awake.dirty.append(identity)
-    tables.bodies["sleep_time"][row] = 0.0
-    if sleeping_set.islands:
-        wake(tables, islands_at(tables, [identity], np.array([row])))
+    columns = world._bodies.columns
+    columns["sleep_time"][row] = 0.0
+    if sleeping_set.islands and (identity in sleeping_set.links or not columns["awake"][row]):
+        row = world._row_number(identity)
+        wake(world, islands_at(world, [identity], np.array([row])))
+    return row
 
 
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:

@@ -7,6 +7,7 @@ the rest becomes velocity.
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -93,13 +94,12 @@ class ContactLists:
     def __setstate__(self, state):
         self.__init__()
 
-    def refresh(self, tables: WorldTables, step: int) -> None:
+    def refresh(self, contacts: np.ndarray, bodies: np.ndarray, step: int) -> None:
         """Link the contacts of a world again if they are not those of the last call."""
-        contacts = tables.contact_rows
-        if contacts is self.contacts and step == self.step and len(self.heads) >= len(tables.bodies):
+        if contacts is self.contacts and step == self.step and len(self.heads) >= len(bodies):
             return
-        if len(self.heads) < len(tables.bodies):
-            room = 2 * len(tables.bodies)
+        if len(self.heads) < len(bodies):
+            room = 2 * len(bodies)
             self.heads, self.marks, self.reached = (np.zeros(room, np.int64) for _ in range(3))
             self.stamp = 0
         if len(self.nexts) < 2 * len(contacts):
@@ -107,24 +107,25 @@ class ContactLists:
         link_contacts(contacts, self.heads, self.nexts)
         self.contacts, self.step = contacts, step
 
-    def forget_loads(self, tables: WorldTables, step: int, rows: np.ndarray) -> None:
+    def forget_loads(self, world: Any, rows: np.ndarray) -> None:
         """Clear the cached forces under dynamic bodies that are moved one after the other. rows: of BODY, int64.
 
-        The same as one call of forget_loads for each; O(contacts of these bodies), and O(contacts) after each step.
+        The same as one call of forget_loads for each; O(contacts of these bodies), and O(contacts) after each step. The
+        tables are read as they are, see World._row_at. Any stands for World, whose package imports this one.
         """
-        contacts = tables.contact_rows
-        if not len(contacts) or not tables.stacks or not len(rows):
+        contacts, bodies = world._contact_rows, world._bodies.rows
+        if not len(contacts) or not world.stacks or not len(rows):
             return  # contacts are not cached
-        self.refresh(tables, step)
+        self.refresh(contacts, bodies, world.steps)
         work = self.marks, self.reached, contacts
-        self.stamp = forget_in_turn(rows, tables.bodies, blow_of(tables), self.heads, self.nexts, self.stamp, *work)
+        self.stamp = forget_in_turn(rows, bodies, blow_of(world), self.heads, self.nexts, self.stamp, *work)
 
-    def forget_loads_under(self, tables: WorldTables, step: int, row: int) -> None:
-        """Do the same as forget_loads for one dynamic body."""
-        if tables.stacks and len(tables.contact_rows):
-            self.refresh(tables, step)
+    def forget_loads_under(self, world: Any, row: int) -> None:
+        """Do the same as forget_loads for one body, also for one that is removed."""
+        if world.stacks and len(world._contact_rows):
+            self.refresh(world._contact_rows, world._bodies.rows, world.steps)
             if self.heads.item(row) != NO_SIDE:
-                self.forget_loads(tables, step, np.array([row]))
+                self.forget_loads(world, np.array([row]))
 
 
 def blow_of(tables: WorldTables) -> float:

@@ -33,7 +33,6 @@ class WorldTables(Protocol):
     type of a package that imports this one.
     """
 
-    contact_rows: np.ndarray  # CONTACT rows in the order of shape ids
     awake: Any  # islands.awake.Awake
     sleeping_set: Any  # islands.sleep.SleepingSet
     pairs: Any  # broadphase.proxies.PairList
@@ -42,6 +41,14 @@ class WorldTables(Protocol):
     library: Any  # shapes.library.Library
     tolerances: Tolerances
     workspace: Any  # step.Workspace
+
+    @property
+    def contact_rows(self) -> np.ndarray:
+        """CONTACT rows in the order of shape ids."""
+        ...
+
+    @contact_rows.setter
+    def contact_rows(self, rows: np.ndarray) -> None: ...
 
     @property
     def bodies(self) -> np.ndarray:
