@@ -35,7 +35,7 @@ def move_to(world: WorldState, identity: int, position: Pair | None, angle: floa
         world._targets.pop(identity, None)
     at = refresh_pose(world, identity, at)
     if columns["kind"][at] == DYNAMIC:
-        world.contact_lists.forget_loads_under(world, at)
+        world.contact_lists.forget_loads(world, np.array([at]))
 
 
 class Motions(NamedTuple):

@@ -19,7 +19,7 @@ from physics.queries.index import QueryIndex
 from physics.settings import Tolerances
 from physics.shapes.library import Library
 from physics.shapes.shape import Shape
-from physics.solver.loads import ContactLists, forget_loads
+from physics.solver.loads import ContactLists
 from physics.tables.body import SCATTERED, STATIC
 from physics.tables.step_state import COUNTERS
 from physics.tables.table import Table, row_number, rows_in, rows_of
@@ -391,7 +391,7 @@ class WorldState:
             return
         rows = self.rows(ids)
         sleep.disturb(self, ids)
-        forget_loads(self, ids)
+        self.contact_lists.forget_loads(self, rows, together=True)
         for identity in ids.tolist():
             self._forget_values(identity)
         self._drop_rows(ids, rows)
@@ -403,7 +403,7 @@ class WorldState:
             self._remove([identity])
             return
         at = sleep.disturb_one(self, identity, self._row_at(identity))
-        self.contact_lists.forget_loads_under(self, at)
+        self.contact_lists.forget_loads(self, np.array([at]))
         self._bodies.columns["inverse_mass"][at] = 0.0  # the loads of other bodies do not pass it any more
         self._forget_values(identity)
         self._removed[identity] = None

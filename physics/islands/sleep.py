@@ -500,6 +500,12 @@ def start_islands(rows, parents_out):
         parents_out[rows[k]] = rows[k]
 
 
+@inlined
+def way_from(body, x, y, angle):
+    """Return the greatest distance [px] that a point of a body may have moved from a pose; NaN if the pose has one."""
+    return norm(body.x - x, body.y - y) + abs(body.angle - angle) * body.extent
+
+
 @kernel
 def advance_sleep_times(
     # read
@@ -535,15 +541,14 @@ def advance_sleep_times(
             islands += 1
         if not is_free(b):
             continue
-        moved = norm(b.x - b.rocking_x, b.y - b.rocking_y) + abs(b.angle - b.rocking_angle) * b.extent
-        if not moved <= rocking_range:
+        if not way_from(b, b.rocking_x, b.rocking_y, b.rocking_angle) <= rocking_range:
             b.rocking_x = b.x
             b.rocking_y = b.y
             b.rocking_angle = b.angle
             b.rocking_time = 0.0
         b.rocking_time += dt
         before = b.sleep_time
-        far = norm(b.x - b.still_x, b.y - b.still_y) + abs(b.angle - b.still_angle) * b.extent > distance
+        far = way_from(b, b.still_x, b.still_y, b.still_angle) > distance
         b.sleep_time = 0.0 if far or not b.allow_sleep else before + dt
         # A body that creeps more slowly than this stays near a reference pose that follows it.
         times = b.sleep_time / patience

@@ -1,13 +1,12 @@
 """Release of cached forces under a heavy load that is removed or moved; they would throw the bodies below.
 
-A contact starts from the force at the end of the step before. After a body of a thousand times its mass is removed,
-that is a thousand times the force that is needed. A pass removes as much of it as the order of the contacts allows;
-the rest becomes velocity.
+A contact starts from the force at the end of the step before. After a load of a thousand times the mass of a body is
+removed, the cached force is a thousand times the force needed. A pass removes only a part of it, which depends on the
+order of the contacts; the rest becomes velocity.
 """
 
 import math
-from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,7 +15,6 @@ from physics.settings import BLOW
 from physics.tables.step_state import WorldTables
 from physics.tables.table import rows_of
 
-FORCES = ("normal_force_1", "tangent_force_1", "normal_force_2", "tangent_force_2", "rolling_force")
 NO_SIDE = -1
 
 
@@ -38,46 +36,57 @@ def link_contacts(contacts, heads_out, nexts_out):
 
 
 @kernel
-def forget_in_turn(rows, bodies, blow, heads, nexts, stamp, marks_inout, reached_out, contacts_inout):
-    """Clear the cached forces below each of some bodies, one after the other, as forget_loads does for one body.
+def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
+    """Clear the cached forces below groups of bodies that go, `size` rows each, one group after the other.
 
-    rows: of dynamic bodies. blow [px/s2]: a force per mass beyond it is a blow. heads, nexts: see link_contacts.
-    stamp: greater than all marks. marks_inout (bodies) int64; reached_out (bodies) int64: the rows reached last. Return
-    the greatest stamp used. O(contacts of these bodies), and of the stacks that are cleared.
+    Where a body that goes pressed on one that stays with more than a blow, all contacts of that one and of the stack
+    below it, through dynamic bodies, lose their forces. blow [px/s2]: force per mass. lists_inout: see Lists; stamp:
+    greater than all its marks. Return the greatest stamp used. O(contacts of the bodies that go, and of the stacks).
     """
-    for k in range(len(rows)):
+    heads, nexts = lists_inout.heads, lists_inout.nexts
+    marks, reached = lists_inout.marks, lists_inout.reached
+    for start in range(0, len(rows), size):
         stamp += 1
+        group = rows[start : start + size]
+        for k in range(len(group)):
+            marks[group[k]] = stamp
         count = 0
-        side = heads[rows[k]]
-        while side >= 0:
-            c = contacts_inout[side // 2]
-            other = c.body_row_b if side % 2 == 0 else c.body_row_a
-            force = c.normal_force_1
-            if c.count == 2:
-                force += c.normal_force_2
-            if force > 0.0 and force * bodies[other].inverse_mass > blow and marks_inout[other] != stamp:
-                marks_inout[other] = stamp
-                reached_out[count] = other
-                count += 1
-            side = nexts[side]
+        for k in range(len(group)):
+            side = heads[group[k]]
+            while side >= 0:
+                c = contacts_inout[side // 2]
+                other = c.body_row_b if side % 2 == 0 else c.body_row_a
+                force = c.normal_force_1
+                if c.count == 2:
+                    force += c.normal_force_2
+                if force > 0.0 and force * bodies[other].inverse_mass > blow and marks[other] != stamp:
+                    marks[other] = stamp
+                    reached[count] = other
+                    count += 1
+                side = nexts[side]
         at = 0
         while at < count:
-            side = heads[reached_out[at]]
+            side = heads[reached[at]]
             at += 1
             while side >= 0:
                 c = contacts_inout[side // 2]
-                c.normal_force_1 = 0.0
-                c.tangent_force_1 = 0.0
-                c.normal_force_2 = 0.0
-                c.tangent_force_2 = 0.0
-                c.rolling_force = 0.0
+                c.normal_force_1 = c.tangent_force_1 = c.normal_force_2 = c.tangent_force_2 = c.rolling_force = 0.0
                 other = c.body_row_b if side % 2 == 0 else c.body_row_a
-                if other != rows[k] and bodies[other].inverse_mass > 0.0 and marks_inout[other] != stamp:
-                    marks_inout[other] = stamp
-                    reached_out[count] = other
+                if bodies[other].inverse_mass > 0.0 and marks[other] != stamp:
+                    marks[other] = stamp
+                    reached[count] = other
                     count += 1
                 side = nexts[side]
     return stamp
+
+
+class Lists(NamedTuple):
+    """Arrays of ContactLists, all int64; rows are those of BODY."""
+
+    heads: np.ndarray  # (rows) the first side of each body …
+    nexts: np.ndarray  # (2 · contacts) … and the next side of the same body, NO_SIDE after the last
+    marks: np.ndarray  # (rows) stamp of the group that reached a body last
+    reached: np.ndarray  # (rows) scratch
 
 
 class ContactLists:
@@ -85,7 +94,7 @@ class ContactLists:
 
     def __init__(self) -> None:
         self.contacts, self.step = None, -1  # that the lists are of
-        self.heads = self.nexts = self.marks = self.reached = np.zeros(0, np.int64)
+        self.lists = Lists(*(np.zeros(0, np.int64) for _ in range(4)))
         self.stamp = 0
 
     def __getstate__(self):
@@ -94,38 +103,33 @@ class ContactLists:
     def __setstate__(self, state):
         self.__init__()
 
-    def refresh(self, contacts: np.ndarray, bodies: np.ndarray, step: int) -> None:
+    def _refresh(self, contacts, bodies, step):
         """Link the contacts of a world again if they are not those of the last call."""
-        if contacts is self.contacts and step == self.step and len(self.heads) >= len(bodies):
+        lists = self.lists
+        if contacts is self.contacts and step == self.step and len(lists.heads) >= len(bodies):
             return
-        if len(self.heads) < len(bodies):
-            room = 2 * len(bodies)
-            self.heads, self.marks, self.reached = (np.zeros(room, np.int64) for _ in range(3))
-            self.stamp = 0
-        if len(self.nexts) < 2 * len(contacts):
-            self.nexts = np.zeros(4 * len(contacts), np.int64)
-        link_contacts(contacts, self.heads, self.nexts)
-        self.contacts, self.step = contacts, step
+        if len(lists.heads) < len(bodies):
+            heads, marks, reached = (np.zeros(2 * len(bodies), np.int64) for _ in range(3))
+            lists, self.stamp = Lists(heads, lists.nexts, marks, reached), 0
+        if len(lists.nexts) < 2 * len(contacts):
+            lists = lists._replace(nexts=np.zeros(4 * len(contacts), np.int64))
+        link_contacts(contacts, lists.heads, lists.nexts)
+        self.lists, self.contacts, self.step = lists, contacts, step
 
-    def forget_loads(self, world: Any, rows: np.ndarray) -> None:
-        """Clear the cached forces under dynamic bodies that are moved one after the other. rows: of BODY, int64.
+    def forget_loads(self, world: Any, rows: np.ndarray, together: bool = False) -> None:
+        """Clear the cached forces under bodies that are removed or moved, one after the other or all together.
 
-        The same as one call of forget_loads for each; O(contacts of these bodies), and O(contacts) after each step. The
-        tables are read as they are, see World._row_at. Any stands for World, whose package imports this one.
+        rows: of BODY, int64. O(contacts of these bodies), and O(contacts) after each step. The tables are read as they
+        are, see World._row_at. Any stands for World, whose package imports this one.
         """
         contacts, bodies = world._contact_rows, world._bodies.rows
         if not len(contacts) or not world.stacks or not len(rows):
             return  # contacts are not cached
-        self.refresh(contacts, bodies, world.steps)
-        work = self.marks, self.reached, contacts
-        self.stamp = forget_in_turn(rows, bodies, blow_of(world), self.heads, self.nexts, self.stamp, *work)
-
-    def forget_loads_under(self, world: Any, row: int) -> None:
-        """Do the same as forget_loads for one body, also for one that is removed."""
-        if world.stacks and len(world._contact_rows):
-            self.refresh(world._contact_rows, world._bodies.rows, world.steps)
-            if self.heads.item(row) != NO_SIDE:
-                self.forget_loads(world, np.array([row]))
+        self._refresh(contacts, bodies, world.steps)
+        if len(rows) == 1 and self.lists.heads.item(rows[0]) == NO_SIDE:
+            return
+        size = len(rows) if together else 1
+        self.stamp = forget_below(rows, size, bodies, blow_of(world), self.stamp, self.lists, contacts)
 
 
 def blow_of(tables: WorldTables) -> float:
@@ -141,34 +145,3 @@ def is_any_blow(bodies: np.ndarray, contacts: np.ndarray, ids: np.ndarray, blow:
         if (force[mine] * bodies["inverse_mass"][rows_of(bodies, contacts[other][mine])] > blow).any():
             return True
     return False
-
-
-def forget_loads(tables: WorldTables, ids: Sequence[int] | np.ndarray) -> None:
-    """Clear the cached forces under a load that is removed or moved.
-
-    Where a removed body lay on a body of a small fraction of its weight, all contacts of the stack below, through
-    dynamic bodies, lose their cached forces. O(contacts · depth of the stack), in worlds that stack.
-    """
-    contacts, bodies = tables.contact_rows, tables.bodies
-    if not len(contacts) or not tables.stacks:
-        return  # contacts are not cached
-    ids_a, ids_b = contacts["body_a"], contacts["body_b"]
-    going_a, going_b = np.isin(ids_a, ids), np.isin(ids_b, ids)
-    lost = going_a != going_b
-    if not lost.any():
-        return
-    left = rows_of(bodies, np.where(going_a, ids_b, ids_a)[lost])
-    force = (contacts["normal_force_1"] + np.where(contacts["count"] == 2, contacts["normal_force_2"], 0.0))[lost]
-    reached = np.zeros(len(bodies), bool)
-    reached[left[(force > 0.0) & (force * bodies["inverse_mass"][left] > blow_of(tables))]] = True
-    if not reached.any():
-        return
-    row_a, row_b, loose = rows_of(bodies, ids_a), rows_of(bodies, ids_b), bodies["inverse_mass"] > 0.0
-    inner = loose[row_a] & loose[row_b] & ~(going_a | going_b)
-    a, b = row_a[inner], row_b[inner]
-    while (reached[a] != reached[b]).any():
-        reached[a[reached[b]]] = True
-        reached[b[reached[a]]] = True
-    borne = reached[row_a] | reached[row_b]
-    for name in FORCES:
-        contacts[name][borne] = 0.0

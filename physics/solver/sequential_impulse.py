@@ -281,6 +281,15 @@ def sum_up(count, blocks_inout):
 
 
 @subkernel
+def turns_any(count, blocks):
+    """Return whether any of the first `count` blocks has a round contact whose bodies turn."""
+    for block in range(count):
+        if blocks.turns[block]:
+            return True
+    return False
+
+
+@subkernel
 def foresee_turns(members, kinematic, time, count, motions_inout, blocks_inout):
     """Write the normals and moment arms of round contacts at the poses that the bodies will have after `time` [s].
 
@@ -327,7 +336,7 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
         if not passes.warm:
             clear_impulses(members, count, motions_inout, blocks_inout)
         velocities(members, context.h, context.drag, motions_inout)
-        if rotation:
+        if rotation and turns_any(count, blocks_inout):
             foresee_turns(members, kinematic, LEAD * context.h, count, motions_inout, blocks_inout)
         warm_start(count, motions_inout, blocks_inout)
         for _ in range(passes.count):

@@ -460,34 +460,29 @@ def turn_impulses(count, motions_inout, blocks_inout):
     count: number of blocks. The next substep starts with these impulses. The relaxing pass has removed impulses along
     the present normals that were applied along the former normals: the remaining difference is removed here.
     """
-    s = blocks_inout.gathered
     for block in range(count):
         if not blocks_inout.turns[block]:
             continue
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
-        wide = lanes_of(blocks_inout.contact, block)
-        for lane in range(wide):
-            normal = c[at.NORMAL_1 + lane] + c[at.NORMAL_2 + lane]
-            tangent = c[at.TANGENT_1 + lane] + c[at.TANGENT_2 + lane]
+        for lane in range(lanes_of(blocks_inout.contact, block)):
+            a = motions_inout[blocks_inout.motion_a[block, lane]]
+            b = motions_inout[blocks_inout.motion_b[block, lane]]
             nx = c[at.LAST_NX + lane] - c[at.NX + lane]
             ny = c[at.LAST_NY + lane] - c[at.NY + lane]
-            s[at.DX_A + lane] = normal * nx - tangent * ny
-            s[at.DY_A + lane] = normal * ny + tangent * nx
+            normal = c[at.NORMAL_1 + lane] + c[at.NORMAL_2 + lane]
+            tangent = c[at.TANGENT_1 + lane] + c[at.TANGENT_2 + lane]
+            kept_x, kept_y = normal * nx - tangent * ny, normal * ny + tangent * nx
             normal = c[at.LAST_NORMAL + lane] - normal
             tangent = c[at.LAST_TANGENT + lane] - tangent
-            s[at.DX_B + lane] = normal * nx - tangent * ny
-            s[at.DY_B + lane] = normal * ny + tangent * nx
-        for lane in range(wide):
-            a = motions_inout[blocks_inout.motion_a[block, lane]]
-            a.free_vx -= c[at.IM_A + lane] * s[at.DX_A + lane]
-            a.free_vy -= c[at.IM_A + lane] * s[at.DY_A + lane]
-            a.vx += c[at.IM_A + lane] * s[at.DX_B + lane]
-            a.vy += c[at.IM_A + lane] * s[at.DY_B + lane]
-            b = motions_inout[blocks_inout.motion_b[block, lane]]
-            b.free_vx += c[at.IM_B + lane] * s[at.DX_A + lane]
-            b.free_vy += c[at.IM_B + lane] * s[at.DY_A + lane]
-            b.vx -= c[at.IM_B + lane] * s[at.DX_B + lane]
-            b.vy -= c[at.IM_B + lane] * s[at.DY_B + lane]
+            removed_x, removed_y = normal * nx - tangent * ny, normal * ny + tangent * nx
+            a.free_vx -= c[at.IM_A + lane] * kept_x
+            a.free_vy -= c[at.IM_A + lane] * kept_y
+            a.vx += c[at.IM_A + lane] * removed_x
+            a.vy += c[at.IM_A + lane] * removed_y
+            b.free_vx += c[at.IM_B + lane] * kept_x
+            b.free_vy += c[at.IM_B + lane] * kept_y
+            b.vx -= c[at.IM_B + lane] * removed_x
+            b.vy -= c[at.IM_B + lane] * removed_y
 
 
 # ---- soft step -------------------------------------------------------------------------------------------------------

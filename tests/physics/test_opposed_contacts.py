@@ -21,6 +21,11 @@ SHAPES = {
 }
 
 
+# Known fault: one of three rounded boxes slips out from under a door, at 902 px/s. Shape, scene, speed [px/s], number of
+# bodies: factor on the pusher's speed and the push-out.
+OUTLIERS = {("rounded", "door", 60, 3): 4}
+
+
 def peak_of(world, bodies, steps, before_step):
     """The greatest speed of the bodies [px/s] over so many steps."""
     peak = 0.0
@@ -98,7 +103,8 @@ def test_other_shapes_in_a_press_get_no_more_energy_than_it_does_work(name, scen
         for count in (1, 2, 3):
             world, bodies, steps, move, fall = scene(SHAPES[name], speed, count, **settings)
             peak = peak_of(world, bodies, steps, move)
-            assert peak <= 4 * (speed + PUSH_SPEED) + fall, f"{count} at {speed} px/s: {peak:.0f}"
+            allowed = OUTLIERS.get((name, scene.__name__, speed, count), 3) * (speed + PUSH_SPEED) + fall
+            assert peak <= allowed, f"{count} at {speed} px/s: {peak:.0f}"
 
 
 @needs_speed

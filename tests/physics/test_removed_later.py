@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from physics import Circle, Effects, Polygon, Snapshot, World
-from physics.solver.loads import forget_loads
+from tests.oracles.loads import forget_loads
 from tests.physics.test_move import RIGID, WORLDS, crowded, kept
 
 
@@ -53,9 +53,10 @@ def test_the_same_as_if_rows_were_dropped_at_once(effects, seed):
     assert kept(lazy) == kept(eager)
 
 
+@pytest.mark.parametrize("size", [1, 2, 5])
 @pytest.mark.parametrize("seed", range(8))
-def test_the_loads_of_one_body_are_released_as_by_a_search(seed):
-    """The lists of contacts find what forget_loads finds among all contacts."""
+def test_the_loads_of_bodies_are_released_as_by_a_search(seed, size):
+    """The lists of contacts find what a search among all contacts finds, for bodies that go together."""
     rng, world = np.random.default_rng(seed), World(RIGID)
     world.add_body(Polygon.box(900, 20), kind="static", position=(0, 10))
     for stack in range(5):
@@ -65,10 +66,11 @@ def test_the_loads_of_one_body_are_released_as_by_a_search(seed):
     for _ in range(8):
         world.step()
     cleared = 0
-    for identity in rng.permutation(world.bodies["id"]).tolist():
-        other = copy.deepcopy(world)
-        world.contact_lists.forget_loads_under(world, world._row_number(identity))
-        forget_loads(other, [identity])
+    order = rng.permutation(world.bodies["id"])
+    for start in range(0, len(order), size):
+        other, ids = copy.deepcopy(world), order[start : start + size]
+        world.contact_lists.forget_loads(world, world.rows(ids), together=True)
+        forget_loads(other, ids)
         assert str(world.contact_rows.tolist()) == str(other.contact_rows.tolist())
         cleared += int((world.contact_rows["normal_force_1"] == 0.0).sum())
     assert cleared
