@@ -21,8 +21,8 @@ SHAPES = {
 }
 
 
-# Known fault: one of three rounded boxes slips out from under a door, at 902 px/s. Shape, scene, speed [px/s], number of
-# bodies: factor on the pusher's speed and the push-out.
+# Known fault: one of three rounded boxes slips out from under a door, at 902 px/s. Shape, scene, speed [px/s], bodies:
+# factor on the pusher's speed and the push-out.
 OUTLIERS = {("rounded", "door", 60, 3): 4}
 
 
