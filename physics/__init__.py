@@ -13,9 +13,23 @@ from physics.broadphase.sweep_and_prune import SweepAndPrune
 from physics.character.character import Character, Moved
 from physics.effects import Effects
 from physics.jit import JIT
+from physics.joint import Joint
+from physics.joints.kinds import (
+    Angle,
+    Distance,
+    Drive,
+    Motor,
+    NoContact,
+    Prismatic,
+    Revolute,
+    Spring,
+    Target,
+    Weld,
+    Wheel,
+)
 from physics.math2d import Vec2
 from physics.queries.casts import RayHit
-from physics.queries.pairs import Distance, Manifold, TimeOfImpact, collide, distance, time_of_impact
+from physics.queries.pairs import Manifold, TimeOfImpact, collide, distance, time_of_impact
 from physics.shapes.approximate import TIERS, Fit, decompose, fit, hull, measure
 from physics.shapes.kinds import Bounds, mass_of
 from physics.shapes.mask import PixelMask
@@ -31,9 +45,10 @@ from physics.world import World
 BROADPHASES = {each.name: each for each in (BruteForce, SweepAndPrune, SpatialHashGrid, DynamicTree)}
 
 __all__ = [
-    "BROADPHASES", "Body", "Bounds", "BruteForce", "Capsule", "Chain", "Character", "Circle", "DYNAMIC", "Distance",
-    "DynamicTree", "Effects", "Filter", "Fit", "JIT", "KINEMATIC", "Manifold", "Mass", "Material", "Moved",
-    "PHYSICS_VERSION", "PixelMask", "Polygon", "RayHit", "SOLVERS", "STATIC", "Segment", "Snapshot", "SpatialHashGrid",
-    "SweepAndPrune", "TIERS", "TileGrid", "TimeOfImpact", "Vec2", "World", "collide", "compile_in_background",
+    "Angle", "BROADPHASES", "Body", "Bounds", "BruteForce", "Capsule", "Chain", "Character", "Circle", "DYNAMIC",
+    "Distance", "Drive", "DynamicTree", "Effects", "Filter", "Fit", "JIT", "Joint", "KINEMATIC", "Manifold", "Mass",
+    "Material", "Motor", "Moved", "NoContact", "PHYSICS_VERSION", "PixelMask", "Polygon", "Prismatic", "RayHit",
+    "Revolute", "SOLVERS", "STATIC", "Segment", "Snapshot", "SpatialHashGrid", "Spring", "SweepAndPrune", "TIERS",
+    "Target", "TileGrid", "TimeOfImpact", "Vec2", "Weld", "Wheel", "World", "collide", "compile_in_background",
     "decompose", "distance", "fit", "hull", "mass_of", "measure", "time_of_impact", "warmup",
 ]  # fmt: skip

@@ -12,6 +12,7 @@ from physics.checks import Pair, Pose
 from physics.collision.areas import with_areas
 from physics.collision.manifold import contacts_of
 from physics.islands import sleep
+from physics.joint import Joint
 from physics.math2d import Vec2, rotate
 from physics.queries.casts import bounds_of
 from physics.shapes.shape import Filter, Material, Shape
@@ -100,6 +101,14 @@ class Body(Handle):
         cancels the target.
         """
         step.set_target(self.world, self.id, position, angle)
+
+    @property
+    def joints(self) -> tuple[Joint, ...]:
+        """The joints of the body, in the order of ids."""
+        self._must_exist()
+        joints = self.world.joints
+        mine = (joints["body_a"] == self.id) | (joints["body_b"] == self.id)
+        return tuple(Joint(self.world, each) for each in joints["id"][mine].tolist())
 
     # --- motion -----------------------------------------------------------------------------------------------------
 

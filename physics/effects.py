@@ -5,8 +5,9 @@ from dataclasses import dataclass, fields, replace
 
 from physics import checks
 
-NEEDS_RESPONSE = ("friction", "restitution", "stacking", "one_way", "conveyor")
-NEEDS = {name: ("response",) for name in NEEDS_RESPONSE} | {"sleeping": ("response", "stacking")}  # foundations
+NEEDS_RESPONSE = ("friction", "restitution", "stacking", "one_way", "conveyor", "joints")
+NEEDS = {name: ("response",) for name in NEEDS_RESPONSE}  # foundations
+NEEDS |= {name: ("response", "stacking") for name in ("sleeping", "joints")}
 
 
 @dataclass(frozen=True)
@@ -32,6 +33,7 @@ class Effects:
     persist: bool = False  # the `persist` event: pairs that continue to touch
     one_way: bool = False  # one-way platforms
     conveyor: bool = False  # conveyor belts: Material.surface_speed
+    joints: bool = False  # World.add_joint
     carving: bool = False  # masks can be carved: Body.carve
 
     def __post_init__(self):
@@ -44,6 +46,8 @@ class Effects:
                 raise ValueError(f"effect {name} needs response: declare both, or neither")
         if self.sleeping and not self.stacking:
             raise ValueError("effect sleeping needs stacking: without it nothing comes to rest")
+        if self.joints and not self.stacking:
+            raise ValueError("effect joints needs stacking: only the stacking solvers solve joints")
 
     @classmethod
     def detection(cls) -> "Effects":

@@ -14,11 +14,12 @@ from physics.islands.sleep import in_order
 from physics.jit import copy_row, kernel, subkernel
 from physics.shapes.placement import PLACED
 from physics.tables.contact import CONTACT, EVENT, HIT, QUARANTINE
+from physics.tables.joint import BROKEN
 from physics.tables.step_state import CONTACTS, StepState, WorldTables, stage
 from physics.tables.table import joined, rows_of
 
 NOTHING, NO_EVENTS, NO_HITS = np.zeros(0, CONTACT), np.zeros(0, EVENT), np.zeros(0, HIT)
-UNBROKEN, NO_ROWS = np.zeros(0, QUARANTINE), np.zeros(0, np.int64)
+UNBROKEN, NO_ROWS, NO_BROKEN = np.zeros(0, QUARANTINE), np.zeros(0, np.int64), np.zeros(0, BROKEN)
 
 
 @subkernel
@@ -362,6 +363,7 @@ class Events:
         self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = NO_EVENTS
         self.hits = NO_HITS
         self.quarantined = UNBROKEN
+        self.broken = NO_BROKEN
 
 
 @stage(

@@ -51,6 +51,8 @@ FIRM_ALONE = 3.0  # … and is the sole support of one side. Larger: columns of 
 BLOW = 8.0  # factor on the load before the step above which such a contact counts as struck, and keeps less impulse …
 BLOW_GIVE = 0.1  # … from substep to substep. 0: a heavy box dropped on a pyramid bounces, tilts and destroys it
 STILL_STIFFNESS = 2.0  # factor on the stiffness of contacts with static and kinematic bodies
+JOINT_STIFFNESS = 2.0  # factor on the stiffness of joints against that of contacts …
+JOINT_DAMPING = 2.0  # … and their damping ratio (both Box2D v3)
 PUSH_SPEED = 3.0  # [m/s] fastest push out of an overlap. Larger: a deep overlap explodes
 CROWD = 8  # contacts of a body that separate at full speed; with more, each gets its share of eight, otherwise
 # a hundred bodies in one place would explode

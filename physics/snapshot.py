@@ -22,6 +22,7 @@ from physics import checks
 from physics.edit import MATERIAL
 from physics.islands.awake import Awake
 from physics.islands.sleep import Island, SleepingSet
+from physics.joint import JOINT_SOLVERS, set_apart
 from physics.math2d import Vec2
 from physics.settings import tolerances
 from physics.shapes.kinds import SHAPES
@@ -33,6 +34,8 @@ from physics.step import PUSHING, SOLVERS
 from physics.tables.body import BODY, BODY_DEF
 from physics.tables.character import CHARACTER
 from physics.tables.contact import CONTACT, EVENT
+from physics.tables.joint import BROKEN, JOINT, WORLD
+from physics.tables.joint import STATE as STATE_OF_JOINTS
 from physics.tables.shape import MASK, PART, SHAPE
 from physics.tables.table import joined
 from physics.world_state import WorldState, checked_substeps
@@ -93,6 +96,7 @@ VERSION = 15
 ABANDONED = 3600.0  # [s] without a write after which a file counts as abandoned
 SETTINGS = (
     "solver",
+    "joint_solver",
     "dt",
     "substeps",
     "accuracy",
@@ -121,7 +125,10 @@ TABLES = {
     "resting_sensing": EVENT,
     "island_contacts": CONTACT,
     "island_touching": EVENT,
+    "joints": JOINT,
+    "lost_joints": BROKEN,
 }
+LATER = {"joints": np.zeros(0, JOINT), "lost_joints": np.zeros(0, BROKEN)}  # absent from files of older programs
 
 
 def _as_laid_out(name, rows, dtype) -> np.ndarray:
@@ -191,6 +198,7 @@ class Snapshot:
             facts = json.loads(str(arrays.pop("facts")))
             if facts["version"] != VERSION:
                 raise ValueError(f"it has version {facts['version']!r}, this program reads {VERSION}")
+            arrays = LATER | arrays
             for name, dtype in TABLES.items():
                 arrays[name] = _as_laid_out(name, arrays[name], dtype)
             geometry = unpack_geometry(arrays, facts)
@@ -219,6 +227,8 @@ def take(world: WorldState) -> Snapshot:
         "given": world._definitions.rows.copy(),
         "shapes": world.shapes.copy(),
         "characters": world.characters.rows.copy(),
+        "joints": world.joints.copy(),
+        "lost_joints": np.array(world._lost_joints, BROKEN),
         "touching": world.touching_pairs.rows.copy(),
         "sensing": world.sensing_pairs.rows.copy(),
         "reported": world.reported_rows().copy(),
@@ -236,6 +246,7 @@ def take(world: WorldState) -> Snapshot:
         "effects": world.effects.names(),
         "next_body": world._next_body,
         "next_shape": world._next_shape,
+        "next_joint": world._next_joint,
         "pixels_per_meter": world.tolerances.pixels_per_meter,
         "time": world.time,
         "span": world.span,
@@ -268,7 +279,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
         )
     # All data has been checked: nothing fails from here on.
     for name in SETTINGS:
-        value = facts[name]
+        value = facts.get(name, "auto") if name == "joint_solver" else facts[name]
         if name in FIELDS:
             vars(world)["_" + name] = value if name == "drag" else Vec2(*value)
         elif getattr(world, name) != value:
@@ -280,6 +291,7 @@ def restore(world: WorldState, taken: Snapshot) -> None:
         (world._definitions, "given"),
         (world._shapes, "shapes"),
         (world.characters, "characters"),
+        (world._joints, "joints"),
     ):
         table.count = 0
         table.append(len(arrays[name]))[:] = arrays[name]
@@ -294,10 +306,14 @@ def restore(world: WorldState, taken: Snapshot) -> None:
     world.awake = Awake(world.sleeps)
     world.awake.mark_dirty(arrays["dirty"].tolist())
     world._next_body, world._next_shape = facts["next_body"], facts["next_shape"]
+    world._next_joint, world._lost_joints = facts.get("next_joint", 0), arrays["lost_joints"].tolist()
+    known = set(arrays["joints"]["id"].tolist())
+    world._joint_users = {identity: user for identity, user in world._joint_users.items() if identity in known}
     world._targets = _targets(arrays)
     world._users = {identity: user for identity, user in world._users.items() if identity in world._shapes_of}
     world._tiers = {identity: tier for identity, tier, _ in facts["tiers"]}
     world.rebuild_proxies()
+    set_apart(world, ())
     world.queries.seen = ()
 
 
@@ -351,6 +367,10 @@ def _unpack(arrays, facts, geometry):
     checks.ids("dirty", arrays["dirty"])
     for name in ("next_body", "next_shape"):
         checks.whole(name, facts[name], 0, 2**62)
+    checks.whole("next_joint", facts.get("next_joint", 0), 0, 2**62)
+    joined = np.concatenate([arrays["joints"][name] for name in ("body_a", "body_b")])
+    if not set(joined[joined != WORLD].tolist()) <= shapes_of.keys():
+        raise ValueError("a joint has a body that is not there")
     if len(arrays["given"]) != len(arrays["bodies"]) or not set(_targets(arrays)) <= shapes_of.keys():
         raise ValueError("what is said of bodies is said of others")
     for name in ("gravity", "wind"):
@@ -360,6 +380,7 @@ def _unpack(arrays, facts, geometry):
     for name in ("dt", "pixels_per_meter", "accuracy"):
         checks.number(name, facts[name], above=0.0)
     checked_substeps(facts["substeps"])
+    checks.choice("joint_solver", facts.get("joint_solver", "auto"), JOINT_SOLVERS)
     checks.choice("solver", facts["solver"], SOLVERS if "stacking" in facts["effects"] else [*PUSHING])
     return library, shapes_of, sources, random
 
@@ -434,6 +455,10 @@ def digest(world: WorldState) -> str:
     speed = world.tolerances.restitution_speed
     if speed != tolerances(world.tolerances.pixels_per_meter).restitution_speed:
         found.update(b"restitution_speed" + np.float64(speed + 0.0).tobytes())
+    if world.effects.joints:
+        found.update(world.joint_solver.encode())
+        for name, kind in STATE_OF_JOINTS:
+            found.update((world.joints[name] + 0.0 if kind is np.float64 else world.joints[name]).tobytes())
     restless = world.bodies["id"][~world.bodies["allow_sleep"]]
     if len(restless):
         found.update(b"allow_sleep" + restless.tobytes())

@@ -27,10 +27,12 @@ from physics.effects import Effects
 from physics.islands import sleep
 from physics.islands.awake import list_awake
 from physics.islands.sleep import IslandWorkspace, rest, wake_disturbed
+from physics.joint import NO_JOINTS, break_joints
 from physics.settings import SHORTEST_STEP, STALL
 from physics.solver.blocking import IGNORED as IGNORED_BY_BLOCKING
 from physics.solver.blocking import blocking
 from physics.solver.contact_lanes import ContactLanes
+from physics.solver.joint_rows import measure_joints
 from physics.solver.motions import Motions
 from physics.solver.projection import IGNORED as IGNORED_BY_PROJECTION
 from physics.solver.projection import PushSet, projection
@@ -194,6 +196,7 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
             (sweep_piles, e.continuous),
             (carry_characters, characters),
             (update_contacts_at_final_poses, True),
+            (measure_joints, e.joints),
             (events.sense, e.sensors),
             (evaluate_contacts_before_sleep, e.sleeping),
             (events.report_events, True),
@@ -280,6 +283,7 @@ def begin(world: WorldState, dt: float) -> StepState:
     state.span = max(dt, world.span)
     state.substeps = 0 if world.substeps == "auto" else world.substeps
     state.bodies, state.shapes, state.characters = world.bodies, world.shapes, world.characters.rows
+    state.joints, state.joint_solver = world.joints if world.effects.joints else NO_JOINTS, world.joint_solver
     state.queries, state.steps = world.queries, world.steps
     state.library, state.pairs = world.library, world.pairs
     state.awake, state.sleeping_set = world.awake, world.sleeping_set
@@ -305,6 +309,8 @@ def finish(world: WorldState, state: StepState) -> None:
     if len(world.awake.fresh):
         world.bodies["dirty"][world.awake.fresh] = False
         world.awake.fresh = world.awake.fresh[:0]
+    if world.effects.joints:
+        break_joints(world, state.events)
     arrive(world, state.dt)
     if state.kept_forces is not None:
         # A step of length 0 used no forces: they stay for the next step, without what the stages added.

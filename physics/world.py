@@ -8,7 +8,7 @@ from typing import Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from physics import body_templates, checks, edit, snapshot, teleport
+from physics import body_templates, checks, edit, joint, snapshot, teleport
 from physics.body import Body
 from physics.broadphase.proxies import PairList, Strategy
 from physics.broadphase.spatial_hash import SpatialHashGrid
@@ -20,6 +20,8 @@ from physics.islands import sleep
 from physics.islands.awake import Awake
 from physics.islands.sleep import SleepingSet
 from physics.jit import tiers
+from physics.joint import Joint
+from physics.joints.kinds import Kind
 from physics.math2d import Vec2
 from physics.queries import casts
 from physics.queries.casts import RayHit
@@ -33,6 +35,7 @@ from physics.step import SOLVERS, STACKING, Workspace, begin, finish, ignored_ef
 from physics.tables.body import BODY, BODY_DEF, DYNAMIC, RUN
 from physics.tables.character import CHARACTER
 from physics.tables.contact import CONTACT
+from physics.tables.joint import JOINT
 from physics.tables.shape import SHAPE
 from physics.tables.table import Table
 from physics.world_state import Profile, WorldState, checked_accuracy, checked_substeps
@@ -61,6 +64,7 @@ class World(WorldState):
     """
 
     _solver: str
+    _joint_solver: str
     _substeps: int | str
     _accuracy: float | None
     _gravity: Vec2
@@ -104,7 +108,8 @@ class World(WorldState):
         self._substeps, self._accuracy = checked_substeps(substeps), checked_accuracy(accuracy)
         self._solver = self._checked_solver(own_solver(effects) if solver is None else solver)
         self._bodies, self._definitions, self._shapes, self.characters = map(Table, (BODY, BODY_DEF, SHAPE, CHARACTER))
-        self._runs, self.library = Table(RUN), Library()
+        self._runs, self.library, self._joints = Table(RUN), Library(), Table(JOINT, 0)
+        self._joint_users, self._lost_joints, self._next_joint, self._joint_solver = {}, [], 0, "auto"
         self._stepping = False
         self._next_body = self._next_shape = self._carved_pixels = 0
         self._templates, self._removed = {}, {}
@@ -271,6 +276,50 @@ class World(WorldState):
         """Remove all bodies and the geometry of their shapes. Ids continue where they were."""
         self.remove_bodies(self.bodies["id"])
 
+    # --- joints ----------------------------------------------------------------------------------------------------
+
+    @property
+    def joints(self) -> np.ndarray:
+        """JOINT rows in the order of ids: a view, valid until a joint is added, removed or broken.
+
+        Columns with settings may be written between steps; `touch` wakes the bodies.
+        """
+        if self._removed:
+            self._drop_removed()
+        return self._joints.rows
+
+    def add_joint(self, joint_of: Kind) -> Joint:
+        """Add one joint, given as a Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target or NoContact.
+
+        Return its handle. Its bodies wake. Raises ValueError without the effect joints, for two equal bodies, for two
+        sides that are not dynamic and for the body of a character, TypeError, KeyError. The world is then unchanged.
+        """
+        return joint.add_one(self, joint_of)
+
+    def add_joints(self, kind: type[Kind], bodies_a: Any, bodies_b: Any, **settings: Any) -> np.ndarray:
+        """Add a joint of one kind between each of n pairs of bodies, and return their ids (n,).
+
+        bodies_a, bodies_b: n Bodies or ids; None for the world, as a whole or for single entries. settings: the
+        arguments of the kind, the same for all; anchors (at, or at_a and at_b) are arrays (n, 2) [px], an axis may be
+        one. Raises as add_joint.
+        """
+        return joint.add_many(self, kind, bodies_a, bodies_b, settings)
+
+    def joint(self, identity: Joint | int) -> Joint:
+        """Return the Joint of an id, or of a Joint. Raises KeyError for an unknown joint, TypeError, ValueError."""
+        return Joint(self, self.joints["id"].item(int(joint.joint_rows(self, identity)[0])))
+
+    def remove_joints(self, ids: Any) -> None:
+        """Remove joints, given as Joints or ids. A joint may be named more than once. Their bodies wake.
+
+        Raises KeyError for a joint that is not in the world, TypeError. Nothing is removed then.
+        """
+        joint.remove(self, ids)
+
+    def _drop_joints_of(self, ids: np.ndarray) -> None:
+        if self._joints.count:
+            joint.drop_of_bodies(self, ids)
+
     # --- pairs -------------------------------------------------------------------------------------------------------
 
     @overload
@@ -361,6 +410,8 @@ class World(WorldState):
     def _checked_solver(self, name):
         name = checks.choice("solver", name, SOLVERS)
         self._needs("stacking", f"solver {name!r}", name in STACKING)
+        if self._effects.joints and name not in STACKING:
+            raise ValueError(f"solver must be one of {', '.join(STACKING)}, which solve joints (got {name!r})")
         return name
 
     def set_narrowphase(self, on: bool) -> None:
@@ -382,7 +433,7 @@ class World(WorldState):
             raise ValueError("effects must have response: this world has Characters, which need it")
         before, self._effects = self._effects, effects
         sleep.wake_all(self)
-        if before.stacking != effects.stacking:
+        if before.stacking != effects.stacking or (effects.joints and not self.stacks):
             self._solver = own_solver(effects)
         self._plan()
         if before.response != effects.response:
@@ -453,6 +504,23 @@ class World(WorldState):
             )
         self._broadphase = strategy.fresh()
         self.pairs.start_over()
+
+    @property
+    def joint_solver(self) -> str:
+        """The solver of joints: "iterative", "direct" or "auto". It can be set between steps.
+
+        "direct" solves each tree of joints exactly, at about three times the cost of "iterative", which converges from
+        substep to substep. "auto" takes the direct one where loads need it.
+        """
+        return self._joint_solver
+
+    @joint_solver.setter
+    def joint_solver(self, name: str) -> None:
+        self._unlocked()
+        name = checks.choice("joint_solver", name, joint.JOINT_SOLVERS)
+        if name != self._joint_solver:
+            self._joint_solver = name
+            sleep.wake_all(self)
 
     @property
     def gravity(self) -> Vec2:
@@ -555,7 +623,9 @@ class World(WorldState):
                 yield Body(self, identity)
 
     def __contains__(self, body: object) -> bool:
-        """Return whether a Body, or an id, belongs to this world."""
+        """Return whether a Body, a Joint, or the id of a body, belongs to this world."""
+        if isinstance(body, Joint):
+            return body.world is self and bool((self.joints["id"] == body.id).any())
         if isinstance(body, Body):
             return body.world is self and body.id in self
         if isinstance(body, bool) or not isinstance(body, (int, np.integer)):

@@ -128,6 +128,8 @@ class WorldState:
     workspace: Any  # a Workspace of step.py
     # Properties of World.
     contact_rows: np.ndarray
+    joints: np.ndarray
+    joint_solver: str
     solver: str
     substeps: Any
     accuracy: float
@@ -147,6 +149,10 @@ class WorldState:
     _shapes: Table
     _runs: Table  # RUN, beside the bodies
     _contact_rows: np.ndarray
+    _joints: Table
+    _joint_users: dict[int, Any]
+    _lost_joints: list[tuple]  # BROKEN rows of joints whose bodies were removed since the last step
+    _next_joint: int
     _removed: dict[int, None]  # ids of removed bodies, in turn, whose rows are dropped when the tables are read
     _templates: dict[Any, Any]  # by arguments of add_body: body_templates.Template
     _next_body: int
@@ -389,6 +395,7 @@ class WorldState:
         ids = np.asarray(ids, np.int64)
         if not len(ids):
             return
+        self._drop_joints_of(ids)
         rows = self.rows(ids)
         sleep.disturb(self, ids)
         self.contact_lists.forget_loads(self, rows, together=True)
@@ -399,7 +406,7 @@ class WorldState:
     def _remove_one(self, identity: int) -> None:
         """Remove a body by id; its rows are dropped when the tables are read. Raises KeyError."""
         self._unstepped()
-        if self.characters.count:
+        if self.characters.count or self._joints.count:
             self._remove([identity])
             return
         at = sleep.disturb_one(self, identity, self._row_at(identity))
@@ -407,6 +414,17 @@ class WorldState:
         self._bodies.columns["inverse_mass"][at] = 0.0  # the loads of other bodies do not pass it any more
         self._forget_values(identity)
         self._removed[identity] = None
+
+    def _drop_joints_of(self, ids: np.ndarray) -> None:
+        """Remove the joints of bodies that are about to be removed."""
+        raise NotImplementedError
+
+    def _refresh_joint_rows(self) -> None:
+        """Write the present body rows of all joints."""
+        if self._joints.count:
+            joints = self._joints.rows
+            for side in ("a", "b"):
+                joints[f"body_row_{side}"] = rows_in(self._bodies, joints[f"body_{side}"])
 
     def _forget_values(self, identity: int) -> None:
         """Forget what is kept of a body beside the tables."""
@@ -434,6 +452,7 @@ class WorldState:
         if self.characters.count:
             self.characters.keep(~np.isin(self.characters.rows["body"], ids))
         sleep.forget(self)
+        self._refresh_joint_rows()
         self._tidy_library()
 
     def _needs(self, effect: str, what: str, asked: bool) -> None:

@@ -1,7 +1,8 @@
-"""docs/examples/: the scene, the shape and the overlay of CONTRIBUTING.md are whole in 40 lines each.
+"""docs/examples/: the scene, the shape, the joint and the overlay of CONTRIBUTING.md are whole in 40 lines each.
 
 Each is put into its list by the one line that the page names, and then works as any other: the scene is played and
-judged, the shape does what an equal Polygon does, the overlay draws and only reads.
+judged, the shape does what an equal Polygon does, the joint what a Distance with limits does, the overlay draws and
+only reads.
 """
 
 import dataclasses
@@ -23,11 +24,13 @@ from game.run.digest import scene_digest
 from game.run.picture import Picture
 from game.scene import Scene, Slider
 from physics import (
+    BROADPHASES,
     Bounds,
     Capsule,
     Chain,
     Character,
     Circle,
+    Distance,
     Effects,
     Filter,
     Material,
@@ -45,6 +48,7 @@ from physics import (
     time_of_impact,
 )
 from physics.jit import tiers
+from physics.joints.kinds import KINDS
 from physics.shapes.kinds import SHAPES
 from scenes.lab.coverage import covered
 from scenes.lab.pieces import piece
@@ -53,7 +57,7 @@ from tests.game.test_overlays import Crowd, play_screen, press, stepped
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES = ROOT / "docs" / "examples"
 LISTING = {"example/bounce": "bounce:Bounce"}
-PIECES = {"diamond": "Diamond", "layer_speeds": "Speeds"}  # the shape and the overlay
+PIECES = {"diamond": "Diamond", "layer_speeds": "Speeds", "rope": "Rope"}  # shape, overlay, kind of joint
 
 
 @pytest.fixture
@@ -113,6 +117,53 @@ def test_contributing_shows_the_example_as_it_is():
     for command in re.findall(r"python -m (tests\.\w+|assets[\w.]*|scenes[\w.]*)", text):
         place = ROOT / command.replace(".", "/")
         assert place.with_suffix(".py").exists() or (place / "__main__.py").exists(), command
+
+
+# --- the joint --------------------------------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def rope(monkeypatch):
+    monkeypatch.syspath_prepend(str(EXAMPLES))
+    kind = import_module("rope").Rope
+    monkeypatch.setattr("physics.joints.kinds.KINDS", KINDS)
+    KINDS.append(kind)
+    yield kind
+    KINDS.remove(kind)
+
+
+@pytest.mark.parametrize("slack", [1.0, 1.3, 2.5])
+@pytest.mark.parametrize("broadphase", BROADPHASES)
+def test_a_kind_of_joint_from_the_page_does_what_a_distance_with_limits_does(broadphase, slack, rope, tmp_path):
+    def played(make):
+        world = World(Effects.rigid_bodies().with_(joints=True), BROADPHASES[broadphase]())
+        balls = [world.add_body(Circle(6.0), position=(30.0 * k, 4.0 * k)) for k in range(1, 5)]
+        for a, b in zip([None, *balls], balls, strict=False):
+            start = (0.0, 0.0) if a is None else a.position
+            world.add_joint(make(a, b, start, b.position))
+        for _ in range(30):
+            world.step()
+        world.snapshot().save(tmp_path / "rope.npz")
+        world.restore(Snapshot.load(tmp_path / "rope.npz"))
+        for _ in range(90):
+            world.step()
+        return world
+
+    new = played(lambda a, b, start, end: rope(a, b, at_a=start, at_b=end, slack=slack))
+    known = played(lambda a, b, start, end: Distance(a, b, start, end, limits=(None, slack * math.dist(start, end))))
+    assert new.bodies["x"].tolist() == known.bodies["x"].tolist()
+    assert new.joint(0).kind == "Rope" and new.joints["separation"].max() < 0.2
+    ids = new.add_joints(rope, [0, 1], [2, 3], at_a=[(0, 0), (9, 0)], at_b=[(0, 8), (9, 5)], slack=2.0)
+    assert new.joints["upper"][-2:].tolist() == [16.0, 10.0] and len(ids) == 2
+
+
+def test_a_kind_of_joint_from_the_page_is_named_and_checked(rope):
+    world = World(Effects.rigid_bodies().with_(joints=True))
+    ball = world.add_body(Circle(6.0), position=(30.0, 0.0))
+    with pytest.raises(TypeError, match="Rope"):
+        world.add_joint("rope")
+    with pytest.raises(ValueError, match="slack must be finite and >= 1"):
+        world.add_joint(rope(None, ball, at_a=(0, 0), at_b=(30, 0), slack=0.5))
 
 
 # --- the shape --------------------------------------------------------------------------------------------------------

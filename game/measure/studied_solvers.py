@@ -44,4 +44,10 @@ def soft_step(iterations: int = 1, warm: bool = True, relaxed: bool = True) -> S
 
 @cache
 def _kernels(iterations: int, warm: bool, relaxed: bool) -> Mapping:
-    return {(d, r, f): make_substeps(d, r, f, iterations, warm, relaxed) for d in BOTH for r in BOTH for f in BOTH}
+    return {
+        (d, r, f, j): make_substeps(d, r, f, j, iterations, warm, relaxed)
+        for d in BOTH
+        for r in BOTH
+        for f in BOTH
+        for j in BOTH
+    }

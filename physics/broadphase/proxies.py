@@ -208,6 +208,32 @@ def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
 
 
 @kernel
+def drop_apart(proxies, count, apart, pairs_inout, work_inout):
+    """Drop the pairs of slots whose bodies never pair. Return the number of pairs left. O(pairs log apart).
+
+    apart: see PairList.keep_apart; pairs_inout (capacity, 2) int32 slots, `count` of them in use.
+    """
+    kept = 0
+    for i in range(count):
+        a, b = proxies[pairs_inout[i, 0]].body, proxies[pairs_inout[i, 1]].body
+        key = (min(a, b) << 32) | max(a, b)
+        low, high = 0, len(apart)
+        while low < high:
+            middle = (low + high) // 2
+            if apart[middle] < key:
+                low = middle + 1
+            else:
+                high = middle
+        if low < len(apart) and apart[low] == key:
+            work_inout[FILTERED] += 1
+            continue
+        pairs_inout[kept, 0] = pairs_inout[i, 0]
+        pairs_inout[kept, 1] = pairs_inout[i, 1]
+        kept += 1
+    return kept
+
+
+@kernel
 def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
     """Order each pair by shape row and write a key that sorts by both rows.
 
@@ -462,6 +488,7 @@ class PairList:
         self.everything = False  # the strategy is new: pass it all proxies
         self.can_recycle = []  # slots whose pairs have to be searched again, besides those with changed boxes
         self.sensors = 0  # number of sensor proxies
+        self.apart = np.zeros(0, np.int64)  # pairs of bodies that never pair, see keep_apart
         self.moved = False  # shape rows have moved since the last update
         self.resting = False  # pairs may have lost their last awake side
         self._make_room()
@@ -590,6 +617,15 @@ class PairList:
         self.room_for(len(slots))[: len(slots)] = slots
         return len(slots)
 
+    def keep_apart(self, keys: np.ndarray) -> bool:
+        """Set the pairs of bodies that never pair, as sorted int64 keys low id << 32 | high id.
+
+        Return whether they differ from those before; proxies of the bodies must then be touched.
+        """
+        changed = not np.array_equal(keys, self.apart)
+        self.apart = keys
+        return changed
+
     def set_filter(self, slots: np.ndarray, value: Filter) -> None:
         """Set the filter of slots."""
         slots = slots[slots >= 0]
@@ -668,6 +704,8 @@ class PairList:
             self._rename(shapes)
         write_states(proxies, self.states[: len(proxies)])
         kept = keep_pairs(self.states, self.slots, self.candidates, self.count, self.kept, self.kept_rows)
+        if len(self.apart) and found:
+            found = drop_apart(proxies, found, self.apart, arena.pairs, arena.work)
         if len(self.keys) < found:
             self.keys = np.zeros(2 * found, np.int64)
         pair_keys(proxies, arena.pairs, found, arena.pairs, self.keys)

@@ -11,8 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.jit import inlined, kernel, subkernel
-from physics.math2d import norm
+from physics.math2d import norm, rotation_of
 from physics.tables.body import DYNAMIC, KINEMATIC
+from physics.tables.joint import LENGTH, ON_AXIS, PINNED
 from physics.tables.step_state import StepState, WorldTables, stage
 from physics.tables.table import join_trees, root_of, rows_of
 
@@ -236,6 +237,8 @@ def list_awake(state: StepState) -> None:
 # onto the directions that these surfaces leave open. In the plane, only the surface that the acceleration presses most
 # can remain a face of this projection; any other surface that it meets along that face blocks it.
 
+LOOSE, PIVOT, RAIL, HELD = 0, 1, 2, 3  # how a joint to a body that stands still holds a group
+SWING = 0.2  # a pendulum may sleep within five slops of its lowest point
 FREE_TIME = 60.0  # [s] for which the motion of a sleeping body would have stayed under the slop
 
 
@@ -252,6 +255,12 @@ class Groups(NamedTuple):
     press: np.ndarray  # [px/s2] acceleration into the surface that it presses on most; 0: on none
     nx: np.ndarray  # normal of that surface, towards the group
     ny: np.ndarray
+    pivots: np.ndarray  # int32 number of joints about which it turns …
+    rails: np.ndarray  # int32 … and of joints along which it slides
+    hold_x: np.ndarray  # [px] the last pivot, or the direction of the last rail
+    hold_y: np.ndarray
+    center_x: np.ndarray  # [px] centre of mass of the group
+    center_y: np.ndarray
 
 
 class FreeFall(NamedTuple):
@@ -269,7 +278,8 @@ class FreeFall(NamedTuple):
 def new_groups(room: int) -> Groups:
     """Return room for that many bodies."""
     flags, numbers = [np.zeros(room, np.bool_) for _ in range(3)], [np.zeros(room) for _ in range(6)]
-    return Groups(np.zeros(room, np.int32), *flags, *numbers)
+    counts, holds = [np.zeros(room, np.int32) for _ in range(2)], [np.zeros(room) for _ in range(4)]
+    return Groups(np.zeros(room, np.int32), *flags, *numbers, *counts, *holds)
 
 
 def free_fall(
@@ -323,6 +333,8 @@ def start_groups(rows, bodies, fall, groups_out):
         g.press[i] = 0.0
         g.nx[i] = 0.0
         g.ny[i] = 0.0
+        g.pivots[i] = 0
+        g.rails[i] = 0
 
 
 @kernel
@@ -350,6 +362,114 @@ def join_groups(bodies, contacts, friction, groups_inout):
             g.anchored[c.body_row_a] = True
         elif b:
             g.anchored[c.body_row_b] = True
+
+
+@subkernel
+def hold_of(joint):
+    """Return how a joint to a body that stands still holds the other body: LOOSE, PIVOT, RAIL or HELD.
+
+    A taut rope or a rod is a pivot. A rail with a spring, a motor at rest or a limit that bears a load holds its body.
+    """
+    j = joint
+    driven = j.spring_hertz > 0.0 or j.motor_max > 0.0 or j.lower == j.upper
+    driven = driven or j.lower_force > 0.0 or j.upper_force > 0.0
+    if j.coordinate == LENGTH:
+        if j.spring_hertz > 0.0 or j.motor_max > 0.0:
+            return HELD
+        return PIVOT if j.lower == j.upper or j.upper_force > 0.0 else LOOSE
+    if j.hold == ON_AXIS:
+        return HELD if driven and not j.turns_motor else RAIL
+    if j.hold == PINNED and j.follows_point:
+        return HELD if j.locks_angle or driven or j.point_hertz > 0.0 else PIVOT
+    return LOOSE
+
+
+@kernel
+def join_jointed_groups(bodies, joints, groups_inout):
+    """Join the bodies of joints, and write how joints to bodies that stand still hold their groups. O(joints).
+
+    Of pivots and rails the place, or the direction, is written to the row of the body that hangs on them.
+    """
+    g = groups_inout
+    for i in range(len(joints)):
+        j = joints[i]
+        if not j.awake:
+            continue
+        a = j.body_row_a >= 0 and is_free(bodies[j.body_row_a])
+        b = j.body_row_b >= 0 and is_free(bodies[j.body_row_b])
+        if a and b:
+            join_trees(j.body_row_a, j.body_row_b, g.parents)
+            continue
+        if not (a or b):
+            continue
+        row = j.body_row_a if a else j.body_row_b
+        hold = hold_of(j)
+        if hold == HELD:
+            g.anchored[row] = True
+        elif hold == PIVOT:
+            g.pivots[row] += 1
+            still = j.body_row_b if a else j.body_row_a
+            x, y = (j.local_bx, j.local_by) if a else (j.local_ax, j.local_ay)
+            if still >= 0:
+                o = bodies[still]
+                c, s = rotation_of(o.angle)
+                x, y = o.x + c * x - s * y, o.y + s * x + c * y
+            g.hold_x[row] = x
+            g.hold_y[row] = y
+        elif hold == RAIL:
+            g.rails[row] += 1
+            g.hold_x[row] = j.nx
+            g.hold_y[row] = j.ny
+
+
+@kernel
+def hold_groups(rows, bodies, groups_inout):
+    """Sum pivots, rails, and centres of mass of groups at their roots. O(rows).
+
+    A group with two pivots, or with a pivot and a rail, cannot go far, and counts as anchored.
+    """
+    g = groups_inout
+    for k in range(len(rows)):
+        i = rows[k]
+        g.center_x[i] = 0.0
+        g.center_y[i] = 0.0
+    for k in range(len(rows)):
+        i = rows[k]
+        root = root_of(i, g.parents)
+        share = bodies[i].mass / g.masses[root] if g.masses[root] > 0.0 else 0.0
+        g.center_x[root] += share * bodies[i].center_x
+        g.center_y[root] += share * bodies[i].center_y
+        if root != i and g.pivots[i] + g.rails[i] > 0:
+            g.pivots[root] += g.pivots[i]
+            g.rails[root] += g.rails[i]
+            g.hold_x[root] = g.hold_x[i]
+            g.hold_y[root] = g.hold_y[i]
+    for k in range(len(rows)):
+        i = rows[k]
+        if g.parents[i] == i and g.pivots[i] > 0 and g.pivots[i] + g.rails[i] > 1:
+            g.anchored[i] = True
+
+
+@subkernel
+def way_of_hung(root, body, groups, fall):
+    """Return how far [px] a body of a group may still move that hangs on one pivot, or slides on rails.
+
+    Under an acceleration a group swings to below its pivot: by the distance of its centre of mass from there. Without
+    one it turns on about the pivot.
+    """
+    g = groups
+    ax, ay = g.ax[root], g.ay[root]
+    if g.pivots[root] == 0:
+        x, y = g.hold_x[root], g.hold_y[root]
+        way = abs(ax * x + ay * y) * fall.acceleration_reach
+        return way + abs(body.vx * x + body.vy * y) * fall.velocity_reach
+    x, y = g.center_x[root] - g.hold_x[root], g.center_y[root] - g.hold_y[root]
+    size = norm(ax, ay)
+    if size * fall.acceleration_reach <= fall.slop:
+        return norm(body.vx, body.vy) * fall.velocity_reach
+    if x * ax + y * ay < 0.0:
+        return math.inf
+    return abs(x * ay - y * ax) / size * SWING
 
 
 @kernel
@@ -443,6 +563,10 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
         root = g.parents[i]
         if not is_free(b) or g.anchored[root]:
             continue
+        if g.pivots[root] + g.rails[root] > 0:
+            if way_of_hung(root, b, g, fall) > fall.slop:
+                least_out[islands[i]] = 0.0
+            continue
         way = 0.0 if g.faces[i] else abs(b.angular_velocity) * b.extent * fall.velocity_reach
         if not g.blocked[root]:
             vx, vy = b.vx, b.vy
@@ -457,10 +581,36 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
             least_out[islands[i]] = 0.0
 
 
+@kernel
+def keep_sprung_awake(bodies, joints, slop, islands, least_out):
+    """Write a sleep time of 0 for the islands of bodies on springs that still move. O(joints).
+
+    A body on a spring may turn back slowly: it sleeps once it has stayed in place for half a period, and if it would
+    come to rest within a slop [px]. islands, least_out: see keep_free_awake.
+    """
+    for i in range(len(joints)):
+        j = joints[i]
+        hertz = j.spring_hertz
+        for other in range(2):
+            soft = j.point_hertz if other == 0 else j.angle_hertz
+            hertz = soft if soft > 0.0 and (hertz == 0.0 or soft < hertz) else hertz
+        if not j.awake or hertz == 0.0:
+            continue
+        for side in range(2):
+            row = j.body_row_a if side == 0 else j.body_row_b
+            if row < 0 or not is_free(bodies[row]):
+                continue
+            b = bodies[row]
+            speed = norm(b.vx, b.vy) + abs(b.angular_velocity) * b.extent
+            if b.sleep_time < 0.5 / hertz or speed > slop * math.pi * hertz:
+                least_out[islands[row]] = 0.0
+
+
 def keep_awake_what_moves_freely(
     rows: np.ndarray,
     bodies: np.ndarray,
     contacts: np.ndarray,
+    joints: np.ndarray,
     friction: bool,
     fall: FreeFall,
     groups: Groups,
@@ -473,6 +623,12 @@ def keep_awake_what_moves_freely(
     """
     start_groups(rows, bodies, fall, groups)
     join_groups(bodies, contacts, int(friction), groups)
+    if len(joints):
+        join_jointed_groups(bodies, joints, groups)
     sum_groups(rows, bodies, fall, groups)
+    if len(joints):
+        hold_groups(rows, bodies, groups)
     find_surfaces(rows, bodies, contacts, fall, groups)
     keep_free_awake(rows, bodies, groups, fall, islands, least_out)
+    if len(joints):
+        keep_sprung_awake(bodies, joints, fall.slop, islands, least_out)

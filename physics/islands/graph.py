@@ -15,7 +15,7 @@ from physics.jit import inlined, kernel, subkernel
 from physics.settings import COLORS
 from physics.tables.table import join_trees, root_of
 
-CONTACT_EDGE = 0  # kind of constraint: a contact
+CONTACT_EDGE, JOINT_EDGE = 0, 1  # kinds of constraints
 MOST_NODES = 4  # bodies that one constraint acts on
 NO_NODE = -1  # in place of a node: no body
 
@@ -50,12 +50,13 @@ def new_edges(room: int) -> Edges:
 
 
 @inlined
-def write_pair(edge, row, node_a, node_b, edges_out):
-    """Write the edge of a contact between two nodes.
+def write_pair(edge, kind, row, node_a, node_b, edges_out):
+    """Write the edge of a constraint between two nodes.
 
-    edge: index of the edge; row: of the contact; node_a, node_b: NO_NODE for a body on which the contact does not act.
+    edge: index of the edge; kind, row: the kind of the constraint and its row in the table of the kind; node_a, node_b:
+    NO_NODE for a body on which the constraint does not act.
     """
-    edges_out.kinds[edge] = CONTACT_EDGE
+    edges_out.kinds[edge] = kind
     edges_out.rows[edge] = row
     edges_out.nodes[edge, 0] = node_a
     edges_out.nodes[edge, 1] = node_b

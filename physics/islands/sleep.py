@@ -15,12 +15,13 @@ from physics.islands.awake import (
     new_groups,
     wakes,
 )
-from physics.islands.graph import MOST_NODES, NO_NODE, join, new_edges, write_pair
+from physics.islands.graph import CONTACT_EDGE, JOINT_EDGE, MOST_NODES, NO_NODE, join, new_edges, write_pair
 from physics.jit import inlined, kernel
 from physics.math2d import norm
 from physics.settings import SLEEP_TIME
 from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.contact import CONTACT, EVENT
+from physics.tables.joint import WORLD
 from physics.tables.step_state import ISLANDS, StepState, WorldTables, stage
 from physics.tables.table import joined, root_of, row_of, rows_of
 
@@ -162,6 +163,8 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
     if not tables.awake.sleeping:
         return
     ids = [int(each) for each in ids]
+    if len(tables.joints):
+        ids = with_partners(tables.joints, ids)
     rows = rows_of(tables.bodies, ids)
     keys = islands_at(tables, ids, rows)
     stir(tables, ids, rows[rows >= 0])
@@ -177,6 +180,9 @@ def disturb_one(world: Any, identity: int, row: int) -> int:
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
         return row
+    if len(world.joints):
+        disturb(world, [identity])
+        return world._row_number(identity)
     if len(sleeping_set.touching_pairs) or len(sleeping_set.sensing_pairs):
         sleeping_set.return_reported(world, [identity])
     awake.dirty.append(identity)
@@ -186,6 +192,15 @@ def disturb_one(world: Any, identity: int, row: int) -> int:
         row = world._row_number(identity)
         wake(world, islands_at(world, [identity], np.array([row])))
     return row
+
+
+def with_partners(joints: np.ndarray, ids: list[int]) -> list[int]:
+    """Return ids of bodies, and those of the bodies that joints link to them."""
+    mine = np.isin(joints["body_a"], ids) | np.isin(joints["body_b"], ids)
+    if not mine.any():
+        return ids
+    linked = np.unique(np.concatenate([joints["body_a"][mine], joints["body_b"][mine]]))
+    return [*ids, *np.setdiff1d(linked[linked != WORLD], ids).tolist()]
 
 
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
@@ -382,6 +397,7 @@ def find_run_over(
         "bodies",
         "shapes",
         "contact_rows",
+        "joints",
         "awake",
         "sleeping_set",
         "pairs",
@@ -415,6 +431,11 @@ def wake_disturbed(state: StepState) -> None:
         moving = moving[: list_active(bodies, fixed, moving)]
         for identity in bodies["id"][moving].tolist():
             keys |= sleeping_set.links.get(identity, set())
+    if len(fixed) and len(state.joints):
+        moving = np.empty(len(fixed), np.int64)
+        moving = moving[: list_active(bodies, fixed, moving)]
+        linked = rows_of(bodies, np.array(with_partners(state.joints, bodies["id"][moving].tolist()), np.int64))
+        keys |= set(bodies["island"][linked[~bodies["awake"][linked]]].tolist())
     near = np.empty(2 * len(state.contact_rows), np.int64)
     near = near[: find_disturbed(bodies, state.contact_rows, state.dt, near)]
     keys |= set(bodies["island"][near].tolist())
@@ -478,18 +499,48 @@ def list_contact_edges(
         b = bodies[c.body_row_b]
         carried = conveyor == 1 and c.surface_speed != 0.0 and is_pressed(c)
         if a.kind == DYNAMIC and b.kind == DYNAMIC and a.awake and b.awake and is_touching(c):
-            write_pair(found, i, c.body_row_a, c.body_row_b, edges_out)
+            write_pair(found, CONTACT_EDGE, i, c.body_row_a, c.body_row_b, edges_out)
             edges_out.keeps_awake[found] = carried
             found += 1
             continue
         if carried or (b.kind != DYNAMIC and is_active(b)):
-            write_pair(found, i, c.body_row_a, NO_NODE, edges_out)
+            write_pair(found, CONTACT_EDGE, i, c.body_row_a, NO_NODE, edges_out)
             edges_out.keeps_awake[found] = True
             found += 1
         if carried or (a.kind != DYNAMIC and is_active(a)):
-            write_pair(found, i, c.body_row_b, NO_NODE, edges_out)
+            write_pair(found, CONTACT_EDGE, i, c.body_row_b, NO_NODE, edges_out)
             edges_out.keeps_awake[found] = True
             found += 1
+    return found
+
+
+@kernel
+def list_joint_edges(bodies, joints, count, edges_out):
+    """List the joints that link bodies, or that keep one awake, after `count` edges of contacts. Return the number.
+
+    Joints link awake dynamic bodies. A body that is joined to a moving kinematic one stays awake, and so does one with
+    a motor that runs. O(joints).
+    """
+    found = count
+    for i in range(len(joints)):
+        j = joints[i]
+        if not j.awake:
+            continue
+        a, b = NO_NODE, NO_NODE
+        carried = j.motor_max > 0.0 and j.motor_speed != 0.0
+        if j.body_row_a >= 0:
+            body = bodies[j.body_row_a]
+            a = j.body_row_a if is_free(body) else NO_NODE
+            carried = carried or (body.kind != DYNAMIC and is_active(body))
+        if j.body_row_b >= 0:
+            body = bodies[j.body_row_b]
+            b = j.body_row_b if is_free(body) else NO_NODE
+            carried = carried or (body.kind != DYNAMIC and is_active(body))
+        if a < 0 and b < 0:
+            continue
+        write_pair(found, JOINT_EDGE, i, a if a >= 0 else b, b if a >= 0 else NO_NODE, edges_out)
+        edges_out.keeps_awake[found] = carried
+        found += 1
     return found
 
 
@@ -615,14 +666,14 @@ class IslandWorkspace:
         self.groups = new_groups(16)
         self.edges = new_edges(32)
 
-    def grow(self, bodies: int, contacts: int) -> None:
+    def grow(self, bodies: int, contacts: int, joints: int) -> None:
         """Enlarge the arrays; their contents are lost."""
         if len(self.parents) < bodies:
             self.parents = np.zeros(2 * bodies, np.int32)
             self.least, self.excess = np.zeros(2 * bodies), np.zeros(2 * bodies)
             self.groups = new_groups(2 * bodies)
-        if len(self.edges.kinds) < 2 * contacts:
-            self.edges = new_edges(4 * contacts)
+        if len(self.edges.kinds) < 2 * contacts + joints:
+            self.edges = new_edges(2 * (2 * contacts + joints))
 
 
 @stage(
@@ -632,6 +683,7 @@ class IslandWorkspace:
         "bodies",
         "shapes",
         "contact_rows",
+        "joints",
         "awake",
         "sleeping_set",
         "pairs",
@@ -675,9 +727,11 @@ def rest(state: StepState) -> None:
     if not len(awake.dynamic):
         return
     rows = awake.bodies
-    search.grow(len(bodies), len(contacts))
+    search.grow(len(bodies), len(contacts), len(state.joints))
     start_islands(rows, search.parents)
     count = list_contact_edges(bodies, contacts, int(state.effects.conveyor), search.edges)
+    if len(state.joints):
+        count = list_joint_edges(bodies, state.joints, count, search.edges)
     join(search.edges, count, search.parents)
     state.work[ISLANDS], ready = advance_sleep_times(
         rows,
@@ -702,7 +756,9 @@ def rest(state: StepState) -> None:
         e.drag,
         state.tolerances.slop,
     )
-    keep_awake_what_moves_freely(rows, bodies, contacts, e.friction, fall, search.groups, search.parents, search.least)
+    keep_awake_what_moves_freely(
+        rows, bodies, contacts, state.joints, e.friction, fall, search.groups, search.parents, search.least
+    )
     slept = fall_asleep(rows, search.parents, search.least, search.excess, SLEEP_TIME, bodies)
     if not slept:
         return

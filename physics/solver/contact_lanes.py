@@ -12,6 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from physics.islands.graph import (
+    CONTACT_EDGE,
+    JOINT_EDGE,
     MOST_NODES,
     Edges,
     color_edges,
@@ -27,6 +29,8 @@ from physics.math2d import norm
 from physics.settings import AUTO_SUBSTEPS, COLORS, EASE_TIME, HERTZ_SHARE, LEAN, LOAD_SUBSTEPS, STILL_STIFFNESS
 from physics.solver import lanes as at
 from physics.solver.energy import find_squeezed
+from physics.solver.joint_direct import JointSet, Trees
+from physics.solver.joint_rows import begin_joints, estimate_joints, list_joints
 from physics.solver.lanes import (
     LANES,
     PREPARE,
@@ -55,7 +59,7 @@ BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # index of the most substeps that 
 class Plan(NamedTuple):
     """The constraints to solve and their order; each array is long enough for all edges, or for all MOTION rows."""
 
-    edges: Edges  # one for each contact to solve; its nodes are rows of MOTION
+    edges: Edges  # one for each contact to solve, then one for each joint; nodes are rows of MOTION
     colors: np.ndarray  # (edges) int32 of each edge
     places: np.ndarray  # (edges) int32 place of each among the constraints, by group and colour
     taken: np.ndarray  # (motions) int64 bits of the colours of the edges of each body
@@ -70,10 +74,14 @@ class Plan(NamedTuple):
     starts: np.ndarray  # int64 first constraint of each colour of each group, those without a colour first
     firsts: np.ndarray  # int64 first body of each group
     cursors: np.ndarray  # scratch, as long as starts
+    joints: np.ndarray  # (joints, 3) int32 the joints to solve, see list_joints, …
+    joint_count: np.ndarray  # (1) int64 … how many there are, …
+    joint_rows: np.ndarray  # (joints) int32 … and their rows of JOINT by group, …
+    joint_starts: np.ndarray  # int64 … with the index of the first joint of each group
 
 
-def new_plan(edges: int, motions: int) -> Plan:
-    """Return a Plan with arrays for `edges` edges between `motions` motions."""
+def new_plan(edges: int, motions: int, joints: int) -> Plan:
+    """Return a Plan with arrays for `edges` edges between `motions` motions, `joints` of them joints."""
     slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
     return Plan(
         edges=new_edges(edges),
@@ -91,6 +99,10 @@ def new_plan(edges: int, motions: int) -> Plan:
         starts=np.zeros(slots, np.int64),
         firsts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),
         cursors=np.zeros(slots, np.int64),
+        joints=np.zeros((joints, 3), np.int32),
+        joint_count=np.zeros(1, np.int64),
+        joint_rows=np.zeros(joints, np.int32),
+        joint_starts=np.zeros(len(AUTO_SUBSTEPS) + 1, np.int64),
     )
 
 
@@ -100,18 +112,20 @@ class Islands(NamedTuple):
     members: np.ndarray  # int32 rows of MOTION
     rate: float  # see estimate_rate
     choices: np.ndarray  # int64 numbers of substeps
-    by_load: int  # index of the greatest choice that a load alone may need
+    by_load: int  # index of the greatest choice that a load alone may need, …
+    jointed: int  # … and of that of a new body with joints and no contact
 
 
 class Group(NamedTuple):
     """The islands that take the same number of substeps, and the range of their constraints."""
 
     substeps: int
-    edges: int  # number of edges of all groups
+    edges: int  # number of contacts of all groups
     count: int  # number of constraints of the group …
     uncolored: int  # … and of those without a colour
     members: np.ndarray  # int32 rows of MOTION
     starts: np.ndarray  # int64 first constraint of each colour, those without a colour first, and the end of the last
+    joints: np.ndarray  # int32 rows of JOINT
 
 
 # ---- edges of contacts -----------------------------------------------------------------------------------------------
@@ -150,7 +164,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
             or (b.is_character and -c.normal_y > abs(c.normal_x))
         ):
             continue
-        write_pair(found, i, row_a, row_b, edges_out)
+        write_pair(found, CONTACT_EDGE, i, row_a, row_b, edges_out)
         speed = c.speed_1 if c.speed_1 * dt > c.separation_1 else 0.0
         if c.count == 2 and c.speed_2 * dt > c.separation_2:
             speed = max(speed, c.speed_2)
@@ -181,6 +195,21 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
     return found, faces, deepest
 
 
+@subkernel
+def list_joint_edges(joints, count, edges_out):
+    """List the joints to solve as edges after the `count` edges of contacts. Return the number of all edges. O(joints).
+
+    joints: see list_joints.
+    """
+    for k in range(len(joints)):
+        edge = count + k
+        write_pair(edge, JOINT_EDGE, joints[k, 0], joints[k, 1], joints[k, 2], edges_out)
+        edges_out.overlaps[edge] = 0.0
+        edges_out.faces[edge, 0] = 0.0
+        edges_out.faces[edge, 1] = 0.0
+    return count + len(joints)
+
+
 # ---- substep classes -------------------------------------------------------------------------------------------------
 # The number of substeps of each island, as an index in CHOICES: its class.
 
@@ -207,20 +236,21 @@ def class_for(choices, square, least):
 
 
 @subkernel
-def class_motions(motions, degrees, choices, by_load, classes_out):
-    """Write for each MOTION row the class: the index of its number of substeps in `choices`. O(motions).
+def class_motions(motions, degrees, islands, classes_out):
+    """Write for each MOTION row the class: the index of its number of substeps in islands.choices. O(motions).
 
-    A body without constraints takes the fewest substeps, a new body as many as a load may need (index by_load). Return
-    whether there are new bodies with constraints.
+    A body without constraints takes the fewest substeps, a new body as many as a load may need. degrees: number of
+    contacts of each body. Return whether there are new bodies with contacts.
     """
     unknown = False
+    choices, by_load = islands.choices, islands.by_load
     for i in range(len(classes_out)):
         classes_out[i] = 0
         m = motions[i]
-        if degrees[i] > 0 and m.is_dynamic:
+        if (degrees[i] > 0 or m.jointed) and m.is_dynamic:
             if m.substeps == 0:
-                unknown = True
-                classes_out[i] = by_load
+                unknown = unknown or degrees[i] > 0
+                classes_out[i] = by_load if degrees[i] > 0 else islands.jointed
             else:
                 classes_out[i] = class_for(choices, float(m.substeps * m.substeps), 0)
     return unknown
@@ -279,11 +309,11 @@ def expect_columns(edges, count, motions, degrees, most, classes_inout):
 
 
 @subkernel
-def are_mixed(links_islands, degrees, classes):
+def are_mixed(motions, degrees, classes):
     """Return whether the bodies with constraints have different numbers of substeps (classes). O(motions)."""
     first = -1
     for i in range(len(classes)):
-        if links_islands[i] and degrees[i] > 0:
+        if motions[i].is_dynamic and (degrees[i] > 0 or motions[i].jointed):
             if first < 0:
                 first = classes[i]
             elif classes[i] != first:
@@ -295,57 +325,83 @@ def are_mixed(links_islands, degrees, classes):
 
 
 @subkernel
-def list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
-    """List the constraints to solve as edges, and colour the edges. Return the number of edges. O(contacts + motions).
+def list_and_color(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out):
+    """List the constraints to solve as edges, and colour those of contacts. O(constraints + motions).
 
-    Also find islands that are squeezed between faces, see energy.find_squeezed. lists_inout: see MotionLists.
+    Return the number of contacts and the number of all edges. Also find islands that are squeezed between faces, see
+    energy.find_squeezed, and mark jointed bodies without contacts. lists_inout: see MotionLists.
     """
-    nodes = len(motions)
-    count, faces, deepest = list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, plan_out.edges)
+    nodes = len(motions_inout)
+    count, faces, deepest = list_contact_edges(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out.edges)
     taken = plan_out.taken[:nodes]
     degrees = plan_out.degrees[:nodes]
     color_edges(plan_out.edges, count, lists_inout.has_finite_mass, lists_inout.rank, taken, degrees, plan_out.colors)
+    edges = list_joint_edges(plan_out.joints[: plan_out.joint_count[0]], count, plan_out.edges)
+    if edges > count:
+        for i in range(nodes):
+            motions_inout[i].halves = motions_inout[i].halves and degrees[i] == 0
     plan_out.squeezed[0] = False
     if faces > 1 and deepest > limits.deep:
         parents, squeeze = plan_out.parents[:nodes], plan_out.squeeze
-        plan_out.squeezed[0] = find_squeezed(plan_out.edges, count, lists_inout, motions, limits, parents, squeeze)
-    return count
+        plan_out.squeezed[0] = find_squeezed(
+            plan_out.edges, edges, lists_inout, motions_inout, limits, parents, squeeze
+        )
+    return count, edges
+
+
+@subkernel
+def order_joints(joints, classes, starts_out, rows_out):
+    """Sort joints by the class of their islands, and keep their order within a class. O(classes · joints).
+
+    joints: see list_joints; classes (motions,): int32; starts_out: index of the first joint of each class, then the
+    number of joints; rows_out: their rows of JOINT.
+    """
+    found = 0
+    for group in range(len(starts_out) - 1):
+        starts_out[group] = found
+        for k in range(len(joints)):
+            if max(classes[joints[k, 1]], classes[joints[k, 2]]) == group:
+                rows_out[found] = joints[k, 0]
+                found += 1
+    starts_out[len(starts_out) - 1] = found
 
 
 @kernel
-def order_in_one_group(contacts, bodies, motions, dt, limits, lists_inout, plan_out):
+def order_in_one_group(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out):
     """List the constraints to solve in one group, sorted by colour. O(contacts + motions).
 
-    Return the number of constraints, and the number of those without a colour.
+    Return the number of contacts to solve, and the number of those without a colour.
     """
-    count = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan_out)
+    count, _ = list_and_color(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out)
     starts = plan_out.starts[: COLORS + 2]
     order_edges(plan_out.edges, count, plan_out.colors, plan_out.classes[:0], starts, plan_out.cursors, plan_out.places)
     return count, starts[1] - starts[0]
 
 
 @kernel
-def order_by_load(contacts, bodies, motions, islands, dt, limits, lists_inout, plan_out):
+def order_by_load(contacts, bodies, motions_inout, islands, dt, limits, lists_inout, plan_out):
     """List the constraints to solve, sorted by the number of substeps of their islands and then by colour.
 
-    Return the number of constraints. islands: see Islands; dt [s]; limits: see settings.Limits. O(contacts + motions).
+    Return the number of contacts to solve. islands: see Islands; dt [s]; limits: see settings.Limits. O(contacts +
+    motions).
     """
-    plan = plan_out
+    plan, motions = plan_out, motions_inout
     nodes = len(motions)
     classes = plan.classes[:nodes]
-    count = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan)
+    count, edges = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan)
     choices, by_load = islands.choices, islands.by_load
-    unknown = class_motions(motions, plan.degrees, choices, by_load, classes)
+    unknown = class_motions(motions, plan.degrees, islands, classes)
     expect_impacts(plan.edges, count, motions, islands.rate, choices[: by_load + 1], classes)
     if unknown:
         expect_columns(plan.edges, count, motions, plan.degrees, len(choices) - 1, classes)
-    plan.joined[0] = are_mixed(lists_inout.links_islands, plan.degrees, classes)
+    plan.joined[0] = are_mixed(motions, plan.degrees, classes)
     if plan.joined[0]:
         parents = plan.parents[:nodes]
-        find_roots(plan.edges, count, lists_inout.links_islands, parents)
+        find_roots(plan.edges, edges, lists_inout.links_islands, parents)
         share_classes(parents, classes)
     order_edges(plan.edges, count, plan.colors, classes, plan.starts, plan.cursors, plan.places)
     order_nodes(islands.members, classes, plan.firsts, plan.cursors, plan.members)
+    order_joints(plan.joints[: plan.joint_count[0]], classes, plan.joint_starts, plan.joint_rows)
     return count
 
 
@@ -353,7 +409,7 @@ class Selection:
     """The constraints of one world in the order in which they are solved; its arrays grow and are reused."""
 
     def __init__(self) -> None:
-        self.plan = new_plan(16, 16)
+        self.plan = new_plan(16, 16, 0)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
         """Select, colour and order the constraints, and return their groups.
@@ -361,15 +417,22 @@ class Selection:
         substeps: number of substeps of all islands; 0: each island takes as many as it needs.
         """
         rows, contacts, limits = motions.used, state.contact_rows, state.tolerances.limits
-        if len(self.plan.colors) < len(contacts) or len(self.plan.taken) < len(rows):
-            self.plan = new_plan(2 * len(contacts), 2 * len(rows))
-        plan = self.plan
+        joints, plan = state.joints, self.plan
+        room = len(contacts) + len(joints)
+        if len(plan.colors) < room or len(plan.taken) < len(rows) or len(plan.joints) < len(joints):
+            self.plan = plan = new_plan(2 * room, 2 * len(rows), 2 * len(joints))
+        if len(joints):
+            plan.joint_count[0] = list_joints(motions.lists.motion_of, rows, joints, plan.joints, state.work)
+        else:
+            plan.joint_count[0] = 0
         if substeps:
             count, uncolored = order_in_one_group(contacts, state.bodies, rows, state.dt, limits, motions.lists, plan)
-            return [Group(substeps, count, count, uncolored, motions.island_bodies, plan.starts[: COLORS + 2])]
-        islands = Islands(motions.island_bodies, estimate_rate(state), CHOICES, BY_LOAD)
+            starts, own = plan.starts[: COLORS + 2], plan.joints[: plan.joint_count.item(0), 0].copy()
+            return [Group(substeps, count, count, uncolored, motions.island_bodies, starts, own)]
+        jointed = BY_LOAD if state.joint_solver == "iterative" else 0
+        islands = Islands(motions.island_bodies, estimate_rate(state), CHOICES, BY_LOAD, jointed)
         edges = order_by_load(contacts, state.bodies, rows, islands, state.dt, limits, motions.lists, plan)
-        colors, firsts, starts = COLORS + 1, plan.firsts.tolist(), plan.starts
+        colors, firsts, starts, joint_starts = COLORS + 1, plan.firsts.tolist(), plan.starts, plan.joint_starts.tolist()
         groups = [
             Group(
                 substeps=number,
@@ -378,12 +441,14 @@ class Selection:
                 uncolored=starts.item(k * colors + 1) - starts.item(k * colors),
                 members=plan.members[firsts[k] : firsts[k + 1]],
                 starts=starts[k * colors : (k + 1) * colors + 1],
+                joints=plan.joint_rows[joint_starts[k] : joint_starts[k + 1]],
             )
             for k, number in enumerate(AUTO_SUBSTEPS)
             if firsts[k] < firsts[k + 1]
         ]
         # Kinematic bodies move even if no dynamic body does.
-        return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, 0, motions.island_bodies, plan.starts[: colors + 1])]
+        none = plan.joint_rows[:0]
+        return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, 0, motions.island_bodies, plan.starts[: colors + 1], none)]
 
 
 # ---- estimate --------------------------------------------------------------------------------------------------------
@@ -519,7 +584,7 @@ def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motio
         return 0
     parents = plan.parents[: len(motions_inout)]
     if not plan.joined[0]:
-        find_roots(plan.edges, group.edges, links_islands, parents)
+        find_roots(plan.edges, group.edges + plan.joint_count[0], links_islands, parents)
         plan.joined[0] = True
     return share_substeps(group.members, parents, substeps, rules.most_by_load, motions_inout)
 
@@ -530,6 +595,8 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
     rules = LoadRules(
         rate, rate / STILL_STIFFNESS**2, AUTO_SUBSTEPS[0], LOAD_SUBSTEPS, AUTO_SUBSTEPS[-1], state.dt, EASE_TIME
     )
+    if len(group.joints):
+        estimate_joints(group.joints, state.joints, rate, state.dt, state.accuracy, motions.used)
     links = motions.lists.links_islands
     state.work[CAP_HITS] += choose_by_load(blocks, count, group, links, rules, plan, motions.used)
 
@@ -625,6 +692,7 @@ class ContactLanes:
         self.selection = Selection()
         self.blocks = make_blocks(0)
         self.impacts = make_impacts(16)
+        self.trees = Trees()
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
         """Group the islands by their number of substeps. substeps: number for all; 0: as many as each needs."""
@@ -638,6 +706,12 @@ class ContactLanes:
         prepare = PREPARE[state.effects.friction, state.effects.conveyor]
         plan, contacts, blocks = self.selection.plan, state.contact_rows, self.blocks
         return blocks, prepare(state.bodies, motions.used, plan, group, context, contacts, blocks, state.work)
+
+    def joints(self, state: StepState, motions: Motions, group: Group, h: float) -> JointSet:
+        """Begin the step of the joints of a group, whose substeps are h [s] long, and find their trees."""
+        if len(group.joints):
+            begin_joints(group.joints, state.bodies, h, state.joints)
+        return self.trees.build(group.joints, state.joints, motions.used, state.joint_solver)
 
     def store(self, state: StepState, motions: Motions, count: int, context: StepContext) -> None:
         """Apply restitution, limit friction, and write the impulses of `count` blocks back to the contacts."""

@@ -218,6 +218,7 @@ def reset_balance(balance_out):
     e.inertia, e.normal_x, e.normal_y = 0.0, 0.0, 0.0
     e.in_all = False
     e.anchored = False
+    e.jointed = False
 
 
 @subkernel
@@ -316,6 +317,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
             continue
         e = balance_inout[i]
         root = balance_inout[parents[i]]
+        root.jointed = root.jointed or motions[i].jointed
         e.along = energy_along(motions[i], e)
         root.load += norm(motions[i].acceleration_x, motions[i].acceleration_y) / motions[i].inverse_mass
         add_momentum(motions[i], e, root)
@@ -334,12 +336,13 @@ def draw_on_reserve(slop, balance_inout):
 
     Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row with their sums. Errors of the integrator
     alternate, so bodies may take back what they lost before: slowly, or as far as their load rises by a slop [px]. Work
-    of surfaces that did not speed up a body is not added to the reserve.
+    of surfaces that did not speed up a body is not added to the reserve. Bodies with joints keep what they gained: a
+    joint may hand them the energy of bodies that they do not touch.
     """
     e = balance_inout
     allowed = min(e.reserve, max(SHARE_BACK * e.before, min(e.lift, slop * e.load)))
     gained = e.excess - e.surfaces
-    beyond = gained - allowed
+    beyond = 0.0 if e.jointed else gained - allowed
     e.along_scale = 1.0
     if e.anchored:
         e.along_scale = scale_without(beyond, e.along)

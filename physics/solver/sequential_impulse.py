@@ -18,6 +18,8 @@ from physics.math2d import rotation_of
 from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes, estimate_substeps
+from physics.solver.joint_direct import begin_trees, finish_joints, solve_once, start_joints
+from physics.solver.joint_rows import store_joints
 from physics.solver.lanes import (
     SIZE,
     gather_velocities,
@@ -28,7 +30,15 @@ from physics.solver.lanes import (
     scatter_velocities,
     solve_two,
 )
-from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_kinematic, run_solver
+from physics.solver.motions import (
+    READS,
+    SUBSTEP_POSITIONS,
+    SUBSTEP_VELOCITIES,
+    WRITES,
+    accelerate_again,
+    move_kinematic,
+    run_solver,
+)
 from physics.solver.restitution import bounce_once
 from physics.solver.soft_step import WARM_LANES, clear_impulses, turn_arms
 from physics.solver.step_context import context_of, separation_speed
@@ -312,8 +322,8 @@ SOLVE = {(r, f): make_sequential_pass(rotation=r, friction=f) for r in BOTH for 
 PUSH_OUT = {r: make_push_pass(rotation=r) for r in BOTH}
 
 
-def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
-    """Return the function that does all passes of a step, for a world with or without drag, rotation and friction."""
+def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Callable:
+    """Return the function that does all passes of a step, for a world with or without these effects."""
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, solve_all, push_out = WARM_LANES[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
 
@@ -327,11 +337,13 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
         passes,
         # write
         motions_inout,
+        joints_inout,
         blocks_inout,
     ):
-        """Advance island bodies and kinematic bodies, rows of MOTION, by one step under their contacts.
+        """Advance island bodies and kinematic bodies, rows of MOTION, by one step under their constraints.
 
-        count: number of blocks; context: see StepContext; passes: see Passes. O(members + passes · constraints).
+        count: number of blocks; context: see StepContext; passes: see Passes; joints_inout: a JointSet, 0 for a world
+        without joints. O(members + passes · constraints).
         """
         if not passes.warm:
             clear_impulses(members, count, motions_inout, blocks_inout)
@@ -339,7 +351,12 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
         if rotation and turns_any(count, blocks_inout):
             foresee_turns(members, kinematic, LEAD * context.h, count, motions_inout, blocks_inout)
         warm_start(count, motions_inout, blocks_inout)
-        for _ in range(passes.count):
+        if joints:
+            begin_trees(context, joints_inout, motions_inout)
+            start_joints(context, joints_inout, motions_inout)
+        for n in range(passes.count):
+            if joints and n > 0:
+                solve_once(True, context, joints_inout, motions_inout)
             solve_all(count, context, passes, motions_inout, blocks_inout)
         for block in range(count):
             c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -350,13 +367,22 @@ def make_passes(drag: bool, rotation: bool, friction: bool) -> Callable:
             push_out(count, context, passes.push_rate, motions_inout, blocks_inout)
         positions(members, context.h, context.push_speed, motions_inout)
         move_kinematic(kinematic, context.h, motions_inout)
+        if joints:
+            accelerate_again(members, context.h, motions_inout)
+            finish_joints(context, joints_inout, motions_inout)
         stop_impacts(count, motions_inout, blocks_inout)
         sum_up(count, blocks_inout)
 
     return run_passes
 
 
-PASSES = {(d, r, f): make_passes(drag=d, rotation=r, friction=f) for d in BOTH for r in BOTH for f in BOTH}
+PASSES = {
+    (d, r, f, j): make_passes(drag=d, rotation=r, friction=f, joints=j)
+    for d in BOTH
+    for r in BOTH
+    for f in BOTH
+    for j in BOTH
+}
 
 
 def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, warm: bool = True) -> float:
@@ -366,7 +392,7 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
     passes start from the cached impulses.
     """
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
-    run = PASSES[effects.drag, effects.rotation, effects.friction]
+    run = PASSES[effects.drag, effects.rotation, effects.friction, effects.joints]
     context = context_of(1, False, dt, state.span, state.drag, tolerances)
     bias_rate = BAUMGARTE / state.span  # a step shorter than those before separates no faster
     substeps = state.substeps if passes is None else AUTO_SUBSTEPS[0]
@@ -379,10 +405,13 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
             bias_speed=bias_rate * tolerances.speculative,
             push_rate=PUSH_SHARE / state.span,
         )
-        run(group.members, motions.kinematic, count, context, settings, motions.used, blocks)
+        found = contacts.joints(state, motions, group, context.h) if effects.joints else 0
+        run(group.members, motions.kinematic, count, context, settings, motions.used, found, blocks)
         if substeps == 0:
             estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count)
         contacts.store(state, motions, count, context)
+        if len(group.joints):
+            store_joints(group.joints, context, state.joints)
     return dt
 
 

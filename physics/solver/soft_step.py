@@ -8,6 +8,8 @@ from physics.settings import BLOW_GIVE, CALM_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes, estimate_substeps
 from physics.solver.energy import limit_energy
+from physics.solver.joint_direct import begin_trees, finish_joints, solve_all_trees, start_joints
+from physics.solver.joint_rows import store_joints
 from physics.solver.lanes import (
     IN_CONTACT,
     SIZE,
@@ -23,7 +25,15 @@ from physics.solver.lanes import (
     write_arms,
     write_masses,
 )
-from physics.solver.motions import READS, SUBSTEP_POSITIONS, SUBSTEP_VELOCITIES, WRITES, move_kinematic, run_solver
+from physics.solver.motions import (
+    READS,
+    SUBSTEP_POSITIONS,
+    SUBSTEP_VELOCITIES,
+    WRITES,
+    accelerate_again,
+    move_kinematic,
+    run_solver,
+)
 from physics.solver.step_context import context_of, separation_speed
 from physics.tables.step_state import StepState, stage
 
@@ -496,9 +506,15 @@ def turn_impulses(count, motions_inout, blocks_inout):
 
 
 def make_substeps(
-    drag: bool, rotation: bool, friction: bool, iterations: int = 1, warm: bool = True, relaxed: bool = True
+    drag: bool,
+    rotation: bool,
+    friction: bool,
+    joints: bool = False,
+    iterations: int = 1,
+    warm: bool = True,
+    relaxed: bool = True,
 ) -> Callable:
-    """Return the function that does all substeps of a step, for a world with or without drag, rotation and friction.
+    """Return the function that does all substeps of a step, for a world with or without these effects.
 
     For measurements (studied_solvers.py): iterations: passes with bias in a substep; warm: whether each substep starts
     from the impulses of the substep before; relaxed: whether a relaxing pass follows, otherwise the pass with bias
@@ -518,14 +534,18 @@ def make_substeps(
         context,
         # write
         motions_inout,
+        joints_inout,
         blocks_inout,
     ):
-        """Advance island bodies and kinematic bodies, rows of MOTION, by all substeps of a step under their contacts.
+        """Advance island bodies and kinematic bodies, rows of MOTION, by all substeps of a step.
 
-        count: number of blocks; context: see StepContext. One kernel holds all substeps: with ten boxes, calls from
-        Python were five sixths of the time of a substep. O(substeps · (members + constraints)).
+        count: number of blocks; context: see StepContext; joints_inout: a JointSet, 0 for a world without joints. One
+        kernel holds all substeps: with ten boxes, calls from Python were five sixths of the time of a substep.
+        O(substeps · (members + constraints)).
         """
         h = context.h
+        if joints:
+            begin_trees(context, joints_inout, motions_inout)
         move_kinematic(kinematic, 0.0, motions_inout)
         for n in range(context.substeps):
             if not warm:
@@ -533,12 +553,19 @@ def make_substeps(
             velocities(members, h, context.drag, motions_inout)
             if warm and n == 0:
                 warm_start(count, motions_inout, blocks_inout)
+            if joints:
+                start_joints(context, joints_inout, motions_inout)
             for _ in range(iterations):
                 push_out(count, context, motions_inout, blocks_inout)
+            if joints:
+                solve_all_trees(True, context, joints_inout, motions_inout)
             positions(members, h, context.push_speed, motions_inout)
             move_kinematic(kinematic, (n + 1) * h, motions_inout)
             if rotation:
                 turn_arms(count, motions_inout, blocks_inout)
+            if joints:
+                accelerate_again(members, h, motions_inout)
+                finish_joints(context, joints_inout, motions_inout)
             if relaxed:
                 relax(count, context, motions_inout, blocks_inout)
             if rotation:
@@ -547,22 +574,31 @@ def make_substeps(
     return run_substeps
 
 
-SUBSTEPS = {(d, r, f): make_substeps(drag=d, rotation=r, friction=f) for d in BOTH for r in BOTH for f in BOTH}
+SUBSTEPS = {
+    (d, r, f, j): make_substeps(drag=d, rotation=r, friction=f, joints=j)
+    for d in BOTH
+    for r in BOTH
+    for f in BOTH
+    for j in BOTH
+}
 
 
 def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS) -> float:
-    """Solve the contacts of a step, group by group, and move the bodies. Return the shortest substep [s]."""
+    """Solve the constraints of a step, group by group, and move the bodies. Return the shortest substep [s]."""
     effects, motions, dt = state.effects, state.workspace.motions, state.dt
-    run, h = kernels[effects.drag, effects.rotation, effects.friction], dt
+    run, h = kernels[effects.drag, effects.rotation, effects.friction, effects.joints], dt
     by_load = state.substeps == 0
     for group in contacts.choose(state, motions, state.substeps):
         context = context_of(group.substeps, by_load, dt, state.span, state.drag, state.tolerances)
         h = context.h
         blocks, count = contacts.prepare(state, motions, group, context)
-        run(group.members, motions.kinematic, count, context, motions.used, blocks)
+        found = contacts.joints(state, motions, group, h) if effects.joints else 0
+        run(group.members, motions.kinematic, count, context, motions.used, found, blocks)
         if by_load:
             estimate_substeps(state, motions, contacts.selection.plan, group, blocks, count)
         contacts.store(state, motions, count, context)
+        if len(group.joints):
+            store_joints(group.joints, context, state.joints)
         lists, plan = motions.lists, contacts.selection.plan
         limit_energy(blocks, count, group, lists.links_islands, context, plan, lists.balance, motions.used)
     return h
@@ -570,5 +606,5 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
 
 @stage("soft_step", reads=READS, writes=WRITES)
 def soft_step(state: StepState) -> None:
-    """Solve the contacts and move the bodies of a world that stacks."""
+    """Solve the constraints and move the bodies of a world that stacks."""
     run_solver(state, solve)

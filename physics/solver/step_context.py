@@ -14,6 +14,8 @@ from physics.settings import (
     FIRM,
     FIRM_ALONE,
     HERTZ_SHARE,
+    JOINT_DAMPING,
+    JOINT_STIFFNESS,
     PUSH_SHARE,
     STILL_STIFFNESS,
     Limits,
@@ -54,6 +56,7 @@ class StepContext(NamedTuple):
     shallow_speed: float  # [px/s] … this speed
     spring: Softness  # of contacts between dynamic bodies …
     static_spring: Softness  # … and with static or kinematic ones
+    joint: Softness  # of the hard parts of joints
     loaded_stiffness: float  # factor on the grip of a loaded contact …
     sole_support_stiffness: float  # … and of a sole support
     strike_factor: float  # factor on the load before the step above which a contact counts as struck, and is softer
@@ -104,6 +107,7 @@ def context_of(
         shallow_speed=spring.bias_rate * tolerances.speculative,
         spring=spring,
         static_spring=softness(STILL_STIFFNESS * hertz, CONTACT_DAMPING, h),
+        joint=softness(JOINT_STIFFNESS * hertz, JOINT_DAMPING, h),
         loaded_stiffness=FIRM,
         sole_support_stiffness=FIRM_ALONE,
         strike_factor=BLOW if by_load else math.inf,

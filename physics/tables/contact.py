@@ -162,8 +162,12 @@ MOTION = in_lines(
         ("is_dynamic", np.bool_),  # integrated, with drag and acceleration
         ("in_contact", np.bool_),  # a contact acts on it in this substep, or supports it: it is not in free flight
         ("is_character", np.bool_),  # the ground supports it, and it does not hold the ground down
+        ("jointed", np.bool_),  # a joint acts on it …
+        ("halves", np.bool_),  # … that is rigid, and no contact: half of its acceleration acts after it has moved
         ("inverse_mass", np.float64),
         ("inverse_inertia", np.float64),  # 0: infinite in this step
+        ("own_inverse_inertia", np.float64),  # the same without the inertia that tension adds, …
+        ("tension", np.float64),  # … which is this; see joint_direct.add_inertia
         ("free_vx", np.float64),  # the velocity in this substep before any contact acted
         ("free_vy", np.float64),
         ("free_w", np.float64),
@@ -211,6 +215,7 @@ BALANCE = in_lines(
         ("normal_y", np.float64),
         ("in_all", np.bool_),  # … or they act in all
         ("anchored", np.bool_),  # a contact acts on a body of infinite mass
+        ("jointed", np.bool_),  # joints act on these bodies, and may give them energy of other ones
         ("face_x", np.float64),  # the first normal; …
         ("face_y", np.float64),
         ("oblique", np.bool_),  # … others are neither parallel nor perpendicular to it, or bounce

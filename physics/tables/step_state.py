@@ -51,6 +51,11 @@ class WorldTables(Protocol):
     def contact_rows(self, rows: np.ndarray) -> None: ...
 
     @property
+    def joints(self) -> np.ndarray:
+        """JOINT rows."""
+        ...
+
+    @property
     def bodies(self) -> np.ndarray:
         """BODY rows."""
         ...
@@ -107,6 +112,8 @@ STAGE_FIELDS = (
     "bodies",  # BODY rows
     "shapes",  # SHAPE rows
     "characters",  # CHARACTER rows
+    "joints",  # JOINT rows
+    "joint_solver",  # iterative direct auto
     "library",  # corners, tiles and pixels of the shapes
     # the awake bodies and shapes: the rows that a pass visits
     "awake",
@@ -156,6 +163,8 @@ class StepState:
     bodies: np.ndarray
     shapes: np.ndarray
     characters: np.ndarray
+    joints: np.ndarray
+    joint_solver: str
     library: Any  # shapes.library.Library
     awake: Any  # islands.awake.Awake
     sleeping_set: Any  # islands.sleep.SleepingSet

@@ -1,0 +1,571 @@
+"""Joint: a handle on one row of `world.joints`; adding, changing and removing joints."""
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import fields
+from typing import Any
+
+import numpy as np
+
+from physics import checks
+from physics.checks import Pair
+from physics.islands import sleep
+from physics.joints.kinds import KINDS, Drive, Kind, Spring, checked_breaks, checked_limits, motor_fields
+from physics.math2d import Vec2, rotate
+from physics.solver.joint_rows import report_joints
+from physics.tables.body import DYNAMIC
+from physics.tables.joint import ANGLE, BROKEN, JOINT, LENGTH, NO_COORDINATE, WORLD
+from physics.tables.table import row_number, rows_in
+from physics.world_state import WorldState
+
+JOINT_SOLVERS = ("iterative", "direct", "auto")
+NO_JOINTS, NONE_BROKEN = np.zeros(0, JOINT), np.zeros(0, BROKEN)
+
+# ---- adding ----------------------------------------------------------------------------------------------------------
+
+
+def add(
+    world: WorldState, kind: Any, bodies_a: np.ndarray, bodies_b: np.ndarray, columns: dict[str, Any]
+) -> np.ndarray:
+    """Append joints of one kind to a world, and return their ids.
+
+    kind: a Kind with the settings of all; bodies_a, bodies_b: ids (n) int64, WORLD for the world; columns: anchors
+    (n, 2) [px], axes (n, 2). Raises TypeError, ValueError naming the argument; the world is then unchanged.
+    """
+    n = len(bodies_a)
+    check_bodies(world, bodies_a, bodies_b)
+    given = kind.columns()
+    _check_effects(world, kind, given)
+    rows = np.zeros(n, JOINT)
+    for name, value in given.items():
+        rows[name] = 0.0 if value is None else value
+    rows["kind"] = KINDS.index(type(kind))
+    rows["body_a"], rows["body_b"] = bodies_a, bodies_b
+    poses = [_poses(world, ids) for ids in (bodies_a, bodies_b)]
+    rows["reference"] = poses[1][:, 2] - poses[0][:, 2]
+    anchors = _anchors(kind, columns, poses)
+    for (x, y), points, pose in zip((("local_ax", "local_ay"), ("local_bx", "local_by")), anchors, poses, strict=True):
+        rows[x], rows[y] = points.T if kind.local else _to_local(points, pose).T
+    world_anchors = [_to_world(p, pose) if kind.local else p for p, pose in zip(anchors, poses, strict=True)]
+    if kind.AXIS:
+        axes = columns["axis"]
+        lengths = np.sqrt((axes * axes).sum(axis=1))
+        if (lengths == 0.0).any():
+            raise ValueError(f"axis must have a length (got {axes[np.argmin(lengths)].tolist()})")
+        axes = axes / lengths[:, None]
+        turned = poses[0].copy()
+        turned[:, :2] = 0.0
+        rows["axis_x"], rows["axis_y"] = axes.T if kind.local else _to_local(axes, turned).T
+    spread = world_anchors[1] - world_anchors[0]
+    lengths = np.sqrt((spread * spread).sum(axis=1))
+    if given.get("coordinate") == LENGTH and (lengths == 0.0).any():
+        raise ValueError(
+            f"at_a and at_b must be two points (got {world_anchors[0][np.argmin(lengths)].tolist()} twice)"
+        )
+    kind.with_lengths(rows, lengths)
+    rows["id"] = np.arange(world._next_joint, world._next_joint + n)
+    world._next_joint += n
+    world._joints.append(n)[:] = rows
+    if kind.user is not None:
+        world._joint_users.update(dict.fromkeys(rows["id"].tolist(), kind.user))
+    joints_changed(world, rows)
+    measure_joints(world, world._joints.count - n)
+    return rows["id"].copy()
+
+
+def _poses(world, ids):
+    """Return the poses (n, 3) of bodies, (0, 0, 0) for the world."""
+    found = np.zeros((len(ids), 3))
+    there = ids != WORLD
+    rows = world.rows(ids[there])
+    for k, name in enumerate(("x", "y", "angle")):
+        found[there, k] = world.bodies[name][rows]
+    return found
+
+
+def _anchors(kind, columns, poses):
+    """Return the anchors of A and of B (n, 2), as they were given."""
+    n = len(poses[0])
+    if not kind.POINTS:
+        return np.zeros((n, 2)), np.zeros((n, 2))
+    first, second = columns[kind.POINTS[0]], columns[kind.POINTS[-1]]
+    return first, second
+
+
+def _to_local(points, poses):
+    x, y = points[:, 0] - poses[:, 0], points[:, 1] - poses[:, 1]
+    cosine, sine = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+    return np.stack([cosine * x + sine * y, cosine * y - sine * x], axis=1)
+
+
+def _to_world(points, poses):
+    cosine, sine = np.cos(poses[:, 2]), np.sin(poses[:, 2])
+    x, y = points.T
+    return np.stack([poses[:, 0] + cosine * x - sine * y, poses[:, 1] + sine * x + cosine * y], axis=1)
+
+
+def check_bodies(world: WorldState, bodies_a: np.ndarray, bodies_b: np.ndarray) -> None:
+    """Check that joints have two different bodies, one of them dynamic, and no character.
+
+    Raises ValueError, and KeyError for an unknown body.
+    """
+    same = bodies_a == bodies_b
+    if same.any():
+        which = bodies_a[same][0]
+        raise ValueError(
+            f"b must be another body than a (got {'the world' if which == WORLD else f'body {which}'} twice)"
+        )
+    dynamic = np.zeros(len(bodies_a), bool)
+    for name, ids in (("a", bodies_a), ("b", bodies_b)):
+        there = ids != WORLD
+        dynamic[there] |= world.bodies["kind"][world.rows(ids[there])] == DYNAMIC
+        walking = np.isin(ids, world.characters.rows["body"])
+        if walking.any():
+            raise ValueError(
+                f"{name} must not be the body of a character, which joints cannot move (got body {ids[walking][0]})"
+            )
+    if not dynamic.all():
+        k = int(np.argmin(dynamic))
+        shown = ["the world" if each == WORLD else f"body {each}" for each in (bodies_a[k], bodies_b[k])]
+        raise ValueError(f"a or b must be a dynamic body (got {shown[0]} and {shown[1]})")
+
+
+def _check_effects(world, kind, given):
+    """Check that a world has the effects that a kind with these columns needs. Raises ValueError."""
+    name = type(kind).__name__
+    world._needs("joints", name, True)
+    asked = given["motor_max"] if "motor_max" in given else 0.0
+    asked = asked or given.get("spring_hertz") or max(given["lower"], -given["upper"]) > -math.inf
+    world._needs("rotation", f"{name} with limits, motor or spring", given.get("coordinate") == ANGLE and bool(asked))
+
+
+def add_one(world: WorldState, kind: Any) -> "Joint":
+    """Add the joint that a Kind describes. Raises TypeError, ValueError, KeyError, RuntimeError."""
+    world._unlocked()
+    if not isinstance(kind, Kind) or type(kind) not in KINDS:
+        raise TypeError(f"joint must be one of {_names()} (got {checks.shown(kind)})")
+    a, b = kind.sides()
+    bodies_a, bodies_b = _body_ids(world, "a", [a]), _body_ids(world, "b", [b])
+    given, columns = vars(kind), {}
+    for name in kind.POINTS:
+        point = given[name]
+        if point is None:
+            point = _default_point(world, kind, name, bodies_b.item(0))
+        columns[name] = np.array([checks.vector(name, point)])
+    if kind.AXIS:
+        columns["axis"] = np.array([checks.vector("axis", given["axis"])])
+    return Joint(world, int(add(world, kind, bodies_a, bodies_b, columns)[0]))
+
+
+def _names() -> str:
+    return ", ".join(each.__name__ for each in KINDS)
+
+
+def _default_point(world, kind, name, body):
+    """Return the anchor of a kind for None: for a Target the point itself, for a Motor the centre of B."""
+    if name == "point":
+        return kind.at
+    if "at" not in type(kind).__dataclass_fields__ or type(kind).__dataclass_fields__["at"].default is not None:
+        return None
+    row = world._body_row(body)
+    return (0.0, 0.0) if kind.local else (row["center_x"].item(), row["center_y"].item())
+
+
+def _body_ids(world, name, values) -> np.ndarray:
+    """Return the ids of Bodies, ids or None (the world) as int64. Raises TypeError, ValueError, KeyError."""
+    found = [WORLD if each is None else world._identity(name, each) for each in values]
+    for each in found:
+        if each != WORLD:
+            world._row_at(each)
+    return np.array(found, np.int64).reshape(len(found))
+
+
+def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, settings: dict[str, Any]) -> np.ndarray:
+    """Add joints of one kind between pairs of bodies. Return their ids. Raises TypeError, ValueError, KeyError."""
+    world._unlocked()
+    if not (isinstance(kind, type) and kind in KINDS):
+        raise TypeError(f"kind must be one of {_names()} (got {checks.shown(kind)})")
+    sides = [name for name in ("a", "b", "body") if name in kind.__dataclass_fields__]
+    known = {field.name for field in fields(kind)}.difference(sides)
+    for name in sorted(settings.keys() - known):
+        raise TypeError(f"add_joints() got an unexpected keyword argument {name!r} for {kind.__name__}")
+    first, second = (None if each is None else [*each] for each in (bodies_a, bodies_b))
+    n = len(first or second or ())
+    first, second = (
+        _body_ids(world, name, [None] * n if each is None else each)
+        for name, each in (("bodies_a", first), ("bodies_b", second))
+    )
+    if len(first) != len(second):
+        raise ValueError(f"bodies_b must have as many entries as bodies_a (got {len(second)} and {len(first)})")
+    columns = {name: _column(kind, name, settings, n) for name in (*kind.POINTS, *(("axis",) if kind.AXIS else ()))}
+    rest = {name: value for name, value in settings.items() if name not in columns}
+    made = kind(**dict.fromkeys(sides), **{name: (0.0, 0.0) for name in kind.POINTS}, **rest)
+    return add(world, made, first, second, columns)
+
+
+def _column(kind, name, settings, n) -> np.ndarray:
+    """Return the anchors or axes (n, 2) of many joints; one pair counts for all of them.
+
+    Raises TypeError, ValueError for anything else.
+    """
+    if name not in settings and name != "axis":
+        raise TypeError(f"add_joints() needs {name}, an array (n, 2) of points, for {kind.__name__}")
+    given = settings.get(name, kind.axis if name == "axis" else None)
+    if np.ndim(given) == 1 and len(given) == 2:
+        return np.repeat([checks.vector(name, given)], n, axis=0)
+    return checks.columns(name, given, n, like="bodies_a")
+
+
+# ---- changes ---------------------------------------------------------------------------------------------------------
+
+
+def joints_changed(world: WorldState, rows: np.ndarray) -> None:
+    """Refresh what depends on joints after some (JOINT rows) were added, changed or removed, and wake their bodies."""
+    world._refresh_joint_rows()
+    ids = np.unique(np.concatenate([rows["body_a"], rows["body_b"]]))
+    ids = [each for each in ids.tolist() if each in world._shapes_of]
+    sleep.disturb(world, ids)
+    set_apart(world, ids)
+
+
+def set_apart(world: WorldState, ids: Sequence[int]) -> None:
+    """Tell the broad phase which pairs of bodies must not touch, after a change of joints of these bodies (ids)."""
+    joints = world.joints
+    apart = joints[~joints["contacts"] & joints["enabled"] & (joints["body_a"] != WORLD) & (joints["body_b"] != WORLD)]
+    low, high = np.minimum(apart["body_a"], apart["body_b"]), np.maximum(apart["body_a"], apart["body_b"])
+    if world.pairs.keep_apart(np.unique(low << 32 | high)) and len(ids):
+        world.pairs.touch(world.shapes["proxy"][world._shape_rows_of(world.rows(np.array(ids, np.int64)))])
+
+
+def measure_joints(world: WorldState, first: int = 0) -> None:
+    """Write angle, translation, speed and separation of joints, from row `first` on, at the present poses."""
+    report_joints(world.bodies, world.joints[first:])
+
+
+def remove(world: WorldState, ids: Any) -> None:
+    """Remove joints by id. Raises KeyError for an unknown one, TypeError. Nothing is removed then."""
+    world._unlocked()
+    rows = joint_rows(world, ids)
+    drop(world, rows)
+
+
+def drop(world: WorldState, rows: np.ndarray) -> np.ndarray:
+    """Remove joints by row, wake their bodies, and return copies of the rows."""
+    gone = world.joints[rows].copy()
+    keep = np.ones(world._joints.count, bool)
+    keep[rows] = False
+    world._joints.keep(keep)
+    for identity in gone["id"].tolist():
+        world._joint_users.pop(identity, None)
+    joints_changed(world, gone)
+    return gone
+
+
+def drop_of_bodies(world: WorldState, ids: np.ndarray) -> None:
+    """Remove the joints of bodies that are removed; the next step reports them as broken."""
+    joints = world.joints
+    mine = np.flatnonzero(np.isin(joints["body_a"], ids) | np.isin(joints["body_b"], ids))
+    if len(mine):
+        world._lost_joints += told(drop(world, mine), "removed").tolist()
+
+
+def told(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
+    """Return BROKEN rows of JOINT rows."""
+    found = np.zeros(len(rows), BROKEN)
+    found["joint"], found["body_a"], found["body_b"] = rows["id"], rows["body_a"], rows["body_b"]
+    found["force"], found["torque"], found["reason"] = (
+        np.hypot(rows["force_x"], rows["force_y"]),
+        rows["torque"],
+        reason,
+    )
+    return found
+
+
+def break_joints(world: WorldState, events: Any) -> None:
+    """Remove the joints that broke in the last step, and report them and those of removed bodies in its events."""
+    joints = world.joints
+    broken = np.flatnonzero(joints["broken"])
+    lost = np.array(world._lost_joints, BROKEN) if world._lost_joints else NONE_BROKEN
+    world._lost_joints = []
+    if not len(broken):
+        events.broken = lost
+        return
+    gone = drop(world, broken)
+    reason = np.where(np.hypot(gone["force_x"], gone["force_y"]) > gone["break_force"], "force", "torque")
+    events.broken = np.concatenate([lost, told(gone, reason)])
+
+
+def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
+    """Return the rows of Joints or ids, one or many, each once. Raises KeyError for an unknown one, TypeError."""
+    if isinstance(ids, (Joint, int, np.integer)):
+        ids = [ids]
+    if not isinstance(ids, Iterable):
+        raise TypeError(f"ids must be Joints or ids (got {checks.shown(ids)})")
+    numbers = checks.ids("ids", [_identity(world, each) for each in ids], repeats=True)
+    rows = rows_in(world._joints, np.unique(numbers))
+    if (rows < 0).any():
+        raise checks.NoSuchId(f"no joint {np.unique(numbers)[rows < 0][0]} in this world")
+    return rows
+
+
+def _identity(world, value):
+    if isinstance(value, Joint):
+        if value.world is not world:
+            raise ValueError(f"joint must be of this world (got {checks.shown(value)} of another one)")
+        return value.id
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)):
+        raise TypeError(f"joint must be a Joint or an id (got {checks.shown(value)})")
+    return int(value)
+
+
+# ---- handle ----------------------------------------------------------------------------------------------------------
+
+
+class Joint:
+    """A handle on one joint of a world. A setter raises TypeError or ValueError naming the argument, KeyError for a
+    joint that was removed or broke, RuntimeError during a step. The world is then unchanged.
+    """
+
+    __slots__ = ("_world", "_id")
+
+    def __init__(self, world: WorldState, identity: int) -> None:
+        self._world, self._id = world, int(identity)
+
+    def __eq__(self, other):
+        return isinstance(other, Joint) and other._world is self._world and other._id == self._id
+
+    def __hash__(self):
+        return hash((id(self._world), self._id, "joint"))
+
+    def __repr__(self):
+        if row_number(self._world._joints, self._id) < 0:
+            return f"Joint({self._id}, gone)"
+        a, b = self._row["body_a"].item(), self._row["body_b"].item()
+        sides = ["world" if each == WORLD else f"body {each}" for each in (a, b)]
+        return f"Joint({self._id}, {self.kind}, {sides[0]}, {sides[1]})"
+
+    @property
+    def world(self) -> Any:
+        """The World of the joint."""
+        return self._world
+
+    @property
+    def id(self) -> int:
+        """The id of the joint, which is never used again in its world."""
+        return self._id
+
+    def _must_exist(self) -> int:
+        """Return the row number. Raises KeyError for a joint that is gone."""
+        row = row_number(self._world._joints, self._id)
+        if row < 0:
+            raise checks.NoSuchId(f"joint {self._id} is not in this world (removed, broken, or never added)")
+        return row
+
+    @property
+    def _row(self) -> np.void:
+        return self._world._joints.data[self._must_exist()]
+
+    def _set(self, **columns) -> None:
+        """Write columns of the row, and wake the bodies."""
+        self._world._unlocked()
+        at = self._must_exist()
+        rows = self._world.joints[at : at + 1]
+        for name, value in columns.items():
+            rows[name] = value
+        joints_changed(self._world, rows)
+
+    # --- state ------------------------------------------------------------------------------------------------------
+
+    @property
+    def kind(self) -> str:
+        """The name of its kind: "Revolute", "Distance", …"""
+        return KINDS[self._row["kind"].item()].__name__
+
+    @property
+    def body_a(self) -> Any:
+        """The Body of side A, None for the world."""
+        return self._body("body_a")
+
+    @property
+    def body_b(self) -> Any:
+        """The Body of side B, None for the world."""
+        return self._body("body_b")
+
+    def _body(self, name):
+        identity = self._row[name].item()
+        return None if identity == WORLD else self.world.body(identity)
+
+    @property
+    def anchor_a(self) -> Vec2:
+        """The anchor of A in the world [px]."""
+        return self._anchor("a")
+
+    @property
+    def anchor_b(self) -> Vec2:
+        """The anchor of B in the world [px]."""
+        return self._anchor("b")
+
+    def _anchor(self, side):
+        row = self._row
+        x, y, body = row[f"local_{side}x"].item(), row[f"local_{side}y"].item(), row[f"body_{side}"].item()
+        if body == WORLD:
+            return Vec2(x, y)
+        b = self._world._body_row(body)
+        angle = b["angle"].item()
+        u, v = rotate(x, y, math.cos(angle), math.sin(angle))
+        return Vec2(b["x"].item() + u, b["y"].item() + v)
+
+    @property
+    def angle(self) -> float:
+        """The angle of B relative to A [rad], 0 when the joint was made; after the last step."""
+        return self._row["angle"].item()
+
+    @property
+    def translation(self) -> float:
+        """The translation of B along the axis [px], or the distance of the anchors of a Distance."""
+        return self._row["translation"].item()
+
+    @property
+    def speed(self) -> float:
+        """Rate of change of the coordinate that limits and motor act on [px/s or rad/s]."""
+        return self._row["speed"].item()
+
+    @property
+    def separation(self) -> float:
+        """The error of the joint [px]: distance of anchors that it holds together, or off its axis or length."""
+        return self._row["separation"].item()
+
+    @property
+    def force(self) -> float:
+        """Size of the force in the last step, its impulse per second; the columns force_x and force_y act on B."""
+        row = self._row
+        return math.hypot(row["force_x"].item(), row["force_y"].item())
+
+    @property
+    def torque(self) -> float:
+        """The torque on B in the last step, beside that force."""
+        return self._row["torque"].item()
+
+    @property
+    def awake(self) -> bool:
+        """Whether a side is dynamic and awake, so that the joint is solved."""
+        row, world = self._row, self._world
+        ids = [row[name].item() for name in ("body_a", "body_b")]
+        return bool(row["enabled"]) and any(
+            b["awake"].item() and b["kind"].item() == DYNAMIC for b in (world._body_row(i) for i in ids if i != WORLD)
+        )
+
+    # --- settings ---------------------------------------------------------------------------------------------------
+
+    @property
+    def motor(self) -> Drive | None:
+        """The motor, a Drive or None."""
+        row = self._row
+        return Drive(row["motor_speed"].item(), row["motor_max"].item()) if row["motor_max"] > 0.0 else None
+
+    @motor.setter
+    def motor(self, value: Drive | None) -> None:
+        self._takes("motor", value is not None)
+        self._set(**motor_fields(value))
+
+    @property
+    def spring(self) -> Spring | None:
+        """The spring of the coordinate, a Spring or None."""
+        row = self._row
+        names = ("spring_hertz", "spring_damping", "spring_target")
+        return Spring(*(row[name].item() for name in names)) if row["spring_hertz"] > 0.0 else None
+
+    @spring.setter
+    def spring(self, value: Spring | None) -> None:
+        self._takes("spring", value is not None)
+        if value is not None and not isinstance(value, Spring):
+            raise TypeError(f"spring must be a Spring or None (got {checks.shown(value)})")
+        if value is None:
+            self._set(spring_hertz=0.0, spring_force=0.0)
+        else:
+            target = self._coordinate if value.target is None else value.target
+            self._set(spring_hertz=value.hertz, spring_damping=value.damping, spring_target=target)
+
+    @property
+    def _coordinate(self):
+        row = self._row
+        return row["angle" if row["coordinate"] == ANGLE else "translation"].item()
+
+    @property
+    def limits(self) -> tuple[float, float] | None:
+        """The limits (low, high) of the coordinate, -inf or inf for a side without one; None: no limits."""
+        row = self._row
+        lower, upper = row["lower"].item(), row["upper"].item()
+        return None if (lower, upper) == (-math.inf, math.inf) else (lower, upper)
+
+    @limits.setter
+    def limits(self, value: Any) -> None:
+        self._takes("limits", value is not None)
+        lower, upper = checked_limits(value)
+        self._set(lower=lower, upper=upper)
+
+    def _takes(self, name, asked):
+        if asked and (self._row["coordinate"] == NO_COORDINATE):
+            raise ValueError(f"{name} needs a joint with a coordinate; {self.kind} has none")
+
+    @property
+    def breaks(self) -> tuple[float, float]:
+        """The force and torque at which it breaks; inf: it does not."""
+        row = self._row
+        return row["break_force"].item(), row["break_torque"].item()
+
+    @breaks.setter
+    def breaks(self, value: Any) -> None:
+        force, torque = checked_breaks(value)
+        self._set(break_force=force, break_torque=torque)
+
+    @property
+    def contacts(self) -> bool:
+        """Whether its two bodies may touch each other."""
+        return bool(self._row["contacts"])
+
+    @contacts.setter
+    def contacts(self, value: bool) -> None:
+        self._set(contacts=checks.flag("contacts", value))
+
+    @property
+    def enabled(self) -> bool:
+        """Whether it acts. A disabled joint keeps its settings."""
+        return bool(self._row["enabled"])
+
+    @enabled.setter
+    def enabled(self, value: bool) -> None:
+        self._set(enabled=checks.flag("enabled", value))
+
+    @property
+    def point(self) -> Vec2:
+        """The point of the world to which a Target draws its body [px]."""
+        self._is_target("point")
+        return self.anchor_a
+
+    @point.setter
+    def point(self, value: Pair) -> None:
+        self._is_target("point")
+        x, y = checks.position("point", value)
+        row = self._row
+        if (row["local_ax"], row["local_ay"]) != (x, y):
+            self._set(local_ax=x, local_ay=y)
+
+    def _is_target(self, name):
+        if self.kind != "Target":
+            raise AttributeError(f"{name} belongs to a Target; joint {self._id} is a {self.kind}")
+
+    @property
+    def user(self) -> Any:
+        """Any object of the user's, None if there is none."""
+        self._must_exist()
+        return self._world._joint_users.get(self._id)
+
+    @user.setter
+    def user(self, value: Any) -> None:
+        self._must_exist()
+        self._world._joint_users[self._id] = value
+
+    def remove(self) -> None:
+        """Remove the joint; its bodies wake."""
+        remove(self._world, self)

@@ -1,0 +1,386 @@
+"""The kinds of joints as values: which parts of a JOINT row each one uses, and with which settings.
+
+A joint has two anchors, one on each body, that it holds together in both directions (PINNED), only across an axis of A
+(ON_AXIS) or not at all; it may hold the angle; and on one coordinate (an angle, a translation, a length) it may have
+limits, a motor and a spring. A kind names its parts. Adding a kind is a class here and its name in KINDS.
+"""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from physics import checks
+from physics.checks import Pair
+from physics.tables.joint import ANGLE, LENGTH, ON_AXIS, PINNED, TRANSLATION
+
+# ---- settings --------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Drive:
+    """A motor: the speed of a joint's coordinate [px/s or rad/s], and the greatest force or torque for it.
+
+    Raises TypeError, ValueError, also for a motor without a maximum.
+    """
+
+    speed: float
+    max: float | None = None
+
+    def __post_init__(self):
+        checks.number("speed", self.speed)
+        if self.max is None:
+            raise ValueError("max must be given, the greatest force or torque of the motor: a number >= 0 (got None)")
+        checks.number("max", self.max, low=0.0)
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A spring: frequency [1/s], damping ratio, and the coordinate at which it rests [px or rad].
+
+    target None: the present coordinate when the joint is made. Raises TypeError, ValueError.
+    """
+
+    hertz: float
+    damping: float = 1.0
+    target: float | None = None
+
+    def __post_init__(self):
+        checks.number("hertz", self.hertz, above=0.0)
+        checks.number("damping", self.damping, low=0.0)
+        if self.target is not None:
+            checks.number("target", self.target)
+
+
+def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
+    """Return limits (low, high) of a coordinate; None for none, None for one side without a limit.
+
+    low: least value that is allowed. Raises TypeError, ValueError for limits the wrong way round.
+    """
+    if value is None:
+        return -math.inf, math.inf
+    try:
+        lower, upper = value
+    except (TypeError, ValueError):
+        raise TypeError(f"limits must be a pair (low, high) (got {checks.shown(value)})") from None
+    lower = -math.inf if lower is None else lower
+    upper = math.inf if upper is None else upper
+    lower = lower if lower == -math.inf else checks.number("limits[0]", lower, low=low)
+    upper = upper if upper == math.inf else checks.number("limits[1]", upper, low=low)
+    if lower > upper:
+        raise ValueError(f"limits must be (low, high) with low <= high (got {checks.shown(value)})")
+    return lower, upper
+
+
+def checked_breaks(value: Any) -> tuple[float, float]:
+    """Return the force and the torque at which a joint breaks; None: it does not, likewise for one of them.
+
+    Raises TypeError, ValueError.
+    """
+    if value is None:
+        return math.inf, math.inf
+    try:
+        force, torque = value
+    except (TypeError, ValueError):
+        raise TypeError(f"breaks must be a pair (force, torque) (got {checks.shown(value)})") from None
+    force = math.inf if force is None else checks.number("breaks[0]", force, above=0.0)
+    torque = math.inf if torque is None else checks.number("breaks[1]", torque, above=0.0)
+    return force, torque
+
+
+def motor_fields(motor: Any) -> dict[str, float]:
+    """Return the columns of a motor, a Drive or None. Raises TypeError."""
+    if motor is None:
+        return {"motor_speed": 0.0, "motor_max": 0.0}
+    if not isinstance(motor, Drive):
+        raise TypeError(f"motor must be a Drive(speed, max) (got {checks.shown(motor)})")
+    return {"motor_speed": float(motor.speed), "motor_max": float(motor.max or 0.0)}
+
+
+def checked_spring(spring: Any, name: str = "spring") -> Spring | None:
+    """Return a Spring or None. Raises TypeError."""
+    if spring is not None and not isinstance(spring, Spring):
+        raise TypeError(f"{name} must be a Spring(hertz, damping, target) (got {checks.shown(spring)})")
+    return spring
+
+
+def greatest(name: str, value: Any) -> float:
+    """Return the greatest force or torque of a hold, inf for None. Raises TypeError, ValueError."""
+    return math.inf if value is None else checks.number(name, value, low=0.0)
+
+
+DEFAULTS = {
+    "enabled": True,
+    "follows_point": True,
+    "follows_angle": True,
+    "lower": -math.inf,
+    "upper": math.inf,
+    "point_max": math.inf,
+    "angle_max": math.inf,
+}  # columns of JOINT that are not 0 where a kind does not name them
+
+# ---- kinds -----------------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, kw_only=True)
+class Kind:
+    """The arguments of every joint. a, b: Bodies or ids, at least one of them dynamic; None for the world.
+
+    contacts: whether the two bodies may touch each other. breaks: (force, torque) above which the joint breaks, None
+    for one that does not. local: anchors and axes are in the space of each body, not in the world. user: any object.
+    """
+
+    PARTS: ClassVar[Mapping[str, Any]] = {}  # columns of JOINT that make the kind
+    POINTS: ClassVar[tuple[str, ...]] = ("at",)  # arguments with the anchors: of both bodies, or of A and of B
+    AXIS: ClassVar[bool] = False  # has an argument `axis`
+    COORDINATE: ClassVar[tuple[str, ...]] = ("limits", "motor", "spring")  # settings that it takes
+
+    breaks: Any = None
+    contacts: bool = False
+    local: bool = False
+    user: Any = None
+
+    def sides(self) -> tuple[Any, Any]:
+        """Return A and B as they were given."""
+        given = vars(self)
+        return given["a"], given["b"]
+
+    def columns(self) -> dict[str, Any]:
+        """Return the columns of JOINT that follow from the settings. Raises TypeError, ValueError."""
+        given = vars(self)
+        force, torque = checked_breaks(self.breaks)
+        checks.flag("local", self.local)
+        found = DEFAULTS | dict(self.PARTS) | {"break_force": force, "break_torque": torque}
+        found["contacts"] = checks.flag("contacts", self.contacts)
+        if "limits" in self.COORDINATE:
+            found["lower"], found["upper"] = checked_limits(given["limits"])
+        if "motor" in self.COORDINATE:
+            found |= motor_fields(given["motor"])
+        if "spring" in self.COORDINATE and (spring := checked_spring(given["spring"])):
+            found |= {"spring_hertz": spring.hertz, "spring_damping": spring.damping, "spring_target": spring.target}
+        return found
+
+    def with_lengths(self, rows: np.ndarray, lengths: np.ndarray) -> None:
+        """Write the columns that depend on the distances (n,) [px] of the anchors to JOINT rows."""
+
+
+@dataclass(frozen=True)
+class Revolute(Kind):
+    """A hinge: two anchors stay together. Its coordinate is the angle [rad]. at: the anchor [px]."""
+
+    PARTS = {"hold": PINNED, "coordinate": ANGLE}
+
+    a: Any
+    b: Any
+    at: Pair
+    limits: Any = None
+    motor: Drive | None = None
+    spring: Spring | None = None
+
+
+@dataclass(frozen=True)
+class Prismatic(Kind):
+    """A slider: B moves along an axis of A. Its coordinate is the translation [px], 0 when the joint is made.
+
+    at: the anchor [px]; axis: its direction, of any length; turns: B may turn (a groove).
+    """
+
+    PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION}
+    AXIS = True
+
+    a: Any
+    b: Any
+    at: Pair
+    axis: Pair = (1, 0)
+    turns: bool = False
+    limits: Any = None
+    motor: Drive | None = None
+    spring: Spring | None = None
+
+    def columns(self) -> dict[str, Any]:
+        return super().columns() | {"locks_angle": not checks.flag("turns", self.turns)}
+
+
+@dataclass(frozen=True)
+class Wheel(Kind):
+    """A wheel on a suspension: B turns freely, and moves along an axis of A against a spring.
+
+    a: the chassis; b: the wheel; at: the anchor [px]; axis: direction of the suspension. Limits and spring act on the
+    translation [px], the motor on the angle.
+    """
+
+    PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION, "turns_motor": True}
+    AXIS = True
+
+    a: Any
+    b: Any
+    at: Pair
+    axis: Pair = (0, 1)
+    limits: Any = None
+    motor: Drive | None = None
+    spring: Spring | None = Spring(2.0, 0.7)
+
+
+@dataclass(frozen=True)
+class Distance(Kind):
+    """A rod, rope, spring or winch between two anchors. Its coordinate is their distance [px].
+
+    at_a, at_b: the anchors [px]. length: at which a rod holds them, None for the present distance. With limits the
+    joint is a rope that only they bound; with a spring it rests at `length`, or at the spring's target.
+    """
+
+    PARTS = {"coordinate": LENGTH}
+    POINTS = ("at_a", "at_b")
+
+    a: Any
+    b: Any
+    at_a: Pair
+    at_b: Pair
+    length: float | None = None
+    limits: Any = None
+    motor: Drive | None = None
+    spring: Spring | None = None
+
+    def columns(self) -> dict[str, Any]:
+        if self.length is not None:
+            checks.number("length", self.length, above=0.0)
+        found = super().columns()
+        found["lower"], found["upper"] = checked_limits(self.limits, low=0.0)
+        return found
+
+    def with_lengths(self, rows: np.ndarray, lengths: np.ndarray) -> None:
+        rest = lengths if self.length is None else np.full(len(rows), float(self.length))
+        if self.spring is not None and self.spring.target is None:
+            rows["spring_target"] = rest
+        if self.limits is None and self.spring is None and self.motor is None:
+            rows["lower"] = rows["upper"] = rest
+
+
+@dataclass(frozen=True)
+class Weld(Kind):
+    """Two bodies as one: anchors and angle stay as they are. at: the anchor [px].
+
+    spring, angular_spring: make it soft, in translation and in rotation; their targets do not count.
+    """
+
+    PARTS = {"hold": PINNED, "locks_angle": True}
+    COORDINATE = ()
+
+    a: Any
+    b: Any
+    at: Pair
+    spring: Spring | None = None
+    angular_spring: Spring | None = None
+
+    def columns(self) -> dict[str, Any]:
+        found = super().columns()
+        springs = checked_spring(self.spring), checked_spring(self.angular_spring, "angular_spring")
+        for name, spring in zip(("point", "angle"), springs, strict=True):
+            if spring is not None:
+                found |= {f"{name}_hertz": spring.hertz, f"{name}_damping": spring.damping}
+        return found
+
+
+@dataclass(frozen=True)
+class Angle(Kind):
+    """A rotary spring, limit or motor without a pin. Its coordinate is the angle [rad], 0 when the joint is made."""
+
+    PARTS = {"coordinate": ANGLE}
+    POINTS = ()
+
+    a: Any
+    b: Any
+    limits: Any = None
+    motor: Drive | None = None
+    spring: Spring | None = None
+
+
+@dataclass(frozen=True)
+class Motor(Kind):
+    """Drives B relative to A, with a bounded force and torque: friction joints, top-down tyres, conveyors of bodies.
+
+    velocity [px/s], in the space of A, and angular_velocity [rad/s] are those of B relative to A; max_force and
+    max_torque bound what holds them. at: the anchor [px], None for the centre of B. spring: B is drawn back to where it
+    was when the joint was made, in place of a velocity.
+    """
+
+    PARTS = {"hold": PINNED, "locks_angle": True}
+    COORDINATE = ()
+
+    a: Any
+    b: Any
+    at: Pair | None = None
+    velocity: Pair = (0, 0)
+    angular_velocity: float = 0.0
+    max_force: float | None = None
+    max_torque: float | None = None
+    spring: Spring | None = None
+
+    def columns(self) -> dict[str, Any]:
+        velocity = checks.vector("velocity", self.velocity)
+        found = super().columns() | {
+            "target_vx": velocity[0],
+            "target_vy": velocity[1],
+            "target_spin": checks.number("angular_velocity", self.angular_velocity),
+            "follows_point": self.spring is not None,
+            "follows_angle": self.spring is not None,
+        }
+        for name in ("max_force", "max_torque"):
+            if getattr(self, name) is None:
+                raise ValueError(f"{name} must be given, a number >= 0 (got None)")
+        found |= {
+            "point_max": greatest("max_force", self.max_force),
+            "angle_max": greatest("max_torque", self.max_torque),
+        }
+        if (spring := checked_spring(self.spring)) is not None:
+            found |= {f"{part}_hertz": spring.hertz for part in ("point", "angle")}
+            found |= {f"{part}_damping": spring.damping for part in ("point", "angle")}
+        return found
+
+
+@dataclass(frozen=True)
+class Target(Kind):
+    """Draws a point of a body to a point of the world: mouse drag, grapple, tractor beam.
+
+    at: the point of the body [px]; point: where it is drawn, None for where it is; it is set each frame, as
+    joint.point. max_force: greatest force, None for no bound.
+    """
+
+    PARTS = {"hold": PINNED}
+    POINTS = ("point", "at")
+    COORDINATE = ()
+
+    body: Any
+    at: Pair
+    point: Pair | None = None
+    spring: Spring = Spring(5.0, 1.0)
+    max_force: float | None = None
+
+    def sides(self) -> tuple[Any, Any]:
+        return None, self.body
+
+    def columns(self) -> dict[str, Any]:
+        spring = checked_spring(self.spring)
+        if spring is None:
+            raise TypeError("spring must be a Spring(hertz, damping) (got None)")
+        return super().columns() | {
+            "point_hertz": spring.hertz,
+            "point_damping": spring.damping,
+            "point_max": greatest("max_force", self.max_force),
+        }
+
+
+@dataclass(frozen=True)
+class NoContact(Kind):
+    """Lets two bodies pass through each other, and does nothing else."""
+
+    POINTS = ()
+    COORDINATE = ()
+
+    a: Any
+    b: Any
+
+
+KINDS: list[type[Kind]] = [Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target, NoContact]

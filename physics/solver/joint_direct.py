@@ -1,0 +1,373 @@
+"""The direct tier of joints: the rigid and the soft parts of joints as rows of trees, which joint_trees.py solves.
+
+A joint in a tree has its holds, a coordinate that is held and a spring on it solved exactly, all of a tree together.
+Motors, limits, bounded holds, loops and second joints of a pair are solved by the passes of joint_rows.py, before the
+trees. Rigid parts have no spring: an error of position is removed within the next substep, by a velocity that the solve
+at the end of that substep takes away again. A user's spring enters as compliance (Catto, Soft Constraints, GDC 2011).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.jit import kernel, subkernel
+from physics.math2d import norm
+from physics.solver.joint_rows import (
+    bounded,
+    coordinate_of,
+    holds_angle,
+    holds_coordinate,
+    holds_point,
+    inverse_mass_along,
+    place_joint,
+    softness_of,
+    solve_joints,
+    sum_joints,
+    warm_joints,
+)
+from physics.solver.joint_trees import (
+    JOINT_ROW,
+    MOST_ROWS,
+    Forest,
+    build_forest,
+    factor_trees,
+    new_forest,
+    solve_trees,
+    with_room,
+)
+from physics.tables.joint import ANGLE, PINNED
+from physics.tables.table import root_of
+
+
+@kernel
+def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b_out):
+    """List the joints with parts that a tree can solve, and the number of their rows. Return their number. O(rows).
+
+    rows: of the joints of a group, in the order of ids. order_out: their places in `rows`; the other arrays are written
+    at these places.
+    """
+    found = 0
+    for k in range(len(rows)):
+        j = joints[rows[k]]
+        count = 0
+        if holds_point(j):
+            count += 2 if j.hold == PINNED else 1
+        if holds_angle(j):
+            count += 1
+        if holds_coordinate(j):
+            count += 1
+        counts_out[k] = count
+        motion_a_out[k] = j.motion_a
+        motion_b_out[k] = j.motion_b
+        if count > 0:
+            order_out[found] = k
+            found += 1
+    return found
+
+
+@kernel
+def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order_inout):
+    """Drop the joints of meshes, in which loops outnumber a quarter of the tree, from the joints for trees.
+
+    In a mesh the passes converge better alone: the trees between their loops would undo them. order, order_inout: the
+    same list; the other arguments as of joint_trees.build_forest, after it; parents_inout: its union-find over MOTION
+    rows; sums_out (motions, 2) int32: joints in trees and others, at the root of each component. Return the number of
+    joints that are left. O(joints + motions).
+    """
+    for i in range(len(sums_out)):
+        sums_out[i, 0] = 0
+        sums_out[i, 1] = 0
+    for k in range(len(order)):
+        joint = order[k]
+        for side in range(2):
+            root = root_of(motion_a[joint] if side == 0 else motion_b[joint], parents_inout)
+            sums_out[root, 0 if taken[joint] else 1] += 1
+    left = 0
+    for k in range(len(order)):
+        joint = order[k]
+        # Row 0 and kinematic bodies are components of their own, which count for nothing.
+        root = max(root_of(motion_a[joint], parents_inout), root_of(motion_b[joint], parents_inout))
+        if 4 * sums_out[root, 1] <= sums_out[root, 0]:
+            order_inout[left] = joint
+            left += 1
+    return left
+
+
+@kernel
+def mark_direct(rows, taken, joints_inout):
+    """Write which joints of a group are in a tree. O(rows)."""
+    for k in range(len(rows)):
+        joints_inout[rows[k]].direct = taken[k]
+
+
+# ---- rows ------------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def write_line(joint, nx, ny, row_out):
+    """Write the Jacobian of the speed of B's anchor relative to A's along a unit vector."""
+    j, r = joint, row_out
+    r.ax, r.ay, r.aw = -nx, -ny, j.ay * nx - j.ax * ny
+    r.bx, r.by, r.bw = nx, ny, j.bx * ny - j.by * nx
+
+
+@subkernel
+def write_turn(row_out):
+    """Write the Jacobian of the angular velocity of B relative to A."""
+    r = row_out
+    r.ax, r.ay, r.aw = 0.0, 0.0, -1.0
+    r.bx, r.by, r.bw = 0.0, 0.0, 1.0
+
+
+@subkernel
+def soften(hertz, damping, h, inverse_mass, row_out):
+    """Write the compliance of a row, 0 for a rigid row of hertz 0. inverse_mass: of the row without its neighbours."""
+    row_out.compliance = 0.0
+    if hertz > 0.0:
+        _, mass_share, give = softness_of(hertz, damping, h)
+        row_out.compliance = give * inverse_mass / mass_share if mass_share > 0.0 else 0.0
+
+
+@subkernel
+def write_rows(joint, h, a, b, first, rows_out):
+    """Write Jacobians and compliances of the rows of a joint at its present arms. first: index of its rows."""
+    j = joint
+    at = first
+    turning = a.inverse_inertia + b.inverse_inertia
+    if holds_point(j):
+        if j.hold == PINNED:
+            for side in range(2):
+                x, y = 1.0 - side, float(side)
+                write_line(j, x, y, rows_out[at])
+                soften(j.point_hertz, j.point_damping, h, inverse_mass_along(j, x, y, a, b), rows_out[at])
+                at += 1
+        else:
+            write_line(j, -j.ny, j.nx, rows_out[at])
+            rows_out[at].compliance = 0.0
+            at += 1
+    if holds_angle(j):
+        write_turn(rows_out[at])
+        soften(j.angle_hertz, j.angle_damping, h, turning, rows_out[at])
+        at += 1
+    if holds_coordinate(j):
+        hertz = 0.0 if j.lower == j.upper else j.spring_hertz
+        if j.coordinate == ANGLE:
+            write_turn(rows_out[at])
+            soften(hertz, j.spring_damping, h, turning, rows_out[at])
+        else:
+            write_line(j, j.nx, j.ny, rows_out[at])
+            soften(hertz, j.spring_damping, h, inverse_mass_along(j, j.nx, j.ny, a, b), rows_out[at])
+
+
+@subkernel
+def draw(error, hertz, damping, impulse, rate, context, row_inout):
+    """Write the wanted velocity of a row, from its error of position and its impulse so far in this substep.
+
+    hertz: 0 for a rigid row, whose error is removed at `rate` [1/s], by at most the speed of push-out.
+    """
+    row_inout.rhs = -bounded(rate * error, context.push_speed)
+    if hertz > 0.0:
+        spring_rate, _, _ = softness_of(hertz, damping, context.h)
+        row_inout.rhs = -spring_rate * error - row_inout.compliance * impulse
+
+
+@subkernel
+def write_targets(joint, rate, context, first, rows_inout):
+    """Write the wanted velocities of the rows of a joint. first: index of its rows.
+
+    rate [1/s]: at which errors of position are removed; 0 in the solve at the end of a substep.
+    """
+    j = joint
+    at = first
+    if holds_point(j) and j.hold == PINNED:
+        fast = rate * norm(j.apart_x, j.apart_y)
+        slow = rate * context.push_speed / fast if fast > context.push_speed else rate
+        draw(j.apart_x, j.point_hertz, j.point_damping, j.point_x, slow, context, rows_inout[at])
+        draw(j.apart_y, j.point_hertz, j.point_damping, j.point_y, slow, context, rows_inout[at + 1])
+        at += 2
+    elif holds_point(j):
+        draw(j.apart_y * j.nx - j.apart_x * j.ny, 0.0, 0.0, 0.0, rate, context, rows_inout[at])
+        at += 1
+    if holds_angle(j):
+        draw(j.turn, j.angle_hertz, j.angle_damping, j.hold_impulse, rate, context, rows_inout[at])
+        at += 1
+    if holds_coordinate(j):
+        held = j.lower == j.upper
+        error = coordinate_of(j) - (j.lower if held else j.spring_target)
+        hertz = 0.0 if held else j.spring_hertz
+        draw(error, hertz, j.spring_damping, j.spring, rate, context, rows_inout[at])
+
+
+@subkernel
+def add_inertia(rows, order, joints, h, motions_inout):
+    """Raise the inertia of bodies in trees by what tension adds to it. O(order).
+
+    A light link between heavy bodies oscillates like a string under tension, faster than substeps of h [s] can follow.
+    With the inertia h Σ r · P added where it is positive, it does not; P are the impulses on the link in the last
+    substep, at the arms r (geometric stiffness: Andrews, Teichmann and Kövecses, 2017).
+    """
+    for k in range(len(order)):
+        j = joints[rows[order[k]]]
+        motions_inout[j.motion_a].tension = 0.0
+        motions_inout[j.motion_b].tension = 0.0
+    for k in range(len(order)):
+        j = joints[rows[order[k]]]
+        if j.direct and j.hold == PINNED:
+            size = h * norm(j.point_x, j.point_y)
+            motions_inout[j.motion_a].tension += size * norm(j.ax, j.ay)
+            motions_inout[j.motion_b].tension += size * norm(j.bx, j.by)
+    for k in range(len(order)):
+        j = joints[rows[order[k]]]
+        for side in range(2):
+            m = motions_inout[j.motion_a if side == 0 else j.motion_b]
+            m.inverse_inertia = m.own_inverse_inertia / max(1.0, m.own_inverse_inertia * m.tension)
+
+
+@subkernel
+def place_trees(rows, order, h, motions, joints_inout, tree_rows_out):
+    """Place the joints of trees at the present poses, and write their Jacobians and compliances. O(order)."""
+    for k in range(len(order)):
+        j = joints_inout[rows[order[k]]]
+        if j.direct:
+            a, b = motions[j.motion_a], motions[j.motion_b]
+            place_joint(a, b, j)
+            write_rows(j, h, a, b, MOST_ROWS * order[k], tree_rows_out)
+
+
+@subkernel
+def aim_trees(rows, order, rate, context, joints, tree_rows_out):
+    """Write the wanted velocities of the rows of trees. rate: see write_targets. O(order)."""
+    for k in range(len(order)):
+        j = joints[rows[order[k]]]
+        if j.direct:
+            write_targets(j, rate, context, MOST_ROWS * order[k], tree_rows_out)
+
+
+@subkernel
+def collect_trees(rows, order, tree_rows, joints_inout):
+    """Add the impulses of the rows of trees to those of their joints. O(order)."""
+    for k in range(len(order)):
+        j = joints_inout[rows[order[k]]]
+        if not j.direct:
+            continue
+        at = MOST_ROWS * order[k]
+        if holds_point(j):
+            if j.hold == PINNED:
+                j.point_x += tree_rows[at].impulse
+                j.point_y += tree_rows[at + 1].impulse
+                at += 2
+            else:
+                j.point_y += tree_rows[at].impulse
+                at += 1
+        if holds_angle(j):
+            j.hold_impulse += tree_rows[at].impulse
+            at += 1
+        if holds_coordinate(j):
+            if j.lower == j.upper:
+                j.low += tree_rows[at].impulse
+            else:
+                j.spring += tree_rows[at].impulse
+
+
+# ---- passes ----------------------------------------------------------------------------------------------------------
+
+
+class JointSet(NamedTuple):
+    """The joints of a group, as the substeps of a solver take them."""
+
+    table: np.ndarray  # JOINT
+    rows: np.ndarray  # int32 rows of the joints, in the order of ids
+    order: np.ndarray  # int32 places in `rows` of the joints with parts for a tree
+    counts: np.ndarray  # int32 by place: number of rows of a tree
+    tree_rows: np.ndarray  # JOINT_ROW, MOST_ROWS for each place
+    forest: Forest
+
+
+@subkernel
+def begin_trees(context, joints_inout, motions_inout):
+    """Place the joints of trees at the present poses, and factor the trees. Return the number of redundant rows."""
+    s = joints_inout
+    if len(s.order) == 0:
+        return 0
+    add_inertia(s.rows, s.order, s.table, context.h, motions_inout)
+    place_trees(s.rows, s.order, context.h, motions_inout, s.table, s.tree_rows)
+    return factor_trees(s.tree_rows, s.counts, motions_inout, s.forest)
+
+
+@subkernel
+def solve_all_trees(biased, context, joints_inout, motions_inout):
+    """Solve the trees exactly. biased: whether errors of position are removed, as far as a substep can."""
+    s = joints_inout
+    if len(s.order) > 0:
+        aim_trees(s.rows, s.order, context.inverse_h if biased else 0.0, context, s.table, s.tree_rows)
+        solve_trees(s.forest, s.tree_rows, motions_inout)
+        collect_trees(s.rows, s.order, s.tree_rows, s.table)
+
+
+@subkernel
+def solve_once(biased, context, joints_inout, motions_inout):
+    """Solve the joints once; the trees last, so that their joints are exact. biased: see solve_joints."""
+    s = joints_inout
+    solve_joints(s.rows, biased, context, s.table, motions_inout)
+    solve_all_trees(biased, context, s, motions_inout)
+
+
+@subkernel
+def start_joints(context, joints_inout, motions_inout):
+    """Start the joints of a substep with the impulses of the last one, and solve them. context: see StepContext."""
+    s = joints_inout
+    warm_joints(s.rows, s.table, motions_inout)
+    solve_once(True, context, s, motions_inout)
+
+
+@subkernel
+def finish_joints(context, joints_inout, motions_inout):
+    """Solve the velocities of the joints at the poses at the end of a substep, and sum up their impulses."""
+    s = joints_inout
+    begin_trees(context, s, motions_inout)
+    solve_once(False, context, s, motions_inout)
+    sum_joints(s.rows, s.table)
+
+
+class Trees:
+    """The joint trees of the groups of one world, one group after the other; its arrays grow and are reused."""
+
+    def __init__(self) -> None:
+        self.forest: Forest = new_forest(0, 0)
+        self._make_room(0)
+
+    def _make_room(self, joints: int) -> None:
+        self.rows = np.zeros(MOST_ROWS * joints, JOINT_ROW)
+        self.order, self.counts = np.zeros(joints, np.int64), np.zeros(joints, np.int32)
+        self.motion_a, self.motion_b = np.zeros(joints, np.int32), np.zeros(joints, np.int32)
+        self.taken = np.zeros(joints, np.bool_)
+        self.sums = np.zeros((0, 2), np.int32)
+
+    def build(self, rows: np.ndarray, joints: np.ndarray, motions: np.ndarray, tier: str) -> JointSet:
+        """Find the trees among the joints of a group, by row of JOINT in the order of ids.
+
+        tier: "iterative" leaves all joints to the passes, "auto" those of meshes.
+        """
+        n = len(rows)
+        if len(self.taken) < n:
+            self._make_room(2 * n)
+        taken = self.taken[:n]
+        taken[:] = False
+        order = self.order[:0]
+        if tier != "iterative" and n:
+            found = list_tree_joints(rows, joints, self.order, self.counts, self.motion_a, self.motion_b)
+            order = self.order[:found]
+            self.forest = with_room(self.forest, n, len(motions))
+            taken_count = build_forest(order, self.motion_a, self.motion_b, motions, self.forest, taken)
+            if tier == "auto" and taken_count < found:
+                if len(self.sums) < len(motions):
+                    self.sums = np.zeros((2 * len(motions), 2), np.int32)
+                sums = self.sums[: len(motions)]
+                left = drop_meshes(order, self.motion_a, self.motion_b, taken, self.forest.parents, sums, order)
+                if left < found:
+                    order = self.order[:left]
+                    taken[:] = False
+                    build_forest(order, self.motion_a, self.motion_b, motions, self.forest, taken)
+        if n:
+            mark_direct(rows, taken, joints)
+        return JointSet(joints, rows, order, self.counts, self.rows, self.forest)

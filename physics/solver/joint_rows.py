@@ -1,0 +1,577 @@
+"""Joints in the passes of the stacking solvers: soft, warm started, one joint after the other (the iterative tier).
+
+A joint is solved by parts, whatever its kind: a hold of its anchors, a hold of its angle, and on its coordinate a
+spring, a motor and two limits. Moment arms, axes and effective masses are taken anew in each substep. Sources: Catto,
+Soft Constraints, GDC 2011, and Solver2D, 2024 (soft joints with a relaxing pass); Catto, Box2D v3, joint.c (the parts).
+"""
+
+import math
+
+from physics.jit import inlined, kernel, subkernel
+from physics.math2d import norm, rotation_of
+from physics.tables.joint import ANGLE, FREE, LENGTH, NO_COORDINATE, ON_AXIS, PINNED, TRANSLATION
+from physics.tables.step_state import JOINTS_SOLVED, StepState, stage
+
+# ---- selection -------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def is_idle(joint):
+    """Return whether a joint acts on nothing: it is disabled, or only forbids contacts."""
+    j = joint
+    if not j.enabled:
+        return True
+    return j.hold == FREE and not j.locks_angle and j.coordinate == NO_COORDINATE and not j.turns_motor
+
+
+@kernel
+def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
+    """List the joints to solve in this step, in the order of ids. Return their number. O(joints).
+
+    motion_of (bodies): MOTION row of each body, 0 for a body that does not move. The bodies of the joints are marked as
+    jointed. links_out (joints, 3) int32: row of each joint, and MOTION rows of its bodies.
+    """
+    found = 0
+    for i in range(len(joints_inout)):
+        j = joints_inout[i]
+        j.awake = False
+        if is_idle(j):
+            continue
+        j.motion_a = motion_of[j.body_row_a] if j.body_row_a >= 0 else 0
+        j.motion_b = motion_of[j.body_row_b] if j.body_row_b >= 0 else 0
+        a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
+        if a.inverse_mass + a.inverse_inertia + b.inverse_mass + b.inverse_inertia == 0.0:
+            continue
+        j.awake = True
+        # Springs balance a load within each substep: it has to act on them as a whole.
+        rigid = j.spring_hertz == 0.0 and j.point_hertz == 0.0 and j.angle_hertz == 0.0
+        a.halves = rigid and (a.halves or not a.jointed)
+        b.halves = rigid and (b.halves or not b.jointed)
+        a.jointed = a.is_dynamic
+        b.jointed = b.is_dynamic
+        links_out[found, 0] = i
+        links_out[found, 1] = j.motion_a
+        links_out[found, 2] = j.motion_b
+        found += 1
+    work_inout[JOINTS_SOLVED] += found
+    return found
+
+
+# ---- geometry --------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def begin_joint(bodies, h, joint_inout):
+    """Write the anchors, axis and angle of a joint at the start of a step, and its impulses for a substep of h [s]."""
+    j = joint_inout
+    angle_a, angle_b = 0.0, 0.0
+    ax, ay, bx, by = j.local_ax, j.local_ay, j.local_bx, j.local_by
+    j.arm_ax, j.arm_ay, j.arm_bx, j.arm_by = 0.0, 0.0, 0.0, 0.0
+    j.start_nx, j.start_ny = j.axis_x, j.axis_y
+    if j.body_row_a >= 0:
+        body = bodies[j.body_row_a]
+        angle_a = body.angle
+        c, s = rotation_of(angle_a)
+        x, y = ax - body.local_center_x, ay - body.local_center_y
+        j.arm_ax, j.arm_ay = c * x - s * y, s * x + c * y
+        ax, ay = body.center_x + j.arm_ax, body.center_y + j.arm_ay
+        j.start_nx, j.start_ny = c * j.axis_x - s * j.axis_y, s * j.axis_x + c * j.axis_y
+    if j.body_row_b >= 0:
+        body = bodies[j.body_row_b]
+        angle_b = body.angle
+        c, s = rotation_of(angle_b)
+        x, y = bx - body.local_center_x, by - body.local_center_y
+        j.arm_bx, j.arm_by = c * x - s * y, s * x + c * y
+        bx, by = body.center_x + j.arm_bx, body.center_y + j.arm_by
+    j.base_x, j.base_y = bx - ax, by - ay
+    j.start_angle = angle_b - angle_a - j.reference
+    j.point_x, j.point_y = h * j.point_force_x, h * j.point_force_y
+    j.hold_impulse, j.spring, j.motor = h * j.hold_torque, h * j.spring_force, h * j.motor_force
+    j.low, j.high = h * j.lower_force, h * j.upper_force
+    j.total_x, j.total_y, j.total_torque = 0.0, 0.0, 0.0
+
+
+@kernel
+def begin_joints(rows, bodies, h, joints_inout):
+    """Write the anchors, axes and angles of joints at the start of a step. O(rows).
+
+    rows: of joints to solve; h [s]: a substep.
+    """
+    for k in range(len(rows)):
+        begin_joint(bodies, h, joints_inout[rows[k]])
+
+
+@subkernel
+def place_joint(a, b, joint_inout):
+    """Write moment arms, axis, distance of the anchors and angle of a joint at the present poses. a, b: MOTION rows."""
+    j = joint_inout
+    ax, ay = a.cosine * j.arm_ax - a.sine * j.arm_ay, a.sine * j.arm_ax + a.cosine * j.arm_ay
+    bx, by = b.cosine * j.arm_bx - b.sine * j.arm_by, b.sine * j.arm_bx + b.cosine * j.arm_by
+    j.apart_x = j.base_x + (b.dx - a.dx) + (bx - j.arm_bx) - (ax - j.arm_ax)
+    j.apart_y = j.base_y + (b.dy - a.dy) + (by - j.arm_by) - (ay - j.arm_ay)
+    j.turn = j.start_angle + b.turn - a.turn
+    if j.coordinate == LENGTH:
+        length = norm(j.apart_x, j.apart_y)
+        if length > 0.0:
+            j.nx, j.ny = j.apart_x / length, j.apart_y / length
+    else:
+        j.nx = a.cosine * j.start_nx - a.sine * j.start_ny
+        j.ny = a.sine * j.start_nx + a.cosine * j.start_ny
+    if j.hold == ON_AXIS or j.coordinate == TRANSLATION:
+        # The axis turns with A, so A is pushed where B is.
+        ax += j.apart_x
+        ay += j.apart_y
+    j.ax, j.ay, j.bx, j.by = ax, ay, bx, by
+
+
+# ---- impulses --------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def push(joint, x, y, torque, a_inout, b_inout):
+    """Apply an impulse and an angular impulse to B at its anchor, and the opposite ones to A.
+
+    They also change the velocity before contacts acted, so that the next substep does not apply them again: it warm
+    starts joints at their new arms.
+    """
+    j = joint
+    a, b = a_inout, b_inout
+    vx, vy = a.inverse_mass * x, a.inverse_mass * y
+    w = a.inverse_inertia * (j.ax * y - j.ay * x + torque)
+    a.vx -= vx
+    a.vy -= vy
+    a.angular_velocity -= w
+    a.free_vx -= vx
+    a.free_vy -= vy
+    a.free_w -= w
+    vx, vy = b.inverse_mass * x, b.inverse_mass * y
+    w = b.inverse_inertia * (j.bx * y - j.by * x + torque)
+    b.vx += vx
+    b.vy += vy
+    b.angular_velocity += w
+    b.free_vx += vx
+    b.free_vy += vy
+    b.free_w += w
+
+
+@subkernel
+def push_coordinate(joint, impulse, a_inout, b_inout):
+    """Apply an impulse that raises the coordinate of a joint: along its axis, or about its anchor."""
+    j = joint
+    if j.coordinate == ANGLE:
+        push(j, 0.0, 0.0, impulse, a_inout, b_inout)
+    else:
+        push(j, impulse * j.nx, impulse * j.ny, 0.0, a_inout, b_inout)
+
+
+@subkernel
+def speed_across(joint, nx, ny, a, b):
+    """Return the speed [px/s] of B's anchor relative to A's along a unit vector. a, b: MOTION rows."""
+    j = joint
+    speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
+    speed += b.angular_velocity * (j.bx * ny - j.by * nx)
+    return speed - a.angular_velocity * (j.ax * ny - j.ay * nx)
+
+
+@subkernel
+def inverse_mass_along(joint, nx, ny, a, b):
+    """Return the inverse effective mass of a joint along a unit vector."""
+    j = joint
+    on_a, on_b = j.ax * ny - j.ay * nx, j.bx * ny - j.by * nx
+    return a.inverse_mass + b.inverse_mass + a.inverse_inertia * on_a * on_a + b.inverse_inertia * on_b * on_b
+
+
+@subkernel
+def coordinate_of(joint):
+    """Return the coordinate of a joint at the present poses [px or rad]."""
+    j = joint
+    return j.turn if j.coordinate == ANGLE else j.apart_x * j.nx + j.apart_y * j.ny
+
+
+@subkernel
+def coordinate_speed(joint, a, b):
+    """Return the rate at which the coordinate of a joint changes [px/s or rad/s]."""
+    j = joint
+    return b.angular_velocity - a.angular_velocity if j.coordinate == ANGLE else speed_across(j, j.nx, j.ny, a, b)
+
+
+@inlined
+def softness_of(hertz, damping, h):
+    """Return (bias rate [1/s], share of the effective mass, share of the impulse given back) of an implicit spring."""
+    omega = math.tau * hertz
+    rate = 2.0 * damping + h * omega
+    grip = h * omega * rate
+    give = 1.0 / (1.0 + grip)
+    return omega / rate, grip * give, give
+
+
+@inlined
+def rigid_softness(biased, context):
+    """Return the softness of a hard part of a joint, see softness_of: rigid and without bias in the relaxing pass."""
+    if not biased:
+        return 0.0, 1.0, 0.0
+    give = 1.0 / (1.0 + context.joint.grip)
+    return context.joint.bias_rate, context.joint.grip * give, give
+
+
+@inlined
+def bounded(value, most):
+    """Return a value limited to -most … most."""
+    return min(max(value, -most), most)
+
+
+@inlined
+def holds_point(joint):
+    """Return whether the hold of the anchors of a joint is part of a tree: it is not bounded."""
+    return joint.hold != FREE and joint.follows_point and joint.point_max == math.inf
+
+
+@inlined
+def holds_angle(joint):
+    """Return whether the hold of the angle of a joint is part of a tree: it is not bounded."""
+    return joint.locks_angle and joint.follows_angle and joint.angle_max == math.inf
+
+
+@inlined
+def holds_coordinate(joint):
+    """Return whether the coordinate of a joint is part of a tree: it is held, or has a spring."""
+    return joint.coordinate != NO_COORDINATE and (joint.lower == joint.upper or joint.spring_hertz > 0.0)
+
+
+# ---- parts -----------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def solve_motor(context, joint_inout, a_inout, b_inout):
+    """Solve the motor of a joint: it drives the coordinate, or the angle, at motor_speed with a bounded force."""
+    j, a, b = joint_inout, a_inout, b_inout
+    of_angle = j.turns_motor or j.coordinate == ANGLE
+    if of_angle:
+        inverse = a.inverse_inertia + b.inverse_inertia
+        speed = b.angular_velocity - a.angular_velocity
+    else:
+        inverse = inverse_mass_along(j, j.nx, j.ny, a, b)
+        speed = speed_across(j, j.nx, j.ny, a, b)
+    if inverse <= 0.0:
+        return
+    before = j.motor
+    j.motor = bounded(before + (j.motor_speed - speed) / inverse, j.motor_max * context.h)
+    if of_angle:
+        push(j, 0.0, 0.0, j.motor - before, a, b)
+    else:
+        push_coordinate(j, j.motor - before, a, b)
+
+
+@subkernel
+def limit_change(gap, speed, old, mass, soft, context):
+    """Return the change of the impulse of a limit that keeps gap >= 0, where speed is the rate of the gap.
+
+    soft: see softness_of; the impulse stays at least 0. A limit that is not reached lets the gap close in a substep.
+    """
+    bias_rate, mass_share, give = soft
+    if gap > 0.0:
+        change = -mass * (speed + gap * context.inverse_h)
+    else:
+        change = -mass * mass_share * (speed + max(bias_rate * gap, -context.push_speed)) - give * old
+    return max(old + change, 0.0) - old
+
+
+@subkernel
+def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
+    """Solve spring, motor and limits of a joint on its coordinate."""
+    j, a, b = joint_inout, a_inout, b_inout
+    inverse = a.inverse_inertia + b.inverse_inertia
+    if j.coordinate != ANGLE:
+        inverse = inverse_mass_along(j, j.nx, j.ny, a, b)
+    if inverse <= 0.0:
+        return
+    mass = 1.0 / inverse
+    now = coordinate_of(j)
+    if j.spring_hertz > 0.0 and not j.direct:
+        rate, mass_share, give = softness_of(j.spring_hertz, j.spring_damping, context.h)
+        change = -mass * mass_share * (coordinate_speed(j, a, b) + rate * (now - j.spring_target)) - give * j.spring
+        j.spring += change
+        push_coordinate(j, change, a, b)
+    if j.motor_max > 0.0 and not j.turns_motor:
+        solve_motor(context, j, a, b)
+    soft = rigid_softness(biased, context)
+    if j.lower == j.upper:
+        if j.direct:
+            return
+        rate, mass_share, give = soft
+        bias = bounded(rate * (now - j.lower), context.push_speed)
+        change = -mass * mass_share * (coordinate_speed(j, a, b) + bias) - give * j.low
+        j.low += change
+        push_coordinate(j, change, a, b)
+        return
+    if j.lower > -math.inf:
+        change = limit_change(now - j.lower, coordinate_speed(j, a, b), j.low, mass, soft, context)
+        j.low += change
+        push_coordinate(j, change, a, b)
+    if j.upper < math.inf:
+        change = limit_change(j.upper - now, -coordinate_speed(j, a, b), j.high, mass, soft, context)
+        j.high += change
+        push_coordinate(j, -change, a, b)
+
+
+@subkernel
+def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
+    """Solve the hold of the angle of a joint: rigid, soft, or of the angular velocity alone, with a bounded torque."""
+    j, a, b = joint_inout, a_inout, b_inout
+    inverse = a.inverse_inertia + b.inverse_inertia
+    if inverse <= 0.0:
+        return
+    rate, mass_share, give = rigid_softness(biased, context)
+    if j.angle_hertz > 0.0:
+        rate, mass_share, give = softness_of(j.angle_hertz, j.angle_damping, context.h)
+    if not j.follows_angle:
+        rate, mass_share, give = 0.0, 1.0, 0.0
+    speed = b.angular_velocity - a.angular_velocity - j.target_spin + rate * j.turn
+    before = j.hold_impulse
+    j.hold_impulse = bounded(before - mass_share * speed / inverse - give * before, j.angle_max * context.h)
+    push(j, 0.0, 0.0, j.hold_impulse - before, a, b)
+
+
+@subkernel
+def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
+    """Solve the hold of B's anchor on the axis of A: no motion across the axis."""
+    j, a, b = joint_inout, a_inout, b_inout
+    inverse = inverse_mass_along(j, -j.ny, j.nx, a, b)
+    if inverse <= 0.0:
+        return
+    rate, mass_share, give = rigid_softness(biased, context)
+    across = j.apart_y * j.nx - j.apart_x * j.ny
+    bias = bounded(rate * across, context.push_speed)
+    change = -mass_share * (speed_across(j, -j.ny, j.nx, a, b) + bias) / inverse - give * j.point_y
+    j.point_y += change
+    push(j, -j.ny * change, j.nx * change, 0.0, a, b)
+
+
+@subkernel
+def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
+    """Solve the hold of two anchors: rigid, soft, or of their relative velocity alone, with a bounded force.
+
+    Both directions are solved together.
+    """
+    j, a, b = joint_inout, a_inout, b_inout
+    k_11 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ay * j.ay + b.inverse_inertia * j.by * j.by
+    k_12 = -a.inverse_inertia * j.ax * j.ay - b.inverse_inertia * j.bx * j.by
+    k_22 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ax * j.ax + b.inverse_inertia * j.bx * j.bx
+    determinant = k_11 * k_22 - k_12 * k_12
+    if determinant <= 0.0:
+        return
+    rate, mass_share, give = rigid_softness(biased, context)
+    if j.point_hertz > 0.0:
+        rate, mass_share, give = softness_of(j.point_hertz, j.point_damping, context.h)
+    bias_x, bias_y = rate * j.apart_x, rate * j.apart_y
+    fast = norm(bias_x, bias_y)
+    if fast > context.push_speed and j.point_hertz == 0.0:
+        bias_x, bias_y = bias_x * context.push_speed / fast, bias_y * context.push_speed / fast
+    if not j.follows_point:
+        mass_share, give = 1.0, 0.0
+        bias_x = a.sine * j.target_vy - a.cosine * j.target_vx
+        bias_y = -a.sine * j.target_vx - a.cosine * j.target_vy
+    x = b.vx - a.vx - b.angular_velocity * j.by + a.angular_velocity * j.ay + bias_x
+    y = b.vy - a.vy + b.angular_velocity * j.bx - a.angular_velocity * j.ax + bias_y
+    before_x, before_y = j.point_x, j.point_y
+    j.point_x -= mass_share * (k_22 * x - k_12 * y) / determinant + give * before_x
+    j.point_y -= mass_share * (k_11 * y - k_12 * x) / determinant + give * before_y
+    most = j.point_max * context.h
+    size = norm(j.point_x, j.point_y)
+    if size > most:
+        j.point_x *= most / size
+        j.point_y *= most / size
+    push(j, j.point_x - before_x, j.point_y - before_y, 0.0, a, b)
+
+
+# ---- passes ----------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def impulse_of(joint):
+    """Return (x, y, angular) of the impulse of a joint on B in the present substep."""
+    j = joint
+    x, y, torque = 0.0, 0.0, j.hold_impulse
+    if j.hold == PINNED:
+        x, y = j.point_x, j.point_y
+    elif j.hold == ON_AXIS:
+        x, y = -j.ny * j.point_y, j.nx * j.point_y
+    along = j.spring + j.low - j.high
+    if j.turns_motor:
+        torque += j.motor
+    else:
+        along += j.motor
+    if j.coordinate == ANGLE:
+        torque += along
+    else:
+        x += along * j.nx
+        y += along * j.ny
+    return x, y, torque
+
+
+@subkernel
+def warm_joints(rows, joints_inout, motions_inout):
+    """Place joints at the present poses, and apply the impulses with which they start a substep. O(rows)."""
+    for k in range(len(rows)):
+        j = joints_inout[rows[k]]
+        a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
+        place_joint(a, b, j)
+        x, y, torque = impulse_of(j)
+        push(j, x, y, torque, a, b)
+        a.in_contact = True
+        b.in_contact = True
+
+
+@subkernel
+def solve_joints(rows, biased, context, joints_inout, motions_inout):
+    """Solve every joint once. O(rows).
+
+    biased: whether errors of position are removed; otherwise velocities alone are solved. Parts that trees solve are
+    left out.
+    """
+    for k in range(len(rows)):
+        j = joints_inout[rows[k]]
+        a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
+        if not biased:
+            place_joint(a, b, j)
+        if j.turns_motor and j.motor_max > 0.0:
+            solve_motor(context, j, a, b)
+        if j.coordinate != NO_COORDINATE:
+            solve_coordinate(biased, context, j, a, b)
+        if j.locks_angle and not (j.direct and holds_angle(j)):
+            solve_hold_of_angle(biased, context, j, a, b)
+        if j.direct and holds_point(j):
+            continue
+        if j.hold == ON_AXIS:
+            solve_hold_across(biased, context, j, a, b)
+        elif j.hold == PINNED:
+            solve_hold_of_point(biased, context, j, a, b)
+
+
+@subkernel
+def sum_joints(rows, joints_inout):
+    """Add the impulses of a substep to those of the step. O(rows)."""
+    for k in range(len(rows)):
+        j = joints_inout[rows[k]]
+        x, y, torque = impulse_of(j)
+        j.total_x += x
+        j.total_y += y
+        j.total_torque += torque
+
+
+# ---- store -----------------------------------------------------------------------------------------------------------
+
+
+@kernel
+def store_joints(rows, context, joints_inout):
+    """Write the forces of the step, and those with which the next step starts, to the joints. O(rows)."""
+    rest = 1.0 - context.share
+    rate = context.share * context.inverse_h
+    for k in range(len(rows)):
+        j = joints_inout[rows[k]]
+        j.force_x, j.force_y = j.total_x * context.inverse_dt, j.total_y * context.inverse_dt
+        j.torque = j.total_torque * context.inverse_dt
+        j.point_force_x = rate * j.point_x + rest * j.point_force_x
+        j.point_force_y = rate * j.point_y + rest * j.point_force_y
+        j.hold_torque = rate * j.hold_impulse + rest * j.hold_torque
+        j.spring_force = rate * j.spring + rest * j.spring_force
+        j.motor_force = rate * j.motor + rest * j.motor_force
+        j.lower_force = rate * j.low + rest * j.lower_force
+        j.upper_force = rate * j.high + rest * j.upper_force
+
+
+@kernel
+def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
+    """Raise the substep estimates of bodies to what the loads of their joints need. O(rows).
+
+    rate: see contact_lanes.estimate_rate; dt [s] of the step; accuracy [px]. The spring of a joint in the passes is
+    twice as stiff as that of a contact. In either tier an anchor that turns by an angle a in a substep leaves the joint by
+    a² / 2 of its arm.
+    """
+    for k in range(len(rows)):
+        j = joints[rows[k]]
+        a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
+        estimate = 0.0
+        for side in range(2):
+            m = a if side == 0 else b
+            arm = norm(j.ax, j.ay) if side == 0 else norm(j.bx, j.by)
+            turn = dt * m.angular_velocity
+            estimate = max(estimate, 0.5 * turn * turn * arm / accuracy)
+        if not j.direct:
+            sag = norm(j.total_x, j.total_y) * (
+                a.inverse_mass
+                + b.inverse_mass
+                + a.inverse_inertia * (j.ax * j.ax + j.ay * j.ay)
+                + b.inverse_inertia * (j.bx * j.bx + j.by * j.by)
+            )
+            lever = max(norm(j.ax, j.ay), norm(j.bx, j.by))
+            sag = max(sag, abs(j.hold_impulse) * (a.inverse_inertia + b.inverse_inertia) * lever)
+            estimate = max(estimate, 0.25 * rate * sag)
+        a.estimate = max(a.estimate, estimate)
+        b.estimate = max(b.estimate, estimate)
+
+
+# ---- report ----------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def place_anchor(body, x, y):
+    """Return (x, y) [px] in the world of a point of a body."""
+    c, s = rotation_of(body.angle)
+    return body.x + c * x - s * y, body.y + s * x + c * y
+
+
+@subkernel
+def velocity_at(body, x, y):
+    """Return the velocity (x, y) [px/s] of a body at a point [px] of the world."""
+    w = body.angular_velocity
+    return body.vx - w * (y - body.center_y), body.vy + w * (x - body.center_x)
+
+
+@kernel
+def report_joints(bodies, joints_inout):
+    """Write angle, translation, speed, separation and whether a joint broke, at the present poses. O(joints)."""
+    for k in range(len(joints_inout)):
+        j = joints_inout[k]
+        ax, ay, bx, by = j.local_ax, j.local_ay, j.local_bx, j.local_by
+        nx, ny = j.axis_x, j.axis_y
+        angle, spin, vx, vy = -j.reference, 0.0, 0.0, 0.0
+        if j.body_row_b >= 0:
+            b = bodies[j.body_row_b]
+            bx, by = place_anchor(b, bx, by)
+            angle += b.angle
+            spin += b.angular_velocity
+            vx, vy = velocity_at(b, bx, by)
+        if j.body_row_a >= 0:
+            a = bodies[j.body_row_a]
+            ax, ay = place_anchor(a, ax, ay)
+            c, s = rotation_of(a.angle)
+            nx, ny = c * j.axis_x - s * j.axis_y, s * j.axis_x + c * j.axis_y
+            angle -= a.angle
+            spin -= a.angular_velocity
+            # Where the axis turns with A, the speed along it is relative to A at the anchor of B.
+            on_axis = j.coordinate == TRANSLATION
+            ux, uy = velocity_at(a, bx if on_axis else ax, by if on_axis else ay)
+            vx -= ux
+            vy -= uy
+        x, y = bx - ax, by - ay
+        apart = norm(x, y)
+        j.angle = angle
+        j.translation = x * nx + y * ny
+        j.speed = spin
+        j.separation = apart if j.hold == PINNED and j.follows_point else 0.0
+        if j.hold == ON_AXIS:
+            j.separation = abs(y * nx - x * ny)
+        if j.coordinate == TRANSLATION:
+            j.speed = vx * nx + vy * ny
+        elif j.coordinate == LENGTH:
+            j.translation = apart
+            j.speed = (vx * x + vy * y) / apart if apart > 0.0 else 0.0
+            j.separation = max(j.lower - apart, apart - j.upper, 0.0)
+        j.broken = j.awake and (norm(j.force_x, j.force_y) > j.break_force or abs(j.torque) > j.break_torque)
+
+
+@stage("joints", reads=("bodies", "joints"), writes=("joints",))
+def measure_joints(state: StepState) -> None:
+    """Measure the joints at the final poses of the step, and find those that broke."""
+    report_joints(state.bodies, state.joints)

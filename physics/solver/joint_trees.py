@@ -1,0 +1,569 @@
+"""Direct solver for trees of joints: exact impulses in linear time, for any ratio of masses.
+
+Joints and the bodies of finite mass that they link form a graph. Joints that close a loop in it are left to an
+iterative solver; the others are a forest. Bodies of infinite mass cut the graph, so a bridge between two walls is a
+tree. A tree is eliminated from its leaves to its root, and solved back from the root to its leaves (Baraff,
+Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Featherstone, Rigid Body Dynamics Algorithms, 2008,
+chapter 7).
+
+The elimination works on articulated inverse inertias: W of a body, 3×3, is its response to an impulse while its
+subtree hangs on it. A joint to a child with the inverse inertia Wc acts on its parent like a measurement of the
+parent's velocity by a Kalman filter, with the covariance S = Γ + Jc Wc Jcᵀ. S = 0, a rigid joint to a body of infinite
+mass, is no exception, while its inverse would be. W is kept as U D Uᵀ, with U unit upper triangular and D diagonal, and
+S is diagonalised row by row without being formed. So no digits are lost where a light body carries a heavy one
+(Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapters 5 and 6). Impulses follow from the
+innovations of the filter (the smoother of Bryson and Frazier, 1963), the velocity of a child from that of its parent.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from physics.jit import inlined, kernel, subkernel
+from physics.tables.table import in_lines, join_trees, root_of, zeros_in_lines
+
+MOST_ROWS = 3  # rows of a joint: row r of joint j is JOINT_ROW 3 j + r
+NO_SLOT = -1  # in place of a slot, joint or half-edge: none
+# Pivots relative to what they are before the elimination. A pivot falls with the mass that hangs on a joint, to 1e-12
+# for 1e6 times the mass of a link at the end of 200 welded links. Of redundant rows rounding errors leave 1e-28.
+SINGULAR = 1e-16  # at or below it a row is redundant
+IMMOVABLE = 1e-20  # at or below it the child of a row does not respond
+NEGLIGIBLE = 1e-30  # at or below it a part of a pivot is a rounding error
+AT_REST = 1e-250  # slower velocities count as 0: the rounding errors of bodies at rest become denormal, and slow
+
+# ---- tables ----------------------------------------------------------------------------------------------------------
+
+# A scalar row of a joint: the impulse for which  ax·vx + ay·vy + aw·w of A + bx·vx + by·vy + bw·w of B + compliance ·
+# impulse = rhs  after the solve. Impulses change the velocities of A by its inverse mass and inertia times
+# (ax, ay, aw), and those of B alike.
+JOINT_ROW = np.dtype(
+    [
+        ("ax", np.float64),  # Jacobian of body A …
+        ("ay", np.float64),
+        ("aw", np.float64),  # [px] for a row of a speed along a line
+        ("bx", np.float64),  # … and of body B
+        ("by", np.float64),
+        ("bw", np.float64),
+        ("rhs", np.float64),  # wanted relative velocity, with bias
+        ("compliance", np.float64),  # 0: rigid
+        ("impulse", np.float64),  # result: the impulse of the last solve
+    ],
+    align=True,
+)
+
+# A body of a tree, in the order of the elimination: parents before their children. A joint to a body of infinite mass
+# has a row for that body, too.
+TREE_BODY = in_lines(
+    [
+        ("motion", np.int32),  # its row in MOTION
+        ("parent", np.int32),  # slot of its parent, NO_SLOT: the root of a tree
+        ("joint", np.int32),  # joint to its parent
+        ("count", np.int32),  # number of rows of that joint
+        ("parent_is_a", np.bool_),
+        ("is_fixed", np.bool_),  # infinite mass
+        ("inverse_inertia", np.float64),  # with the added inertia
+        ("d_x", np.float64),  # D of the articulated inverse inertia U D Uᵀ …
+        ("d_y", np.float64),
+        ("d_w", np.float64),
+        ("u_xy", np.float64),  # … and U
+        ("u_xw", np.float64),
+        ("u_yw", np.float64),
+        ("vx", np.float64),  # velocity, with the impulses of its subtree; at the end with all of them
+        ("vy", np.float64),
+        ("w", np.float64),
+        ("fx", np.float64),  # impulse on it and its subtree from outside of the subtree
+        ("fy", np.float64),
+        ("fw", np.float64),
+    ]
+)
+
+# A factored row of a joint: a combination of its rows, whose response by the child is independent of the other rows.
+TREE_ROW = in_lines(
+    [
+        ("px", np.float64),  # Jacobian of the parent
+        ("py", np.float64),
+        ("pw", np.float64),
+        ("cx", np.float64),  # Jacobian of the child
+        ("cy", np.float64),
+        ("cw", np.float64),
+        ("gx", np.float64),  # gain of the child: its velocity per violation that the parent leaves
+        ("gy", np.float64),
+        ("gw", np.float64),
+        ("kx", np.float64),  # gain of the parent: its velocity per violation, without impulses from outside
+        ("ky", np.float64),
+        ("kw", np.float64),
+        ("inverse_pivot", np.float64),  # impulse per violation of the row
+        ("of_first", np.float64),  # multiples of the first and second row in the row of the joint
+        ("of_second", np.float64),
+        ("source", np.int64),  # 0..2: the row of the joint
+    ]
+)
+
+
+class Forest(NamedTuple):
+    """Trees of joints: their bodies and factors, and the arrays from which they are built. All are reused."""
+
+    bodies: np.ndarray  # (2 joints) TREE_BODY in slots: first the roots, parents before their children
+    rows: np.ndarray  # (2 MOST_ROWS joints) TREE_ROW of the joint to the parent of each slot
+    violations: np.ndarray  # (2 MOST_ROWS joints) of each TREE_ROW while its parent is at rest
+    sizes: np.ndarray  # (1) int64 number of slots in use
+    parents: np.ndarray  # (motions) int32 union-find over MOTION rows
+    heads: np.ndarray  # (motions) int32 first half-edge of each MOTION row: twice the joint, plus 1 for its body B
+    nexts: np.ndarray  # (2 joints) int32 the next half-edge of the same body
+
+
+def new_forest(joints: int, motions: int) -> Forest:
+    """Return an empty forest with room for a number of joints and of MOTION rows."""
+    return Forest(
+        bodies=zeros_in_lines(2 * joints, TREE_BODY),
+        rows=zeros_in_lines(2 * MOST_ROWS * joints, TREE_ROW),
+        violations=np.zeros(2 * MOST_ROWS * joints),
+        sizes=np.zeros(1, np.int64),
+        parents=np.zeros(motions, np.int32),
+        heads=np.zeros(motions, np.int32),
+        nexts=np.zeros(2 * joints, np.int32),
+    )
+
+
+def with_room(forest: Forest, joints: int, motions: int) -> Forest:
+    """Return the forest if it has room for so many joints and MOTION rows, otherwise an empty one of twice the room."""
+    has_joints, has_motions = len(forest.nexts) // 2, len(forest.parents)
+    if joints <= has_joints and motions <= has_motions:
+        return forest
+    return new_forest(
+        has_joints if joints <= has_joints else max(joints, 2 * has_joints),
+        has_motions if motions <= has_motions else max(motions, 2 * has_motions),
+    )
+
+
+# ---- structure -------------------------------------------------------------------------------------------------------
+
+
+@inlined
+def has_infinite_mass(motion):
+    """Return whether no impulse moves or turns the body of a MOTION row."""
+    return not (motion.inverse_mass > 0.0 or motion.inverse_inertia > 0.0)
+
+
+@subkernel
+def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
+    """Choose the joints of the forest and link them to their bodies. Return their number. Arguments of build_forest."""
+    f = forest_inout
+    for i in range(len(motions)):
+        f.parents[i] = i
+        f.heads[i] = NO_SLOT
+    count = 0
+    for k in range(len(order)):
+        joint = order[k]
+        a, b = motion_a[joint], motion_b[joint]
+        fixed_a, fixed_b = has_infinite_mass(motions[a]), has_infinite_mass(motions[b])
+        takes = fixed_a != fixed_b
+        if not fixed_a and not fixed_b and root_of(a, f.parents) != root_of(b, f.parents):
+            join_trees(a, b, f.parents)
+            takes = True
+        taken_out[joint] = takes
+        count += 1 if takes else 0
+    for k in range(len(order) - 1, -1, -1):  # backwards: each list is in the order of ids
+        joint = order[k]
+        if not taken_out[joint]:
+            continue
+        for side in range(2):
+            i = motion_a[joint] if side == 0 else motion_b[joint]
+            if not has_infinite_mass(motions[i]):
+                f.nexts[2 * joint + side] = f.heads[i]
+                f.heads[i] = 2 * joint + side
+    return count
+
+
+@inlined
+def write_body(motion, parent, joint, parent_is_a, is_fixed, body_out):
+    """Write the place of a body in its tree into its TREE_BODY row."""
+    body_out.motion = motion
+    body_out.parent = parent
+    body_out.joint = joint
+    body_out.count = 0
+    body_out.parent_is_a = parent_is_a
+    body_out.is_fixed = is_fixed
+
+
+@subkernel
+def order_bodies(motion_a, motion_b, motions, forest_inout):
+    """Write the bodies of all trees, breadth-first from the roots. O(MOTION rows + joints). Arguments of build_forest.
+
+    The rows that are written are the queue of the search. All roots come first, so that joints of several trees follow
+    one another and the processor works on them at the same time.
+    """
+    f = forest_inout
+    count = 0
+    for root in range(len(motions)):
+        if f.heads[root] >= 0 and f.parents[root] == root:
+            write_body(root, NO_SLOT, NO_SLOT, False, False, f.bodies[count])
+            count += 1
+    slot = 0
+    while slot < count:
+        body = f.bodies[slot]
+        half = NO_SLOT if body.is_fixed else f.heads[body.motion]
+        while half >= 0:
+            joint, parent_is_a = half // 2, half % 2 == 0
+            if joint != body.joint:
+                other = motion_b[joint] if parent_is_a else motion_a[joint]
+                is_fixed = has_infinite_mass(motions[other])
+                write_body(other, slot, joint, parent_is_a, is_fixed, f.bodies[count])
+                count += 1
+            half = f.nexts[half]
+        slot += 1
+    f.sizes[0] = count
+
+
+@kernel
+def build_forest(
+    # read
+    order,
+    motion_a,
+    motion_b,
+    motions,
+    # write
+    forest_inout,
+    taken_out,
+):
+    """Choose the joints of the forest and order their elimination. Return the number of joints taken.
+
+    A joint is not taken if its bodies are linked by joints before it, or if both have infinite mass. The root of a
+    tree is its lowest MOTION row. The result depends only on the order of the joints and on the MOTION rows. O(MOTION
+    rows + joints). order: int64, the joints that may be taken, in the order of their ids; motion_a, motion_b (joints,):
+    int32 MOTION rows of their bodies; forest_inout: a Forest with room for them; taken_out (joints,): bool, written for
+    the joints in `order`.
+    """
+    count = take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out)
+    order_bodies(motion_a, motion_b, motions, forest_inout)
+    return count
+
+
+# ---- factor ----------------------------------------------------------------------------------------------------------
+# A row that is factored is a tuple: the Jacobians of parent and child, the latter times U of the child, the part of the
+# pivot from child and compliance, the pivot without other joints (its scale), the compliance, its multiple of the first
+# row, and its number in the joint. Tuples stay in registers: 59 ns a joint in place of 74 with rows of a table (a chain
+# of 760 pins).
+
+
+@inlined
+def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
+    """Return a row of a joint as a tuple.
+
+    parent_mass, child_mass: inverse mass and inertia; inertia: the factors D and U of the child; number: 0..2.
+    """
+    j = joint_row
+    px, py, pw = (j.ax, j.ay, j.aw) if parent_is_a else (j.bx, j.by, j.bw)
+    cx, cy, cw = (j.bx, j.by, j.bw) if parent_is_a else (j.ax, j.ay, j.aw)
+    d_x, d_y, d_w, u_xy, u_xw, u_yw = inertia
+    gy, gw = cx * u_xy + cy, cx * u_xw + cy * u_yw + cw
+    child = j.compliance + (cx * cx * d_x + gy * gy * d_y + gw * gw * d_w)
+    scale = j.compliance + (px * px + py * py) * parent_mass[0] + pw * pw * parent_mass[1]
+    scale += (cx * cx + cy * cy) * child_mass[0] + cw * cw * child_mass[1]
+    scale = scale if scale > 0.0 else 0.0  # pivots above a share of it are positive, with wrong masses too
+    return px, py, pw, cx, cy, cw, cx, gy, gw, child, scale, j.compliance, 0.0, number
+
+
+@inlined
+def moves_more(row, other):
+    """Return whether the child has a greater share in the pivot of a row than in that of another one."""
+    return row[9] * other[10] > other[9] * row[10]
+
+
+@inlined
+def independent(row, lead, inertia, common, is_second):
+    """Return a row without its correlation with an earlier row `lead`, and the multiple of `lead` that was subtracted.
+
+    inertia: D and U of the child, whose response correlates them; common: compliance of the first row, which both have
+    if `lead` is the second row. Nothing is subtracted if the child does not respond to `lead`.
+    """
+    d_x, d_y, d_w, _, _, _ = inertia
+    px, py, pw, cx, cy, cw, gx, gy, gw, child, scale, compliance, of_first, number = row
+    lx, ly, lw = lead[6], lead[7], lead[8]
+    factor = 0.0
+    if lead[9] > IMMOVABLE * lead[10]:
+        factor = (gx * d_x * lx + gy * d_y * ly + gw * d_w * lw + common * of_first * lead[12]) / lead[9]
+        px, py, pw = px - factor * lead[0], py - factor * lead[1], pw - factor * lead[2]
+        cx, cy, cw = cx - factor * lead[3], cy - factor * lead[4], cw - factor * lead[5]
+        gx, gy, gw = gx - factor * lx, gy - factor * ly, gw - factor * lw
+        rest = factor
+        if is_second:
+            rest = of_first - factor * lead[12]
+        else:
+            of_first = factor
+        child = compliance + (gx * gx * d_x + gy * gy * d_y + gw * gw * d_w) + common * rest * rest
+        if is_second:
+            child += lead[11] * factor * factor
+    return (px, py, pw, cx, cy, cw, gx, gy, gw, child, scale, compliance, of_first, number), factor
+
+
+@inlined
+def apply_row(row, inertia):
+    """Apply a row to the articulated inverse inertia of its parent (Bierman's update).
+
+    inertia: the factors D and U of the parent. Return the new ones, the gain, the inverse pivot, the inverse of the
+    part of the child, and 1 if the row is redundant, else 0. A redundant row is given its scale as compliance.
+    """
+    d_x, d_y, d_w, u_xy, u_xw, u_yw = inertia
+    x, y, w = row[0], row[0] * u_xy + row[1], row[0] * u_xw + row[1] * u_yw + row[2]
+    scale = row[10]
+    child = row[9] if row[9] > IMMOVABLE * scale else 0.0
+    kx, ky, kw = d_x * x, d_y * y, d_w * w
+    x_sum = child + kx * x
+    y_sum = x_sum + ky * y
+    w_sum = y_sum + kw * w
+    singular = 0
+    if not w_sum > SINGULAR * scale:
+        singular = 1
+        child, x_sum, y_sum, w_sum = child + scale, x_sum + scale, y_sum + scale, w_sum + scale
+    xy, xw, yw = u_xy, u_xw, u_yw
+    if x_sum > NEGLIGIBLE * scale:
+        inverse = 1.0 / x_sum
+        d_x *= child * inverse
+        u_xy = xy - y * inverse * kx
+    kx += xy * ky
+    if y_sum > NEGLIGIBLE * scale:
+        inverse = 1.0 / y_sum
+        d_y *= x_sum * inverse
+        u_xw, u_yw = xw - w * inverse * kx, yw - w * inverse * ky
+    kx, ky = kx + xw * kw, ky + yw * kw
+    inverse = 0.0
+    if w_sum > 0.0:
+        inverse = 1.0 / w_sum
+        d_w *= y_sum * inverse
+    inverse_child = 1.0 / child if child > 0.0 else 0.0
+    gain = kx * inverse, ky * inverse, kw * inverse
+    return (d_x, d_y, d_w, u_xy, u_xw, u_yw), gain, inverse, inverse_child, singular
+
+
+@inlined
+def finish_row(row, of_second, inertia, child_inertia, row_out):
+    """Apply a row to its parent and write it as a TREE_ROW. Return the new D and U of the parent, and apply_row's flag.
+
+    of_second: its multiple of the second row; inertia, child_inertia: D and U of parent and child.
+    """
+    inertia, gain, inverse_pivot, inverse_child, singular = apply_row(row, inertia)
+    d_x, d_y, d_w, u_xy, u_xw, u_yw = child_inertia
+    x, y, w = d_x * row[6] * inverse_child, d_y * row[7] * inverse_child, d_w * row[8] * inverse_child
+    r = row_out
+    r.px, r.py, r.pw, r.cx, r.cy, r.cw = row[0], row[1], row[2], row[3], row[4], row[5]
+    r.gx, r.gy, r.gw = x + u_xy * y + u_xw * w, y + u_yw * w, w
+    r.kx, r.ky, r.kw = gain
+    r.inverse_pivot = inverse_pivot
+    r.of_first = row[12]
+    r.of_second = of_second
+    r.source = row[13]
+    return inertia, singular
+
+
+@subkernel
+def factor_joint(joint_rows, motions, body, at, rows_out, parent_inout):
+    """Factor the joint of a body to its parent, and add what hangs on it to the inertia of the parent.
+
+    The rows are made independent in the response of the child, S = L D Lᵀ, by modified Gram-Schmidt. The row in whose
+    pivot the child has the greatest share comes first, so that multiples stay small where a child can hardly move.
+    body: TREE_BODY row; at: index of the first of its rows in rows_out, TREE_ROW. Return the number of redundant rows.
+    """
+    p = parent_inout
+    count, is_a, j = body.count, body.parent_is_a, MOST_ROWS * body.joint
+    mass_p = motions[p.motion].inverse_mass, p.inverse_inertia
+    mass_c = motions[body.motion].inverse_mass, body.inverse_inertia
+    child = body.d_x, body.d_y, body.d_w, body.u_xy, body.u_xw, body.u_yw
+    inertia = p.d_x, p.d_y, p.d_w, p.u_xy, p.u_xw, p.u_yw
+    first = load_row(joint_rows[j], is_a, mass_p, mass_c, child, 0)
+    second, third = first, first
+    of_second = 0.0
+    if count > 1:
+        second = load_row(joint_rows[j + 1], is_a, mass_p, mass_c, child, 1)
+        if count > 2:
+            third = load_row(joint_rows[j + 2], is_a, mass_p, mass_c, child, 2)
+            if moves_more(third, second):
+                second, third = third, second
+        if moves_more(second, first):
+            first, second = second, first
+        common = first[11]
+        second, _ = independent(second, first, child, common, False)
+        if count > 2:
+            third, _ = independent(third, first, child, common, False)
+            if moves_more(third, second):
+                second, third = third, second
+            third, of_second = independent(third, second, child, common, True)
+    inertia, singular = finish_row(first, 0.0, inertia, child, rows_out[at])
+    if count > 1:
+        inertia, more = finish_row(second, 0.0, inertia, child, rows_out[at + 1])
+        singular += more
+    if count > 2:
+        inertia, more = finish_row(third, of_second, inertia, child, rows_out[at + 2])
+        singular += more
+    p.d_x, p.d_y, p.d_w, p.u_xy, p.u_xw, p.u_yw = inertia
+    return singular
+
+
+@kernel
+def factor_trees(
+    # read
+    joint_rows,
+    row_counts,
+    motions,
+    # write
+    forest_inout,
+):
+    """Factor the equations of all trees, from the leaves to the roots. Return the number of redundant rows.
+
+    A row is redundant if the other rows leave it no pivot, or if no body responds to it. It is given its pivot without
+    other joints as compliance, so that its impulse is finite. O(joints). joint_rows (MOST_ROWS joints,): JOINT_ROW, of
+    which Jacobians and compliances are read; row_counts (joints,): int32, 0..3; motions: MOTION rows, of which inverse
+    masses and inertias are read; forest_inout: from build_forest, receives the factors.
+    """
+    f = forest_inout
+    singular = 0
+    for slot in range(f.sizes[0]):
+        body = f.bodies[slot]
+        motion = motions[body.motion]
+        body.inverse_inertia = motion.inverse_inertia
+        body.d_x, body.d_y, body.d_w = motion.inverse_mass, motion.inverse_mass, body.inverse_inertia
+        body.u_xy, body.u_xw, body.u_yw = 0.0, 0.0, 0.0
+    for slot in range(f.sizes[0] - 1, -1, -1):
+        body = f.bodies[slot]
+        if body.parent < 0:
+            continue
+        body.count = row_counts[body.joint]
+        if body.count > 0:
+            parent = f.bodies[body.parent]
+            singular += factor_joint(joint_rows, motions, body, MOST_ROWS * slot, f.rows, parent)
+    return singular
+
+
+# ---- solve -----------------------------------------------------------------------------------------------------------
+
+
+@subkernel
+def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violations_out):
+    """Apply the rows of a joint to the velocity of its parent, with the velocity of its child as its subtree leaves it.
+
+    child, parent_inout: TREE_BODY rows; first: index of the rows of the joint; rows: TREE_ROW. The field `impulse` of
+    the JOINT_ROW rows receives the impulses of the independent rows without impulses from outside of the parent's
+    subtree, and violations_out their violations while the parent is at rest.
+    """
+    c, p = child, parent_inout
+    rhs_1, rhs_2 = 0.0, 0.0
+    for r in range(c.count):
+        row = rows[first + r]
+        j = joint_rows_inout[MOST_ROWS * c.joint + row.source]
+        rhs = j.rhs - row.of_first * rhs_1 - row.of_second * rhs_2
+        if r == 0:
+            rhs_1 = rhs
+        else:
+            rhs_2 = rhs
+        violation = rhs - (row.cx * c.vx + row.cy * c.vy + row.cw * c.w)
+        violations_out[first + r] = violation
+        violation -= row.px * p.vx + row.py * p.vy + row.pw * p.w
+        p.vx += row.kx * violation
+        p.vy += row.ky * violation
+        p.w += row.kw * violation
+        j.impulse = row.inverse_pivot * violation
+
+
+@inlined
+def follow_parent(parent, first, rows, violations, body_inout):
+    """Give a child its velocity for the velocity of its parent in the solved tree.
+
+    It is found from the violations that the parent leaves, not from the impulses. So joints hold to the last digit,
+    also where impulses with long arms nearly cancel. parent, body_inout: TREE_BODY rows; first: index of the rows of
+    the joint.
+    """
+    p, c = parent, body_inout
+    for r in range(c.count):
+        row = rows[first + r]
+        violation = violations[first + r] - (row.px * p.vx + row.py * p.vy + row.pw * p.w)
+        c.vx += row.gx * violation
+        c.vy += row.gy * violation
+        c.w += row.gw * violation
+
+
+@subkernel
+def spread_impulses(first, rows, joint_rows_inout, parent_inout, body_inout):
+    """Write the impulses of a joint, given the impulse on its parent from outside.
+
+    first: index of the rows of the joint; rows: TREE_ROW. Impulses are added to those on the parent, so that the next
+    of its joints can be solved, and on the child.
+    """
+    p, c = parent_inout, body_inout
+    impulse_1, impulse_2 = 0.0, 0.0
+    for r in range(c.count - 1, -1, -1):
+        row = rows[first + r]
+        j = joint_rows_inout[MOST_ROWS * c.joint + row.source]
+        impulse = j.impulse - (row.kx * p.fx + row.ky * p.fy + row.kw * p.fw)
+        p.fx += row.px * impulse
+        p.fy += row.py * impulse
+        p.fw += row.pw * impulse
+        c.fx += row.cx * impulse
+        c.fy += row.cy * impulse
+        c.fw += row.cw * impulse
+        if r == 0:
+            impulse -= impulse_1
+        elif r == 1:
+            impulse -= impulse_2
+        j.impulse = impulse
+        impulse_1 += row.of_first * impulse
+        impulse_2 += row.of_second * impulse
+
+
+@inlined
+def move_body(body, motion_inout):
+    """Give a body its velocity in the solved tree; its velocity before contacts changes by as much."""
+    m = motion_inout
+    m.free_vx += body.vx - m.vx
+    m.free_vy += body.vy - m.vy
+    m.free_w += body.w - m.angular_velocity
+    m.vx, m.vy, m.angular_velocity = body.vx, body.vy, body.w
+
+
+@inlined
+def place_body(motion, body_out):
+    """Begin with the velocity of a body in the MOTION row, and without impulses."""
+    b, m = body_out, motion
+    b.vx = 0.0 if abs(m.vx) < AT_REST else m.vx
+    b.vy = 0.0 if abs(m.vy) < AT_REST else m.vy
+    b.w = 0.0 if abs(m.angular_velocity) < AT_REST else m.angular_velocity
+    b.fx, b.fy, b.fw = 0.0, 0.0, 0.0
+
+
+@subkernel
+def sweep_trees(count, forest_inout, joint_rows_inout):
+    """Solve all trees for the velocities in their `count` slots, from the leaves to the roots and back. O(joints)."""
+    f = forest_inout
+    for slot in range(count - 1, -1, -1):
+        body = f.bodies[slot]
+        if body.parent >= 0:
+            first = MOST_ROWS * slot
+            gather_violations(body, first, f.rows, joint_rows_inout, f.bodies[body.parent], f.violations)
+    for slot in range(count):
+        body = f.bodies[slot]
+        if body.parent >= 0:
+            first = MOST_ROWS * slot
+            follow_parent(f.bodies[body.parent], first, f.rows, f.violations, body)
+            spread_impulses(first, f.rows, joint_rows_inout, f.bodies[body.parent], body)
+
+
+@kernel
+def solve_trees(
+    # write
+    forest_inout,
+    joint_rows_inout,
+    motions_inout,
+):
+    """Solve the joints of all trees for the velocities of their bodies, and apply the impulses.
+
+    O(joints). forest_inout: factored by factor_trees; joint_rows_inout (MOST_ROWS joints,): JOINT_ROW, of which `rhs`
+    is read and `impulse` is written, for the joints of the forest; motions_inout: MOTION rows, of which vx, vy,
+    angular_velocity, free_vx, free_vy and free_w change.
+    """
+    f = forest_inout
+    for slot in range(f.sizes[0]):
+        place_body(motions_inout[f.bodies[slot].motion], f.bodies[slot])
+    sweep_trees(f.sizes[0], f, joint_rows_inout)
+    for slot in range(f.sizes[0]):
+        body = f.bodies[slot]
+        if not body.is_fixed:
+            move_body(body, motions_inout[body.motion])
