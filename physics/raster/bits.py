@@ -32,7 +32,7 @@ def bits_from(words, row, stride, start):
 
 @subkernel
 def columns_up_to(count):
-    """Return a word whose lowest `count` bits are set: none for count <= 0, all for count >= 64."""
+    """Return a word whose lowest `count` bits are set: no bits for count <= 0, all bits for count >= 64."""
     if count >= 64:
         return word(0xFFFFFFFFFFFFFFFF)
     if count <= 0:
@@ -103,7 +103,10 @@ def minus(a, b):
 
 @subkernel
 def touch(a, b):
-    """Return whether a pixel of word a is 8-connected to a pixel of word b, the same columns of an adjacent row."""
+    """Return whether a pixel of word a is 8-connected to a pixel of word b.
+
+    a, b: words of the same 64 columns in adjacent rows, or of the same 64 rows in adjacent columns.
+    """
     return word(word(a | word(a << word(1)) | word(a >> word(1))) & b) != word(0)
 
 
@@ -115,7 +118,10 @@ def has_bit(value, place):
 
 @subkernel
 def is_set(words, row, x):
-    """Return whether the pixel in column x of a row is set; row: index of its first word; x must be inside the row."""
+    """Return whether the pixel in column x of a row is set.
+
+    row: index in `words` of the row's first word; x must be inside the row.
+    """
     return (word(words[row + (x >> 6)] >> word(x & 63)) & word(1)) != word(0)
 
 
@@ -123,8 +129,8 @@ def is_set(words, row, x):
 def shared_word(words, word_a, shift_a, word_b, shift_b):
     """Return the pixels set in both of two words after each is shifted to lower columns by 0..63.
 
-    words (n,) uint64; word_*: index of each word, converted to unsigned, which saves the check for a negative index;
-    shift_*: number of columns.
+    words (n,) uint64; word_*: index of each word, converted to unsigned here, which saves the check for a negative
+    index; shift_*: number of columns.
     """
     return word(word(words[word(word_a)] >> word(shift_a)) & word(words[word(word_b)] >> word(shift_b)))
 
@@ -144,10 +150,11 @@ def moved(value, up, down, kept):
 
 @subkernel
 def shared_row(words, word_a, shift_a, word_b, shift_b, rows):
-    """Return (row, shared pixels) of the first row in which rasters of one word per row overlap; (rows, 0): none.
+    """Return (row, shared pixels) of the first row in which two rasters of one word per row overlap.
 
-    rows: number of rows compared; word_*: index of the first word of each raster; shift_*: columns on the left to skip.
-    The right end needs no mask, because words are clear beyond their solid bounds. O(rows).
+    rows: number of compared rows; word_*: index of each raster's word in the first compared row; shift_*: number of
+    columns that are skipped on the left of each raster. The right end needs no mask, because words are clear beyond
+    their solid bounds. Return (rows, 0) if no row overlaps. O(rows).
     """
     for row in range(rows):
         shared = shared_word(words, word_a + row, shift_a, word_b + row, shift_b)
@@ -165,9 +172,9 @@ def packed(solid: np.ndarray) -> np.ndarray:
 
 
 def halo(solid: np.ndarray) -> np.ndarray:
-    """Return as packed words the pixels that are solid or have a solid pixel among their 8 neighbours.
+    """Return the pixels that are solid or have a solid pixel among their 8 neighbours, as packed words.
 
-    The raster is larger than solid[row, col] by one pixel on each side.
+    The raster of the result is larger than solid[row, col] by one pixel on each side.
     """
     rows, columns = solid.shape
     grown = np.zeros((rows + 2, columns + 2), bool)
@@ -180,13 +187,13 @@ def halo(solid: np.ndarray) -> np.ndarray:
 # ---- overlap ---------------------------------------------------------------------------------------------------------
 # Overlap of two masks by AND of their words: first shared pixel, number and moments of the shared pixels.
 #
-# A and B are the two masks; dx, dy [px]: top left corner of B's raster in A's raster. Only the intersection of the
-# bounds of their solid pixels is read.
+# A and B are the two masks; dx, dy [px]: top left corner of B's raster in A's raster. Only words in the intersection of
+# the two masks' solid bounds are read.
 
 
 @subkernel
 def shared_rectangle(a, b, dx, dy):
-    """Return the intersection (left, top, right, bottom) of the solid bounds of RASTER rows a and b, in pixels of a.
+    """Return the intersection (left, top, right, bottom) of the solid bounds of two RASTER rows, in pixels of a.
 
     dx, dy [px]: top left corner of b in a.
     """
@@ -200,7 +207,7 @@ def shared_rectangle(a, b, dx, dy):
 
 @subkernel
 def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (found, x, y) of the first shared pixel of masks A and B, row by row, in columns and rows of A.
+    """Return (found, x, y) of the first pixel, row by row, that masks A and B share; x, y: its column and row in A.
 
     rasters: RASTER; words: uint64; mask_a, mask_b: rows of RASTER; dx, dy [px]: top left corner of B in A. O(words) at
     worst.
@@ -228,10 +235,11 @@ def first_pixel(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
-    """Return a row of raster A in which it shares a pixel with raster B, both one word wide; -1: none.
+    """Return the number of a row of raster A with a pixel that raster B shares; -1: the rasters share no pixel.
 
-    row_*: index of the first word of each raster; box_*: its solid bounds (left, top, right, bottom); dx, dy [px]: top
-    left corner of B in A; guess: row of A tested first. O(1) if the guess is right, else O(rows).
+    Both rasters are one word wide. row_*: index of the first word of each raster; box_*: solid bounds (left, top,
+    right, bottom) of each raster; dx, dy [px]: top left corner of B in A; guess: row of A that is tested first. O(1) if
+    the guess is right, else O(rows).
     """
     left, top = max(box_a[0], box_b[0] + dx), max(box_a[1], box_b[1] + dy)
     if left >= min(box_a[2], box_b[2] + dx):
@@ -252,8 +260,8 @@ def line_shared(words, row_a, box_a, row_b, box_b, dx, dy, guess):
 def line_moments(words, row_a, box_a, row_b, box_b, dx, dy):
     """Return (area, sum of x, sum of y, difference) over the shared pixels of rasters A and B, one word wide.
 
-    difference [px2]: shared area with B moved one pixel to the left minus that with B moved one to the right. The solid
-    bounds must overlap. Arguments as line_shared; x, y in columns and rows of A. O(rows).
+    x, y: column and row in A. difference [px2]: the shared area with B moved one pixel to the left minus the shared
+    area with B moved one pixel to the right. The solid bounds must overlap. Arguments as line_shared. O(rows).
     """
     up, down, kept = shifts_to(dx)
     left_up, left_down, left_kept = shifts_to(dx - 1)
@@ -302,7 +310,7 @@ def shared_area(rasters, words, mask_a, mask_b, dx, dy):
 
 @subkernel
 def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
-    """Return (area, sum of x, sum of y) over the shared pixels of masks A and B, in columns and rows of A.
+    """Return (area, sum of x, sum of y) over the shared pixels of masks A and B; x, y: column and row in A.
 
     Arguments as first_pixel. O(words).
     """
@@ -332,30 +340,36 @@ def shared_moments(rasters, words, mask_a, mask_b, dx, dy):
 # Rotation of a mask to an angle bucket, one of 128 angles, always from the unrotated mask (source).
 #
 # A pixel whose centre falls on a solid source pixel is solid, which keeps thin lines in one piece. Then the number of
-# solid pixels is made equal to that of the source: pixels with the most coverage are added, or pixels with the least
-# coverage removed where this disconnects nothing. Each pixel stores its source pixel, so that a sprite can be drawn
-# from exactly the pixels that collide.
+# solid pixels is made equal to the source's number: pixels with the most coverage are added, or pixels with the least
+# coverage are removed where the removal disconnects nothing. Each pixel stores its source pixel, so that a sprite can
+# be drawn from exactly the pixels that collide.
 
 SAMPLES = 5  # sampled points per side of a pixel, one at its centre: coverage in steps of 1/25
 OFFSETS = sorted(
     (((i + 0.5) / SAMPLES, (j + 0.5) / SAMPLES) for j in range(SAMPLES) for i in range(SAMPLES)),
     key=lambda at: ((at[0] - 0.5) ** 2 + (at[1] - 0.5) ** 2, at),
 )
-BAND = 1 << 14  # [px] rotated at once: temporary arrays stay in the cache and do not fragment the heap
+BAND = 1 << 14  # pixels rotated per pass: temporary arrays stay in the cache and do not fragment the heap
 
 
 @dataclass(frozen=True)
 class Turned:
-    """A mask at one angle: solid[row, col], origin [px] from the top left corner, and the source of each pixel."""
+    """A mask at one angle: its pixels solid[row, col], its origin, and the source of each pixel.
+
+    origin [px] is measured from the top left corner of `solid`.
+    """
 
     solid: np.ndarray
     origin: tuple[float, float]
-    source_x: np.ndarray  # (rows, columns) int16: column of the pixel in the unrotated mask, -1 where clear
+    source_x: np.ndarray  # (rows, columns) int16: column of each pixel's source in the unrotated mask, -1 where clear
     source_y: np.ndarray
 
 
 def bucket_of(angle: float, buckets: int) -> int:
-    """Return the number of the angle nearest to `angle` [rad] among `buckets` equal steps of a full turn."""
+    """Return the number of the angle bucket nearest to `angle` [rad].
+
+    buckets: number of equal steps of a full turn.
+    """
     return int(math.floor(angle * buckets / math.tau + 0.5)) % buckets
 
 
@@ -410,8 +424,9 @@ def _any_turn(solid, origin, angle):
 def _sampled(padded, mixed, base_x, base_y, cosine, sine):
     """Return for each rotated pixel (whether its centre is solid, number of its solid samples, source index).
 
-    source index: flat index, in the padded source, of the pixel under the first solid sample; -1: none. padded: source
-    with a clear border; base_x, base_y [px]: first corner of each pixel there; mixed: result of _mixed.
+    source index: flat index, in the padded source, of the pixel under the first solid sample; -1: no sample is solid.
+    padded: source with a clear border; base_x, base_y [px]: first corner of each rotated pixel in the padded source;
+    mixed: result of _mixed.
     """
     rows, columns = padded.shape
 
@@ -424,7 +439,8 @@ def _sampled(padded, mixed, base_x, base_y, cosine, sine):
     middle, *others = OFFSETS
     source = at(base_x, base_y, middle)
     centered = padded.ravel()[source]
-    # Samples lie less than a pixel from the centre: where all 3 x 3 source pixels are equal, the centre stands for all.
+    # Samples lie less than a pixel from the centre: where all 3 x 3 source pixels are equal, all samples equal the
+    # centre.
     some = np.flatnonzero(mixed.ravel()[source])
     coverage = centered * np.uint8(len(OFFSETS))
     source = np.where(centered, source, -1)  # the centre determines the colour
@@ -447,9 +463,10 @@ def _mixed(padded):
 
 
 def _as_many(centered, coverage, wanted):
-    """Return the pixels whose centres are solid, with others added or some removed, to have `wanted` pixels.
+    """Return the solid pixels of a rotated mask, `wanted` in number if possible.
 
-    The most covered pixels are added, the least covered ones removed if this disconnects nothing.
+    They are the pixels whose centres are solid. If these are too few, the most covered other pixels are added. If they
+    are too many, the least covered ones whose removal disconnects nothing are removed.
     """
     kept = centered.copy()
     missing = wanted - int(kept.sum())
@@ -470,16 +487,16 @@ def _as_many(centered, coverage, wanted):
 
 
 def _in_order(some, key):
-    """Return the flat indices of pixels where `some` is true, sorted by their `key`, then by row and column."""
+    """Return the flat indices of the pixels where `some` is true, sorted by `key`, then by row and column."""
     at = np.flatnonzero(some)
     return at[np.argsort(key.ravel()[at], kind="stable")]
 
 
 def _is_simple(around):
-    """Return whether the middle of 3 x 3 pixels is a simple point: without it its neighbours remain connected."""
+    """Return whether the middle of 3 x 3 pixels is a simple point: without it, its solid neighbours stay connected."""
     ring = [bool(around[y, x]) for y, x in ((0, 0), (0, 1), (0, 2), (1, 2), (2, 2), (2, 1), (2, 0), (1, 0))]
     if not any(ring) or all(ring[1::2]):
         return False  # isolated, or interior
-    # Corners between two solid sides belong to them. Count the changes of the ring from clear to solid.
+    # A corner between two solid sides counts as solid. Count the changes from clear to solid along the ring.
     joined = [solid or (k % 2 == 0 and ring[k - 1] and ring[(k + 1) % 8]) for k, solid in enumerate(ring)]
     return sum(not joined[k - 1] and joined[k] for k in range(8)) == 1

@@ -15,40 +15,41 @@ from physics.raster.bits import bits_from, both, columns_up_to, first_pixel, is_
 #
 # A is the mask whose raster is the frame of reference; B is the other mask. A has a halo: the pixels that are solid or
 # have a solid pixel among their eight neighbours, in a raster one pixel larger on each side. The square of a pixel of B
-# shares area with a square of A only if its centre is on the halo, because no square extends further from its centre
-# than half its diagonal, 0.71 px. So a miss costs one bit test for each pixel of B within A's bounds. Squares are
-# tested only where the outlines are near each other.
+# shares area with a square of A only if the centre of B's pixel is on the halo, because no square extends further from
+# its centre than half its diagonal, 0.71 px. So a miss costs one bit test for each pixel of B within A's bounds.
+# Squares are tested only where the outlines are near each other.
 #
-# u, v [px]: top left corner of B's raster in A's raster; cosine, sine: of B's angle there. Squares that only touch,
-# within rounding errors, share no area.
+# u, v [px]: top left corner of B's raster in A's raster; cosine, sine: cosine and sine of B's angle in A's raster.
+# Squares that only touch, within rounding errors, share no area.
 
-ROUNDED = 2.0**-50  # [sizes of the masks] rounding error of coordinates
+ROUNDED = 2.0**-50  # rounding error of coordinates, as a fraction of the masks' sizes
 
 
 class SquaresPair(NamedTuple):
-    """Two masks as unions of pixel squares: A, the frame, and B, rotated and moved in the raster of A."""
+    """Two masks as unions of pixel squares: A, the frame of reference, and B, rotated and moved in the raster of A."""
 
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64
-    frame: int  # rows of RASTER
-    other: int
-    u: float  # [px] of B's top left corner
+    frame: int  # row of RASTER of mask A
+    other: int  # row of RASTER of mask B
+    u: float  # [px] top left corner of B's raster in A's raster
     v: float
-    cosine: float  # of B's angle
+    cosine: float  # cosine and sine of B's angle in A's raster
     sine: float
 
 
 @subkernel
 def slack_of(a, b):
-    """Return the depth [px] up to which an overlap of squares counts as a rounding error; a, b: RASTER rows."""
+    """Return the depth [px] up to which an overlap of squares counts as a rounding error. a, b: RASTER rows."""
     return ROUNDED * (a.width + a.height + b.width + b.height)
 
 
 @subkernel
 def reach_of(cosine, sine):
-    """Return the separating distance [px] of two unit squares: they share area if their centres are nearer on all axes.
+    """Return the separating distance [px] of two unit squares.
 
-    The axes are those of both squares; cosine, sine: of the angle between the squares.
+    The squares share area if, on each axis of either square, their centres are nearer than this. cosine, sine: cosine
+    and sine of the angle between the squares.
     """
     return 0.5 + 0.5 * (abs(cosine) + abs(sine))
 
@@ -57,8 +58,8 @@ def reach_of(cosine, sine):
 def do_squares_meet(dx, dy, cosine, sine, near):
     """Return whether two unit squares share area (separating axis test).
 
-    dx, dy [px]: centre of the second relative to the first; cosine, sine: of the angle between them; near [px]: result
-    of reach_of, less the rounding error.
+    dx, dy [px]: centre of the second square relative to the first; cosine, sine: cosine and sine of the angle between
+    the squares; near [px]: result of reach_of, less the rounding error.
     """
     return (
         abs(dx) < near
@@ -70,9 +71,10 @@ def do_squares_meet(dx, dy, cosine, sine, near):
 
 @subkernel
 def leave_square(dx, dy, cosine, sine, reach, nx, ny):
-    """Return how far [px] a unit square must move along (nx, ny), a unit vector, to be separated from another.
+    """Return the distance [px] that a unit square must move along (nx, ny) to be separated from another unit square.
 
-    dx, dy [px]: centre of the square relative to the other; cosine, sine: of its angle; reach [px]: result of reach_of.
+    (nx, ny): unit vector; dx, dy [px]: centre of the moving square relative to the other square; cosine, sine: cosine
+    and sine of the moving square's angle; reach [px]: result of reach_of.
     """
     least = math.inf
     for axis in range(4):
@@ -89,7 +91,10 @@ def leave_square(dx, dy, cosine, sine, reach, nx, ny):
 
 @subkernel
 def box_in_raster(a, b, u, v, cosine, sine):
-    """Return (left, top, right, bottom) of the pixels of mask B that may overlap the solid bounds of mask A."""
+    """Return (left, top, right, bottom) of the pixels of mask B that may overlap the solid bounds of mask A.
+
+    a, b: RASTER rows; u, v, cosine, sine: see the comment under "exact". Right and bottom are exclusive.
+    """
     half_x, half_y = 0.5 * (a.set_right - a.set_left), 0.5 * (a.set_bottom - a.set_top)
     dx, dy = a.set_left + half_x - u, a.set_top + half_y - v
     x, y = cosine * dx + sine * dy, cosine * dy - sine * dx
@@ -105,7 +110,10 @@ def box_in_raster(a, b, u, v, cosine, sine):
 
 @subkernel
 def clip_run(low, high, start, step, least, most):
-    """Return the part (low, high) of an interval of t in which least <= start + step * t <= most; low > high: none."""
+    """Return the part (low, high) of an interval of t in which least <= start + step * t <= most.
+
+    low > high: the part is empty.
+    """
     if step > 0.0:
         return max(low, (least - start) / step), min(high, (most - start) / step)
     if step < 0.0:
@@ -115,10 +123,10 @@ def clip_run(low, high, start, step, least, most):
 
 @subkernel
 def run_near(a, left, right, x, y, cosine, sine, margin):
-    """Return (first, last + 1), the columns of a row of mask B with pixel centres inside the solid bounds of mask A.
+    """Return (first, last + 1) of the columns in a row of mask B whose pixel centres are in the solid bounds of mask A.
 
-    a: RASTER row of A; left, right: range of columns tested; x, y [px]: centre of the pixel in column 0; cosine, sine:
-    direction of the row; margin [px]: by which the bounds are enlarged.
+    a: RASTER row of A; left, right: range of tested columns, right exclusive; x, y [px]: centre of the pixel in column
+    0; cosine, sine: direction of the row; margin [px]: distance by which the bounds are enlarged.
     """
     low, high = clip_run(float(left), right - 1.0, x, cosine, a.set_left - margin, a.set_right + margin)
     low, high = clip_run(low, high, y, sine, a.set_top - margin, a.set_bottom + margin)
@@ -128,7 +136,11 @@ def run_near(a, left, right, x, y, cosine, sine, margin):
 
 @subkernel
 def square_under(words, a, x, y, cosine, sine, near):
-    """Return (found, column, row) of the first pixel of mask A that overlaps a rotated pixel square at x, y. O(1)."""
+    """Return (found, column, row) of the first pixel of mask A that overlaps a rotated pixel square of mask B. O(1).
+
+    a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine: cosine and sine of the square's
+    angle; near [px]: as in do_squares_meet.
+    """
     column, row = math.floor(x), math.floor(y)
     for j in range(max(0, row - 1), min(a.height, row + 2)):
         solid = both(bits_from(words, a.offset + j * a.stride, a.stride, column - 1), columns_up_to(3))
@@ -144,7 +156,7 @@ def square_under(words, a, x, y, cosine, sine, near):
 def first_upright(pair, u, v):
     """Return the result of first_squares for two masks at equal angles, by word-wise AND. O(words).
 
-    A pixel of one overlaps up to four pixels of the other, so up to four offsets in whole pixels are tested.
+    A pixel of one mask overlaps up to four pixels of the other, so up to four offsets in whole pixels are tested.
     """
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
     column, row = math.floor(u + slack), math.floor(v + slack)
@@ -158,10 +170,10 @@ def first_upright(pair, u, v):
 
 @subkernel
 def first_squares(pair, u, v):
-    """Return the first two overlapping squares of masks A and B (SquaresPair), B's top left corner at u, v [px].
+    """Return (found, column in A, row in A, column in B, row in B) of the first overlapping squares of masks A and B.
 
-    The result is (found, column in A, row in A, column in B, row in B). O(pixels of B within A's bounds) at worst; the
-    search ends at the first overlap.
+    pair: SquaresPair; u, v [px]: top left corner of B's raster in A's raster, in place of pair.u, pair.v. The search
+    ends at the first overlap. O(pixels of B within A's bounds) at worst.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     if cosine == 1.0 and sine == 0.0:
@@ -189,10 +201,11 @@ def first_squares(pair, u, v):
 
 @subkernel
 def squares_way_out(pair, nx, ny, most):
-    """Return the least distance [px] that mask B must move along (nx, ny) to end the overlap; > most: none up to most.
+    """Return the least distance [px] that mask B must move along (nx, ny) to end the overlap.
 
-    nx, ny: unit vector in the raster of mask A. Two squares overlap on one interval of the move. Each pair found
-    advances the move to the end of its interval, so no pair is found twice. O(first_squares · pairs found).
+    A result above `most` [px] means that no move up to `most` ends it. nx, ny: unit vector in the raster of mask A. Two
+    squares overlap on one interval of the move. Each overlapping pair that is found advances the move to the end of the
+    pair's interval, so no pair is found twice. O(first_squares · pairs found).
     """
     cosine, sine = pair.cosine, pair.sine
     reach = reach_of(cosine, sine)
@@ -212,18 +225,19 @@ def squares_way_out(pair, nx, ny, most):
 # ---- shares ----------------------------------------------------------------------------------------------------------
 # Area and moments of the part of a region that lies in an axis-aligned box, in closed form from the region's outline.
 #
-# By Green's theorem the area is the integral of x dy along the outline, with x clamped to the box and only for y in the
-# box; the moments likewise. The contribution of one line or arc of the outline is its share; the sum of all shares is
-# exact. No polygon is clipped or stored. Coordinates are relative to the box's top left corner. The outline runs
-# clockwise on the screen, where y points down.
+# By Green's theorem the area is the integral of x dy along the outline, where x is clamped to the box and only the
+# parts with y in the box count; the moments likewise. The contribution of one line or arc of the outline to (area,
+# moment of x, moment of y) is called its share; the sum of all shares is exact. No polygon is clipped or stored.
+# Coordinates are relative to the box's top left corner: the box is 0..width x 0..height. The outline runs clockwise on
+# the screen, where y points down.
 
 
 @subkernel
 def line_share(px, py, qx, qy, width, height):
-    """Return what the line from p to q [px] contributes to a region's part in the box 0..width x 0..height.
+    """Return the share (area, moment of x, moment of y) of a straight line of a region's outline, from p to q [px].
 
-    The result is the line's share of (area, moment of x, moment of y). The sides of the box cut the line into up to
-    three pieces; along each the clamped x is linear.
+    The sides of the box 0..width x 0..height cut the line into up to three pieces; along each piece the clamped x is
+    linear.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -272,9 +286,9 @@ def arc_primitives(x, y, radius, angle):
 
 @subkernel
 def next_cut(x, y, radius, width, height, after, until):
-    """Return the first angle [rad] after `after` at which a circle around (x, y) crosses the line of a side of the box.
+    """Return the first angle [rad] after `after` at which a circle crosses the line through a side of a box.
 
-    The result is `until` if there is none before. The box is 0..width x 0..height.
+    x, y [px]: centre of the circle; the box is 0..width x 0..height. Return `until` if there is no crossing before it.
     """
     best = until
     for side in range(4):
@@ -294,16 +308,16 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return what an arc around (x, y) [px] contributes to a region's part in the box 0..width x 0..height.
+    """Return the share (area, moment of x, moment of y) of an arc of a region's outline.
 
-    The result is the arc's share of (area, moment of x, moment of y). start, end [rad]: angles of the arc, start < end.
+    x, y [px]: centre of the arc; start, end [rad]: its angles, start < end; the box is 0..width x 0..height.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
     low = start
     while low < end:
         high = next_cut(x, y, radius, width, height, low, end)
-        # Not the middle: there an arc between two cuts may just touch a line.
+        # A point at 0.4 of the arc: in the middle, an arc between two cuts may just touch a line.
         within = low + 0.4 * (high - low)
         at_x, at_y = x + radius * math.cos(within), y + radius * math.sin(within)
         if 0.0 < at_y < height and at_x > 0.0:
@@ -324,23 +338,24 @@ def arc_share(x, y, radius, start, end, width, height):
 
 
 # ---- shared squares --------------------------------------------------------------------------------------------------
-# Shared area of two masks as unions of pixel squares, and its centroid. A, B, u, v, cosine, sine: as under "exact".
+# Shared area of two masks as unions of pixel squares, and its centroid. A, B, u, v, cosine, sine: see the comment under
+# "exact".
 #
-# A pixel of B with only solid pixels of A around it counts as a whole. For a pixel near A's outline the areas that it
-# shares with the runs of solid pixels under it are added. O(pixels of B within A's bounds).
+# A pixel of B with only solid pixels of A around it counts with its whole area. For a pixel of B near A's outline, the
+# areas that it shares with the runs of A's solid pixels under it are added. O(pixels of B within A's bounds).
 
 
 @subkernel
 def square_share(x, y, cosine, sine, width, height):
     """Return (area, moment of x, moment of y) of the part of a rotated unit square in the box 0..width x 0..height.
 
-    x, y [px]: centre of the square; cosine, sine: of its angle.
+    x, y [px]: centre of the square; cosine, sine: cosine and sine of the square's angle.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
     ux, uy = 0.5 * (cosine + sine), 0.5 * (sine - cosine)
     for _ in range(4):
-        # From one corner to the next, by a quarter turn.
+        # (ux, uy) points to a corner; a quarter turn leads to the next corner.
         a, mx, my = line_share(x + ux, y + uy, x - uy, y + ux, width, height)
         area += a
         moment_x += mx
@@ -351,7 +366,11 @@ def square_share(x, y, cosine, sine, width, height):
 
 @subkernel
 def share_under(words, a, x, y, cosine, sine):
-    """Return (area, moment of x, moment of y) of the area that a rotated pixel square at x, y shares with mask A."""
+    """Return (area, moment of x, moment of y) of the area that mask A shares with a rotated pixel square of mask B.
+
+    a: RASTER row of A; x, y [px]: centre of the square in A's raster; cosine, sine: cosine and sine of the square's
+    angle.
+    """
     column, row = math.floor(x) - 1, math.floor(y) - 1
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -379,7 +398,8 @@ def share_under(words, a, x, y, cosine, sine):
 def shared_squares(pair, u, v):
     """Return (area [px2], moment of x, moment of y [px3]) of the area that the masks of a SquaresPair share.
 
-    u, v [px]: top left corner of mask B's raster in mask A's. The moments divided by the area are the centroid there.
+    u, v [px]: top left corner of mask B's raster in A's raster. The moments divided by the area are the area's centroid
+    in A's raster.
     """
     cosine, sine, words = pair.cosine, pair.sine, pair.words
     a, b = pair.rasters[pair.frame], pair.rasters[pair.other]

@@ -18,7 +18,7 @@ from physics.tables.table import join_trees, joined, root_of
 #
 # A tile is 64 x 64 pixels, one word per row. A node is an 8-connected component of the pixels inside one tile. Nodes of
 # adjacent tiles that touch are linked; a piece is a connected component of linked nodes, and so of all pixels. A node
-# stores its pixels along the four borders as words, so that a link test is three operations. Source: runs and
+# stores its pixels along the tile's borders as four words, so that a link test takes three operations. Source: runs and
 # union-find by Rosenfeld and Pfaltz 1966, "Sequential operations in digital picture processing".
 
 TILE = MASK_TILE  # [px] per side: one word per row
@@ -36,7 +36,7 @@ NODE = np.dtype(
         ("min_y", np.int64),
         ("max_x", np.int64),
         ("max_y", np.int64),
-        ("top", np.uint64),  # its pixels along the borders, by column or row
+        ("top", np.uint64),  # its pixels along the tile's borders, one bit per column or row
         ("bottom", np.uint64),
         ("left", np.uint64),
         ("right", np.uint64),
@@ -47,9 +47,10 @@ NODE = np.dtype(
 
 @subkernel
 def trace_runs(words, runs_out, parents_out):
-    """Write the runs of solid pixels of a tile, and join touching runs in a union-find forest. Returns their number.
+    """Write the runs of solid pixels of a tile, and join touching runs in a union-find forest.
 
-    words (64,) uint64; runs_out (n, 3): row, start, end of each run; parents_out (n,): parent run of each. O(runs).
+    words (64,) uint64; runs_out (n, 3): row, start, end of each run, end exclusive; parents_out (n,): parent run of
+    each run. O(runs). Return the number of runs.
     """
     count = 0
     above = 0
@@ -63,7 +64,7 @@ def trace_runs(words, runs_out, parents_out):
             runs_out[count, 1] = start
             runs_out[count, 2] = end
             parents_out[count] = count
-            # A run above that ends before this one touches no later run either.
+            # A run of the row above that ends before this run touches no later run of this row either.
             while above < begin and runs_out[above, 2] < start:
                 above += 1
             other = above
@@ -77,10 +78,11 @@ def trace_runs(words, runs_out, parents_out):
 
 @kernel
 def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
-    """Write the nodes (8-connected components) of a tile in the order of their first pixels. Returns their number.
+    """Write the nodes (8-connected components) of a tile in the order of their first pixels.
 
-    words (64,) uint64; left, top [px] of the tile in its raster; runs_out (2048, 3), parents_out (2048,) int64: scratch
-    arrays; nodes_out (1024,) NODE. O(runs).
+    words (64,) uint64: the tile's pixels; tile: the tile's number; left, top [px]: position of the tile in its raster;
+    runs_out (2048, 3), parents_out (2048,) int64: scratch arrays; nodes_out (1024,) NODE. O(runs). Return the number of
+    nodes.
     """
     count = trace_runs(words, runs_out, parents_out)
     found = 0
@@ -126,7 +128,7 @@ def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
 
 @kernel
 def pick_node(words, first, runs_out, parents_out, picked_out):
-    """Write the pixels of a tile that are 8-connected, inside the tile, to pixel `first` (row * 64 + column).
+    """Write the pixels of one node: those that are 8-connected, inside the tile, to pixel `first` (row * 64 + column).
 
     words, picked_out (64,) uint64; runs_out, parents_out: scratch arrays as in find_nodes. O(runs).
     """
@@ -147,8 +149,8 @@ def pick_node(words, first, runs_out, parents_out, picked_out):
 def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
     """Join touching nodes of two adjacent tiles in a union-find forest.
 
-    nodes NODE; starts (tiles + 1,): first node of each tile; across, down: columns and rows from tile to tile `other`;
-    parents_inout (nodes,): parent of each node.
+    nodes NODE; starts (tiles + 1,): first node of each tile; across, down: columns and rows from `tile` to the tile
+    `other`; parents_inout (nodes,): parent of each node.
     """
     for i in range(starts[tile], starts[tile + 1]):
         a = nodes[i]
@@ -168,7 +170,7 @@ def link_nodes(nodes, starts, tile, other, across, down, parents_inout):
 
 @kernel
 def label_pieces(nodes, starts, columns, labels_out):
-    """Write the number of the piece that each node belongs to. Returns the number of pieces.
+    """Write the number of the piece that each node belongs to. Return the number of pieces.
 
     Pieces are numbered from 0 in the order of their first nodes. nodes NODE in the order of tiles; starts (tiles + 1,):
     first node of each tile; columns: tiles per row; labels_out (nodes,). O(nodes).
@@ -188,7 +190,8 @@ def label_pieces(nodes, starts, columns, labels_out):
                 link_nodes(nodes, starts, tile, tile + columns + 1, 1, 1, labels_out)
             if column > 0:
                 link_nodes(nodes, starts, tile, tile + columns - 1, -1, 1, labels_out)
-    # The parent of a node precedes it, so its number is known. Numbers are stored as negative values.
+    # The parent of a node precedes the node, so the parent's piece is known. Piece numbers are stored as negative
+    # values.
     found = 0
     for k in range(len(nodes)):
         if labels_out[k] == k:
@@ -203,10 +206,10 @@ def label_pieces(nodes, starts, columns, labels_out):
 
 @kernel
 def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
-    """Add the pixels of all nodes to the counts of their pieces, and lower the first pixel of each piece to the least.
+    """Add each node's pixels to the count of its piece, and lower each piece's first pixel to the first of its nodes.
 
-    nodes NODE; labels (nodes,): piece of each node; width [px] of the raster; counts_inout (pieces,) [px]; firsts_inout
-    (pieces,): first pixel in reading order, row * width + column. O(nodes).
+    nodes NODE; labels (nodes,): piece of each node; width [px]: width of the raster; counts_inout (pieces,) [px];
+    firsts_inout (pieces,): first pixel in reading order, row * width + column. O(nodes).
     """
     within = TILE - 1  # mask of a column within its tile
     for k in range(len(nodes)):
@@ -219,10 +222,10 @@ def measure_pieces(nodes, labels, width, counts_inout, firsts_inout):
 
 @kernel
 def add_up(nodes, totals_out):
-    """Write the totals over all nodes (NODE) of a raster to totals_out (8,). O(nodes).
+    """Write eight totals over all nodes (NODE) of a raster to totals_out (8,). O(nodes).
 
-    They are: number of pixels, sum of columns, sum of rows, sum of the squares of both, and the bounds left, top,
-    right, bottom, right and bottom exclusive. All are 0 without nodes.
+    They are: number of pixels, sum of columns, sum of rows, sum of column² + row², and the bounds left, top, right,
+    bottom; right and bottom are exclusive. Without nodes all are 0.
     """
     for k in range(8):
         totals_out[k] = 0
@@ -250,7 +253,10 @@ FULL = np.uint64(2**64 - 1)
 
 @cache
 def _room():
-    """Return scratch arrays (runs, parents, nodes) of the kernels; all callers share them and copy results at once."""
+    """Return scratch arrays (runs, parents, nodes) of the kernels.
+
+    All callers share the arrays, so a caller copies its results before another call.
+    """
     return np.empty((MOST_RUNS, 3), np.int64), np.empty(MOST_RUNS, np.int64), np.empty(MOST_NODES, NODE)
 
 
@@ -266,7 +272,7 @@ class PixelTiles:
     """The pixels of a raster in tiles of 64 x 64, and the connected components inside each tile (nodes).
 
     words[tile] (64,) uint64: one word per row of the tile; tiles are numbered row by row. nodes: NODE, in the order of
-    tiles.
+    tiles. starts (tiles + 1,): index of the first node of each tile.
     """
 
     def __init__(
@@ -275,7 +281,6 @@ class PixelTiles:
         self.width, self.height = width, height
         self.columns, self.rows = -(-width // TILE), -(-height // TILE)
         self.words, self.nodes = words, nodes
-        # (tiles + 1,) index of the first node of each tile.
         if starts is None:
             starts = np.searchsorted(nodes["tile"], np.arange(self.columns * self.rows + 1))
         self.starts = starts
@@ -317,7 +322,10 @@ class PixelTiles:
         return joined([nodes[: find_nodes(words, tile, column * TILE, row * TILE, runs, parents, nodes)]])
 
     def replaced(self, changed: Mapping[int, np.ndarray]) -> "PixelTiles":
-        """Return a copy with new words in some tiles. changed: {tile number: (64,) uint64}. O(tiles + their runs)."""
+        """Return a copy with new words in some tiles.
+
+        changed: {tile number: (64,) uint64}; its arrays become read-only. O(tiles + runs of the changed tiles).
+        """
         words, parts, starts, last = self.words.copy(), [], self.starts.copy(), 0
         for tile, new in sorted(changed.items()):
             new.flags.writeable = False
@@ -330,7 +338,7 @@ class PixelTiles:
 
     @cached_property
     def pieces(self) -> Pieces:
-        """The connected pieces of all pixels, computed at the first use. O(nodes)."""
+        """The 8-connected pieces of all pixels, computed at the first use. O(nodes)."""
         labels = np.empty(len(self.nodes), np.int64)
         count = label_pieces(self.nodes, self.starts, self.columns, labels)
         counts, firsts = np.zeros(count, np.int64), np.full(count, self.width * self.height)
@@ -353,7 +361,10 @@ class PixelTiles:
         return next(node for node in range(begin, end) if int(self.words_of(node)[row]) >> column & 1)
 
     def cut_out(self, nodes: np.ndarray) -> tuple[np.ndarray, int, int]:
-        """Return the pixels of these nodes: (solid[row, column] bool in their bounds, left, top [px] of the bounds)."""
+        """Return (solid[row, column] bool, left, top) of the pixels of some nodes.
+
+        solid covers the bounds of these pixels; left, top [px]: position of the bounds in the raster.
+        """
         some = self.nodes[nodes]
         left, top = int(some["min_x"].min()), int(some["min_y"].min())
         first_column, first_row = left // TILE, top // TILE
@@ -368,7 +379,10 @@ class PixelTiles:
         return np.ascontiguousarray(window), left, top
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
-        """Return the pixels from column left and row top on, (size, size) bool; clear beyond the raster. O(size²)."""
+        """Return the (size, size) bool pixels from column `left` and row `top` on; pixels beyond the raster are clear.
+
+        O(size²).
+        """
         column, row = left // TILE, top // TILE
         columns, rows = (left + size - 1) // TILE - column + 1, (top + size - 1) // TILE - row + 1
         near = [
@@ -381,9 +395,10 @@ class PixelTiles:
         return unpacked(words[y : y + size])[:, x : x + size]
 
     def differences(self, other: "PixelTiles", tiles: Iterable[int]) -> list[tuple[int, int, int, int]]:
-        """Return a box (left, top, right, bottom) [px] around the pixels that differ, for each of these tiles with any.
+        """Return for each of some tiles that differs from another raster a box around the differing pixels.
 
-        Right and bottom are exclusive. other: a raster of the same size.
+        A box is (left, top, right, bottom) [px]; right and bottom are exclusive. other: a raster of the same size;
+        tiles: numbers of the compared tiles.
         """
         found = []
         for tile in tiles:
@@ -441,7 +456,10 @@ Box = tuple[float, float, float, float]  # min_x, min_y, max_x, max_y [px]
 
 
 class Loose(NamedTuple):
-    """A piece that a cut separated: solid[row, column] bool in its bounds, whose top left pixel is (left, top)."""
+    """A piece that a cut separated: its pixels solid[row, column] bool in its bounds.
+
+    (left, top) [px]: top left pixel of the bounds.
+    """
 
     solid: np.ndarray
     left: int
@@ -452,7 +470,7 @@ class Cut(NamedTuple):
     """Result of `cut`: the remaining pixels, and the pieces that were separated from them."""
 
     tiles: PixelTiles  # the remaining pixels
-    changed: tuple[int, ...]  # numbers of the tiles that differ from before the cut
+    changed: tuple[int, ...]  # numbers of the tiles with other pixels than before the cut
     removed: int  # number of pixels that the tool removed
     loose: tuple[Loose, ...]  # in the order of their first pixels
     crumbs: int  # pixels of separated pieces that were too small to keep
@@ -461,9 +479,10 @@ class Cut(NamedTuple):
 def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
     """Remove the pixels that a tool finds, and the pieces that this separates from the rest.
 
-    box [px]: bounds of the tool in the raster. one_piece: whether only the largest of all pieces stays; else of each
-    piece before the cut the largest part stays. Of parts of equal size the one with the first pixel stays. Separated
-    pieces are returned, except those of less than `crumb` pixels. O(tiles + runs of changed tiles).
+    box [px]: bounds of the tool in the raster. one_piece: of all pieces only the largest stays; else the largest part
+    of each piece before the cut stays. Of parts of equal size, the part with the first pixel stays. The result lists
+    the separated pieces, except those of less than `crumb` pixels. O(tiles + runs of changed tiles). Return the result
+    as a Cut.
     """
     changed, removed = _taken(tiles, tool, box)
     if not removed:
@@ -492,7 +511,7 @@ def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) ->
 
 
 def _taken(tiles, tool, box):
-    """Return ({tile number: words without the pixels that the tool finds}, number of these pixels)."""
+    """Return ({tile number: words without the pixels that the tool finds}, number of pixels found)."""
     first_column, first_row = (max(0, int(each // TILE)) for each in box[:2])
     last_column, last_row = int(min(box[2] // TILE, tiles.columns - 1)), int(min(box[3] // TILE, tiles.rows - 1))
     changed, removed, found = {}, 0, np.empty(TILE, np.uint64)
@@ -508,7 +527,7 @@ def _taken(tiles, tool, box):
 
 
 def _pieces_before(before, after, changed):
-    """Return for each piece after a cut the number of the piece before the cut that contained it: (pieces,)."""
+    """Return for each piece after a cut the number of the piece before the cut that contained it: (pieces,) int64."""
     labels, parts, last = before.pieces.labels, [], 0
     for tile in sorted(changed):
         # The nodes of unchanged tiles are the same, in the same order.
@@ -552,10 +571,10 @@ def is_in_hull(corners, radius, x, y):
 
 @kernel
 def find_in_hull(words, left, top, corners, radius, found_out):
-    """Write the pixels of a tile whose centres are in a convex hull rounded by a radius. Returns their number.
+    """Write the solid pixels of a tile whose centres are in a convex hull rounded by a radius. Return their number.
 
-    words, found_out (64,) uint64; left, top [px] of the tile in the hull's coordinates; corners (n, 2) [px], n >= 1,
-    clockwise on the screen. O(pixels within the hull's box · n).
+    words, found_out (64,) uint64; left, top [px]: position of the tile in the hull's coordinates; corners (n, 2) [px],
+    n >= 1, clockwise on the screen. O(pixels within the hull's box · n).
     """
     min_x, max_x = math.inf, -math.inf
     min_y, max_y = math.inf, -math.inf
@@ -592,10 +611,11 @@ def is_in_pixels(solid, x, y):
 
 @kernel
 def find_in_pixels(words, solid, x, y, cosine, sine, found_out):
-    """Write the pixels of a tile whose centres are in the pixel squares of another mask. Returns their number.
+    """Write the solid pixels of a tile whose centres are in the pixel squares of another mask. Return their number.
 
     words, found_out (64,) uint64; solid[row, column] bool: pixels of the other mask; x, y [px]: top left corner of the
-    tile in the other mask's raster; cosine, sine: of the tile's angle in that raster. O(pixels of the tile).
+    tile in the other mask's raster; cosine, sine: cosine and sine of the tile's angle in that raster. O(pixels of the
+    tile).
     """
     count = 0
     for row in range(TILE):
