@@ -11,17 +11,17 @@ from physics.outline.paths import SHARP
 # ---- contour ---------------------------------------------------------------------------------------------------------
 # Crack contours: the closed loops between solid and clear pixels of a raster (crack following).
 #
-# A crack is the side of length 1 between a solid and a clear pixel. A run is a straight row of cracks. Runs are found
-# for the whole raster at once, linked at the corners where one ends and the next starts, and returned as loops. Source:
-# Rosenfeld and Kak 1982, section 11.1, here without a scan per step.
+# A crack is the pixel edge, of length 1, between a solid and a clear pixel. A run is a straight row of cracks. The runs
+# of the whole raster are found by array operations, linked at the corners where one run ends and the next starts, and
+# returned as loops. Source: Rosenfeld and Kak 1982, section 11.1, here without a scan per crack.
 #
 # A pinch is a corner at which two solid pixels touch only diagonally. Four runs meet there, and a loop can continue in
 # two ways:
 #
-#     joined: the loop passes on both sides      apart: it stays with the pixel
-#       # |                                        # |
-#     ----+----   the two pixels are one piece   ----+----   each is a piece of its own
-#         | #                                        | #
+#     joined: the loop passes from one to the other      apart: the loop stays with one pixel
+#       # |                                                # |
+#     ----+----   the two pixels are one piece           ----+----   each is a piece of its own
+#         | #                                                | #
 
 
 class Loop(NamedTuple):
@@ -32,7 +32,7 @@ class Loop(NamedTuple):
 
 
 class Contour(NamedTuple):
-    """One connected piece of solid pixels: its edge and the edges of its holes."""
+    """One connected piece of solid pixels: the loop around it and the loops around its holes."""
 
     outer: Loop  # clockwise on the screen
     holes: list[Loop]  # counter-clockwise on the screen
@@ -41,10 +41,11 @@ class Contour(NamedTuple):
 def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
     """Return the connected pieces of solid[row, col] bool, ordered by their topmost, then leftmost corner.
 
-    A loop lists only the corners at which it turns. joined sets whether solid pixels that touch only diagonally (at a
-    pinch) are connected. joined = 0: they never are, so pieces are 4-connected, no loop visits a corner twice, and
-    loops touch at most in pinches. joined > 0 [px]: they are, and a loop may pass the pinch twice, unless a horizontal
-    and a vertical run of at least this length meet there. Linear in pixels (vectorised) and corners.
+    A loop lists only the corners at which it turns. joined [px] sets whether solid pixels that touch only diagonally
+    (at a pinch) are connected. joined = 0: they are never connected, so pieces are 4-connected, no loop visits a corner
+    twice, and loops touch at most in pinches. joined > 0: they are connected, and a loop may pass the pinch twice,
+    unless a horizontal and a vertical run of at least this length meet there. Linear in pixels (vectorised) and
+    corners.
     """
     runs = _Runs(np.ascontiguousarray(solid, dtype=bool), joined)
     outers, holes = [], []
@@ -56,7 +57,7 @@ def contours(solid: np.ndarray, joined: int = 0) -> list[Contour]:
     for loop, points in outers:
         piece_of[loop] = len(pieces)
         pieces.append(Contour(Loop(points, runs.joined[loop]), []))
-    # The solid pixels left of a hole are bounded on the left by their piece's outer loop or by a hole further left.
+    # The solid pixels left of a hole are bounded on the left by the outer loop of their piece or by another hole of it.
     holes.sort(key=lambda each: each[1][:, 0].min())
     for loop, points in holes:
         piece = piece_of[runs.left_of(points)]
@@ -78,18 +79,19 @@ def _first(points):
 
 
 class _Runs:
-    """All runs, straight rows of pixel edges, of a raster, horizontal ones first; corner k is the start of run k."""
+    """All runs (straight rows of pixel edges) of a raster, horizontal ones first; corner k is the start of run k."""
 
     def __init__(self, solid, joined):
         height, width = solid.shape
         padded = np.zeros((height + 2, width + 2), np.int8)
         padded[1:-1, 1:-1] = solid
-        # +1: solid below, goes right. -1: solid above, goes left. One extra column, so that no run leaves its row.
+        # +1: solid below, the run goes right. -1: solid above, it goes left. One extra column keeps each run in its
+        # row.
         lines, starts, ends, signs = _runs_of(padded[1:, 1:] - padded[:-1, 1:])
         first = np.where(signs > 0, starts, ends)
         last = np.where(signs > 0, ends, starts)
         self.horizontal = len(lines)
-        # Along columns: +1: solid left, goes down. -1: solid right, goes up.
+        # Along columns: +1: solid left, the run goes down. -1: solid right, it goes up.
         columns, tops, bottoms, falls = _runs_of((padded[1:, :-1] - padded[1:, 1:]).T)
         upper = np.where(falls > 0, tops, bottoms)
         lower = np.where(falls > 0, bottoms, tops)
@@ -102,7 +104,10 @@ class _Runs:
         self._follow(stops, np.concatenate([signs, falls]), np.concatenate([ends - starts, bottoms - tops]), joined)
 
     def _follow(self, stops, signs, lengths, joined):
-        """Link each run to the run after it. A corner has one horizontal and one vertical run, a pinch two of each."""
+        """Link each run to the run after it.
+
+        A corner has one horizontal and one vertical run, a pinch two of each kind.
+        """
         count = self.horizontal
         wide = max(int(self.corners[:, 0].max(initial=0)), 0) + 1
         start, stop = self.corners[:, 1] * wide + self.corners[:, 0], stops[:, 1] * wide + stops[:, 0]
@@ -133,7 +138,10 @@ class _Runs:
             self.next[rows] = (order[at] if len(keys) else at) + (others.start or 0)
 
     def loops(self):
-        """Yield the indices of the runs of each loop. A loop that visits a pinch twice is split there if not joined."""
+        """Yield the indices of the runs of each loop.
+
+        A loop that visits an unjoined pinch twice is split there into two.
+        """
         following, apart, unseen = self.next.tolist(), self.apart.tolist(), bytearray(b"\1") * len(self.next)
         places = self.corners
         for begin in range(self.horizontal):
@@ -154,9 +162,12 @@ class _Runs:
                 yield np.array(loop)
 
     def left_of(self, points):
-        """Return the vertical run that bounds the solid pixels left of a hole on their left. points: of the hole."""
+        """Return the vertical run that bounds, on the left, the solid pixels to the left of a hole.
+
+        points: the hole's corners.
+        """
         k = int(points[:, 0].argmin())
-        # At the hole's leftmost column one of the two runs at that corner is vertical.
+        # Of the two runs at a corner in the hole's leftmost column, one is vertical.
         x, y = points[k].tolist()
         before, after = points[k - 1].tolist(), points[(k + 1) % len(points)].tolist()
         row = min(y, before[1] if before[0] == x else after[1])
@@ -165,7 +176,7 @@ class _Runs:
 
 
 def _runs_of(cracks):
-    """Return arrays (line, start, end, sign) of all runs of equal pixel edges (-1 or 1) in cracks[line, place]."""
+    """Return arrays (line, start, end, sign) of all runs of equal pixel edges (-1 or 1) in cracks[line, position]."""
     before = np.zeros((cracks.shape[0], cracks.shape[1] + 1), np.int8)
     before[:, 1:] = cracks
     after = np.zeros_like(before)
@@ -177,7 +188,7 @@ def _runs_of(cracks):
 
 
 # ---- outline ---------------------------------------------------------------------------------------------------------
-# Smooth outline of pixels: staircases become straight lines, all else is unchanged.
+# Smooth outline of pixels: staircases become straight lines; the rest of the outline is unchanged.
 #
 # A line may replace a staircase, a stretch of a crack loop with at most one horizontal and one vertical direction, if
 # for each corner c of the stretch
@@ -186,8 +197,8 @@ def _runs_of(cracks):
 #
 # All guarantees follow from this inequality. Of the two runs that meet at c, the line is at most `reach` from the
 # nearer one, and c is at most sqrt(2) * reach <= smooth + 0.21 from the line. A pixel's centre lies (0.5, 0.5) from a
-# corner, so with reach below 0.5 every solid centre stays inside and every clear one outside. Lines that separate the
-# same centres as the cracks that they replace never cross: outlines are simple, and pieces touch only in pinches.
+# corner, so with reach below 0.5 every solid centre stays inside and every clear centre outside. Lines never cross if
+# they separate the same centres as the cracks that they replace: outlines are simple, and pieces touch only in pinches.
 #
 # For a fixed start the inequality bounds the direction to an interval, so lines are found in one pass (as in O'Rourke
 # 1981, "An on-line algorithm for fitting straight lines between data ranges"). The fewest lines are found by dynamic
@@ -206,12 +217,13 @@ class Outline(NamedTuple):
 def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
     """Return the outline of each connected piece of solid[row, col] bool, smoothed into straight lines.
 
-    smooth [px] >= 0: each point of an outline is within `smooth` of the pixels' edges, and each point of the edges
-    within smooth + 0.21 of the outline; 0: the outline is the edges. Solid pixels' centres are inside, clear pixels'
-    centres outside. A corner between straight edges of 3 px or more is kept, as are all corners of a rectangle. Two
-    diagonal pixels belong to one piece if the outline can pass between them: not at such a corner, nor for smooth <
-    0.25. The number of corners is near the least possible for corners at ends and middles of edges. Pieces are ordered
-    by their topmost, then leftmost corner. O(corners * corners per line).
+    smooth [px] >= 0: each point of an outline is within `smooth` of the pixels' edges, and each point of these edges is
+    within smooth + 0.21 of the outline; 0: the outline is the pixels' edges. Centres of solid pixels are inside,
+    centres of clear pixels outside. A corner between straight rows of pixel edges of 3 px or more is kept, as are all
+    corners of a rectangle. Two diagonal pixels belong to one piece if the outline can pass from one to the other. This
+    is not possible at a kept corner, nor for smooth < 0.25. Corners lie at the ends and middles of pixel edges; their
+    number is near the least possible for such corners. Pieces are ordered by their topmost, then leftmost corner.
+    O(corners * corners per line).
     """
     return [smoothed_piece(piece, smooth) for piece in pieces_of(solid, smooth)]
 
@@ -230,8 +242,8 @@ def smoothed_piece(piece: Contour, smooth: float) -> Outline:
 def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
     """Return the corners (n, 2) float64 [px] of straight lines that replace a loop of pixel edges (cracks).
 
-    reach [px]: largest distance of the lines from the cracks; 0: the loop itself. curves: whether lines follow round
-    curves of the drawing (see curves.py); else the lines are the fewest.
+    reach [px]: largest distance of the lines from the cracks; 0: the corners of the loop. curves: whether the lines
+    follow round curves of the drawing (see curves.py); else there are as few lines as possible.
     """
     if reach <= 0.0:
         return loop.corners.astype(float)
@@ -254,7 +266,10 @@ def smoothed(loop: Loop, reach: float, curves: bool = True) -> np.ndarray:
 
 
 def sharp(loop: Loop) -> np.ndarray:
-    """Return (n,) bool: loop corners that smoothing keeps, those between edges of 3 px or more and of rectangles."""
+    """Return (n,) bool: whether smoothing keeps each corner of a loop.
+
+    Kept are corners between runs of 3 px or more, and corners of rectangles; a joined pinch is not kept.
+    """
     runs = np.roll(loop.corners, -1, axis=0) - loop.corners
     lengths, signs = np.abs(runs).sum(axis=1), np.sign(runs)
     before = np.roll(signs, 1, axis=0)

@@ -1,4 +1,4 @@
-"""Outline lines along round curves of a drawing: each line has the direction of the curve."""
+"""Outline lines along round curves of a drawing: each line has the curve's direction."""
 
 import math
 from typing import NamedTuple
@@ -21,35 +21,35 @@ from physics.outline.paths import (
 
 # ---- curves ----------------------------------------------------------------------------------------------------------
 # The fewest lines within `reach` of the cracks (pixel edges) have wrong directions on a round curve, by up to half a
-# right angle where the curve is level, upright or diagonal, because a line ends beside a single pixel there. So
-# two or more consecutive lines that turn like an arc are computed again. Candidate corners (places) are moved from the
-# cracks to a smooth curve, the least-squares parabola through the middles of the cracks around each place (Savitzky and
-# Golay 1964), and the cost of a line grows with its angles to that curve. The inequality of contour.outline holds for
-# these lines too, since places stay within `reach` of their cracks.
+# right angle where the curve is level, upright or diagonal, because a line ends next to a single pixel there. So two or
+# more consecutive lines that turn like an arc are computed again. Candidate corners (places) are moved from the cracks
+# to a smooth curve: the least-squares parabola through the middles of the cracks around each place (Savitzky and Golay
+# 1964). The cost of a line grows with its angles to this curve. The inequality of contour.outline also holds for these
+# lines, because places stay within `reach` of their cracks.
 #
 # Long lines, lines that turn far, and lines at fixed corners between them are unchanged to the bit: walls, slopes and
 # the corners of boxes.
 
-FIT = 12  # [cracks] on either side of a place that the fit uses; SEEN in tiles. Fewer: coarser directions
-NARROW_FIT = 6  # [cracks] a curve with a smaller fit is too narrow and stays as it is: radii of less than 6 px
-LEAST_FIT = 3  # [cracks] on either side at the ends of a curve
-FIT_TURN = 0.95  # [rad] largest turn of the curve on either side within a fit, because an arc is no parabola
+FIT = 12  # [cracks] most that a fit uses on either side of a place; equal to SEEN. Fewer: coarser directions
+NARROW_FIT = 6  # [cracks] a curve with a smaller fit is too narrow and keeps its lines: radii of less than 6 px
+LEAST_FIT = 3  # [cracks] least that a fit uses on either side, at the ends of a curve
+FIT_TURN = 0.95  # [rad] largest turn of the curve on either side within a fit, because a parabola fits only a short arc
 RISE = 0.9  # [px] greatest height over its chord of an arc that a line replaces; higher: a long straight line
 TURN = 1.0  # [rad] greatest turn from a curve's line to the next one
-CLEAR = 3.0  # [px] least length of two lines of a curve
-GENTLE = 0.12  # [rad] a stretch whose turns are all smaller is smooth enough as it is
-SPIKE = 1.5  # [px] shorter lines have no direction, …
+CLEAR = 3.0  # [px] a curve has at least two lines of this length
+GENTLE = 0.12  # [rad] a stretch whose turns are all smaller is smooth enough and keeps its lines
+SPIKE = 1.5  # [px] a shorter line has no direction
 LOOKED = 3  # number of neighbouring lines examined to find the turn at a line's end
-SPIKE_SHARE = 0.25  # … nor have lines shorter than this share of the line whose turn is sought
+SPIKE_SHARE = 0.25  # a neighbour shorter than this share of the line does not end the search for the turn
 DENT = 6.0  # [px] greatest length of a line in a curve that turns to either side at its ends, …
 WAVE = 0.2  # [px] … or greatest height of such a line as an arc with its larger turn
 ANGLE_PRICE = 4.5  # [corners / (rad2 px)]: a turn of about 8 degrees at a radius of 60 px, 14 at 10 px, 5 at 200 px
 CURVE_PRICES = Prices(0.0, ANGLE_PRICE)
-JOINING = 0.25  # [px] least `smooth` at which lines pass between diagonal pixels (8-connected pieces) and follow curves
+JOINING = 0.25  # [px] least `smooth` at which lines join diagonal pixels (8-connected pieces) and follow curves
 INSIDE = 0.96  # largest distance of a place from its crack as a share of `reach`
 GRAINS = 1024.0  # [1/px]
 GRAIN = 1.0 / GRAINS  # [px] grid of places: sums and products with whole pixels are exact
-LEVEL = 0.3  # least cosine between curve and run at which a fitted point is moved along the curve to its place's normal
+LEVEL = 0.3  # least cosine between curve and run at which a fitted point moves along the curve to the place's normal
 APART = 0.75  # [cracks] least distance of a place from the ends of a curve
 
 STRAIGHT_LINE, CURVED_LINE, SPIKE_LINE = 0, 1, 2
@@ -63,8 +63,8 @@ VERTEX = np.dtype(
         ("broken", np.bool_),  # the next line passes a corner where no line may end
         ("along_x", np.float64),  # direction of the next line
         ("along_y", np.float64),
-        ("length", np.float64),  # [px] of the next line
-        ("kind", np.int64),  # of the next line: STRAIGHT_LINE, CURVED_LINE, SPIKE_LINE
+        ("length", np.float64),  # [px] length of the next line
+        ("kind", np.int64),  # kind of the next line: STRAIGHT_LINE, CURVED_LINE, SPIKE_LINE
     ],
     align=True,
 )
@@ -79,8 +79,8 @@ class Lines(NamedTuple):
     places: np.ndarray  # PLACE
     chain: np.ndarray  # int64
     vertices: np.ndarray  # VERTEX
-    middles: np.ndarray  # POINT, of each crack of the path, from row FIT on
-    fitted: np.ndarray  # FITTED, of each crack of a curve, from its first one on
+    middles: np.ndarray  # POINT: middle of each crack of the path, from row FIT on
+    fitted: np.ndarray  # FITTED: fit at each crack of a curve, from the crack before its start on
 
 
 class Path(NamedTuple):
@@ -92,8 +92,8 @@ class Path(NamedTuple):
     reach: float  # [px] as in outline
     low: float  # [px] least and …
     high: float  # … greatest coordinate that lines may have
-    begin: float  # [cracks] along the path: lines end only after this place …
-    end: float  # … and before this one, or at the ends of the path
+    begin: float  # [cracks] along the path: lines end only after this position …
+    end: float  # … and before this position, or at the ends of the path
     curves: bool  # whether lines along round curves are computed again
 
 
@@ -121,9 +121,9 @@ def room_for_lines(cracks: int) -> Lines:
 
 @subkernel
 def read_vertices(found, path, workspace):
-    """Write the vertices (ends of lines) found by the line search. Returns the number of lines between them.
+    """Write the vertices (ends of lines) that the line search found. Return the number of lines between them.
 
-    found: number of places in workspace.chain, which lists them from last to first.
+    found: number of places in workspace.chain, which lists them from last to first; path: Path; workspace: Lines.
     """
     vertices, places = workspace.vertices, workspace.places
     count = found - 1
@@ -153,7 +153,7 @@ def read_vertices(found, path, workspace):
 
 @subkernel
 def turn_between(first, second):
-    """Return the angle [rad] from the line after one vertex to that after another: > 0 clockwise on the screen."""
+    """Return the angle [rad] from the line after one vertex to the line after another; > 0: clockwise on the screen."""
     return math.atan2(
         first.along_x * second.along_y - first.along_y * second.along_x,
         first.along_x * second.along_x + first.along_y * second.along_y,
@@ -162,11 +162,11 @@ def turn_between(first, second):
 
 @subkernel
 def turn_beyond(k, step, count, closed, vertices):
-    """Return (turn [rad] at an end of line k, whether a line follows there). step 1: the line's end, -1: its start.
+    """Return (turn [rad] at an end of line k, whether a line follows there).
 
-    No line follows beyond an anchor (a fixed corner) or the end of an open path. Lines too short to have a direction
-    are skipped: the turn is that to the next line of SPIKE px or more, or to the next one that is not far shorter than
-    line k, whichever is smaller.
+    step 1: at the line's end; -1: at its start. No line follows beyond an anchor (a fixed corner) or the end of an open
+    path. Lines shorter than SPIKE px are skipped. The turn is the smallest of the turns to the following lines, up to
+    the first line that is not far shorter than line k.
     """
     j = k
     least = 0.0
@@ -191,7 +191,10 @@ def turn_beyond(k, step, count, closed, vertices):
 
 @subkernel
 def kind_of_line(k, count, closed, vertices):
-    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE if it is too short, else STRAIGHT_LINE."""
+    """Return the kind of line k: CURVED_LINE on a round curve, SPIKE_LINE if it is too short, else STRAIGHT_LINE.
+
+    count: number of lines of the path; closed: whether the path is closed; vertices: VERTEX.
+    """
     line = vertices[k]
     if line.broken:
         return STRAIGHT_LINE
@@ -213,7 +216,10 @@ def kind_of_line(k, count, closed, vertices):
 
 @subkernel
 def write_middles(path, workspace):
-    """Write the middle of pixel edge k of a path to row FIT + k; for a loop also FIT edges before and after it."""
+    """Write the middle of pixel edge k of a path to row FIT + k of the middles.
+
+    For a loop the middles of FIT pixel edges before its start and after its end are also written.
+    """
     for k in range(path.count):
         run = workspace.runs[k]
         for step in range(run.length):
@@ -231,9 +237,9 @@ def write_middles(path, workspace):
 
 @subkernel
 def fit_at(row, half, middles, fitted_out):
-    """Fit a parabola to the middles in rows row - half to row + half; write its point and direction at `row`.
+    """Fit a parabola to the middles in rows row - half to row + half.
 
-    half 0 counts as 1. fitted_out: a row of FITTED.
+    Write its point and direction at `row` to fitted_out. half 0 counts as 1. fitted_out: a row of FITTED.
     """
     half = half if half > 0 else 1
     whole = 3.0 * half * (half + 1) - 1.0
@@ -268,7 +274,11 @@ def fit_curve(curve, path, workspace):
 
 @subkernel
 def fit_of(at, curve, fitted):
-    """Return (x, y [px], direction x, y) of a fitted curve, `at` pixel edges along the path, interpolated."""
+    """Return the point (x, y) [px] and the direction (x, y) of a fitted curve at a position along its path.
+
+    at [cracks]: position from the start of the path; fitted: FITTED rows of the curve, see fit_curve. Point and
+    direction are interpolated between the two nearest rows.
+    """
     crack = math.floor(at - 0.5)
     share = at - 0.5 - crack
     a = fitted[crack - math.floor(curve.start - 0.5)]
@@ -284,7 +294,10 @@ def fit_of(at, curve, fitted):
 
 @subkernel
 def off_corner(x, y, before, run, most):
-    """Return an offset (x, y) [px] from the corner between two runs, shortened to end within `most` px of the runs."""
+    """Return an offset (x, y) [px] from the corner between two runs, shortened to end within `most` px of the runs.
+
+    before, run: the runs that end and start at the corner.
+    """
     x, y = min(max(x, -most), most), min(max(y, -most), most)
     ahead = x * right_of(run.direction) + y * down_of(run.direction)
     back = -x * right_of(before.direction) - y * down_of(before.direction)
@@ -297,10 +310,11 @@ def off_corner(x, y, before, run, most):
 
 @subkernel
 def put_on_curve(n, k, along, curve, path, workspace):
-    """Append a candidate corner (place) of run k of a path, moved onto the curve. Returns the number of places.
+    """Append a candidate corner (place) of run k of a path, moved onto the curve. Return the number of places.
 
-    k: run number, counted on beyond the last run of a loop; along [cracks]: from the start of the run, 0: its first
-    corner. A place within a run is moved only along the normal of the run.
+    n: number of places before; k: run number, which in a loop counts on beyond the last run; along [cracks]: position
+    from the start of the run; 0: the corner at which the run starts. A place within a run is moved only along the run's
+    normal.
     """
     runs = workspace.runs
     run = runs[k % path.count]
@@ -328,7 +342,7 @@ def put_on_curve(n, k, along, curve, path, workspace):
 
 @subkernel
 def put_vertex(n, vertex, at, k, curve, path, workspace):
-    """Append a vertex, `at` pixel edges along the path on run k, as a place. Return the number of places."""
+    """Append a vertex as a place on run k, `at` pixel edges along the path. Return the number of places."""
     put_place(n, vertex.x, vertex.y, at, workspace.runs[k % path.count], False, True, workspace.places)
     place = workspace.places[n]
     _, _, place.along_x, place.along_y = fit_of(at, curve, workspace.fitted)
@@ -337,7 +351,10 @@ def put_vertex(n, vertex, at, k, curve, path, workspace):
 
 @subkernel
 def run_at(at, runs, path):
-    """Return the number of the run `at` pixel edges along a path; in a loop both are counted on beyond its end."""
+    """Return the number of the run that is `at` pixel edges along a path.
+
+    In a loop, run numbers and `at` count on beyond its end.
+    """
     k = 0
     while runs[(k + 1) % path.count].at + (k + 1) // path.count * path.cracks <= at:
         k += 1
@@ -346,7 +363,7 @@ def run_at(at, runs, path):
 
 @subkernel
 def put_curve(first, last, curve, path, workspace):
-    """Write the candidate corners (PLACE) of a curve from vertex `first` to vertex `last`. Returns their number."""
+    """Write the candidate corners (PLACE) of a curve from vertex `first` to vertex `last`. Return their number."""
     runs, count = workspace.runs, path.count
     after = max(curve.start + APART, path.begin)
     before = min(curve.end - APART, path.end)
@@ -373,10 +390,10 @@ def put_curve(first, last, curve, path, workspace):
 
 @subkernel
 def widest_fit(first, length, count, path, vertices):
-    """Return how many pixel edges on either side of a point a curve is fitted to, at most FIT.
+    """Return the number of pixel edges to use on either side of a point for the fit of a curve, at most FIT.
 
     It is reduced so that directions within a fit differ by at most 2 FIT_TURN. first: line at which the curve starts;
-    length: number of its lines; count: number of lines of the path.
+    length: number of the curve's lines; count: number of lines of the path.
     """
     widest = 0.0
     for k in range(first, first + length):
@@ -394,7 +411,7 @@ def widest_fit(first, length, count, path, vertices):
 
 @subkernel
 def span_of(first, length, count, path, workspace):
-    """Return the Curve of `length` lines from vertex `first` on. Its `half` is 0 if the stretch is too narrow to fit.
+    """Return the Curve of `length` lines from vertex `first` on. Its `half` is 0 if it is too narrow for a fit.
 
     count: number of lines of the path.
     """
@@ -418,7 +435,7 @@ def span_of(first, length, count, path, workspace):
     if path.closed and length == count and not vertices[first].anchor:
         low, high = -math.inf, math.inf
     elif not path.closed:
-        # An open path continues beyond a tile's border, so the fit may use cracks there.
+        # An open path continues beyond the tile's border, so the fit may use cracks on the other side.
         low = 0.0 if first == 0 else low
         high = float(path.cracks) if last == count else high
         for k in range(path.count):
@@ -431,10 +448,10 @@ def span_of(first, length, count, path, workspace):
 
 @subkernel
 def lay_curve(first, length, count, path, workspace, n, points_out):
-    """Compute the lines of a curve again and append their points, without the end. Returns the number of points.
+    """Compute the lines of a curve again and append their points, except the last. Return the number of points.
 
-    The result is n, and nothing is appended, if the curve is too narrow. first: vertex at which the curve starts;
-    length: number of its lines; count: number of lines of the path.
+    Nothing is appended, and n is returned, if the curve is too narrow. n: number of points before; first: vertex at
+    which the curve starts; length: number of the curve's lines; count: number of lines of the path.
     """
     curve = span_of(first, length, count, path, workspace)
     if curve.half == 0:
@@ -458,7 +475,7 @@ def lay_curve(first, length, count, path, workspace, n, points_out):
 
 @subkernel
 def put_points_of(first, length, vertices, n, points_out):
-    """Append `length` vertices from `first` on as points, unchanged. Returns the number of points."""
+    """Append the points of `length` vertices from vertex `first` on, unchanged. Return the number of points."""
     for k in range(first, first + length):
         points_out[n].x, points_out[n].y = vertices[k].x, vertices[k].y
         points_out[n].at = vertices[k].at
@@ -468,10 +485,10 @@ def put_points_of(first, length, vertices, n, points_out):
 
 @subkernel
 def lay_lines(found, path, workspace, n, points_out):
-    """Append the outline's points along a path: of the straight lines found, with lines along curves computed again.
+    """Append the points of the outline along a path: straight lines, and lines along curves computed again.
 
-    found: number of places in workspace.chain, the ends of the straight lines. For a closed path the last point, equal
-    to the first, is left out. Returns the number of points.
+    found: number of places in workspace.chain, the ends of the straight lines; n: number of points before. For a closed
+    path the last point, equal to the first, is left out. Return the number of points.
     """
     vertices = workspace.vertices
     count = read_vertices(found, path, workspace)
@@ -515,9 +532,9 @@ def lay_lines(found, path, workspace, n, points_out):
 
 @kernel
 def lines_of_loop(path, workspace, points_out):
-    """Write the points (POINT) of the outline along a closed path (runs in the workspace). Returns their number.
+    """Write the points (POINT) of the outline along a closed path. Return their number; 0: no lines were found.
 
-    The result is 0 if no lines were found.
+    path: Path, whose runs are in the workspace; workspace: Lines.
     """
     around, anchor = put_loop(workspace.runs, path.count, path.cracks, workspace.places)
     found = cheapest_loop(around, anchor, path.reach, workspace.places, workspace.chain)

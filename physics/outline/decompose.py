@@ -14,8 +14,9 @@ from physics.settings import MAX_CORNERS
 # ---- sight -----------------------------------------------------------------------------------------------------------
 # Visibility of corners: a ring (closed polygon) can be cut between two corners if the line between them lies inside.
 #
-# Rings are clockwise on the screen, with the inside to the right. A bridge joins a hole to its surrounding ring, which
-# then passes the bridge's ends twice, once on either side. The inside lies in other directions at each of these copies.
+# Rings are clockwise on the screen, with the inside to the right. A bridge joins a hole to its surrounding ring. The
+# ring then passes each end of the bridge twice, once on either side of the bridge, so each end is two corners (copies).
+# The inside lies in other directions at each copy.
 
 
 def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
@@ -24,9 +25,9 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 class Walls:
-    """Sides that block lines of sight, from corners (n, 2) to following (n, 2) [px].
+    """Sides that block lines of sight; side k leads from corners[k] to following[k], both (n, 2) [px].
 
-    flat [px2]: a triangle counts as degenerate if twice its area is no larger.
+    flat [px2]: a triangle counts as degenerate if twice its area is at most this.
     """
 
     def __init__(self, corners: np.ndarray, following: np.ndarray, flat: float) -> None:
@@ -40,12 +41,12 @@ class Walls:
         return Walls(self.corners[meet], self.following[meet], self.flat)
 
     def free(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Return (m,) bool: lines from points a (m, 2) to b (m, 2) that cross no side and pass through no corner."""
+        """Return (m,) bool: whether each line from a (m, 2) to b (m, 2) crosses no side and passes no corner."""
         crossed, passed = self.obstacles(a, b)
         return ~crossed & ~passed.any(axis=1)
 
     def obstacles(self, a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return for lines from a (m, 2) to b (m, 2): (m,) whether they cross a side, (m, n) the corners they pass."""
+        """Return whether lines from a (m, 2) to b (m, 2) cross a side, (m,), and which corners they pass, (m, n)."""
         along = (b - a)[:, None]
         to = self.corners - a[:, None]
         side, side_after = cross(along, to), cross(along, self.following - a[:, None])
@@ -59,7 +60,7 @@ class Walls:
 
 
 class Ring(Walls):
-    """A closed ring of corners (n, 2) [px], clockwise on the screen, with tests of directions that lead inside."""
+    """A closed ring of corners (n, 2) [px], clockwise on the screen, with a test of directions that lead inside."""
 
     def __init__(self, corners: np.ndarray, flat: float) -> None:
         super().__init__(corners, np.roll(corners, -1, axis=0), flat)
@@ -71,7 +72,7 @@ class Ring(Walls):
     def faces(self, k: np.ndarray, toward: np.ndarray, closed: bool) -> np.ndarray:
         """Return (m,) bool: whether the direction toward (m, 2) leads from corner k (m,) into the ring.
 
-        closed: whether a direction along a side counts as well.
+        closed: whether a direction along a side also counts.
         """
         low = self.flat if not closed else -self.flat
         from_after, to_back = cross(self.after[k], toward), cross(toward, self.back[k])
@@ -99,25 +100,25 @@ class Ring(Walls):
             at = np.flatnonzero(passed[row])
             way = np.broadcast_to(toward[row], (len(at), 2))
             through = self.faces(at, way, True) & self.faces(at, -way, True)
-            # Of the copies of a corner on a bridge one must let the line through.
+            # If a corner has two copies (ends of a bridge), at least one of them must let the line through.
             places = {tuple(each) for each in self.corners[at].tolist()}
             lines[i[row], j[row]] = places == {tuple(each) for each in self.corners[at[through]].tolist()}
         return cuts, lines
 
 
 # ---- bridges ---------------------------------------------------------------------------------------------------------
-# A bridge is a line from a hole to the outer loop that a ring passes there and back. Bridges turn a polygon with holes
-# into rings without holes.
+# A bridge is a line from a hole to the outer loop that a ring follows in both directions. Bridges turn a polygon with
+# holes into rings without holes.
 
-TRIED_LINES = 16  # number of lines tested at once, shortest first
+TRIED_LINES = 16  # number of lines tested in one array operation, shortest first
 
 
 def bridged(points: np.ndarray, loops: Sequence[np.ndarray], flat: float) -> list[np.ndarray]:
     """Return a polygon with holes as rings without holes: arrays of indices of points, clockwise on the screen.
 
     Each hole, or group of touching holes, is joined to the rest by the shortest line inside the polygon, which becomes
-    two sides, there and back. points (n, 2) [px], all distinct; loops: indices of points, the outer loop clockwise on
-    the screen, then holes counter-clockwise; loops may touch in common points. flat [px2] as in Walls.
+    two sides of opposite directions. points (n, 2) [px], all distinct; loops: indices of points, first the outer loop,
+    clockwise on the screen, then holes, counter-clockwise; loops may touch in common points. flat [px2] as in Walls.
     """
     if len(loops) == 1:
         return [loops[0]]
@@ -152,7 +153,10 @@ class _Bridges:
         return any(self.group)
 
     def bridge(self):
-        """Join the leftmost group of holes to the outer loop's group; on their left no other hole is in the way."""
+        """Join the leftmost group of holes to the outer loop's group, by the shortest free line.
+
+        It is the leftmost group because no other hole blocks the view to its left.
+        """
         apart = [k for k, group in enumerate(self.group) if group]
         first = self.group[min(apart, key=lambda k: self.walls[k].corners[:, 0].min())]
         these = np.unique(np.concatenate([self.loops[k] for k in apart if self.group[k] == first]))
@@ -200,7 +204,10 @@ class _Bridges:
         return found
 
     def _onward(self, a, b, ways):
-        """Return the end of the side after side a -> b around the inside; ways: ends of all sides that leave b."""
+        """Return the end of the side that follows side a -> b around the inside.
+
+        ways: ends of all sides that leave b.
+        """
         if len(ways) == 1:
             return ways[0]
         x, y = (self.points[a] - self.points[b]).tolist()
@@ -213,18 +220,18 @@ class _Bridges:
 
 
 # ---- simple polygon --------------------------------------------------------------------------------------------------
-# Validation of a polygon with holes: it must be simple, with holes inside, and no two edges may meet.
+# Validation of a polygon with holes: it must be simple, with holes inside, and no two polygon edges may meet.
 
-FLAT = 1e-14  # [size² of the polygon] twice the area of a triangle up to this is a rounding error
-ROWS = 256  # edges compared with all others at a time: bounds the memory
+FLAT = 1e-14  # share of the polygon's size²: twice the area of a triangle up to this is a rounding error
+ROWS = 256  # polygon edges compared with all others in one array operation: bounds the memory
 
 
 def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndarray]:
-    """Return [outer ring (n, 2), holes...]: the outer one clockwise on the screen, the holes counter-clockwise.
+    """Return [outer ring (n, 2), holes...]: the outer ring clockwise on the screen, the holes counter-clockwise.
 
-    Repeated and collinear corners are removed. Rings may be given in either winding. Holes may touch the outer ring and
-    each other in common corners. Raises ValueError for fewer than three corners or no area, for edges that meet (naming
-    both), and for a hole that is not inside.
+    Repeated and collinear corners are removed. The given rings may have either winding. Holes may touch the outer ring
+    and each other in common corners. Raises ValueError for a ring of fewer than three corners or without area, for
+    edges that meet (the message names both), and for a hole that is not inside.
     """
     rings = [np.asarray(each, float) for each in (outer, *holes)]
     for number, ring in enumerate(rings):
@@ -252,13 +259,13 @@ def simple_rings(outer: np.ndarray, holes: Sequence[np.ndarray]) -> list[np.ndar
 
 
 def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
-    """Return a ring (n, 2) without repeated and collinear corners; flat [px2]: as in Walls."""
+    """Return a ring (n, 2) without repeated and collinear corners. flat [px2]: as in Walls."""
     while len(ring) > 2:
         before, after = ring - np.roll(ring, 1, axis=0), np.roll(ring, -1, axis=0) - ring
         straight = np.abs(before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]) <= flat
         if not straight.any():
             break
-        # Of adjacent corners only every second is removed at a time, so that one of two equal corners stays.
+        # Of adjacent corners only every second one is removed per pass, so that one of two equal corners stays.
         straight[1:] &= ~straight[:-1]
         straight[-1] &= ~straight[0]
         ring = ring[~straight]
@@ -266,7 +273,10 @@ def without_straight(ring: np.ndarray, flat: float) -> np.ndarray:
 
 
 def crossings(points: np.ndarray, ring: np.ndarray) -> np.ndarray:
-    """Return for each point (m, 2) how often a ray to the right crosses a ring (n, 2); an odd number means inside."""
+    """Return for each point (m, 2) the number of crossings of a ray to the right with a ring (n, 2).
+
+    An odd number means that the point is inside.
+    """
     following = np.roll(ring, -1, axis=0)
     x, y = points[:, :1], points[:, 1:]
     spans = (ring[:, 1] > y) != (following[:, 1] > y)
@@ -280,7 +290,7 @@ def _name(number):
 
 
 class _Edges:
-    """All edges of the rings of a polygon, except those without length."""
+    """All edges of the rings of a polygon, except edges without length."""
 
     def __init__(self, rings):
         self.size = max(float(np.ptp(np.concatenate(rings), axis=0).max()), 1e-300)
@@ -292,7 +302,7 @@ class _Edges:
         self.ring, self.number, self.start, self.end = (
             each[long] for each in (self.ring, self.number, self.start, self.end)
         )
-        self.before = np.empty(len(self.ring), np.int64)  # the edge that ends at the start of this one
+        self.before = np.empty(len(self.ring), np.int64)  # the edge that ends at this edge's start
         for ring in range(len(rings)):
             rows = np.flatnonzero(self.ring == ring)
             self.before[rows] = np.roll(rows, 1)
@@ -351,18 +361,18 @@ def _cross(a, b):
 # Source: Keil 1985, in the form of Keil and Snoeyink 2002 ("narrowest pairs"), over all pairs of corners that see each
 # other instead of only the pairs with a reflex corner.
 #
-# For each line (i, k) inside, the minimum number of cuts is computed for the part of the ring from i to k beyond it.
-# The piece adjacent to the line begins with a side i -> a and ends with b -> k:
+# For each line (i, k) inside, the minimum number of cuts is computed for the part of the ring that the line cuts off,
+# from i to k. The piece adjacent to the line begins with a side i -> a and ends with a side b -> k:
 #
 #         b--- ...          Pieces grow in a fan from i: the last triangle is (i, j, k). The line (j, k) is a side of
-#        / \                the ring or a cut. The line (i, j) is crossed if the piece beyond it is convex at j and i,
-#       k---i --- a         else it is a cut. Of pieces with as few cuts the narrower are better: a late, b early.
+#        / \                the ring or a cut. The line (i, j) is crossed if the piece beyond (i, j) stays convex at j
+#       k---i --- a         and i, else it is a cut. On ties the narrower piece is better: a late, b early.
 
 
 class _End(NamedTuple):
-    """A best convex piece beside line (i, k): its first corner after i, its last before k, and the piece it extends.
+    """A best convex piece at line (i, k): its first corner after i, its last corner before k, and the piece it extends.
 
-    grown is None if the piece extends no other: line (i, last) is a cut or a side.
+    grown is None if the piece extends no other piece: then line (i, last) is a cut or a side.
     """
 
     first: int
@@ -371,7 +381,7 @@ class _End(NamedTuple):
 
 
 def fewest_convex(corners: np.ndarray, flat: float) -> list[list[int]]:
-    """Return the fewest convex pieces of a ring (n, 2) [px]: corner indices of each, clockwise on the screen.
+    """Return the fewest convex pieces of a ring (n, 2) [px]: the corner indices of each, clockwise on the screen.
 
     Cuts are between corners. Pieces may have collinear corners. flat [px2] as in Walls. O(n^3).
     """
@@ -448,14 +458,14 @@ class _Search:
 
 
 # ---- shave -----------------------------------------------------------------------------------------------------------
-# Simplification of rings: bumps and notches below a tolerance are removed, shallowest first.
+# Simplification of rings: bumps and notches up to a tolerance are removed, shallowest first.
 
 
 def shaved(rings: Sequence[np.ndarray], tolerance: float) -> list[np.ndarray]:
     """Return simple rings (n, 2) [px] without shallow bumps and notches (Visvalingam and Whyatt 1993, by distance).
 
     Each removed corner is within tolerance [px] of the side that replaces it. A ring keeps at least three corners, and
-    no sides come to cross or touch.
+    the removal makes no sides cross or touch.
     """
     work = _Work(rings, tolerance)
     return work.shave()
@@ -476,7 +486,7 @@ class _Work:
             self.ring[rows], self.left[number] = number, len(ring)
             first += len(ring)
         self.kept = np.ones(count, bool)
-        self.gone = {k: [] for k in range(count)}  # corners removed between k and the next
+        self.gone = {k: [] for k in range(count)}  # corners removed between corner k and the next kept one
 
     def shave(self):
         waiting = [(self._depth(k), k) for k in range(len(self.points))]
@@ -528,42 +538,43 @@ class _Work:
 # Convex decomposition of a polygon with holes by cuts between its corners.
 #
 # Holes are bridged. Rings of more than LARGEST corners are split by short cuts into two halves, repeatedly. Each ring
-# is cut into the fewest convex pieces (fewest_convex). Then adjacent pieces with a convex union are merged over bridges
-# and splits (Hertel and Mehlhorn 1983). Without holes and with few corners the number of parts is the least possible
-# for cuts between corners; otherwise it is near the least.
+# is cut into the fewest convex pieces (fewest_convex). Then adjacent pieces with a convex union are merged across
+# bridges and splits (Hertel and Mehlhorn 1983). Without holes and with few corners the number of parts is the least
+# possible for cuts between corners; otherwise it is near the least.
 
 LARGEST = 40  # most corners of a ring that is cut optimally, in cubic time: 20 ms for 40
-TRIED_CUTS = 256  # number of splitting cuts tested together, shortest first
-STARTS = 128  # number of reflex corners at which a splitting cut may begin: bounds the memory of large rings
+TRIED_CUTS = 256  # number of splitting cuts tested in one array operation, shortest first
+STARTS = 128  # most reflex corners at which a splitting cut may begin, except in the last attempt: bounds the memory
 
 ConvexPart = tuple[np.ndarray, np.ndarray]  # corners (k, 2) clockwise on the screen [px]; inner (k,) bool: shared side
 
 
 def convex_parts(outer: np.ndarray, holes: Sequence[np.ndarray] = (), tolerance: float = 0.0) -> list[ConvexPart]:
-    """Return convex parts, of at most 16 corners each, of a simple polygon with holes.
+    """Return the convex parts, of at most 16 corners each, of a simple polygon with holes.
 
-    outer (n, 2), holes [(m, 2)] [px]: in either winding. Each part is (corners (k, 2) clockwise on the screen from the
-    topmost, then leftmost on, inner (k,) bool: the side k -> k + 1 is shared with another part). All corners are
-    corners of the polygon. A collinear corner is kept only between an inner side and a side of the boundary.
+    outer (n, 2), holes [(m, 2)] [px]: in either winding. Each part is (corners, inner): corners (k, 2) clockwise on the
+    screen, topmost, then leftmost corner first; inner (k,) bool: whether the side k -> k + 1 is shared with another
+    part. All corners are corners of the polygon. A collinear corner is kept only between an inner side and a side of
+    the boundary.
 
-    tolerance [px] >= 0: bumps and notches are removed first, as long as each removed corner is within tolerance of the
-    side that replaces it and nothing crosses; 0: the parts are exactly the polygon. Holes may touch the outer ring and
-    each other only in common corners. Raises ValueError for edges that meet or cross (naming both), for rings without
-    area, and for holes that are not inside.
+    tolerance [px] >= 0: bumps and notches are removed before, as long as each removed corner is within tolerance of the
+    side that replaces it and no sides cross; 0: the parts are exactly the polygon. Holes may touch the outer ring and
+    each other only in common corners. Raises ValueError for edges that meet or cross (the message names both), for
+    rings without area or of fewer than three corners, and for holes that are not inside.
     """
     rings = simple_rings(outer, holes)
     return partition(shaved(rings, tolerance) if tolerance > 0.0 else rings)
 
 
 def partition(rings: Sequence[np.ndarray]) -> list[ConvexPart]:
-    """Return the convex parts, as convex_parts, of rings that are known to be simple; nothing is checked.
+    """Return the convex parts (as convex_parts) of rings that are known to be simple; nothing is checked.
 
     The outer ring is clockwise on the screen, holes are counter-clockwise.
     """
     together = np.concatenate(rings)
     base = together.min(axis=0)
     flat = FLAT * float(np.ptp(together, axis=0).max()) ** 2
-    # Equal corners have one index, so that a cut is the same pair of indices on both its sides.
+    # Equal corners have one index, so that a cut is the same pair of indices on its two sides.
     points, numbers = np.unique(together - base, axis=0, return_inverse=True)
     ends = np.cumsum([len(ring) for ring in rings])
     loops = np.split(numbers.ravel(), ends[:-1])
@@ -587,7 +598,10 @@ def _sides(piece):
 
 
 def _tidy(corners, inner, flat):
-    """Return a part from its topmost, then leftmost corner on, without collinear corners unless inner changes there."""
+    """Return a part from its topmost, then leftmost corner on, without collinear corners.
+
+    A collinear corner at which `inner` changes is kept.
+    """
     before, after = corners - np.roll(corners, 1, axis=0), np.roll(corners, -1, axis=0) - corners
     keep = (np.abs(cross(before, after)) > flat) | (inner != np.roll(inner, 1))
     corners, inner = corners[keep], inner[keep]
@@ -613,7 +627,7 @@ def _halved(points, rings, flat):
 
 
 def _halving(sides):
-    """Return the two corners (indices) of a short cut from a reflex corner that splits a ring about in half."""
+    """Return the two corners (indices) of a short cut from a reflex corner that splits a ring into similar parts."""
     count = len(sides.corners)
     starts = np.flatnonzero(sides.reflex)
     for share in (4, 8, 16, 64, count):
@@ -637,7 +651,10 @@ def _halving(sides):
 
 
 def _joined(points, pieces, flat):
-    """Return pieces merged, longest common side first, where the union is convex with at most 16 corners."""
+    """Return the pieces, merged across common sides where the union is convex with at most 16 corners.
+
+    The longest common side is tried first.
+    """
     owner = {side: number for number, piece in enumerate(pieces) for side in _sides(piece)}
     common = [side for side in owner if side[0] < side[1] and side[::-1] in owner]
     common.sort(key=lambda side: (-float(((points[side[0]] - points[side[1]]) ** 2).sum()), side))

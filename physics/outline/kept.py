@@ -1,8 +1,7 @@
 """Files of precomputed mask outlines: convex parts, keyed by a hash of the pixels, the settings and the code.
 
-A game ships such a file beside its art and names it with `use`, so that a start without compiled kernels does not
-compute the outlines. Outlines that are not in a file are computed as usual. If the code or the pixels change, the key
-changes.
+A game ships such a file with its art and names it with `use`, so that a start without compiled kernels does not compute
+the outlines. Outlines that are not in a file are computed. If the code or the pixels change, the key changes.
 """
 
 import hashlib
@@ -34,18 +33,18 @@ recorded: dict[bytes, Parts] | None = None  # all parts that fitted() returned, 
 
 
 def use(path: Path) -> None:
-    """Look up outlines of further masks in a file that `write` made. A missing or damaged file counts as empty."""
+    """Look up outlines of further masks in a file made by `write`. A missing or damaged file counts as empty."""
     _files.append(path)
 
 
 def forget() -> None:
-    """Stop looking up outlines in files, until `use` names one again."""
+    """Stop looking up outlines in files until `use` is called again."""
     _files.clear()
     _kept.clear()
 
 
 def fitted(name: str, pixels: np.ndarray, smooth: float, fit: Callable[[], Parts]) -> Parts:
-    """Return the stored parts for these pixels, or the result of fit() if none are stored.
+    """Return the stored parts for these pixels, or the result of fit() if no parts are stored.
 
     name: method that fit() uses, part of the key; pixels[row, col] bool; smooth [px]: as in contour.outline.
     """
@@ -68,7 +67,7 @@ def _key(name, pixels, smooth):
 
 @cache
 def code_stamp() -> bytes:
-    """Return a hash of the source files that compute outlines: stored parts of other code are not used."""
+    """Return a hash of the source files that compute outlines, so that parts stored by other code are not used."""
     digest, home = hashlib.blake2b(digest_size=DIGEST), Path(__file__).resolve().parents[1]
     paths = [path for folder in FOLDERS for path in (home / folder).glob("*.py") if path != Path(__file__).resolve()]
     for path in sorted((home / "settings.py", home / "math2d.py", *paths)):
@@ -77,7 +76,7 @@ def code_stamp() -> bytes:
 
 
 def write(path: Path, found: Mapping[bytes, Parts]) -> None:
-    """Write parts, by their keys, to a file for `use`. Equal parts give a file of equal bytes."""
+    """Write parts with their keys to a file for `use`. Equal parts give a file of equal bytes."""
     order = sorted(found)
     np.savez_compressed(
         path,
@@ -95,7 +94,7 @@ def _joined(arrays, dtype):
 
 
 def _read(path):
-    """Return the parts in a file by key; {} if the file is unreadable, damaged or of another format."""
+    """Return {key: parts} of a file; {} if the file is unreadable, damaged or of another format."""
     try:
         with np.load(path, allow_pickle=False) as file:
             held = {name: file[name] for name in ("keys", "parts", "counts", "radii", "corners", "inner")}

@@ -15,15 +15,15 @@ from physics.settings import MAX_CORNERS
 # ---- few parts -------------------------------------------------------------------------------------------------------
 # Convex decomposition into few parts by kernels, for outlines of masks that are computed while a game runs.
 #
-# decompose.convex_parts finds the fewest parts, in milliseconds. few_parts takes a hundredth of that time for about as
-# many parts (see rings.py, few cuts).
+# decompose.convex_parts finds the fewest parts, in milliseconds. few_parts finds about as many parts in a hundredth of
+# the time (see "few cuts" in rings.py).
 
 
 def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return the convex parts [(corners (k, 2), inner (k,) bool)] of a polygon with holes, in few parts and fast.
 
-    Corners are clockwise on the screen; inner: the side k -> k + 1 is shared with another part. rings: the outer one
-    (n, 2) [px] clockwise on the screen, then holes counter-clockwise. They must be simple, with coordinates whose
+    Corners are clockwise on the screen; inner: the side k -> k + 1 is shared with another part. rings: the outer ring
+    (n, 2) [px] clockwise on the screen, then holes counter-clockwise. The rings must be simple, with coordinates whose
     products have no rounding error; this is not checked.
     """
     points = np.concatenate(rings)
@@ -43,7 +43,7 @@ def few_parts(rings: Sequence[np.ndarray]) -> list[tuple[np.ndarray, np.ndarray]
 
 @subkernel
 def join_touching(n, sides_inout):
-    """Join rings that touch in a common corner into one ring, which at that corner changes from one to the other.
+    """Join rings that touch in a common corner into one ring that passes this corner twice.
 
     n: number of sides. O(n²).
     """
@@ -66,11 +66,12 @@ def join_touching(n, sides_inout):
 
 @kernel
 def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_out):
-    """Write the convex parts of a polygon given by rings. Returns their number, or -1 if the rings are no polygon.
+    """Write the convex parts of a polygon given by rings.
 
-    points (n, 2) [px]: corners ring after ring; counts (rings,): corners of each ring; most: largest number of corners
-    of a part; sides_inout: SIDE, scratch; corners_out (n, 2) [px], inner_out (n,): corners part after part, and whether
-    the side after each is shared by two parts; counts_out (parts,): corners of each part.
+    points (n, 2) [px]: corners ring after ring; counts (rings,): number of corners of each ring; most: largest number
+    of corners of a part; sides_inout: SIDE, scratch; corners_out (n, 2) [px]: corners part after part; inner_out (n,):
+    whether the side after each corner is shared by two parts; counts_out (parts,): number of corners of each part.
+    Return the number of parts, or -1 if the rings are not a polygon.
     """
     n = 0
     start = 0
@@ -94,7 +95,7 @@ def cut_rings(points, counts, most, sides_inout, corners_out, inner_out, counts_
 class Part(NamedTuple):
     """A convex part of an outline in raster pixels: a polygon, capsule or disc, rounded by a radius."""
 
-    corners: np.ndarray  # (k, 2) float64: 1 to 16, clockwise on the screen; 1: a disc, 2: a capsule
+    corners: np.ndarray  # (k, 2) float64: 1 to 16 corners, clockwise on the screen; 1: a disc, 2: a capsule
     inner: np.ndarray  # (k,) bool: side k -> k + 1 is shared with another part
     radius: float  # [px]
 
@@ -104,7 +105,7 @@ def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
 
     A round piece becomes one part with a radius (rounding.py). Any other piece is decomposed into parts of radius 0
     (few_parts), each listed from its topmost, then leftmost corner on. A full rectangle is one part. smooth [px] as in
-    contour.outline; the union of the parts is as near to the pixels' edges as that outline.
+    contour.outline; the union of the parts is as near to the pixels' edges as the outline returned there.
     """
     parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))
     ends = np.cumsum(parts.counts)[:-1]

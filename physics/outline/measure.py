@@ -11,11 +11,11 @@ from physics.outline.contour import contours
 # ---- union -----------------------------------------------------------------------------------------------------------
 # Boundary of the union of rounded convex hulls: exact lines and arcs, for any overlaps.
 #
-# The boundary of each hull is cut wherever it meets the boundary of another hull. A stretch between two cuts belongs to
-# the union's boundary if its middle is not inside another hull, and not on the boundary of a hull on its other side. Of
-# coincident stretches only that of the first hull is kept.
+# The boundary of each hull is cut where it meets the boundary of another hull. A stretch between two cuts belongs to
+# the union's boundary unless its middle is inside another hull or on the boundary of a hull on its other side. Of
+# coincident stretches only the stretch of the first hull is kept.
 
-ROUNDING = 1e-9  # [size of the hulls] a point nearer to a boundary counts as on it
+ROUNDING = 1e-9  # share of the hulls' size: a point nearer to a boundary than this counts as on it
 
 Hull = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen, 1: a disc, 2: a capsule; and radius [px]
 
@@ -25,10 +25,10 @@ class Stretch(NamedTuple):
 
     start: np.ndarray  # (2,) [px]
     end: np.ndarray  # (2,)
-    center: np.ndarray  # (2,) centre of an arc
+    center: np.ndarray  # (2,) [px] centre of an arc
     radius: float  # 0: a line
     first: float  # [rad] angle at the start of the arc
-    turn: float  # [rad] > 0
+    turn: float  # [rad] > 0: angle of the arc
 
     def at(self, shares: np.ndarray) -> np.ndarray:
         """Return the points (m, 2) [px] at fractions (m,) of the length: 0 is the start, 1 the end."""
@@ -48,10 +48,10 @@ class Stretch(NamedTuple):
 
 
 def boundary(hulls: Sequence[Hull]) -> list[Stretch]:
-    """Return the stretches of the boundary of a union of hulls, the inside to the right of each; [] without hulls.
+    """Return the stretches of the boundary of a union of hulls, with the inside to the right of each; [] without hulls.
 
-    A side that two hulls share is not part of the boundary. O(sides²) at worst; only hulls with overlapping bounds are
-    compared.
+    A side that two hulls share is not part of the boundary. Only hulls with overlapping bounds are compared. O(sides²)
+    at worst.
     """
     if not hulls:
         return []
@@ -120,7 +120,10 @@ def _cuts(side, others, near):
 
 
 def _share(side, point, near):
-    """Return the fraction of a stretch's length at which a point lies; -1 if the point is not on its line or circle."""
+    """Return the fraction of a stretch's length at which a point lies; -1: the point is not on its line or circle.
+
+    near [px]: a smaller distance from the line or circle counts as 0.
+    """
     if side.radius == 0.0:
         along = side.end - side.start
         share = float((point - side.start) @ along / (along @ along))
@@ -160,7 +163,10 @@ def _arc_meets(side, other):
 
 
 def _on_circle(start, along, center, radius):
-    """Return the two points where an infinite line meets a circle; its point nearest the centre twice if it misses."""
+    """Return the two points where an infinite line meets a circle.
+
+    If the line misses the circle, the line's point nearest to the centre is returned twice.
+    """
     length = math.hypot(*along)
     along = along / length
     ahead = float((center - start) @ along)
@@ -173,7 +179,7 @@ def _covered(stretch, hull, earlier, near):
     """Return whether another hull removes a stretch from the boundary of the union.
 
     True if the stretch is inside the hull, if it is on the hull's boundary with the hull on the other side, or if it
-    coincides with the boundary of a hull that comes earlier in the list. near [px]: a smaller distance counts as 0.
+    coincides with the boundary of a hull that is earlier in the list. near [px]: a smaller distance counts as 0.
     """
     point = stretch.at(np.array([0.5]))[0]
     gap, normal = gap_and_normal(hull, point)
@@ -204,14 +210,14 @@ def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
     away = to - share[:, None] * sides
     distance = np.hypot(*away.T)
     k = int(distance.argmin())
-    # Nearer to a side without rounding than rounding errors: the side's normal is used.
+    # If the point is on a side within rounding errors, the side's normal is used.
     flat = distance[k] <= ROUNDING * float(np.abs(sides).max())
     return float(distance[k]) - radius, normals[k] if flat else away[k] / distance[k]
 
 
 # ---- moments ---------------------------------------------------------------------------------------------------------
-# Area, centre and inertia of the inside of a boundary of lines and arcs: integrals along it (Green's theorem) by
-# Gaussian quadrature, exact up to rounding.
+# Area, centre and inertia of the inside of a boundary of lines and arcs: integrals along the boundary (Green's theorem)
+# by Gaussian quadrature, exact up to rounding.
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
 NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; error for a quarter turn: far below rounding
@@ -223,14 +229,14 @@ class Moments(NamedTuple):
     area: float  # [px2]
     x: float  # centre of area [px]; nan without area
     y: float
-    inertia: float  # about the centre [px4]
+    inertia: float  # moment of inertia about the centre [px4]
 
 
 def moments(around: Sequence[Stretch]) -> Moments:
-    """Return the moments of the figure inside a closed boundary; all 0 and the centre nan without area."""
+    """Return the moments of the figure inside a closed boundary; without area, all are 0 and the centre is nan."""
     if not around:
         return Moments(0.0, math.nan, math.nan, 0.0)
-    base = around[0].start  # integrals about a nearby point, for precision far from the raster's corner
+    base = around[0].start  # integrals about a nearby point, which are precise far from the raster's corner
     place, step = nodes(around)
     x, y, dx, dy = *(place - base).transpose(2, 0, 1), *step.transpose(2, 0, 1)
     area = float((((x * dy - y * dx) / 2.0) @ WEIGHTS).sum())
@@ -243,7 +249,7 @@ def moments(around: Sequence[Stretch]) -> Moments:
 
 
 def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the quadrature points (n, 16, 2) [px] on n stretches, and d point / d fraction of length there."""
+    """Return the quadrature points (n, 16, 2) [px] of n stretches, and their derivatives by the fraction of length."""
     place = np.array([each.at(NODES) for each in around])
     step = np.empty_like(place)
     for k, each in enumerate(around):
@@ -258,19 +264,19 @@ def nodes(around: Sequence[Stretch]) -> tuple[np.ndarray, np.ndarray]:
 # ---- hausdorff -------------------------------------------------------------------------------------------------------
 # Hausdorff distance of two boundaries of lines and arcs, by branch and bound: exact to NEAR.
 #
-# A stretch is halved as long as it may contain a point farther from the other boundary than the farthest found so far.
-# There are two upper bounds for its points. The first is the distance of its middle plus half its length. The second
-# uses its ends: along a line the distance from one other line is convex, so it is largest at an end; for an arc the
-# height above its chord is added.
+# A stretch is halved as long as it may contain a point farther from the other boundary than the farthest point found so
+# far. There are two upper bounds for the distance of a stretch's points. The first is the distance of its middle plus
+# half its length. The second uses its ends: along a straight stretch the distance from one line of the other boundary
+# is convex, so it is largest at an end; for an arc the height above its chord is added.
 
-NEAR = 1e-6  # [px]
-ROWS = 1 << 20  # distances kept at a time: bounds the memory
+NEAR = 1e-6  # [px] largest error
+ROWS = 1 << 20  # distances computed in one array operation: bounds the memory
 
 
 def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
-    """Return the Hausdorff distance [px] of two boundaries: the largest distance of a point of one from the other.
+    """Return the Hausdorff distance [px] of two boundaries: the largest distance of a point on one from the other.
 
-    It is at most 1e-6 px too small; 0 if both boundaries are empty, inf if only one is.
+    The result is at most 1e-6 px too small; 0 if both boundaries are empty, inf if only one is empty.
     """
     if not a or not b:
         return 0.0 if not a and not b else math.inf
@@ -278,7 +284,7 @@ def hausdorff(a: Sequence[Stretch], b: Sequence[Stretch]) -> float:
 
 
 class _Figure:
-    """A boundary as arrays of its lines and of its arcs, for distances of many points at once."""
+    """A boundary as arrays of its lines and of its arcs, for the distances of many points."""
 
     def __init__(self, stretches):
         lines = [each for each in stretches if each.radius == 0.0]
@@ -328,9 +334,10 @@ def _farthest(a, b, best):
 
 
 def _looked_at(some, other, best):
-    """Return (largest distance [px] found at ends and middles or before, [(upper bound [px], stretch)] of the rest).
+    """Return (largest distance [px] so far, stretches that may contain a farther point).
 
-    The rest are the stretches in `some` that may contain a farther point. best: largest distance found before.
+    The stretches are [(upper bound [px] of the distance, stretch)]. some: stretches whose ends and middles are
+    measured; other: _Figure; best [px]: largest distance found before.
     """
     points = np.array([each.at(np.array([0.0, 0.5, 1.0])) for each in some])
     lines = other.from_lines(points.reshape(-1, 2)).reshape(len(some), 3, -1)
@@ -344,22 +351,22 @@ def _looked_at(some, other, best):
 
 
 # ---- cells -----------------------------------------------------------------------------------------------------------
-# Pixels of several masks on a common grid of unequal columns and rows (cells), and integrals over them: area, first and
-# second moments, of all cells or of their part inside a boundary. Exact up to rounding.
+# Pixels of several masks on a common grid of unequal columns and rows (cells), and integrals over these cells: area,
+# first and second moments, of all cells or of the part of the cells inside a boundary. Exact up to rounding.
 #
 # Integrals over the part inside a boundary are taken along the boundary (Green's theorem), which is cut at the lines of
-# the grid. The integrand at a point is the integral over the solid cells left of the point in its row.
+# the grid. The integrand at a point is the integral over the solid cells to the left of the point in the point's row.
 
-Placed = tuple[np.ndarray, float, float]  # solid[row, col] bool; left, top [px] of its corner
+Placed = tuple[np.ndarray, float, float]  # solid[row, col] bool; left, top [px] of its top left corner
 Box = tuple[float, float, float, float]  # left, top, right, bottom [px]
 
 
 class Cells(NamedTuple):
-    """A grid of unequal cells, whose lines are the pixel edges of all masks in it."""
+    """A grid of unequal cells. The lines of the grid are the pixel edges of all masks in it."""
 
     x: np.ndarray  # (w + 1,) lines between columns [px], ascending
     y: np.ndarray  # (h + 1,) lines between rows
-    count: np.ndarray  # (h, w) number of masks that are solid in each cell
+    count: np.ndarray  # (h, w) number of masks with a solid pixel in each cell
 
 
 class Sums(NamedTuple):
@@ -371,11 +378,11 @@ class Sums(NamedTuple):
     second: float  # integral of the squared distance from the base [px4]
 
     def plus(self, other: "Sums", share: float = 1.0) -> "Sums":
-        """Return these sums plus `share` times the other sums, of the same base."""
+        """Return these sums plus `share` times the other sums, which have the same base point."""
         return Sums(*(a + share * b for a, b in zip(self, other, strict=True)))
 
     def moments(self, base: tuple[float, float]) -> Moments:
-        """Return area, centre and inertia of the figure; base [px]: base point of these sums."""
+        """Return the area, centre and inertia of the figure. base [px]: base point of these sums."""
         if self.area <= 0.0:
             return Moments(0.0, math.nan, math.nan, 0.0)
         x, y = self.x / self.area, self.y / self.area
@@ -386,7 +393,7 @@ NO_SUMS = Sums(0.0, 0.0, 0.0, 0.0)
 
 
 def sums_of(found: Moments, base: tuple[float, float]) -> Sums:
-    """Return area and first and second moments about a base point [px] of a figure, from its Moments."""
+    """Return the Sums of a figure about a base point [px], from the figure's Moments."""
     if found.area == 0.0:
         return NO_SUMS
     x, y = found.x - base[0], found.y - base[1]
@@ -409,13 +416,16 @@ def cells_of(masks: Sequence[Placed], window: Box) -> Cells:
 
 
 def _places(lines, first, size):
-    """Return the mask's row (or column) between each two successive grid lines; -1: outside the mask."""
+    """Return for each two successive grid lines the mask's row (or column) between them; -1: outside the mask.
+
+    first [px]: position of the mask's first row; size: number of its rows.
+    """
     place = np.floor((lines[:-1] + lines[1:]) / 2.0 - first).astype(np.int64)
     return np.where((place >= 0) & (place < size), place, -1)
 
 
 def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> Sums:
-    """Return the sums about a base point of all cells, each with a weight per px2: weights (h, w)."""
+    """Return the Sums of all cells about a base point. weights (h, w): weight per px2 of each cell."""
     width, height = np.diff(cells.x), np.diff(cells.y)
     x, y = (cells.x[:-1] + cells.x[1:]) / 2.0 - base[0], (cells.y[:-1] + cells.y[1:]) / 2.0 - base[1]
     in_rows = [(weights * each).sum(axis=1) for each in (width, width * x, width * (x * x + width * width / 12.0))]
@@ -429,7 +439,10 @@ def cell_sums(cells: Cells, weights: np.ndarray, base: tuple[float, float]) -> S
 
 
 def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, float]) -> Sums:
-    """Return the sums about a base point of the part of the solid cells (of any mask) that is inside a boundary."""
+    """Return the Sums, about a base point, of the part of the solid cells that is inside a boundary.
+
+    A cell is solid if a pixel of any mask in it is solid.
+    """
     parts = [part for each in around for part in _cut_by_lines(each, cells)]
     if not parts or not cells.count.any():
         return NO_SUMS
@@ -450,12 +463,12 @@ def shared_sums(around: Sequence[Stretch], cells: Cells, base: tuple[float, floa
 
 
 def _left_of(cells, power, base, row, column, x):
-    """Return the integrals (n, 16) of x ** power over the solid cells left of points, in the row of each.
+    """Return the integrals (n, 16) of x ** power over the solid cells to the left of points, each in its point's row.
 
-    base [px]: x of the base point; row, column (n,): cells of the points; x (n, 16): of the points, relative to base.
+    base [px]: x of the base point; row, column (n,): cells of the points; x (n, 16): positions relative to base.
     """
     lines = cells.x - base
-    filled = np.pad(cells.count > 0, ((0, 0), (0, 1)))  # no cell is right of the last line
+    filled = np.pad(cells.count > 0, ((0, 0), (0, 1)))  # there is no cell to the right of the last line
     whole = lines ** (power + 1) / (power + 1)
     left = np.zeros((len(filled), len(lines)))
     left[:, 1:] = np.cumsum(np.where(filled[:, :-1], np.diff(whole), 0.0), axis=1)
@@ -484,8 +497,9 @@ def _cut_by_lines(stretch, cells):
 # ---- measure ---------------------------------------------------------------------------------------------------------
 # Accuracy of hulls that replace pixels: excess and missing area, and moments.
 #
-# The hulls count as their union, the pixels as the union of their squares. All areas and moments are integrals along
-# the boundary of the union by Gaussian quadrature, exact up to rounding, including the shared area (see "cells" above).
+# Measured are the union of the hulls and the union of the pixels' squares. All areas and moments are integrals along
+# the boundary of the union of the hulls by Gaussian quadrature, exact up to rounding; for the shared area see "cells"
+# above.
 
 
 class Measured(NamedTuple):
@@ -493,9 +507,9 @@ class Measured(NamedTuple):
 
     over: float  # area of the hulls outside the pixels [px2]
     missed: float  # area of the pixels outside the hulls [px2]
-    hulls: Moments  # of the union of the hulls
-    pixels: Moments  # of the union of the pixel squares
-    hausdorff: float  # of the two boundaries [px]: 0 if both are empty, inf if one is
+    hulls: Moments  # moments of the union of the hulls
+    pixels: Moments  # moments of the union of the pixel squares
+    hausdorff: float  # Hausdorff distance of the two boundaries [px]: 0 if both are empty, inf if one is empty
 
 
 def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
@@ -513,7 +527,7 @@ def measured(solid: np.ndarray, hulls: Sequence[Hull]) -> Measured:
 
 
 def edges(solid: np.ndarray) -> list[Stretch]:
-    """Return the edges between solid and clear pixels as straight stretches, the solid side on the right."""
+    """Return the pixel edges between solid and clear pixels as straight stretches, with the solid side on the right."""
     loops = [loop.corners for piece in contours(solid) for loop in (piece.outer, *piece.holes)]
     return [line(a, b) for loop in loops for a, b in zip(loop, np.roll(loop, -1, axis=0), strict=True)]
 

@@ -1,4 +1,4 @@
-"""Paths along cracks (edges between solid and clear pixels), and the best straight lines along a path."""
+"""Paths along cracks (pixel edges between solid and clear pixels), and the best straight lines along a path."""
 
 import math
 from typing import NamedTuple
@@ -8,11 +8,11 @@ import numpy as np
 from physics.jit import subkernel
 
 # ---- cracks ----------------------------------------------------------------------------------------------------------
-# Crack following from any corner, forwards and backwards. A crack is the edge between a solid and a clear pixel.
+# Crack following from any corner, forwards and backwards. A crack is the pixel edge between a solid and a clear pixel.
 #
 # A corner (x, y) of the pixel grid has four pixels around it, its quadrants, numbered clockwise on the screen from the
-# lower right one. A crack leaves it to the right, down, left or up, in the same order. Paths have the solid on their
-# right: for a crack that leaves in direction d, quadrant d is solid and quadrant d - 1 is clear.
+# lower right one. Directions are numbered in the same order: right, down, left, up. Paths have solid pixels on their
+# right: if a crack leaves a corner in direction d, quadrant d is solid and quadrant d - 1 is clear.
 #
 #         2 | 3        3
 #        ---+---     2 + 0
@@ -25,12 +25,12 @@ SHARP = 3  # [px] a corner between two runs of at least this length is fixed
 
 RUN = np.dtype(
     [  # a straight row of cracks
-        ("x", np.int64),  # (x, y): start
+        ("x", np.int64),  # (x, y): start of the run
         ("y", np.int64),
         ("direction", np.int64),
         ("length", np.int64),  # [cracks]
         ("at", np.int64),  # number of cracks of the path before this run
-        ("joined", np.bool_),  # starts at a corner where the path passes between two diagonal pixels
+        ("joined", np.bool_),  # at its start the path passes from a pixel to a diagonal one
     ],
     align=True,
 )
@@ -39,11 +39,11 @@ RUN = np.dtype(
 class Window(NamedTuple):
     """The pixels of a tile and of a margin around it, with the settings of its outline."""
 
-    pixels: np.ndarray  # [row, col] uint8, not 0: solid
+    pixels: np.ndarray  # [row, col] uint8; not 0: solid
     low: int  # first row and column of the tile, and …
     high: int  # … end of its rows and columns, exclusive
     reach: float  # [px] largest distance of outline lines from cracks
-    joins: bool  # whether a path may pass between two diagonal pixels, which joins them
+    joins: bool  # whether a path may pass from a solid pixel to a diagonal one, which joins them
 
 
 @subkernel
@@ -93,10 +93,10 @@ def length_from(pixels, x, y, direction):
 
 @subkernel
 def is_joined(window, x, y):
-    """Return whether paths pass between the two diagonal solid pixels at corner (x, y), which joins these pixels.
+    """Return whether paths pass from one to the other of the two diagonal solid pixels at corner (x, y), joining them.
 
-    False where two long runs meet, because that corner is fixed, and on the border of the tile, where the neighbouring
-    tile would find another path.
+    False where two long runs meet, because such a corner is fixed. False on the border of the tile, because the
+    neighbouring tile would find another path.
     """
     if not window.joins or x == window.low or x == window.high or y == window.low or y == window.high:
         return False
@@ -107,7 +107,7 @@ def is_joined(window, x, y):
 
 @subkernel
 def onward(window, x, y, direction):
-    """Return the direction in which a path leaves corner (x, y), given the direction in which it arrives."""
+    """Return the direction in which a path leaves corner (x, y). direction: the direction in which it arrives there."""
     if not is_solid(window.pixels, x, y, direction):
         if is_solid(window.pixels, x, y, direction + 3) and is_joined(window, x, y):
             return (direction + 3) & 3
@@ -117,7 +117,10 @@ def onward(window, x, y, direction):
 
 @subkernel
 def backward(window, x, y, direction):
-    """Return the direction in which a path arrives at corner (x, y), given the direction in which it leaves."""
+    """Return the direction in which a path arrives at corner (x, y).
+
+    direction: the direction in which the path leaves the corner.
+    """
     if not is_solid(window.pixels, x, y, direction + 1):
         if is_solid(window.pixels, x, y, direction + 2) and is_joined(window, x, y):
             return (direction + 1) & 3
@@ -127,7 +130,10 @@ def backward(window, x, y, direction):
 
 @subkernel
 def walked_back(window, x, y, direction, cracks):
-    """Return (x, y, direction) of a path `cracks` pixel edges before it leaves corner (x, y) in a direction."""
+    """Return (x, y, direction) of a path `cracks` pixel edges before a corner.
+
+    x, y: the corner; direction: the direction in which the path leaves the corner.
+    """
     for _ in range(cracks):
         direction = backward(window, x, y, direction)
         x -= right_of(direction)
@@ -137,9 +143,10 @@ def walked_back(window, x, y, direction, cracks):
 
 @subkernel
 def follow(window, x, y, direction, marks_inout):
-    """Return how many pixel edges a path follows inside the tile from corner (x, y) on; for a loop, its length.
+    """Return the number of pixel edges along which a path stays in the tile from corner (x, y) on.
 
-    marks_inout [row, col] uint8: set for each solid pixel below a horizontal edge of the path.
+    For a loop it is the loop's length. direction: the direction in which the path leaves the corner; marks_inout [row,
+    col] uint8: set for each solid pixel below a horizontal pixel edge of the path.
     """
     first_x, first_y = x, y
     first = direction
@@ -158,7 +165,10 @@ def follow(window, x, y, direction, marks_inout):
 
 @subkernel
 def record(window, x, y, direction, cracks, runs_out):
-    """Write the runs (RUN) of a path of `cracks` pixel edges from corner (x, y) on. Returns the number of runs."""
+    """Write the runs (RUN) of a path of `cracks` pixel edges from corner (x, y) on. Return the number of runs.
+
+    direction: the direction in which the path leaves the corner.
+    """
     count = -1
     turned = True
     joined = False
@@ -191,16 +201,16 @@ PLACE = np.dtype(
         ("x", np.float64),
         ("y", np.float64),
         ("at", np.float64),  # [cracks] along the path
-        ("right", np.int64),  # direction (x, y) of the path from here on
+        ("right", np.int64),  # direction (right, down) of the path from here on
         ("down", np.int64),
         ("corner", np.bool_),  # the path turns here
         ("allowed", np.bool_),  # a line may end here
-        ("anchor", np.bool_),  # no line may pass it
+        ("anchor", np.bool_),  # a fixed corner: no line may pass it
         ("swept", np.float64),  # [px2] twice the area between the origin and the path up to here
         ("along_x", np.float64),  # direction of the curve here, a unit vector; 0, 0 outside of curves
         ("along_y", np.float64),
         ("cost", np.float64),  # [corners] least cost of lines from the start to here
-        ("previous", np.int64),  # row of the place where the last of these lines starts
+        ("previous", np.int64),  # row of the place where the last line of that least cost starts
     ],
     align=True,
 )
@@ -210,7 +220,7 @@ class Prices(NamedTuple):
     """Costs of the errors of a line, in units of the cost of a corner."""
 
     area: float  # [1/px2] cost of the area that the line adds or removes
-    angle: float  # [1/(rad2 px)] cost of its squared angles to the curve at both ends, times its length
+    angle: float  # [1/(rad2 px)] cost of the line's squared angles to the curve at both ends, times the line's length
 
 
 LINE_PRICES = Prices(AREA_PRICE, 0.0)
@@ -218,7 +228,10 @@ LINE_PRICES = Prices(AREA_PRICE, 0.0)
 
 @subkernel
 def stays(runs, count, k, closed):
-    """Return whether the corner at the start of run k is kept by smoothing: between long runs, or of a rectangle."""
+    """Return whether smoothing keeps the corner at the start of run k: a corner between long runs, or of a rectangle.
+
+    runs: RUN; count: number of runs; closed: whether the path is closed.
+    """
     if not closed and k == 0:
         return False
     run = runs[k]
@@ -237,7 +250,10 @@ def stays(runs, count, k, closed):
 
 @subkernel
 def put_place(n, x, y, at, run, corner, allowed, places_inout):
-    """Write row n of places (PLACE): a candidate corner of the outline on a run, `at` pixel edges along the path."""
+    """Write row n of places (PLACE): a candidate corner (x, y) of the outline on a run.
+
+    at [cracks]: position along the path; corner: whether the path turns there; allowed: whether a line may end there.
+    """
     place = places_inout[n]
     place.x, place.y = x, y
     place.at = at
@@ -254,9 +270,10 @@ def put_place(n, x, y, at, run, corner, allowed, places_inout):
 
 @subkernel
 def put_run(n, run, start, end, offset, places_inout):
-    """Append up to three candidate corners (places) inside a run. Returns the number of places.
+    """Append up to three candidate corners (places) inside a run. Return the number of places.
 
-    Only places between `start` and `end` [pixel edges along the path] are added; `offset` is added to their lengths.
+    Only places between `start` and `end` [cracks along the path] are added. n: number of places before; offset [cracks]
+    is added to the positions of the places along the path.
     """
     for step in range(3):
         if step != 1 and run.length == 1:
@@ -271,9 +288,10 @@ def put_run(n, run, start, end, offset, places_inout):
 
 @subkernel
 def put_loop(runs, count, cracks, places_out):
-    """Write the candidate corners (places) of a loop twice in succession, followed by the first one again.
+    """Write the candidate corners (places) of two turns around a loop, and the first place a third time at the end.
 
-    Returns (number of places of one turn, row of the first fixed corner, which no line may pass; -1: none).
+    runs: RUN; count: number of runs; cracks: number of pixel edges of the loop. Return (number of places of one turn,
+    row of the first fixed corner, which no line may pass; -1: the loop has no fixed corner).
     """
     n = 0
     around = 0
@@ -298,9 +316,9 @@ def put_loop(runs, count, cracks, places_out):
 
 @subkernel
 def faults_of_angles(begin, to):
-    """Return sin² of a line's angle to the curve at its start plus that at its end, times its length [px].
+    """Return (sin² of a line's angle to the curve at its start + sin² at its end), times the line's length [px].
 
-    An end at which the line leads backwards along the curve counts as sin² = 1.
+    begin, to: rows of PLACE. At an end where the line leads backwards along the curve, sin² counts as 1.
     """
     x, y = to.x - begin.x, to.y - begin.y
     squared = x * x + y * y
@@ -315,11 +333,14 @@ def faults_of_angles(begin, to):
 
 @subkernel
 def try_lines(start, last, reach, prices, places_inout):
-    """Lower the cost of each place up to `last` that is cheaper to reach by a line from `start` (O'Rourke 1981)."""
+    """Lower the cost of each place that a line from place `start` reaches at less cost than known (O'Rourke 1981).
+
+    Places up to `last` are tried. reach [px]: largest distance of a line from the pixel edges; prices: Prices.
+    """
     begin = places_inout[start]
     x, y = begin.x, begin.y
     along_x, along_y = begin.right, begin.down
-    least = 0.0  # bounds of dy / (dx + dy), both along the path
+    least = 0.0  # bounds of dy / (dx + dy), with dx and dy along the path
     most = 1.0
     bent = False
     for at in range(start, last):
@@ -355,10 +376,10 @@ def try_lines(start, last, reach, prices, places_inout):
 
 @subkernel
 def cheapest(first, last, reach, prices, places_inout, chain_out):
-    """Find the least-cost lines from place `first` to place `last`; write the places where lines end to chain_out.
+    """Find the least-cost lines from place `first` to place `last`. Write the places where lines end to chain_out.
 
-    chain_out: rows of PLACE, from last to first. Returns their number; 0: no lines reach the last place. reach [px]:
-    largest distance of a line from the pixel edges; prices: Prices. O(places * places of a line).
+    chain_out: rows of PLACE, from last to first. reach [px]: largest distance of a line from the pixel edges; prices:
+    Prices. O(places * places of a line). Return the number of rows in chain_out; 0: no lines reach the last place.
     """
     for k in range(first, last + 1):
         places_inout[k].cost = math.inf
@@ -378,15 +399,15 @@ def cheapest(first, last, reach, prices, places_inout, chain_out):
 
 @subkernel
 def cheapest_loop(around, anchor, reach, places_inout, chain_out):
-    """Find the least-cost lines around a loop; write the places where lines end to chain_out, last to first.
+    """Find the least-cost lines around a loop. Write the places where lines end to chain_out, from last to first.
 
     places_inout: as written by put_loop; around: number of places of one turn; anchor: row of a fixed corner, which no
-    line may pass; -1: none. Returns the number of places in chain_out.
+    line may pass; -1: there is none. Return the number of rows in chain_out.
     """
     begin = anchor
     if anchor < 0:
-        # The best polygon may have no corner at the start that is tried; then the result has at most one corner more.
-        # So the next start is a corner of the result, far from the one before.
+        # The best polygon may have no corner at the tried start; then the result has at most one corner more than the
+        # best. So the next start is a corner of the result, far from the start before.
         begin = 1
         for _ in range(2):
             found = cheapest(begin, begin + around, reach, LINE_PRICES, places_inout, chain_out)

@@ -9,9 +9,9 @@ from physics.jit import subkernel
 # ---- rings -----------------------------------------------------------------------------------------------------------
 # A ring is a closed, doubly linked list of the sides around the inside of a polygon. All rings are in one table.
 #
-# A side starts at (x, y) and ends at the start of the next side; the inside lies to its right. A cut is a line inside,
-# stored as two sides of opposite directions, each the twin of the other. A cut between two corners of one ring splits
-# the ring; a cut between two rings joins them. Corner k is the start of side k.
+# A side starts at (x, y) and ends at the start of the next side; the inside of the polygon lies to the side's right. A
+# cut is a line inside the polygon, stored as two sides of opposite directions, each the twin of the other. A cut
+# between two corners of one ring splits the ring; a cut between two rings joins them. Corner k is the start of side k.
 
 SIDE = np.dtype(
     [
@@ -22,7 +22,7 @@ SIDE = np.dtype(
         ("twin", np.int64),  # row of the opposite side of a cut; -1: not a cut
         ("inner", np.bool_),  # the polygon continues on the other side
         ("alive", np.bool_),  # False: removed from its ring
-        ("apart", np.int64),  # number of the hole that this side bounds; 0: the hole is joined to a ring, or no hole
+        ("apart", np.int64),  # number of the hole that this side bounds; 0: not a hole, or already joined to a ring
         ("seen", np.bool_),  # scratch flag of a pass over all sides
     ],
     align=True,
@@ -31,9 +31,10 @@ SIDE = np.dtype(
 
 @subkernel
 def put_side(n, first, x, y, inner, sides_inout):
-    """Append a side that starts at (x, y) [px] to the ring that starts at row `first`. Returns the number of sides.
+    """Append a side that starts at (x, y) [px] to the ring that starts at row `first`. Return the number of sides.
 
-    A side without length is not added: if the side before starts at the same point, only its `inner` is replaced.
+    A side without length is not added: if the side before starts at the same point, only that side's `inner` is
+    replaced.
     """
     if n > first and sides_inout[n - 1].x == x and sides_inout[n - 1].y == y:
         sides_inout[n - 1].inner = inner
@@ -54,8 +55,8 @@ def put_side(n, first, x, y, inner, sides_inout):
 def close_ring(n, first, sides_inout):
     """Close a ring: link its last side to its first, and remove collinear corners between sides of equal `inner`.
 
-    n: number of sides; first: row of the ring's first side. Returns the number of sides. A ring of fewer than three
-    sides is removed.
+    n: number of sides; first: row of the ring's first side. A ring of fewer than three sides is removed. Return the
+    number of sides.
     """
     if n - 1 > first and sides_inout[n - 1].x == sides_inout[first].x and sides_inout[n - 1].y == sides_inout[first].y:
         n -= 1
@@ -77,7 +78,10 @@ def close_ring(n, first, sides_inout):
 
 @subkernel
 def turn_at(sides, a, b, c):
-    """Return the cross product [px2] of lines a -> b and b -> c: > 0 for a turn clockwise on the screen (convex)."""
+    """Return the cross product [px2] of the lines from corner a to b and from b to c.
+
+    > 0: a turn clockwise on the screen (convex).
+    """
     p, q = sides[a], sides[b]
     r = sides[c]
     return (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x)
@@ -87,8 +91,8 @@ def turn_at(sides, a, b, c):
 def is_reflex(sides, k):
     """Return whether the interior angle at corner k is more than half a turn, so that a cut is needed there.
 
-    Also true for exactly half a turn between an inner and an outer side, because an edge of a part is either inner or
-    outer.
+    Also true for exactly half a turn between an inner side and a side that is not inner, because each side of a part is
+    either inner or part of the outline.
     """
     side = sides[k]
     turn = turn_at(sides, side.previous, k, side.next)
@@ -97,7 +101,7 @@ def is_reflex(sides, k):
 
 @subkernel
 def faces(sides, k, m):
-    """Return whether the line from corner k to corner m starts strictly into the inside of the ring of k."""
+    """Return whether the line from corner k to corner m starts strictly into the inside of the ring that contains k."""
     side = sides[k]
     to = sides[m]
     after = sides[side.next]
@@ -145,7 +149,10 @@ def sees(sides, a, b):
 
 @subkernel
 def sees_through(sides, count, a, b):
-    """Return whether the line between corners a and b of two rings lies inside and meets no other side. O(sides)."""
+    """Return whether the line between corners a and b of two rings lies inside and meets no other side. O(sides).
+
+    count: number of sides.
+    """
     if not faces(sides, a, b) or not faces(sides, b, a):
         return False
     for k in range(count):
@@ -156,7 +163,7 @@ def sees_through(sides, count, a, b):
 
 @subkernel
 def put_cut(n, a, b, sides_inout):
-    """Append a cut between corners a and b, two sides, and link it into their rings. Returns the number of sides."""
+    """Append a cut between corners a and b, as two sides linked into their rings. Return the number of sides."""
     there = sides_inout[n]
     back = sides_inout[n + 1]
     start = sides_inout[a]
@@ -183,7 +190,7 @@ def put_cut(n, a, b, sides_inout):
 
 @subkernel
 def take_out(k, sides_inout):
-    """Remove the cut of side k: the two pieces that it separates become one."""
+    """Remove the cut of side k, which joins the two pieces that it separated."""
     m = sides_inout[k].twin
     for a, b in ((k, m), (m, k)):
         before = sides_inout[a].previous
@@ -208,16 +215,17 @@ def corners_of(sides, first):
 # Convex decomposition of rings with holes into few pieces: join holes by bridges, cut reflex corners, remove needless
 # cuts.
 #
-# One cut resolves a reflex corner if it leaves an angle of at most half a turn on either side. A cut between two reflex
-# corners can resolve both, so such cuts are made first, the shortest of each corner. Cuts that no corner needs are
-# removed, longest first. So there are never more pieces than by Hertel and Mehlhorn 1983, mostly as few as possible.
+# A cut resolves a reflex corner if it leaves an angle of at most half a turn on either side. A cut between two reflex
+# corners can resolve both, so such cuts are made first, the shortest cut of each corner. Cuts that no corner needs are
+# removed, longest first. So there are never more pieces than by Hertel and Mehlhorn 1983, and mostly as few as
+# possible.
 
 
 @subkernel
 def bridge(n, sides_inout):
     """Join each hole to the ring around it by a bridge, a cut along the shortest free line.
 
-    Returns the number of sides, or -1 if a hole sees no other ring: then the rings are no polygon.
+    Return the number of sides, or -1 if a hole sees no other ring; then the rings are not a polygon.
     """
     while True:
         waiting = 0
@@ -241,9 +249,10 @@ def bridge(n, sides_inout):
 
 @subkernel
 def shortest_bridge(n, start, sides):
-    """Return the corners of the shortest free line between a hole and the rings without open holes; (-1, -1): none.
+    """Return (corner of a hole, corner of another ring) of the shortest free line between the hole and joined rings.
 
-    The result is (corner of the hole, corner of the other ring). n: number of sides; start: a side of the hole.
+    n: number of sides; start: a side of the hole. Only rings without unjoined holes count (apart = 0). Return (-1, -1)
+    if no line is free.
     """
     best = math.inf
     best_a, best_b = -1, -1
@@ -271,10 +280,10 @@ def is_resolved(sides, a, b):
 
 @subkernel
 def best_partner(sides, a, both):
-    """Return the best corner for a cut from reflex corner a; -1: none.
+    """Return the best corner for a cut from reflex corner a; -1: there is no such corner.
 
-    It is the visible corner whose cut resolves most reflex corners (a, the other or both), of several the nearest.
-    both: accept only a cut that resolves two.
+    The best is the visible corner whose cut resolves the most reflex corners (a, the other or both); on ties, the
+    nearest. both: whether only a cut that resolves both corners is accepted.
     """
     best = -1
     best_score = 1 if both else -1
@@ -298,7 +307,7 @@ def best_partner(sides, a, both):
 
 @subkernel
 def cut_reflex(n, sides_inout):
-    """Cut at reflex corners until none is left. Returns the number of sides, or -1 if a corner sees no other."""
+    """Cut at reflex corners until none is left. Return the number of sides, or -1 if a corner sees no other corner."""
     for both in (True, False):
         k = 0
         while k < n:
@@ -306,7 +315,7 @@ def cut_reflex(n, sides_inout):
                 partner = best_partner(sides_inout, k, both)
                 if partner >= 0:
                     n = put_cut(n, k, partner, sides_inout)
-                    continue  # it may still be reflex
+                    continue  # corner k may still be reflex
                 if not both:
                     return -1
             k += 1
@@ -315,7 +324,7 @@ def cut_reflex(n, sides_inout):
 
 @subkernel
 def cut_large(n, most, sides_inout):
-    """Cut convex pieces in halves until each has at most `most` corners. Returns the number of sides."""
+    """Cut convex pieces in halves until each has at most `most` corners. Return the number of sides."""
     k = 0
     while k < n:
         if sides_inout[k].alive:
@@ -334,7 +343,7 @@ def cut_large(n, most, sides_inout):
 
 @subkernel
 def is_needed(sides, k, m):
-    """Return whether the corner at the start of side k of a cut would be reflex without the cut; m: twin of k."""
+    """Return whether the corner at the start of side k of a cut would be reflex without the cut. m: twin of k."""
     p, q = sides[sides[k].previous], sides[k]
     after = sides[sides[m].next]
     r = sides[after.next]
@@ -344,7 +353,7 @@ def is_needed(sides, k, m):
 
 @subkernel
 def is_needless(sides, k, most):
-    """Return whether the union of the pieces on both sides of a cut is convex and has at most `most` corners."""
+    """Return whether the union of the two pieces on the sides of a cut is convex and has at most `most` corners."""
     m = sides[k].twin
     if is_needed(sides, k, m) or is_needed(sides, m, k):
         return False
@@ -352,7 +361,7 @@ def is_needless(sides, k, most):
     at = sides[k].next
     while at != k:
         if at == m:
-            return False  # a bridge with one piece on both sides
+            return False  # a bridge with the same piece on both sides
         count += 1
         at = sides[at].next
     return count + corners_of(sides, m) - 2 <= most
@@ -381,10 +390,10 @@ def merge(n, most, sides_inout):
 
 @subkernel
 def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
-    """Write the rings of convex pieces as parts, corners relative to (low, low) [px]. Returns the number of parts.
+    """Write the rings of convex pieces as parts. Return the number of parts.
 
-    count: number of sides; corners_out (n, 2) [px] and inner_out (n,): corners part after part, and whether the side
-    after each is inner; counts_out (parts,): corners of each part.
+    count: number of sides; corners_out (n, 2) [px]: corners part after part, relative to (low, low); inner_out (n,):
+    whether the side after each corner is inner; counts_out (parts,): number of corners of each part.
     """
     sides = sides_inout
     n = 0
@@ -420,9 +429,9 @@ def put_parts(count, low, sides_inout, corners_out, inner_out, counts_out):
 
 @subkernel
 def write_parts(n, most, low, sides_inout, corners_out, inner_out, counts_out):
-    """Decompose a polygon with holes, `n` sides, and write its convex parts. Returns their number.
+    """Decompose a polygon with holes, which has `n` sides, and write its convex parts. Return the number of parts.
 
-    Returns -1 if the rings are no polygon. most: largest number of corners of a part; low, arrays: as in put_parts.
+    most: largest number of corners of a part; low, arrays: as in put_parts. Return -1 if the rings are not a polygon.
     """
     n = bridge(n, sides_inout)
     if n < 0:

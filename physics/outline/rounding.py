@@ -1,9 +1,9 @@
 """Round pieces of masks as a core polygon of few corners and a radius: a disc has one corner, a rounded box four.
 
-A body that rolls as a polygon loses speed at every corner; a rounded one does not. Candidate cores are made from the
-symmetry of the piece (disc, capsule) and by moving the sides of its outline inward (others). Each is compared with the
-cracks, the edges of the pixels. Of those within the tolerances of contour.outline the first with the fewest corners is
-used.
+A body that rolls as a polygon loses speed at every corner; a rounded body does not. Candidate cores are made from the
+symmetry of the piece (discs, capsules) and by moving the sides of its outline inward (other cores). Each candidate is
+compared with the cracks, the edges of the pixels. Of the cores within the tolerances of contour.outline, one with the
+fewest corners is used; on ties, the first.
 """
 
 import math
@@ -14,32 +14,33 @@ from physics.outline.contour import LARGEST_REACH, Loop, doubled_area, sharp, sm
 from physics.outline.simple_shapes import convex_hull, fewer_sides
 from physics.settings import MAX_CORNERS
 
-# The discs of pygame.draw.circle exceed these tolerances a little: all of a radius of 24 px or more do, and those of 6,
-# 16 and 20 px are only just within. A polygon in their place would lose speed at every corner.
+# The discs of pygame.draw.circle exceed the tolerances of contour.outline a little: all discs with a radius of 24 px or
+# more do, and discs of 6, 16 and 20 px are only just within. A polygon in their place would lose speed at every corner.
 DISC_CLEAR = 0.2  # [px] largest depth of a clear pixel's centre in a disc, and …
 DISC_SPARE = 0.13  # [px] … additional distance allowed between a disc and the cracks
-REACHED = 0.21  # [px] the same distance as FARTHEST, in the tolerances of contour.outline
+REACHED = 0.21  # [px] as FARTHEST, but the full value of contour.outline
 INSIDE = 0.001  # [px] least depth of solid pixels' centres in the figure
 LEAST_RADIUS = 1.0  # [px] smaller roundings are invisible in pixels
-FARTHEST = 0.2  # [px] a crack may be so much further from the outline than the outline from the cracks
+FARTHEST = 0.2  # [px] a crack may be this much farther from the outline than the outline may be from the cracks
 SPACING = 0.01  # [px] between the measured points of a boundary
 SLACK = 0.005  # [px] largest error of distances between two such points
 RADII = 12  # number of radii tried for a core of several corners
-TRIES = (400, 24)  # number of moves tried: for a disc or capsule; for others, per corner
+TRIES = (400, 24)  # number of moves tried: for a disc or capsule; for other cores, per corner
 ROOM = 0.04  # [px] once a core allows radii over this range, its corners are not moved further
-STEPS = (0.5, 0.25, 0.12, 0.06, 0.03)  # [px] by which the corners of a core are moved
+STEPS = (0.5, 0.25, 0.12, 0.06, 0.03)  # [px] distances by which the corners of a core are moved
 
 Core = tuple[np.ndarray, float]  # corners (k, 2) clockwise on the screen [px], radius [px]
 
 
 def rounded_core(cracks: Loop, smooth: float) -> Core | None:
-    """Return a core (convex corners and a radius) that replaces one piece without holes; None if there is none.
+    """Return a core (convex corners and a radius) that replaces one piece without holes; None: no core is good enough.
 
     cracks: loop of pixel edges around the piece; smooth [px] as in contour.outline. The core has 1 to 16 corners: 1 is
-    a disc, 2 are a capsule. Its boundary is within smooth of the edges, and the edges within smooth + 0.21 of the
-    boundary; solid pixels' centres are inside, clear ones outside. For a disc both distances may be 0.13 px larger, and
-    clear centres 0.2 px inside. None for a piece with a sharp corner, and if a polygon needs no more corners. The core
-    of fewest corners is used, of several one that keeps the sides of the outline.
+    a disc, 2 are a capsule. The core's boundary is within `smooth` of the pixel edges, and the pixel edges are within
+    smooth + 0.21 of the boundary; centres of solid pixels are inside, centres of clear pixels outside. For a disc both
+    distances may be 0.13 px larger, and clear centres 0.2 px inside. The result is also None for a piece with a sharp
+    corner, and if a polygon needs no more corners. The core with the fewest corners is returned; on ties, preferably
+    one that keeps the sides of the outline.
     """
     if smooth <= 0.0 or sharp(cracks).any() or cracks.joined.any():
         return None
@@ -58,7 +59,7 @@ def rounded_core(cracks: Loop, smooth: float) -> Core | None:
 
 
 def _round_ones(outer, corners):
-    """Yield candidate cores: discs about the middle of the bounds and the centre of area, and up to two capsules."""
+    """Yield candidate cores: discs around the middle of the bounds and the centre of area, and up to two capsules."""
     area, center, axis = _moments(corners.astype(float))
     yield (corners.min(axis=0) + corners.max(axis=0))[None] / 2.0
     yield center[None]
@@ -66,7 +67,7 @@ def _round_ones(outer, corners):
     along, aside = outer @ axis, outer @ across
     middle = axis * (along.min() + along.max()) / 2.0 + across * (aside.min() + aside.max()) / 2.0
     radius = np.ptp(aside) / 2.0
-    # Half the length of the capsule's line: the capsule has the length of the piece, or its area.
+    # Half the length of the capsule's line, so that the capsule has the length of the piece, or the area of the piece.
     for half in (np.ptp(along) / 2.0 - radius, (area - math.pi * radius * radius) / (4.0 * radius)):
         if half > 0.0:
             ends = np.stack([middle - half * axis, middle + half * axis])
@@ -76,8 +77,8 @@ def _round_ones(outer, corners):
 def _several(outer, judge):
     """Return the core of fewest corners from moving the sides of the outline inward by a radius; None: no core.
 
-    Cores with exactly that radius, whose sides lie on the outline's sides, are tried first, the smallest radius first:
-    sides that stand out a little make stacks rise, and round corners tip early. Other radii and moved corners are used
+    First, cores with exactly this radius are tried, whose sides lie on the outline's sides, the smallest radius first:
+    sides that protrude a little make stacks rise, and round corners tip early. Other radii and moved corners are used
     only if they save corners; of these the largest radius is tried first.
     """
     hull = convex_hull(outer)
@@ -108,7 +109,7 @@ def _moments(corners):
     weight = p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
     xx, yy = ((p * p + p * q + q * q) * weight[:, None]).sum(axis=0)
     xy = ((p[:, 0] * q[:, 1] + q[:, 0] * p[:, 1]) / 2.0 + p[:, 0] * p[:, 1] + q[:, 0] * q[:, 1]) @ weight
-    # For a symmetrical loop the axis is exact: xy is 0, or xx equals yy.
+    # For a symmetrical loop the axis is exact, because xy is 0 or xx equals yy.
     angle = 0.5 * math.atan2(2.0 * xy, xx - yy)
     return area, base + center, np.array([math.cos(angle), math.sin(angle)])
 
@@ -128,7 +129,7 @@ def _widest(hull):
 
 
 def _inset(hull, radius):
-    """Return a convex polygon with its sides moved inward by a radius [px]; fewer than 3 corners if nothing is left."""
+    """Return a convex polygon with its sides moved inward by a radius [px]; fewer than 3 corners: nothing is left."""
     left = hull
     for corner, normal in zip(hull, _normals(hull), strict=True):
         over = (left - corner) @ normal + radius
@@ -159,7 +160,7 @@ class _Judge:
         self.inside, self.outside = (starts + signs / 2.0 + side * inward / 2.0 for side in (1, -1))
         shares = np.arange(0.0, 1.0, 0.125)[:, None, None]
         self.points = (starts + shares * signs).reshape(-1, 2)
-        # Cracks by their left or upper end, for a search from nearby points.
+        # Whether a crack has its left or upper end in a cell, for a search from nearby points.
         self.low = corners.min(axis=0) - 2
         size = corners.max(axis=0) - self.low + 3
         self.across, self.down = np.zeros(size, bool), np.zeros(size, bool)
@@ -169,7 +170,7 @@ class _Judge:
         self.down[tuple(ends[~level].T)] = True
 
     def fitted(self, core):
-        """Return (core, radius) within the tolerances, the corners moved if necessary; None if none was found."""
+        """Return (core, radius) within the tolerances, its corners moved if necessary; None: none was found."""
         room = self._room(core)
         found = self._measured(core) if room > 0.0 else None
         if found is not None or room < (-1.0 if len(core) < 3 else -0.1):
@@ -201,9 +202,9 @@ class _Judge:
         return core, float(radius)
 
     def disc(self, core):
-        """Return (core, radius) of the smallest disc about the core's corner that contains all solid pixels' centres.
+        """Return (core, radius) of the smallest disc around the core's corner that contains the solid pixels' centres.
 
-        None if the disc is not accurate enough.
+        None: the disc is not accurate enough.
         """
         if self._room(core) > 0.0:
             return self._measured(core)
@@ -217,11 +218,11 @@ class _Judge:
         return (core, float(radius)) if off <= self.reach + DISC_SPARE - SLACK else None
 
     def _room(self, core):
-        """Return the width [px] of the range of radii that separate solid from clear centres; negative: none do."""
+        """Return the width [px] of the range of radii that separate solid from clear centres; negative: no radius."""
         return _beyond(core, self.outside).min() - _beyond(core, self.inside).max()
 
     def _measured(self, core):
-        """Return (core, radius), the radius as near to the pixels' area as the tolerances allow; None if none does."""
+        """Return (core, radius) with an area as near to the pixels' area as the tolerances allow; None: no radius."""
         if not _convex(core):
             return None
         points = _beyond(core, self.points)
@@ -239,7 +240,7 @@ class _Judge:
         return core, float(radius)
 
     def _from_cracks(self, points):
-        """Return the distance (m,) [px] of points (m, 2) from the nearest pixel edge, exact below 1 px."""
+        """Return the distance (m,) [px] of each of the points (m, 2) from the nearest pixel edge, exact below 1 px."""
         cells = np.floor(points).astype(np.int64)
         least = np.full(len(points), math.inf)
         for axis, cracks in enumerate((self.across, self.down)):
@@ -255,7 +256,7 @@ class _Judge:
 
 
 def _beyond(core, points):
-    """Return the distance (m,) [px] of points (m, 2) from a core of radius 0; negative: depth inside."""
+    """Return the distance (m,) [px] of each of the points (m, 2) from a core of radius 0; negative: depth inside."""
     if len(core) == 1:
         return np.hypot(*(points - core[0]).T)
     sides = np.roll(core, -1, axis=0) - core
@@ -269,9 +270,9 @@ def _beyond(core, points):
 
 
 def _moves(core):
-    """Return the moves (m, k, 2) of a core to try: each corner right or down; for two corners also jointly.
+    """Return the moves (m, k, 2) of a core to try: each corner to the right or down.
 
-    Jointly: lengthened, rotated, shifted along and across.
+    A core of two corners is also lengthened, rotated, and shifted along and across its line.
     """
     moves = np.eye(core.size).reshape(-1, *core.shape)
     if len(core) != 2 or (core[0] == core[1]).all():
@@ -282,7 +283,7 @@ def _moves(core):
 
 
 def _convex(core):
-    """Return whether a core is convex and clockwise on the screen, with no two successive corners equal."""
+    """Return whether a core is convex and clockwise on the screen, without equal successive corners."""
     sides = np.roll(core, -1, axis=0) - core
     after = np.roll(sides, -1, axis=0)
     if np.hypot(*sides.T).min() < SLACK and len(core) > 1:
@@ -291,7 +292,7 @@ def _convex(core):
 
 
 def _boundary(core, radius, spacing):
-    """Return points (m, 2) on the boundary of a core with a radius, at most about `spacing` px apart."""
+    """Return points (m, 2) on the boundary of a core rounded by a radius, at most about `spacing` px apart."""
     if len(core) == 1:
         angles = np.arange(0.0, math.tau, spacing / radius)
         return core + radius * np.stack([np.cos(angles), np.sin(angles)], axis=1)

@@ -7,7 +7,7 @@ from typing import Protocol
 import numpy as np
 
 # ---- hull ------------------------------------------------------------------------------------------------------------
-# Convex hulls of pixels and points, and enclosing polygons of fewer sides. Source: Andrew's monotone chain, 1979.
+# Convex hulls of pixels and points, and enclosing polygons with fewer sides. Source: Andrew's monotone chain, 1979.
 
 
 class Sprite(Protocol):
@@ -39,10 +39,11 @@ def convex_hull(points: np.ndarray, flat: float = 0.0) -> np.ndarray:
 
 
 def fewer_sides(corners: np.ndarray, most: int) -> np.ndarray:
-    """Return a convex polygon of at most `most` sides that contains a convex polygon (n, 2) [px] clockwise on screen.
+    """Return a polygon of at most `most` sides that contains a convex polygon.
 
-    A side is removed by extending its two neighbours until they meet; the side that adds the least area is removed
-    first. A side whose neighbours do not meet beyond it is kept, so a triangle never changes.
+    corners (n, 2) [px]: the given polygon, clockwise on the screen. A side is removed by extending its two neighbours
+    until they meet. The side whose removal adds the least area is removed first. A side whose neighbours do not meet
+    beyond it is kept, so a triangle never changes, and the result may have more than `most` sides.
     """
     corners = np.array(corners, float)
     while len(corners) > max(most, 3):
@@ -82,13 +83,13 @@ def _half(points, flat):
 
 
 # ---- box -------------------------------------------------------------------------------------------------------------
-# Smallest oriented box around a convex hull: one side lies on an edge of the hull. Source: Freeman and Shapira 1975.
+# Smallest oriented box around a convex hull: one side lies on a hull edge. Source: Freeman and Shapira 1975.
 
 
 def least_box(hull: np.ndarray) -> tuple[float, float, tuple[float, float], float]:
     """Return (width, height, center, angle) [px, rad] of the box of least area around hull corners (n, 2) [px].
 
-    Of several boxes of equal area, the one along the hull's first edge is used.
+    On ties, the box along the first hull edge is returned.
     """
     best, found = math.inf, (0.0, 0.0, (0.0, 0.0), 0.0)
     for edge in np.roll(hull, -1, axis=0) - hull:
@@ -115,7 +116,8 @@ CLOSER = 40  # number of times that the step between directions is halved around
 def least_capsule(hull: np.ndarray) -> tuple[tuple[float, float], tuple[float, float], float]:
     """Return (a, b, radius) [px] of a capsule around the corners (n, 2) of a convex hull; a equals b for a circle.
 
-    The radius is half the hull's width across the axis. Of the axes tried, the one with the smallest capsule is used.
+    The radius is half the hull's width across the capsule's axis. Of the tried axes, the one with the least area is
+    used.
     """
     step = math.pi / DIRECTIONS
     best = min(range(DIRECTIONS), key=lambda k: _capsule(hull, k * step)[0])
@@ -134,7 +136,7 @@ def _capsule(hull, angle):
     across = np.array([-axis[1], axis[0]])
     along, aside = hull @ axis, hull @ across
     middle, radius = (aside.min() + aside.max()) / 2.0, np.ptp(aside) / 2.0
-    # Distance by which the line may end before each corner, so that the cap still contains it.
+    # Distance by which the line may end before each corner, so that the cap still contains the corner.
     reach = np.sqrt(np.maximum(radius * radius - (aside - middle) ** 2, 0.0))
     first, last = (along + reach).min(), (along - reach).max()
     if first + SHORT * radius >= last:  # all within a circle about any point between

@@ -1,9 +1,10 @@
 """Corners and sides of a tile's convex parts that do not belong to the outline, because other parts adjoin them.
 
-Parts that share a corner leave no convex corner if their angles there sum to half a turn or more: it is covered.
-Otherwise the corner belongs to the first of these parts that has a side of the outline at it (tiles in the order of
-rows, then parts in their order) and is covered for the others. A corner that is sharper in its part than in the whole
-outline, which turns less there, is marked as blunt. Sides shared by two parts are inner: they are not outline.
+If parts that share a corner have angles there that sum to half a turn or more, they leave no convex corner: the corner
+is covered. Otherwise the corner belongs to the first of these parts that has a side of the outline at the corner, and
+it is covered for the other parts. Parts are ordered by tiles, row by row, then in their order within the tile. A corner
+at which the whole outline turns less than the part is marked as blunt. Sides shared by two parts are inner: they do not
+belong to the outline.
 """
 
 import math
@@ -15,7 +16,7 @@ from physics.jit import kernel, subkernel
 from physics.outline.tiled import TileParts
 from physics.tables.shape import SHARPEST, TURNS
 
-STRAIGHT = 1e-9  # [half turns] a corner with a smaller turn counts as part of a straight side
+STRAIGHT = 1e-9  # share of half a turn: a corner that turns less counts as part of a straight side
 HALF_TURN = math.pi * (1.0 - STRAIGHT)  # [rad]
 COVERED = 0.0  # [rad] turn of the outline at a covered corner
 
@@ -23,20 +24,20 @@ NOBODY = np.zeros((0, 5))  # meetings of a tile without parts: no corner on its 
 
 
 class Survey(NamedTuple):
-    """Angles and corners of a tile's parts: all that can be computed without the neighbouring tiles."""
+    """Angles and corners of a tile's parts: all data that can be computed without the neighbouring tiles."""
 
     angles: np.ndarray  # (n,) float64 [rad] interior angle of each corner
     seams: np.ndarray  # (n,) bool: one side at the corner is inner, the other is a side of the outline
     meetings: np.ndarray  # (m, 5) corners on the tile's border: x, y [px], angle [rad], seam (0 or 1), tile number
-    corners: np.ndarray  # (k, 2) float64 [px] in body space, without collinear corners, as shapes need them
+    corners: np.ndarray  # (k, 2) float64 [px] in body space, without collinear corners: the corners of shapes
     counts: np.ndarray  # (parts,) int64: number of these corners per part
 
 
 def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin: tuple[float, float]) -> Survey:
     """Return the Survey of a tile's parts: angles, corners on the border, and corners in body space.
 
-    parts: in raster pixels; at: top left corner of the tile in the raster; size [px]: per side of the tile; number: of
-    the tile, counted row by row; origin [px]: of body space in the raster.
+    parts: in raster pixels; at: top left corner of the tile in the raster; size [px]: side of the tile; number: the
+    tile's number, counted row by row; origin [px]: origin of body space in the raster.
     """
     n, (left, top) = len(parts.corners), at
     found = Survey(
@@ -49,8 +50,9 @@ def survey(parts: TileParts, at: tuple[int, int], size: int, number: int, origin
 def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: int) -> list[tuple[int, int]]:
     """Return (row, column) of the tiles on which a change of one tile has an effect through border corners.
 
-    before, after (m, 5): Survey.meetings of the tile before and after its change. A tile is listed, also one outside
-    the mask, if it has a border corner that is in only one of the two. row, column: of the tile; size [px]: per side.
+    before, after (m, 5): Survey.meetings of the tile before and after its change. A tile is listed if it has a border
+    corner that is in only one of the two, even if the tile is outside the mask. row, column: position of the changed
+    tile; size [px]: side of a tile.
     """
     found = np.zeros(9, bool)
     mark_moved(before, after, (column * size, row * size, size), found)
@@ -58,10 +60,10 @@ def movings(before: np.ndarray, after: np.ndarray, row: int, column: int, size: 
 
 
 def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int, columns: int) -> np.ndarray:
-    """Return the flags of inner edges and corners of each part of a tile, (k,) int64: column `inner` of SHAPE.
+    """Return the flags of inner sides and corners of each part of a tile, (k,) int64: column `inner` of SHAPE.
 
     known: Survey of the parts; around (m, 5): meetings of the tile, its neighbours and possibly other tiles, in the
-    order of tile numbers; number: of the tile; columns: number of tiles per row.
+    order of tile numbers; number: the tile's number; columns: number of tiles per row.
     """
     inner = np.empty(len(parts.counts), np.int64)
     tell_inner(parts, known, around, (number, columns), np.empty(len(parts.corners)), inner)
@@ -94,10 +96,10 @@ def find_seams(parts, angles_out, seams_out):
 
 @subkernel
 def gather(corners, known, box, number, found_out):
-    """Write the corners of a tile that lie on its border, in the format of Survey.meetings. Returns their number.
+    """Write the corners of a tile that lie on its border, in the format of Survey.meetings.
 
-    corners (n, 2) [px]; known: Survey with angles and seams; box [px]: left, top, right, bottom of the tile; number: of
-    the tile; found_out (n, 5).
+    corners (n, 2) [px]; known: Survey with angles and seams; box [px]: left, top, right, bottom of the tile; number:
+    the tile's number; found_out (n, 5). Return the number of corners.
     """
     left, top, right, bottom = box
     count = 0
@@ -116,7 +118,7 @@ def gather(corners, known, box, number, found_out):
 
 @subkernel
 def mark_alone(mine, others, place, moved_out):
-    """Flag the tiles that have a corner which is in the meetings `mine` (n, 5) but not in `others` (m, 5).
+    """Flag the tiles with a corner that is in the meetings `mine` (n, 5) but not in the meetings `others` (m, 5).
 
     moved_out (9,) bool: the tile and its neighbours, row by row; place: left, top, size [px] of the tile. O(n m).
     """
@@ -141,7 +143,7 @@ def mark_alone(mine, others, place, moved_out):
 
 @kernel
 def mark_moved(before, after, place, moved_out):
-    """Flag the tiles that have a corner which is in only one of two lists of a tile's meetings.
+    """Flag the tiles with a corner that is in only one of two lists of a tile's meetings.
 
     before (n, 5), after (m, 5): as Survey.meetings; moved_out (9,) bool: the tile and its neighbours, row by row;
     place: left, top, size [px] of the tile. O(n m).
@@ -152,13 +154,16 @@ def mark_moved(before, after, place, moved_out):
 
 @subkernel
 def seam_turn(angle):
-    """Return the turn [rad] of the outline where the parts' interior angles sum to `angle`; COVERED: no corner."""
+    """Return the turn [rad] of the outline at a corner where the interior angles of all parts sum to `angle`.
+
+    COVERED: there is no convex corner.
+    """
     return COVERED if angle >= HALF_TURN else math.pi - angle
 
 
 @subkernel
 def corner_bits(k, turn):
-    """Return the flags (bits of `inner` in SHAPE) of corner k of a part, at which the outline turns by `turn` [rad]."""
+    """Return the flags (bits of `inner` in SHAPE) of corner k of a part. turn [rad]: turn of the outline there."""
     if turn == COVERED:
         return 1 << (k + 16)
     return 1 << (k + 32) if turn <= SHARPEST else 0
@@ -166,13 +171,13 @@ def corner_bits(k, turn):
 
 @subkernel
 def turn_bits(turn):
-    """Return the bits of `inner` in SHAPE for `turn` [rad], the largest of the outline at a part's blunt corners."""
+    """Return the bits of `inner` in SHAPE that store `turn` [rad], the largest turn of the outline at blunt corners."""
     return (math.floor(turn * TURNS) + 1) << 48
 
 
 @subkernel
 def first_of(around, number):
-    """Return the index in meetings (m, 5) of the first one whose tile number is `number` or higher. O(log m)."""
+    """Return the index in meetings (m, 5) of the first row whose tile number is `number` or higher. O(log m)."""
     low, high = 0, len(around)
     while low < high:
         middle = (low + high) // 2
@@ -185,7 +190,7 @@ def first_of(around, number):
 
 @subkernel
 def cover_corners(corners, known, around, place, turns_out):
-    """Write by how much [rad] the outline turns at each corner of a tile's parts, turns_out (n,).
+    """Write to turns_out (n,) the turn [rad] of the outline at each corner of a tile's parts.
 
     The turn is pi where no other part meets the corner, and COVERED where the parts leave no convex corner or the
     corner belongs to another part. around (m, 5): as in inner_bits; place: (number of the tile, tiles per row). O(n²),
@@ -219,7 +224,7 @@ def cover_corners(corners, known, around, place, turns_out):
 
 @subkernel
 def first_turn(angles, first):
-    """Return the index of the first corner from `first` on at which the part turns (not collinear)."""
+    """Return the index of the first corner from `first` on at which the part turns (a corner that is not collinear)."""
     while angles[first] >= HALF_TURN:
         first += 1
     return first
@@ -227,10 +232,10 @@ def first_turn(angles, first):
 
 @subkernel
 def leave_straight(parts, angles, origin, corners_out, counts_out):
-    """Write the corners of TileParts without collinear ones, in body space, and their number per part.
+    """Write the corners of TileParts in body space, without collinear ones, and their number per part.
 
-    origin [px]: of body space in the raster; corners_out (n, 2) [px]; counts_out (parts,). Returns the total number of
-    corners.
+    origin [px]: origin of body space in the raster; corners_out (n, 2) [px]; counts_out (parts,). Return the total
+    number of corners.
     """
     left, top = origin
     n = 0
@@ -242,8 +247,8 @@ def leave_straight(parts, angles, origin, corners_out, counts_out):
         for step in range(count):
             at = start + step if start + step < first + count else start + step - count
             if angles[at] < HALF_TURN:
-                # Differences of whole grains are exact for any origin, so they are the same in each tile with the
-                # corner.
+                # Differences of whole grains are exact for any origin, so each tile with this corner computes the same
+                # position.
                 corners_out[n, 0] = parts.corners[at, 0] - left
                 corners_out[n, 1] = parts.corners[at, 1] - top
                 n += 1
@@ -254,9 +259,10 @@ def leave_straight(parts, angles, origin, corners_out, counts_out):
 
 @kernel
 def survey_tile(parts, box, number, origin, survey_out):
-    """Write the Survey of a tile's parts (TileParts). Returns (number of meetings, number of corners).
+    """Write the Survey of a tile's parts (TileParts). Return (number of meetings, number of corners).
 
-    box [px]: left, top, right, bottom of the tile; number: of the tile; origin [px]: of body space in the raster.
+    box [px]: left, top, right, bottom of the tile; number: the tile's number; origin [px]: origin of body space in the
+    raster.
     """
     find_seams(parts, survey_out.angles, survey_out.seams)
     met = gather(parts.corners, survey_out, box, number, survey_out.meetings)
@@ -265,10 +271,11 @@ def survey_tile(parts, box, number, origin, survey_out):
 
 @kernel
 def tell_inner(parts, known, around, place, turns_out, inner_out):
-    """Write the flags of inner edges and corners of each part, inner_out (parts,), in the format of `inner` in SHAPE.
+    """Write the flags of inner sides and corners of each part to inner_out (parts,), in the format of `inner` in SHAPE.
 
-    Edges are counted without collinear corners; an edge of several collinear sides is inner if all of them are. known,
-    around: as in inner_bits; place: (number of the tile, tiles per row); turns_out (n,): as cover_corners.
+    Hull edges are numbered without collinear corners; a hull edge of several collinear sides is inner if all its sides
+    are. known, around: as in inner_bits; place: (number of the tile, tiles per row); turns_out (n,): as in
+    cover_corners.
     """
     cover_corners(parts.corners, known, around, place, turns_out)
     first = 0

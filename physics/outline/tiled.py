@@ -36,12 +36,12 @@ from physics.settings import MAX_CORNERS
 # A crossing is the point where the outline crosses the border of two tiles. Both tiles compute the same point.
 #
 # A crossing depends only on cracks within SEEN of the corner where the path of cracks changes from one tile's pixels to
-# those of another. A line is fitted to the longest straight stretch of these cracks. If the path turns at the border,
-# the crossing is on a run of the path. If the path goes straight on, the crossing may be a little beside the path. A
-# corner between long runs is itself the crossing.
+# another tile's pixels. A line is fitted to the longest straight stretch of these cracks. If the path turns at the
+# border, the crossing is on a run of the path. If the path goes straight on, the crossing may be a little off the path.
+# A corner between long runs is itself the crossing.
 
-SEEN = 12  # [cracks] of the path on either side that are used. More: a wider halo; fewer: bends in gentle slopes
-STRAIGHT = 0.6  # [px] a path is straight if the middles of its cracks are this near a line: 0.5 for slight slopes
+SEEN = 12  # [cracks] used on either side of the corner. More: a wider halo; fewer: bends in gentle slopes
+STRAIGHT = 0.6  # [px] a path is straight if the middles of its cracks are this near to a line: 0.5 for slight slopes
 U_2 = SEEN * (4.0 * SEEN * SEEN - 1.0) / 6.0  # sums of the squares and …
 U_4 = U_2 * (12.0 * SEEN * SEEN - 7.0) / 20.0  # … fourth powers of 0.5 - SEEN to SEEN - 0.5
 SPREAD = 2.0 * SEEN * U_4 - U_2 * U_2
@@ -57,7 +57,7 @@ def whole_grains(length):
 
 @subkernel
 def to_border(window, x, y, direction):
-    """Return the distance [px] from a corner of the border to the next border line ahead; KNOWN + 1: none ahead."""
+    """Return the distance [px] from a corner on the border to the next border line ahead; KNOWN + 1: none is ahead."""
     at = y if direction & 1 else x
     ahead = window.high - at if direction < 2 else at - window.low
     return ahead if ahead > 0 else KNOWN + 1
@@ -67,8 +67,9 @@ def to_border(window, x, y, direction):
 def stretch(runs, count, at, seen, x, y):
     """Fit a line (least squares) to the middles of a path's pixel edges within `seen` edges of a corner (x, y).
 
-    at: number of edges of the path before the corner. Returns (x, y [px] of a point on the line, relative to the
-    corner; slope of the line; whether the slope is dx / dy instead of dy / dx; whether all middles are near the line).
+    at: number of edges of the path before the corner. Return (x, y, slope, steep, straight): x, y [px] of a point on
+    the line, relative to the corner; slope of the line; whether the slope is dx / dy instead of dy / dx; whether all
+    middles are near the line.
     """
     n = 0
     sum_x = sum_y = sum_xx = sum_yy = sum_xy = 0.0
@@ -114,10 +115,11 @@ def stretch(runs, count, at, seen, x, y):
 
 @subkernel
 def is_straight(runs, count, at):
-    """Return whether one straight line separates the solid from the clear pixels beside a path near a corner.
+    """Return whether one straight line separates the solid pixels along a path near a corner from the clear pixels.
 
-    at: number of pixel edges of the path before the corner; edges within SEEN of it count. Such a line exists if the
-    directions from solid to clear pixels' centres span less than half a turn; only ends of runs need to be tested.
+    at: number of pixel edges of the path before the corner; edges within SEEN of the corner count. Such a line exists
+    if the directions from centres of solid pixels to centres of clear pixels span less than half a turn; only ends of
+    runs need to be tested.
     """
     first_x = first_y = last_x = last_y = 0.0
     for k in range(count):
@@ -154,8 +156,8 @@ def is_straight(runs, count, at):
 def bend(runs, count, at, x, y):
     """Fit a parabola (least squares) to the middles of a path's pixel edges within SEEN edges of a corner (x, y).
 
-    at: number of edges of the path before the corner. Returns the tangent at the corner, in the format of `stretch`;
-    the last value is whether all middles are near the parabola.
+    at: number of edges of the path before the corner. Return the tangent at the corner, in the format of `stretch`; the
+    last value is whether all middles are near the parabola.
     """
     sum_x = sum_y = u_x = u_y = uu_x = uu_y = 0.0
     for part in range(2):
@@ -191,9 +193,9 @@ def bend(runs, count, at, x, y):
 
 @subkernel
 def line_at(runs, count, at, x, y):
-    """Return the line that a path follows at a corner, (x, y, slope, whether dx / dy) as `stretch`.
+    """Return (x, y, slope, steep) of the line that a path follows at a corner, in the format of `stretch`.
 
-    It is fitted to the longest straight stretch around the corner, or is the tangent of a curve.
+    The line is fitted to the longest straight stretch around the corner, or is the tangent of a curve.
     """
     for seen in range(SEEN, 1, -1):
         line_x, line_y, slope, steep, straight = stretch(runs, count, at, seen, x, y)
@@ -209,9 +211,9 @@ def line_at(runs, count, at, x, y):
 
 @subkernel
 def meets(runs, count, at, x, y, level):
-    """Return the signed distance [px] from a corner to where the path's line meets the row or column of the corner.
+    """Return the signed distance [px] from a corner to the point where the path meets the corner's row or column.
 
-    The line is that of line_at. level: whether the row is meant; else the column.
+    The path is replaced by the result of line_at. level: True for the row, False for the column.
     """
     line_x, line_y, slope, steep = line_at(runs, count, at, x, y)
     if level == steep:
@@ -223,14 +225,14 @@ def meets(runs, count, at, x, y, level):
 
 @subkernel
 def room_in(window, runs, count, k, x, y, after):
-    """Return how far [px] a crossing is moved from corner (x, y) along run k of a path.
+    """Return the distance [px] by which a crossing is moved from corner (x, y) along run k of a path.
 
     after: whether run k starts at the corner; else it ends there.
     """
     run = runs[k]
     direction = run.direction if after else (run.direction + 2) & 3
     ahead = to_border(window, x, y, direction)
-    length = 0.5 * min(run.length, KNOWN)  # its other end may be a crossing, too
+    length = 0.5 * min(run.length, KNOWN)  # the run's other end may also be a crossing
     if ahead < run.length:
         length = min(ahead, KNOWN)
     elif run.length <= KNOWN:
@@ -242,7 +244,7 @@ def room_in(window, runs, count, k, x, y, after):
     level = direction & 1 == 0
     room = meets(runs, count, run.at if after else run.at + run.length, x, y, level)
     room = min(max(room * (right_of(direction) if level else down_of(direction)), BESIDE), length - BESIDE)
-    # Limit: a line past the corner needs a place to end half a pixel behind it.
+    # Limit: a line past the corner needs a place to end half a pixel behind the corner.
     if room * (0.5 - window.reach) > 0.5 * window.reach:
         room = 0.5 * window.reach / max(0.5 - window.reach, GRAIN * GRAIN)
     return whole_grains(room)
@@ -252,8 +254,8 @@ def room_in(window, runs, count, k, x, y, after):
 def aside(window, runs, count, k, distance):
     """Return the distance [px] from a point of run k to the line that the path follows, perpendicular to the run.
 
-    Positive in the direction of run k - 1; at most window.reach. distance [cracks]: of the point from the start of the
-    run.
+    The distance is positive in the direction of run k - 1, and at most window.reach. distance [cracks]: position of the
+    point from the start of the run.
     """
     run = runs[k]
     if k == 0 or k == count - 1 or distance > KNOWN or run.length - distance > KNOWN:
@@ -273,8 +275,9 @@ def aside(window, runs, count, k, distance):
 def crossing(window, runs, count, at, after):
     """Return the point where the outline crosses the tile's border near the corner `at` pixel edges along a path.
 
-    The result is (length along the path, offset x, y from the path) [px]. runs: RUN of the path, with SEEN edges on
-    either side of the corner; after: at a corner of the tile, move along the run after it, not the run before it.
+    The result is (position along the path, offset x, y from the path) [px]. runs: RUN of the path, with SEEN edges on
+    either side of the corner; after: at a corner of the tile, move along the run after the corner, not the run before
+    it.
     """
     k = 0
     while k + 1 < count and runs[k + 1].at <= at:
@@ -296,7 +299,7 @@ def crossing(window, runs, count, at, after):
         after = at_side == (run.direction & 1 == 1)
     room = room_in(window, runs, count, k if after else k - 1, x, y, after)
     if at_side and at_end:
-        # The line leads from one border of the tile to the other: past the tile's corner, along neither border.
+        # The line leads from one border of the tile to another, past the tile's corner, and lies on neither border.
         other = room_in(window, runs, count, k - 1 if after else k, x, y, not after)
         if other == 0.0:
             return float(at), 0.0, 0.0
@@ -308,14 +311,14 @@ def crossing(window, runs, count, at, after):
 # ---- tile paths ------------------------------------------------------------------------------------------------------
 # The outline in one tile: its crack paths, from border to border or closed, simplified to straight lines.
 
-NEAREST = 0.24  # [px] candidate corners nearer to a crossing are left out: they would make slivers
+NEAREST = 0.24  # [px] candidate corners nearer to a crossing are left out, because they would make slivers
 
 PIECE = np.dtype(
     [  # a piece of the outline: lines from point to point
         ("first", np.int64),
         ("count", np.int64),
         ("closed", np.bool_),  # the last point is joined to the first; else the piece leads from border to border
-        ("start", np.float64),  # [px] along the tile's border, clockwise from its top left corner
+        ("start", np.float64),  # [px] position of the ends along the tile's border, clockwise from its top left corner
         ("end", np.float64),
         ("used", np.bool_),
     ],
@@ -326,7 +329,7 @@ PIECE = np.dtype(
 class Paths(NamedTuple):
     """Scratch arrays for one tile, and the result of find_paths: the pieces of the outline and their points."""
 
-    marks: np.ndarray  # [row, col] uint8 of the window: cracks above these pixels are already in a path
+    marks: np.ndarray  # [row, col] uint8 of the window; not 0: the crack above this pixel is already in a path
     lines: Lines
     pieces: np.ndarray  # PIECE
     points: np.ndarray  # POINT
@@ -348,7 +351,7 @@ def room_for_paths(size: int, halo: int) -> Paths:
 
 @subkernel
 def along_border(window, x, y):
-    """Return the distance [px] of a border point (x, y) along the tile's border, clockwise from its top left corner."""
+    """Return the distance [px] along the tile's border, clockwise from its top left corner, to border point (x, y)."""
     size = float(window.high - window.low)
     if y == window.low:
         return x - window.low
@@ -375,7 +378,7 @@ def put_end(n, runs, count, at, off_x, off_y, places_inout):
 def put_points(window, found, path, workspace):
     """Append a piece of the outline (PIECE) and its points (POINT), made of the lines found along a path.
 
-    found: number of places in the chain of workspace.lines. Returns False, and appends nothing, if it is 0.
+    found: number of places in the chain of workspace.lines. Return whether a piece was appended: False if found is 0.
     """
     if found == 0:
         return False
@@ -395,17 +398,17 @@ def put_points(window, found, path, workspace):
 
 @subkernel
 def path_within(window, count, cracks, begin, end):
-    """Return the Path of `count` runs; begin, end [cracks]: the part of it inside the tile, infinite for a loop."""
+    """Return the Path of `count` runs. begin, end [cracks]: its part inside the tile, infinite for a loop."""
     low, high = float(window.low), float(window.high)
     return Path(count, cracks, math.isinf(end), window.reach, low, high, begin, end, window.joins)
 
 
 @subkernel
 def add_open(window, x, y, direction, cracks, workspace):
-    """Append the outline of a path from border to border of the tile. Returns whether lines were found.
+    """Append the outline of a path from border to border of the tile. Return whether lines were found.
 
-    x, y, direction: where the path enters the tile; cracks: number of its pixel edges inside; 0: the path only passes
-    the tile's corner, from one border to another.
+    x, y, direction: corner and direction at which the path enters the tile; cracks: number of its pixel edges inside
+    the tile; 0: the path only passes the tile's corner, from one border to another.
     """
     runs, places = workspace.lines.runs, workspace.lines.places
     x, y, direction = walked_back(window, x, y, direction, SEEN)
@@ -417,7 +420,7 @@ def add_open(window, x, y, direction, cracks, workspace):
     for k in range(count):
         run = runs[k]
         if start < run.at < end:
-            # After a crossing on another tile's pixels the line leaves the border at once.
+            # No line ends where the path meets the border, if the crossing is on another tile's pixels.
             barred = (run.at == SEEN and start < run.at) or (run.at == SEEN + cracks and end > run.at)
             put_place(n, float(run.x), float(run.y), float(run.at), run, True, not (run.joined or barred), places)
             places[n].anchor = not barred and stays(runs, count, k, False)
@@ -431,7 +434,7 @@ def add_open(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_closed(window, x, y, direction, cracks, workspace):
-    """Append the outline of a loop of `cracks` pixel edges that turns at (x, y). Returns whether lines were found."""
+    """Append the outline of a loop of `cracks` pixel edges that turns at (x, y). Return whether lines were found."""
     lines = workspace.lines
     count = record(window, x, y, direction, cracks, lines.runs)
     around, anchor = put_loop(lines.runs, count, cracks, lines.places)
@@ -442,7 +445,7 @@ def add_closed(window, x, y, direction, cracks, workspace):
 
 @subkernel
 def add_at_corner(window, x, y, workspace):
-    """Append all pieces that enter the tile at border point (x, y). Returns whether lines were found for each."""
+    """Append all pieces that enter the tile at border point (x, y). Return whether lines were found for each."""
     pixels = window.pixels
     done = True
     solid = 0
@@ -466,7 +469,7 @@ def add_at_corner(window, x, y, workspace):
 
 @subkernel
 def find_paths(window, workspace):
-    """Find all pieces of the outline in a tile. Returns whether lines were found for each.
+    """Find all pieces of the outline in a tile. Return whether lines were found for each.
 
     workspace: Paths, which holds the result. Linear in pixels and corners, except for the line search.
     """
@@ -494,12 +497,12 @@ def find_paths(window, workspace):
 # The solid part of a tile as rings of sides: its pieces of the outline, and the tile's border between them.
 #
 # From the end of a piece a ring follows the border, clockwise on the screen, to the start of the next piece. The pixels
-# beyond this stretch of the border are solid, too, so its sides are inner.
+# on the other side of this stretch of the border are also solid, so its sides are inner.
 
 
 @subkernel
 def tile_corner(window, number):
-    """Return (x, y) [px] of the tile's corner `number`: 0 is top left, then clockwise on the screen."""
+    """Return (x, y) [px] of the tile's corner `number`: 0 is the top left one, then clockwise on the screen."""
     number &= 3
     return (
         float(window.high if number == 1 or number == 2 else window.low),
@@ -509,9 +512,9 @@ def tile_corner(window, number):
 
 @subkernel
 def put_piece(n, first, piece, points, sides_inout):
-    """Append the sides of a piece to a ring. Returns the number of sides.
+    """Append the sides of a piece to the ring that starts at row `first`. Return the number of sides.
 
-    For an open piece the side that starts at its last point is inner, because it follows the border.
+    In an open piece the side that starts at its last point is inner, because this side follows the border.
     """
     for k in range(piece.count):
         point = points[piece.first + k]
@@ -521,9 +524,9 @@ def put_piece(n, first, piece, points, sides_inout):
 
 @subkernel
 def next_piece(pieces, count, at, around):
-    """Return (piece, distance [px]) of the open piece whose start is next clockwise along the border.
+    """Return (piece, distance [px]) of the open piece whose start is the next along the border, clockwise.
 
-    at [px]: along the border, from where the distance is measured; around [px]: length of the border.
+    at [px]: position along the border from which the distance is measured; around [px]: length of the border.
     """
     best = -1
     nearest = math.inf
@@ -541,9 +544,9 @@ def next_piece(pieces, count, at, around):
 
 @subkernel
 def put_border(window, n, first, start, length, sides_inout):
-    """Append the tile's corners that lie on a stretch of its border to a ring. Returns the number of sides.
+    """Append the tile's corners that lie on a stretch of its border to a ring. Return the number of sides.
 
-    start, length [px]: of the stretch along the border; corners at its ends are not added.
+    start, length [px]: start of the stretch along the border, and its length; corners at its ends are not added.
     """
     size = float(window.high - window.low)
     number = math.floor(start / size) + 1
@@ -556,7 +559,7 @@ def put_border(window, n, first, start, length, sides_inout):
 
 @subkernel
 def put_open(window, n, number, workspace, sides_inout):
-    """Append the ring that contains open piece `number` and the border between pieces. Return the number of sides."""
+    """Append the ring that contains open piece `number`, with the border between pieces. Return the number of sides."""
     around = 4.0 * (window.high - window.low)
     pieces = workspace.pieces
     first = n
@@ -583,9 +586,9 @@ def is_hole(piece, points):
 
 @subkernel
 def put_regions(window, workspace, sides_out):
-    """Write the rings around the solid part of a tile (SIDE), holes as separate rings. Returns the number of sides.
+    """Write the rings around the solid part of a tile (SIDE), holes as separate rings. Return the number of sides.
 
-    workspace: Paths, as find_paths leaves it.
+    workspace: Paths, filled by find_paths.
     """
     n = 0
     holes = 0
@@ -616,9 +619,9 @@ def put_regions(window, workspace, sides_out):
 # ---- tile parts ------------------------------------------------------------------------------------------------------
 # The outline of one tile of a larger mask in convex parts. Carving recomputes only the tiles that it touches.
 #
-# A tile's parts cover its solid pixels. Where the pixels beyond its border are solid too, the parts' sides are inner.
-# The parts of neighbouring tiles have the same points on their common border (see crossings). All tiles together have
-# an outline like that of contour.outline, within the same distances of the pixels' edges.
+# A tile's parts cover its solid pixels. Where the pixels on both sides of the tile's border are solid, the parts' sides
+# are inner. The parts of neighbouring tiles have the same points on their common border (see "crossings"). All tiles
+# together have an outline within the same distances of the pixels' edges as contour.outline.
 
 HALO = SEEN + SHARP + 1  # [px] width of the margin in neighbouring tiles on which a tile's outline depends
 
@@ -627,7 +630,7 @@ class TileParts(NamedTuple):
     """The convex parts of a tile: polygons whose corners are listed part after part."""
 
     corners: np.ndarray  # (n, 2) float64 [px], clockwise on the screen; topmost, then leftmost corner first
-    inner: np.ndarray  # (n,) bool: the side after the corner is shared with another part, of this tile or the next
+    inner: np.ndarray  # (n,) bool: the side after the corner is shared with a part of this or a neighbouring tile
     counts: np.ndarray  # (k,) int64: corners of each polygon
 
 
@@ -637,10 +640,11 @@ NONE = TileParts(np.zeros((0, 2)), np.zeros(0, bool), np.zeros(0, np.int64))
 def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) -> TileParts:
     """Return the convex parts of the outline in one tile of a mask, with at most 16 corners each.
 
-    window[row, col] bool: the square tile with a margin of HALO pixels on each side, clear beyond the mask; at [px]:
+    window[row, col] bool: the square tile with a margin of HALO pixels on each side, clear outside the mask; at [px]:
     top left corner of the tile in the mask. smooth [px] as in contour.outline; the parts of all tiles together are as
-    near to the pixels' edges as that outline. An empty tile has no parts. A solid tile in solid surroundings is one
-    square of inner sides. Raises ValueError for a window that is not square, or with a tile not larger than HALO.
+    near to the pixels' edges as the outline returned there. An empty tile has no parts. A solid tile with only solid
+    pixels around it is one square of inner sides. Raises ValueError for a window that is not square, or with a tile not
+    larger than HALO.
     """
     height, width = window.shape
     size = width - 2 * HALO
@@ -677,7 +681,7 @@ def _fit(window, size, smooth):
 
 
 def _is_cornered(near):
-    """Return whether the outline cuts a corner of a clear tile: one at which the three pixels outside are solid.
+    """Return whether the outline cuts a corner of a clear tile: a corner at which the three pixels outside are solid.
 
     near: the tile's pixels with a margin of 1 px.
     """
@@ -699,7 +703,7 @@ def _room(size):
 
 @kernel
 def convex_tile(window, most, workspace, sides_inout, corners_out, inner_out, counts_out):
-    """Write the convex parts of a tile's outline. Returns their number, or -1 if the outline is no polygon.
+    """Write the convex parts of a tile's outline. Return the number of parts, or -1 if the outline is not a polygon.
 
     window: Window; most: largest number of corners of a part; workspace: Paths, scratch; sides_inout: SIDE, scratch;
     corners_out (n, 2) [px], inner_out (n,), counts_out (parts,): in the format of TileParts.
