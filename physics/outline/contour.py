@@ -229,7 +229,10 @@ def outline(solid: np.ndarray, smooth: float = 0.5) -> list[Outline]:
 
 
 def pieces_of(solid: np.ndarray, smooth: float) -> list[Contour]:
-    """Return the pieces of solid pixels; two diagonal pixels are joined where an outline line can pass between them."""
+    """Return the pieces of solid pixels; diagonal pixels are joined where outline lines lead from one to the other.
+
+    smooth [px] as in outline.
+    """
     return contours(solid, SHARP if smooth >= JOINING else 0)
 
 

@@ -331,7 +331,7 @@ class _Edges:
         return f"{tuple(self.start[edge].tolist())} to {tuple(self.end[edge].tolist())}"
 
     def _meet(self, a, b):
-        """Return (m,) bool: whether edges a[i] < b[i] (indices) meet in a point that is no permitted common corner."""
+        """Return (m,) bool: whether edges a[i] < b[i] (indices) meet, except in a permitted common corner."""
         flat = FLAT * self.size**2
         p, q, r, s = self.start[a], self.end[a], self.start[b], self.end[b]
         sides = [_cross(q - p, r - p), _cross(q - p, s - p), _cross(s - r, p - r), _cross(s - r, q - r)]
@@ -521,7 +521,7 @@ class _Work:
         return worst
 
     def _free(self, k):
-        """Return whether no other corner lies in or on the triangle that removing corner k cuts off or fills."""
+        """Return whether no other corner lies in or on the triangle that the removal of corner k cuts off or fills."""
         a, b = self.points[self.before[k]], self.points[self.after[k]]
         c = self.points[k]
         x, y = self.points[self.kept].T

@@ -220,7 +220,7 @@ def gap_and_normal(hull: Hull, point: np.ndarray) -> tuple[float, np.ndarray]:
 # by Gaussian quadrature, exact up to rounding.
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(16)
-NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; error for a quarter turn: far below rounding
+NODES, WEIGHTS = (NODES + 1.0) / 2.0, WEIGHTS / 2.0  # over 0..1; the error for a quarter turn is below rounding
 
 
 class Moments(NamedTuple):
@@ -477,7 +477,7 @@ def _left_of(cells, power, base, row, column, x):
 
 
 def _cut_by_lines(stretch, cells):
-    """Return a stretch cut at the grid lines into parts, each inside one column and one row of cells."""
+    """Return the parts of a stretch between its crossings with grid lines, each in one column and one row of cells."""
     shares = [np.array([0.0, 1.0])]
     for axis, lines in enumerate((cells.x, cells.y)):
         if stretch.radius == 0.0:

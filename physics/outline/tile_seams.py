@@ -72,7 +72,7 @@ def inner_bits(parts: TileParts, known: Survey, around: np.ndarray, number: int,
 
 @subkernel
 def find_seams(parts, angles_out, seams_out):
-    """Write the interior angle [rad] at each corner of a tile's parts, and whether exactly one side at it is inner.
+    """Write the interior angle [rad] at each corner of a tile's parts, and whether exactly one side there is inner.
 
     angles_out (n,) float64, seams_out (n,) bool; parts: TileParts.
     """

@@ -27,9 +27,9 @@ from physics.tables.shape import BOUNDS, MASK, SHAPE
 def hull(points: Points) -> Polygon:
     """Return the convex hull of points (n, 2) [px], with 16 corners at most.
 
-    If the hull has more corners, edges are removed and their neighbours extended until they meet, where this adds the
-    least area. The polygon contains all points, up to rounding errors. Raises ValueError for fewer than three points
-    and for points on one line; TypeError if points is no array of numbers.
+    If the hull has more corners, hull edges are removed where this adds the least area, and their neighbours are
+    extended until they meet. The polygon contains all points, up to rounding errors. Raises ValueError for fewer than
+    three points and for points on one line; TypeError if points is not an array of numbers.
     """
     points = checks.columns("points", points)
     corners = distinct(convex_hull(points)) if len(points) > 2 else points[:0]
@@ -44,11 +44,12 @@ def hull(points: Points) -> Polygon:
 def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0.0) -> tuple[Polygon, ...]:
     """Return the convex decomposition of a simple polygon, points (n, 2) [px] in either winding.
 
-    The parts have 3 to 16 corners. holes: polygons inside the outer one that are cut out; they may touch at corners.
-    tolerance [px]: bumps and notches up to that depth are ignored, which saves parts; 0: the parts are exactly the
-    polygon, cut along lines between its corners. For a polygon of at most 40 corners without holes, no such cuts give
-    fewer parts, unless a part would need more than 16 corners. Raises ValueError for edges that cross or touch (the
-    message names both), for zero area, and for a hole that is not inside; TypeError if points or holes are no numbers.
+    The parts have 3 to 16 corners. holes: polygons inside the outer polygon that are cut out; they may touch at
+    corners. tolerance [px]: bumps and notches up to this depth are ignored, which saves parts; 0: the parts are exactly
+    the polygon, cut along lines between its corners. For a polygon of at most 40 corners without holes, such cuts
+    cannot give fewer parts, unless a part would need more than 16 corners. Raises ValueError for edges that cross or
+    touch (the message names both), for zero area, and for a hole that is not inside; TypeError if points or holes are
+    not numbers.
     """
     outer = checks.columns("points", points)
     if isinstance(holes, (str, bytes)) or not isinstance(holes, (Sequence, np.ndarray)):
@@ -60,7 +61,7 @@ def decompose(points: Points, holes: Sequence[Points] = (), tolerance: float = 0
 
 
 def distinct(corners: np.ndarray) -> np.ndarray:
-    """Return the corners (n, 2) of a convex polygon without equal and collinear ones, which Polygon rejects."""
+    """Return the corners (n, 2) of a convex polygon without equal and collinear corners, which Polygon rejects."""
     size = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
     k = 0
     while len(corners) > 2 and k < len(corners):
@@ -69,7 +70,7 @@ def distinct(corners: np.ndarray) -> np.ndarray:
         turn = before[0] * after[1] - before[1] * after[0]
         if np.hypot(*before) <= 2.0 * SHORTEST * size or turn <= 2.0 * STRAIGHT * lengths:
             corners = np.delete(corners, k, axis=0)
-            k = max(k - 1, 0)  # the corner before it turns more now
+            k = max(k - 1, 0)  # the corner before turns more now
         else:
             k += 1
     return corners
@@ -89,7 +90,8 @@ def fit(mask: PixelMask, tier: str, tolerance: float = 1.0) -> tuple:
     at most; "parts": convex polygons that ignore bumps and notches of up to tolerance [px], in addition to the
     smoothing of the outline; "outline": mask.outline, in convex parts, rounded where the sprite is round; "pixels": the
     mask as it is drawn (snap=True); "mask": the pixels at the exact pose (snap=False). The shapes keep the mask's
-    material, filter and sensor. Raises TypeError for no PixelMask, ValueError for an unknown tier or a tolerance <= 0.
+    material, filter and sensor. Raises TypeError for a mask that is not a PixelMask, ValueError for an unknown tier or
+    a tolerance <= 0.
     """
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")
@@ -129,7 +131,7 @@ def _fit(mask, tier, tolerance):
 
 
 def _snapped(mask, snap):
-    """Return a mask with its `snap` set to this value: the mask itself if it has that value already."""
+    """Return a mask with its `snap` set to this value; the mask itself if it already has the value."""
     if mask.snap == snap:
         return mask
     if snap not in mask.fitted:
@@ -156,20 +158,20 @@ class Fit(NamedTuple):
 
 
 def measure(mask: PixelMask, shapes: Shape | Sequence[Shape]) -> Fit:
-    """Return how well shapes in the mask's body space represent a mask; overlapping shapes count as their union.
+    """Return the accuracy with which shapes in the mask's body space represent a mask.
 
-    over: area of the shapes outside the mask's pixels [px²]; missed: area of the pixels outside the shapes [px²]; iou:
-    intersection over union of the areas; hausdorff: Hausdorff distance of the two boundaries [px], at most 1e-6 too
-    small; area_error: difference of the areas, divided by the pixels' area; center_error: distance of the centres of
-    area [px]; inertia_error: difference of the moments of inertia, each about its own centre, divided by that of the
-    pixels; corners: number of corners, summed over the shapes: 1 per Circle, 2 per Capsule, 4 per Bounds, and for a
-    PixelMask those of its pixels' edges; bytes: memory of the shapes in a world: their table rows, corners and pixels
-    (at one angle).
+    Overlapping shapes count as their union. over: area of the shapes outside the mask's pixels [px²]; missed: area of
+    the pixels outside the shapes [px²]; iou: intersection over union of the areas; hausdorff: Hausdorff distance of the
+    two boundaries [px], at most 1e-6 too small; area_error: difference of the areas, divided by the pixels' area;
+    center_error: distance of the centres of area [px]; inertia_error: difference of the moments of inertia, each about
+    its own centre, divided by the pixels' moment; corners: number of corners, summed over the shapes: 1 per Circle, 2
+    per Capsule, 4 per Bounds, and for a PixelMask the corners of its pixels' edges; bytes: memory of the shapes in a
+    world: their table rows, corners and pixels (at one angle).
 
     Areas, centres and moments are exact up to rounding. A PixelMask counts as the union of its pixel squares, a Bounds
     as its box at the angle 0. Errors are never negative. If only the shapes or only the pixels are missing, iou is 0,
     and hausdorff, center_error and errors divided by 0 are inf. If both are missing, iou is 1 and all errors are 0.
-    Raises TypeError for a mask that is no PixelMask and for shapes without an area.
+    Raises TypeError for a mask that is not a PixelMask and for shapes without an area.
     """
     if not isinstance(mask, PixelMask):
         raise TypeError(f"mask must be a PixelMask (got {checks.shown(mask)})")

@@ -1,4 +1,4 @@
-"""The list of all types of shapes, checks of values against it, and Bounds, a shape that is the AABB of another."""
+"""The list of all types of shapes, checks of values against it, and Bounds, a shape that is another shape's AABB."""
 
 import copy
 import math
@@ -21,7 +21,7 @@ from physics.tables.shape import BOUNDS
 
 @dataclass(frozen=True)
 class Bounds(EqualByValue):
-    """A shape that is the world AABB of another shape at its pose, with that shape's material, filter and sensor.
+    """A shape that is the world AABB of another shape at its pose, with the other shape's material, filter and sensor.
 
     Raises TypeError for a shape other than Circle, Capsule, Polygon or PixelMask.
     """
@@ -53,11 +53,11 @@ class Bounds(EqualByValue):
         return self.shape.mass_of(density)
 
     def reach(self, x: float, y: float) -> float:
-        """Return an upper bound, at any angle, of the distance [px] from (x, y) to the furthest point of the AABB."""
+        """Return an upper bound, at any angle, of the distance [px] from (x, y) to the farthest point of the AABB."""
         return math.sqrt(2.0) * self.shape.reach(0.0, 0.0) + math.hypot(x, y)
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
-        """Return the AABB at the angle 0 as one convex hull [(corners (4, 2), radius 0)]; [] if the shape is empty."""
+        """Return the AABB at angle 0 as one convex hull [(corners (4, 2), radius 0)]; [] if the shape is empty."""
         hulls = self.shape._hulls()
         if not hulls:
             return []
@@ -70,7 +70,7 @@ class Bounds(EqualByValue):
         return parts_of([rectangle(box["min_x"] - x, box["min_y"] - y, box["max_x"] - x, box["max_y"] - y)])
 
 
-# A new type of shape is added at the end: of two shapes in a test, the one whose type is listed earlier comes first.
+# A new type of shape is added at the end: in a test of two shapes, the shape whose type is listed earlier comes first.
 SHAPES: list[type[Shape]] = [
     Circle,
     Capsule,
@@ -89,13 +89,16 @@ def with_area() -> tuple[type[Shape], ...]:
 
 
 def names_of(types: Iterable[type[Shape]]) -> str:
-    """Return the names of types as a message lists them: A, B or C."""
+    """Return the names of types as a message lists them: "A, B or C"."""
     *most, last = (each.__name__ for each in types)
     return f"{', '.join(most)} or {last}" if most else last
 
 
 def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
-    """Return the values as a tuple. Raises TypeError, with the argument's name, for a value that is no shape."""
+    """Return the values as a tuple.
+
+    Raises TypeError for a value that is not a shape; the message contains `name`, the name of the argument.
+    """
     values, types = tuple(values), tuple(SHAPES)
     for each in values:
         if not isinstance(each, types):
@@ -104,7 +107,11 @@ def checked_shapes(name: str, values: Iterable[Any]) -> tuple[Shape, ...]:
 
 
 def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tuple[float, float, float]:
-    """Return a pose as (x, y, angle) [px, px, rad]. Raises TypeError or ValueError if it is no pose for the shape."""
+    """Return a pose as (x, y, angle) [px, px, rad].
+
+    Raises TypeError or ValueError if it is not a pose, or not one that the shape can have; TypeError for a value that
+    is not a shape.
+    """
     if not isinstance(shape, tuple(SHAPES)):
         raise TypeError(f"{shape_name} must be a shape such as Circle(8) (got {checks.shown(shape)})")
     found = checks.pose(pose_name, pose)
@@ -114,7 +121,7 @@ def checked_pose(shape_name: str, shape: Any, pose_name: str, pose: Pose) -> tup
 
 
 def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
-    """Raise TypeError for a value that is no shape, ValueError for shapes that bodies of this kind cannot have."""
+    """Raise TypeError for a value that is not a shape, ValueError for shapes that bodies of this kind cannot have."""
     for shape in checked_shapes("shapes", shapes):
         shape._check_body(kind, angles)
     if kind == DYNAMIC and shapes and not any(shape._has_mass for shape in shapes):
@@ -125,15 +132,15 @@ def check_shapes(shapes: Sequence, kind: int, angles: ArrayLike) -> None:
 
 
 def rank_of(shape: Shape) -> int:
-    """Return the index of a shape's type in SHAPES, by which the two shapes of a test are ordered."""
+    """Return the index of a shape's type in SHAPES, which orders the two shapes of a test."""
     return next(k for k, each in enumerate(SHAPES) if isinstance(shape, each))
 
 
 def mass_of(shapes: Shape | tuple[Shape, ...] | list[Shape], density: float) -> Mass:
     """Return the total mass of one or more shapes, with the inertia about their common centre of mass.
 
-    Area that shapes share counts once, with the highest of their densities. density [mass per px2]: that of shapes
-    without a material. Raises TypeError for a value that is no shape, ValueError for a density that is not > 0.
+    Area that shapes share counts once, with the highest of their densities. density [mass per px2]: density of shapes
+    without a material. Raises TypeError for a value that is not a shape, ValueError for a density that is not > 0.
     """
     density = checks.number("density", density, above=0.0)
     parts = checked_shapes("shapes", shapes if isinstance(shapes, (tuple, list)) else (shapes,))

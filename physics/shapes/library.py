@@ -44,15 +44,15 @@ from physics.tables.table import Table
 # ---- library ---------------------------------------------------------------------------------------------------------
 # Corners, tiles and pixels of all shapes of a world, in flat arrays that kernels read.
 #
-# A shape used by a thousand bodies is stored once. Masks are rasterised per angle on demand. Unused geometry stays
-# until it may be half of the whole; then the geometry in use is copied to a new library.
+# A shape used by a thousand bodies is stored once. Masks are rasterised per angle when an angle is needed. Unused
+# geometry stays until it may be half of the whole; then the used geometry is copied to a new library.
 
-SLACK = 1 << 16  # [bytes] of added geometry, and …
+SLACK = 1 << 16  # [bytes] size of added geometry, and …
 FEW = 64  # … number of removed shapes, up to which unused geometry is always kept
 
 
 class Geometries(NamedTuple):
-    """All shapes of a library, one list per kind, in the order of their geometry rows. Shapes are immutable."""
+    """All shapes of a library, one list per kind, in the order of their geometry rows."""
 
     outlines: list  # convex shapes
     chains: list
@@ -76,7 +76,7 @@ class Library:
         self.masks, self.tile_grids = [], []
         self.outlines, self.chain_shapes = [], []  # convex shapes by row, without circles; chains by row
         self.gone = 0  # number of SHAPE rows removed from the world since this library was created
-        self.least = 0  # [bytes] size when it was created
+        self.least = 0  # [bytes] size when this library was created
         self.tables = self._tables()
 
     @property
@@ -100,14 +100,15 @@ class Library:
         return sum(table.count * table.data.itemsize for table in self.grown)
 
     def may_be_half_unused(self, shapes: int) -> bool:
-        """Return whether half of the geometry may be unused, so that a copy without it is worth its time.
+        """Return whether half of the geometry may be unused, so that copying the used half is worth its time.
 
-        True if more SHAPE rows were removed than `shapes`, the number left, or if the size has more than doubled.
+        True if more SHAPE rows were removed than `shapes`, the number of rows left, or if the size has more than
+        doubled.
         """
         return self.gone > shapes + (FEW if shapes else 0) or self.size > 2 * self.least + SLACK
 
     def without_unused(self, shapes: np.ndarray) -> "Library":
-        """Return a library of only the geometry that these SHAPE rows use; renumber their `geometry` and `raster`."""
+        """Return a library with only the geometry that these SHAPE rows use; renumber their `geometry` and `raster`."""
         fresh = Library()
         kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
         rasters = np.zeros(self.rasters.count + 1, np.int64)
@@ -130,7 +131,8 @@ class Library:
                         if fresh.raster_of[new, bucket] < 0:
                             fresh.add_raster(new, bucket)
                         rasters[self.raster_of[old, bucket]] = fresh.raster_of[new, bucket]
-        # A raster drawn for a query is removed after it (see visited), so its row may lie beyond the table: row 0.
+        # A raster drawn for a query is removed after the query (see visited). If its row is beyond the table, row 0 is
+        # used.
         shapes["raster"] = rasters[np.minimum(shapes["raster"], self.rasters.count)]
         fresh.least = fresh.size
         return fresh
@@ -139,9 +141,10 @@ class Library:
         return Geometry._make((*(table.data for table in self.grown), self.raster_of))
 
     def add(self, shape: Shape) -> tuple[int, int, int]:
-        """Add the geometry of a shape unless it is present; return (kind, geometry row, kind of the shape in a Bounds).
+        """Add the geometry of a shape unless it is present. Return (kind, geometry row, wrapped kind).
 
-        The geometry row is -1 for a circle, which needs none; the last is -1 for a shape other than a Bounds.
+        The geometry row is -1 for a circle, which needs none. The wrapped kind is the kind of the shape in a Bounds; -1
+        for any other shape.
         """
         inner = shape._inner.bare
         row = -1 if isinstance(inner, Circle) else self._row_of(inner)
@@ -166,9 +169,9 @@ class Library:
         return rows
 
     def _add_known_hulls(self, library, rows):
-        """Add the convex shapes in these rows of another library at once and return their new rows.
+        """Add the convex shapes in these rows of another library, in one pass. Return their new rows.
 
-        `add` recognises the shapes that it recognised in the other library.
+        `add` then recognises the shapes that it recognised in the other library.
         """
         new = self._add_hulls([library.outlines[row] for row in rows.tolist()])
         place = dict(zip(rows.tolist(), new.tolist(), strict=True))
@@ -184,8 +187,8 @@ class Library:
         self.chains.append()[:] = (self.links.count, count, self.link_blocks.count, blocks)
         a = np.array(shape.points)
         b = np.roll(a, -1, axis=0)[:count]
-        # Neighbours of a link: the adjacent links, across the closure of a loop, or the ghosts at the ends of an open
-        # chain.
+        # Neighbours of a link: the adjacent links (in a loop the first and last link are adjacent), or the ghosts at
+        # the ends of an open chain.
         before, after = np.roll(a, 1, axis=0)[:count], np.roll(a, -2, axis=0)[:count]
         links = self.links.append(count)
         links["has_before"] = links["has_after"] = links["last_owned"] = True
@@ -241,7 +244,7 @@ class Library:
         return row
 
     def add_parts(self, shapes: Sequence[Shape]) -> np.ndarray:
-        """Add shapes, such as the parts of a mask's outline, and return the results of `add` as an array (n, 3).
+        """Add shapes, such as the parts of a mask's outline. Return the results of `add` as an array (n, 3).
 
         Faster than `add`: a convex shape is stored even if an equal one is present.
         """
@@ -258,7 +261,7 @@ class Library:
 
     @classmethod
     def of(cls, shapes: Geometries) -> "Library":
-        """Return a library in which each shape has the same geometry row as its index in its list."""
+        """Return a library in which the geometry row of each shape is its index in its list."""
         library = cls()
         library.add_parts(shapes.outlines)
         for row, shape in reversed([*enumerate(shapes.outlines)]):
@@ -268,11 +271,11 @@ class Library:
         return library
 
     def replace(self, old: Shape, new: PixelMask, changed: Sequence[int] | None, shapes: np.ndarray) -> int:
-        """Store a mask that replaces another mask in one of the SHAPE rows, and return its geometry row.
+        """Store a mask that replaces another mask in one of the SHAPE rows. Return its geometry row.
 
-        changed: numbers of the tiles in which the two masks differ; None: unknown. If the mask is large, has
-        snap=True, and no other SHAPE row uses the old one, only these tiles are written, in place: O(changed words).
-        The old hull is kept then, so the AABB at other angles may be larger than the pixels. Otherwise the mask is
+        changed: numbers of the tiles in which the two masks differ; None: unknown. If the new mask is large and has
+        snap=True, and no other SHAPE row uses the old mask, only these tiles are written, in place: O(changed words).
+        Then the old hull is kept, so the AABB at other angles may be larger than the pixels. Otherwise the new mask is
         added as by `add`.
         """
         row = self.shapes[old]
@@ -299,8 +302,8 @@ class Library:
     def _add_exact(self, shape):
         """Add the hull of a mask, for its tight AABB, and with snap=False its halo words, for tests at the exact pose.
 
-        Returns (first word of the halo or -1, words per row, first corner of the hull, number of corners), which the
-        raster at the angle 0 holds.
+        Return the values that the raster at the angle 0 holds: (first word of the halo or -1, words per row, first
+        corner of the hull, number of corners).
         """
         hull = _hull_of(shape)
         around = np.zeros((0, 0), np.uint64) if shape.snap else halo(shape.solid)
@@ -311,7 +314,7 @@ class Library:
         return first
 
     def add_raster(self, mask: int, bucket: int) -> None:
-        """Add the raster of a mask (by geometry row) rotated to an angle bucket, one of 128 angles."""
+        """Add the raster of a mask rotated to an angle bucket, one of 128 angles. mask: geometry row of the mask."""
         shape = self.masks[mask]
         words, (width, height), origin, box = _drawn(shape, bucket)
         self.raster_of[mask, bucket] = self.rasters.count
@@ -365,7 +368,7 @@ class Library:
             self.tables = self._tables()
 
     def raster(self, mask: int, angle: float) -> np.void:
-        """Return the RASTER row of a mask (by geometry row) at an angle [rad]; draw it if it is missing."""
+        """Return the RASTER row of a mask at an angle [rad], drawn if it is missing. mask: the mask's geometry row."""
         bucket = bucket_of(angle, MASK_ANGLE_BUCKETS)
         if self.raster_of[mask, bucket] < 0:
             self.add_raster(mask, bucket)
@@ -383,7 +386,7 @@ def _drawn(shape, bucket):
 
 
 def _hull_of(shape):
-    """Return the corners (n, 2) [px] of a mask's convex hull; for a large mask with snap=True, of its box."""
+    """Return the corners (n, 2) [px] of a mask's convex hull; for a large mask with snap=True, of its bounding box."""
     if shape.area and is_tiled(shape) and shape.snap:
         left, top, right, bottom = shape.bounds
         return np.array([(left, top), (right, top), (right, bottom), (left, bottom)])
@@ -393,23 +396,24 @@ def _hull_of(shape):
 # ---- rasters ---------------------------------------------------------------------------------------------------------
 # Rasters of masks: the pixels at one of 128 angles (angle buckets), added before a kernel needs them.
 #
-# The columns raster, left and top of a SHAPE row with the role PIXELS are valid for one test. Every reader, such as the
-# narrow phase, first writes them with `draw_masks`. A mask with snap=False is tested by its unrotated pixels,
-# transformed with its body; its rasters at other angles are for pictures only.
+# The columns raster, left and top of a SHAPE row with the role PIXELS are valid for one test only. Every reader, such
+# as the narrow phase, first writes them with `draw_masks`. A mask with snap=False is tested by its unrotated pixels,
+# transformed with its body; its rasters at other angles are only for pictures.
 
 
 def draw_masks(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Rasterise masks at the present poses of their bodies: of these SHAPE rows, those of role PIXELS with snap=True.
+    """Rasterise masks at the present poses of their bodies, and write the columns raster, left and top of their rows.
 
-    Writes the columns raster, left and top of these rows. A mask whose body is beyond POSITION_LIMIT is skipped.
+    Of the SHAPE rows `rows`, those with the role PIXELS and snap=True are drawn. A mask is skipped if its body is
+    beyond POSITION_LIMIT.
     """
     _draw(library, rows[(shapes["role"][rows] == PIXELS) & shapes["snap"][rows]], bodies, shapes)
 
 
 def draw_pictures(library: Library, rows: np.ndarray, bodies: np.ndarray, shapes: np.ndarray) -> None:
-    """Rasterise masks for a picture: of these SHAPE rows, all masks of role PIXELS or with snap=False.
+    """Rasterise masks for a picture at the present poses of their bodies, and write the columns raster, left and top.
 
-    Writes the columns raster, left and top of these rows at the present poses of their bodies.
+    Of the SHAPE rows `rows`, all masks with the role PIXELS or with snap=False are drawn.
     """
     pictured = (shapes["role"][rows] == PIXELS) | ~shapes["snap"][rows]
     _draw(library, rows[(shapes["kind"][rows] == MASK) & pictured], bodies, shapes)
@@ -421,7 +425,7 @@ def _draw(library, rows, bodies, shapes):
     x, y, angles = (bodies[name][shapes["body_row"][rows]] for name in ("x", "y", "angle"))
     there = (np.abs(x) < POSITION_LIMIT) & (np.abs(y) < POSITION_LIMIT) & (np.abs(angles) < POSITION_LIMIT)
     rows, angles = rows[there], angles[there]
-    # Same formula as placement.bucket_at.
+    # The formula of placement.bucket_at.
     buckets = np.floor(angles * MASK_ANGLE_BUCKETS / math.tau + 0.5).astype(np.int64) & (MASK_ANGLE_BUCKETS - 1)
     masks = shapes["geometry"][rows]
     missing = library.raster_of[masks, buckets] < 0
@@ -432,18 +436,21 @@ def _draw(library, rows, bodies, shapes):
 
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
-# Table rows of shapes: SHAPE rows, masses, extents.
+# Table rows of shapes: SHAPE rows, and masses and extents of BODY rows.
 
 
 def rounding_of(shape: Shape) -> tuple[float, float, float]:
-    """Return (rounding radius, x, y of a circle's centre in body space) [px] of a shape, or of that in a Bounds."""
+    """Return (rounding radius, x, y of a circle's centre in body space) [px] of a shape; for a Bounds, of its shape."""
     inner = shape._inner
     x, y = inner.points[0] if inner._kind == CIRCLE else (0.0, 0.0)
     return inner.radius if inner._is_convex else 0.0, x, y
 
 
 def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
-    """Return the mass of a body with these shapes, sensors included. mass: the total; 0: computed from densities."""
+    """Return the mass of a body with these shapes, sensors included.
+
+    mass: the body's total mass; 0: computed from densities.
+    """
     found = mass_of(tuple(shapes), density)
     if mass == 0.0:
         return found
@@ -453,7 +460,8 @@ def weigh(shapes: Sequence[Shape], density: float, mass: float) -> Mass:
 def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bool) -> None:
     """Write mass, inertia and size of BODY rows whose bodies have the same shapes.
 
-    in_parts: whether masks collide by the convex parts of their outlines; then `inradius` is that of the thinnest part.
+    in_parts: whether masks collide by the convex parts of their outlines; then `inradius` is the inradius of the
+    thinnest part.
     """
     in_parts = in_parts and bool((rows["kind"] != STATIC).any())  # only moving bodies need the thinnest part
     rows["mass"], rows["inertia"] = mass.mass, mass.inertia
@@ -471,7 +479,10 @@ def set_mass(rows: np.ndarray, mass: Mass, shapes: Sequence[Shape], in_parts: bo
 def place(
     library: Library, shape: Shape, bodies: np.ndarray, shapes: np.ndarray, row: int, pose: Sequence[float]
 ) -> None:
-    """Fill the BODY row and the SHAPE row at index `row` for the shape of a query, which has no body in the world."""
+    """Fill the BODY row and the SHAPE row at index `row` for the shape of a query, which has no body in the world.
+
+    pose: (x, y, angle) [px, px, rad].
+    """
     b = bodies[row : row + 1]
     describe(library, shape, shapes[row : row + 1], row, row, pose[2:3])
     b["id"], b["x"], b["y"], b["angle"] = row, *pose
@@ -481,9 +492,10 @@ def place(
 def describe(
     library: Library, shape: Shape, rows: np.ndarray, ids: ArrayLike, body_rows: ArrayLike, angles: Sequence[float]
 ) -> None:
-    """Fill SHAPE rows, a view, with one shape of a query at several poses; angles [rad]: those of the poses.
+    """Fill SHAPE rows, a view, with one shape of a query at several poses.
 
-    ids, body_rows: one number for all rows or one each. A mask with snap=True is rasterised at each of the angles.
+    ids, body_rows: one number for all rows or one each; angles [rad]: angles of the poses. A mask with snap=True is
+    rasterised at each of the angles.
     """
     kind, geometry, wrapped = library.add(shape)
     rows["id"], rows["body"], rows["body_row"] = ids, body_rows, body_rows
@@ -496,13 +508,13 @@ def describe(
 
 
 # ---- part rows -------------------------------------------------------------------------------------------------------
-# SHAPE rows of a large mask's parts: those in given tiles of it, and those equal to given polygons.
+# SHAPE rows of a large mask's parts: the rows of parts in given tiles, and the rows of parts equal to given polygons.
 
 
 def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndarray:
     """Return the indices (n,) int64 of the SHAPE rows of a mask's parts that lie in the wanted tiles. O(shapes).
 
-    owner: id of the mask's SHAPE row; wanted (tiles,) bool: by number of the tile.
+    owner: id of the mask's SHAPE row; wanted (tiles,) bool, by tile number.
     """
     found = np.empty(len(shapes), np.int64)
     return found[: list_parts(shapes, owner, wanted, found)]
@@ -511,10 +523,10 @@ def rows_in_tiles(shapes: np.ndarray, owner: int, wanted: np.ndarray) -> np.ndar
 def find_equal(
     geometry: Geometry, shapes: np.ndarray, rows: np.ndarray, corners: np.ndarray, counts: np.ndarray
 ) -> np.ndarray:
-    """Return for each of k polygons the index in rows (n,) of the SHAPE row with an equal polygon; -1: none.
+    """Return for each of k polygons the index in rows (n,) of the SHAPE row with an equal polygon; -1: there is none.
 
-    Equal polygons have the same corners in the same order. corners (m, 2) [px]: of all polygons, one after another;
-    counts (k,): number of corners of each. O(k n).
+    Equal polygons have the same corners in the same order. corners (m, 2) [px]: corners of all polygons, one polygon
+    after another; counts (k,): number of corners of each polygon. O(k n).
     """
     found = np.empty(len(counts), np.int64)
     find_polygons(geometry, shapes, rows, corners, counts, found)
@@ -523,9 +535,9 @@ def find_equal(
 
 @kernel
 def list_parts(shapes, owner, wanted, rows_out):
-    """Write the indices of the SHAPE rows of a mask's parts that lie in the wanted tiles. O(shapes).
+    """Write the indices of the SHAPE rows of a mask's parts that lie in the wanted tiles. Return their number.
 
-    Returns their number. owner: id of the mask's SHAPE row; wanted (tiles,) bool; rows_out (shapes,) int64.
+    owner: id of the mask's SHAPE row; wanted (tiles,) bool, by tile number; rows_out (shapes,) int64. O(shapes).
     """
     count = 0
     for k in range(len(shapes)):
@@ -538,7 +550,7 @@ def list_parts(shapes, owner, wanted, rows_out):
 
 @kernel
 def find_polygons(geometry, shapes, rows, corners, counts, found_out):
-    """Write for each polygon the index in rows of the SHAPE row with an equal polygon, -1 if none. O(k n).
+    """Write for each polygon the index in rows of the SHAPE row with an equal polygon; -1: there is none. O(k n).
 
     Arguments as in find_equal; found_out (k,) int64.
     """

@@ -33,15 +33,16 @@ class PixelMask(Shape):
 
     snap=True: the mask is tested as it is drawn, at a whole pixel and at the nearest of 128 angles, by AND of packed
     64-bit words. snap=False: the mask is the union of its squares at the exact pose. Two masks are tested as drawn if
-    both are snapped, else exactly. Response, sweeps and characters use the outline of the mask, smoothed by up to
-    `smooth` [px].
+    both are snapped, else at their exact poses. Response, sweeps and characters use the outline of the mask, smoothed
+    by up to `smooth` [px].
 
-    one_way=True: the mask is open from below. It pushes only with the upper side of its outline, and only bodies that
-    were above that side; bodies that come from below or from a side, or overlap it, pass. As with one-way tiles, there
-    is no response without the effect `one_way`. Tests by pixels are unaffected. For static and kinematic bodies.
+    one_way=True: bodies pass through the mask from below. The mask pushes only with the upper side of its outline, and
+    only bodies that were above that side; bodies that come from below or from a side, or overlap the mask, pass. As
+    with one-way tiles, there is no response without the effect `one_way`. Tests by pixels are unaffected. For static
+    and kinematic bodies.
 
-    Raises ValueError or TypeError if solid is no grid of bools, if smooth is no number >= 0, and if snap or one_way is
-    no bool.
+    Raises TypeError or ValueError if solid is not a grid of bools, if smooth is not a number >= 0, and if snap or
+    one_way is not a bool.
     """
 
     _kind, _has_mass = MASK, True
@@ -72,7 +73,10 @@ class PixelMask(Shape):
         self.fitted = {}  # (tier, tolerance) -> the shapes that replace the mask, cached by approximate.fit
 
     def with_tiles(self, tiles: PixelTiles) -> "PixelMask":
-        """Return a mask of other pixels, in a raster of the same size; all else as in this mask. Used by carving."""
+        """Return a mask with other pixels, in a raster of the same size, and all other values of this mask.
+
+        Used by carving.
+        """
         found = object.__new__(PixelMask)
         kept = {name: vars(self)[name] for name in ("snap", "smooth", "one_way", "size", "origin")}
         vars(found).update(kept, tiles=tiles, carved=True, _solid=None)
@@ -86,9 +90,10 @@ class PixelMask(Shape):
         sensor: bool | None = None,
         one_way: bool | None = None,
     ) -> "PixelMask":
-        """Return the mask with its own material, filter and sensor; None: those of the body that has the mask.
+        """Return the mask with these values of its own; None: the value of the body that has the mask.
 
-        one_way: whether the mask is open from below; None: unchanged. Raises TypeError.
+        one_way: whether bodies pass through the mask from below; None: as in this mask. Raises TypeError for a value of
+        another type.
         """
         wanted = self.one_way if one_way is None else checks.flag("one_way", one_way)
         if wanted == self.one_way:
@@ -98,9 +103,9 @@ class PixelMask(Shape):
     def _opened(self, wanted):
         """Return the mask with one_way = wanted, and without own material, filter and sensor.
 
-        The result is always the same object, so that a library stores it once.
+        Repeated calls return the same object, so that a library stores it once.
         """
-        # Both masks share `fitted`, the values derived from their pixels.
+        # The two masks share `fitted`, the values derived from their pixels.
         self.fitted.setdefault("one way", {})[self.one_way] = self.bare
         pair = self.fitted["one way"]
         if wanted not in pair:
@@ -109,12 +114,12 @@ class PixelMask(Shape):
         return pair[wanted]
 
     def with_values_of(self, other: Shape) -> "PixelMask":
-        """Return this mask with the material, filter and sensor of another shape; if a mask, with its one_way too."""
+        """Return this mask with the own material, filter and sensor of another shape, and with a mask's one_way."""
         one_way = other.one_way if isinstance(other, PixelMask) else None
         return self.with_(other.material, other.filter, other.sensor, one_way)
 
     def like(self, solid: np.ndarray, origin: Pair) -> "PixelMask":
-        """Return a mask of other pixels with the snap, smooth, one_way, material, filter and sensor of this one."""
+        """Return a mask of other pixels with this mask's snap, smooth, one_way, material, filter and sensor."""
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     @property
@@ -131,7 +136,7 @@ class PixelMask(Shape):
         return PixelTiles.of(self.solid)
 
     def window(self, left: int, top: int, size: int) -> np.ndarray:
-        """Return the pixels of a square from column left and row top on, (size, size) bool; clear outside the mask."""
+        """Return the (size, size) bool pixels from column `left` and row `top` on; clear outside the mask."""
         if self._solid is None:
             return self.tiles.window(left, top, size)
         found = np.zeros((size, size), bool)
@@ -149,7 +154,10 @@ class PixelMask(Shape):
         smooth: float = SMOOTH,
         one_way: bool = False,
     ) -> "PixelMask":
-        """Return a mask of solid[row, col]; origin in pixels, None = the image centre. Raises ValueError, TypeError."""
+        """Return a mask of solid[row, col]. origin [px] in the image; None: its centre.
+
+        Raises TypeError or ValueError for arguments that PixelMask rejects.
+        """
         return cls(solid, origin, snap, smooth, one_way)
 
     @classmethod
@@ -164,7 +172,8 @@ class PixelMask(Shape):
     ) -> "PixelMask":
         """Return a mask of a pygame surface: solid where alpha > threshold; the colour key is clear.
 
-        Raises TypeError, ValueError.
+        origin [px] in the image; None: its centre. Raises TypeError if surface is not a pygame.Surface, ValueError for
+        a threshold outside 0..255, and both for arguments that PixelMask rejects.
         """
         import pygame  # pygame is needed only for this import of sprites
 
@@ -185,7 +194,10 @@ class PixelMask(Shape):
     def from_mask(
         cls, mask: Any, origin: Pair | None = None, snap: bool = True, smooth: float = SMOOTH, one_way: bool = False
     ) -> "PixelMask":
-        """Return a mask of a pygame Mask; origin in pixels, None = the image centre. Raises TypeError, ValueError."""
+        """Return a mask of a pygame Mask. origin [px] in the image; None: its centre.
+
+        Raises TypeError if mask is not a pygame.Mask, TypeError or ValueError for arguments that PixelMask rejects.
+        """
         import pygame
 
         if not isinstance(mask, pygame.Mask):
@@ -196,9 +208,9 @@ class PixelMask(Shape):
         return cls(np.ascontiguousarray(pygame.surfarray.array_alpha(drawn).T > 0), origin, snap, smooth, one_way)
 
     def flipped(self, x: bool = False, y: bool = False) -> "PixelMask":
-        """Return the mask mirrored left to right (x) and top to bottom (y); its origin is mirrored with the pixels.
+        """Return the mask mirrored left to right (x) and top to bottom (y); the origin is mirrored with the pixels.
 
-        snap, smooth, one_way, material, filter and sensor are kept. Raises TypeError.
+        snap, smooth, one_way, material, filter and sensor are kept. Raises TypeError for an x or y that is not a bool.
         """
         x, y = checks.flag("x", x), checks.flag("y", y)
         width, height = self.size
@@ -207,10 +219,11 @@ class PixelMask(Shape):
         return PixelMask(solid, origin, self.snap, self.smooth).with_values_of(self)
 
     def scaled(self, factor: float) -> "PixelMask":
-        """Return the mask scaled together with its origin, by nearest-neighbour sampling at pixel centres.
+        """Return the mask and its origin scaled by a factor, by nearest-neighbour sampling at pixel centres.
 
         A side of n px becomes n · factor, rounded, at least 1. snap, smooth, one_way, material, filter and sensor are
-        kept. Raises TypeError, and ValueError for a factor <= 0 or one that makes a side longer than 32768 px.
+        kept. Raises TypeError for a factor that is not a number, ValueError for a factor <= 0 or one that makes a side
+        longer than 32768 px.
         """
         factor = checks.number("factor", factor, above=0.0)
         if max(self.size) * factor > LARGEST:
@@ -222,13 +235,16 @@ class PixelMask(Shape):
     def turned(self, angle: float = 0.0) -> Turned:
         """Return the pixels rotated to the angle bucket (one of 128 angles) nearest to `angle` [rad].
 
-        The unrotated pixels are the source each time, so errors do not add up. Results are cached, of large masks only
-        the latest ones. Raises TypeError or ValueError for an angle that is no finite number.
+        The unrotated pixels are always the source, so errors do not add up. Results are cached; of a large mask only
+        the latest ones. Raises TypeError or ValueError for an angle that is not a finite number.
         """
         return self.turned_to(self.bucket_at(angle))
 
     def bucket_at(self, angle: float) -> int:
-        """Return the number of the angle bucket (128 in a full turn) nearest to `angle` [rad]. Raises as `turned`."""
+        """Return the number of the angle bucket (128 in a full turn) nearest to `angle` [rad].
+
+        Raises TypeError or ValueError for an angle that is not a finite number.
+        """
         return bucket_of(checks.number("angle", angle), MASK_ANGLE_BUCKETS)
 
     def turned_to(self, bucket: int) -> Turned:
@@ -236,12 +252,12 @@ class PixelMask(Shape):
         if bucket not in known:
             known[bucket] = turn(self.solid, self.origin, bucket, MASK_ANGLE_BUCKETS)
             kept = sum(each.solid.size for each in known.values())
-            while kept > TURNED_KEPT and len(known) > 1:  # the oldest: a rotating body is unlikely to return to it soon
+            while kept > TURNED_KEPT and len(known) > 1:  # drop the oldest: a rotating body returns to it last
                 kept -= known.pop(next(iter(known))).solid.size
         return known[bucket]
 
     def blocks(self, bucket: int) -> list[tuple[int, int, int, int]]:
-        """Return rectangles (left, top, right, bottom) that cover the solid pixels rotated to an angle bucket."""
+        """Return rectangles (left, top, right, bottom) that cover the solid pixels, rotated to an angle bucket."""
         if bucket not in self._blocks:
             self._blocks[bucket] = solid_blocks(self.turned_to(bucket).solid)
         return self._blocks[bucket]
@@ -280,7 +296,7 @@ class PixelMask(Shape):
 
     @cached_property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """Bounds (min_x, min_y, max_x, max_y) of the solid pixels in body space [px]; None for a mask without any."""
+        """Bounds (min_x, min_y, max_x, max_y) of the solid pixels in body space [px]; None if no pixel is solid."""
         if self.solid_box is None:
             return None
         left, top, right, bottom = self.solid_box
@@ -297,11 +313,12 @@ class PixelMask(Shape):
         """Convex shapes in body space whose union has the mask's outline; () for a mask without pixels.
 
         Response, sweeps and characters use these shapes, at the exact pose. Each point of the outline is within
-        `smooth` px of the pixels' edges, and each point of the edges within smooth + 0.21 px of the outline; smooth =
-        0: the outline is the edges. Separate pieces and holes are kept. Every solid pixel's centre is inside, every
-        clear pixel's centre outside. A corner between two straight edges of 3 px or more stays sharp. A round piece
-        becomes one Circle, Capsule or Polygon with a radius; a Circle may be 0.13 px further from the edges, and clear
-        pixels' centres up to 0.2 px inside it. A full rectangle becomes a box. The shapes overlap at most in sides.
+        `smooth` px of the pixels' edges, and each point of these edges within smooth + 0.21 px of the outline; smooth =
+        0: the outline is the pixels' edges. Separate pieces and holes are kept. Centres of solid pixels are inside,
+        centres of clear pixels outside. A corner between two straight rows of pixel edges of 3 px or more stays sharp.
+        A round piece becomes one Circle, Capsule or Polygon with a radius; a Circle may be 0.13 px farther from the
+        pixels' edges, and centres of clear pixels may be up to 0.2 px inside it. A full rectangle becomes a box. The
+        shapes share only sides, no area.
         """
         return tuple(part.shape for part in outline_of(self))
 
@@ -316,16 +333,16 @@ class PixelMask(Shape):
         if self.centroid is None:
             return NOTHING
         count, x, y, squares = self._sums
-        # Integers up to the last division: the result is the same for both forms of the pixels.
+        # Integers up to the last division: the result is the same whether the pixels are an array or tiles.
         second = (count * squares - x * x - y * y) / count + count / 6.0
         return Mass(density * count, self.centroid, density * second)
 
     @property
     def _thinnest_half(self) -> float:
-        """Smallest inradius [px] of the outline's convex parts: a body that moves further in a step needs a sweep.
+        """Smallest inradius [px] of the outline's convex parts: a body that moves farther in a step needs a sweep.
 
         A thin arm passes a wall before the middle of the sprite does: sprites of 3 px blocks passed 1 px walls at half
-        their size per step (measured). A part thinner than 1 px counts as 1 px thick, because it lies beside a thicker
+        their size per step (measured). A part thinner than 1 px counts as 1 px thick, because it adjoins a thicker
         part.
         """
         return min((max(0.5, part.shape.min_half_extent) for part in outline_of(self)), default=self.min_half_extent)

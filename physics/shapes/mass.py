@@ -1,4 +1,4 @@
-"""Mass, centre of mass and inertia of plane figures, and of a body, in which area that shapes share counts once."""
+"""Mass, centre of mass and inertia of plane figures and of bodies; in a body, area that shapes share counts once."""
 
 import math
 from collections.abc import Callable, Iterable, Sequence
@@ -27,12 +27,12 @@ from physics.outline.measure import (
 )
 
 # ---- mass ------------------------------------------------------------------------------------------------------------
-# Masses of plane figures: exact sums over parts, each about its own centre, for precision far from the origin.
+# Masses of plane figures: exact sums over parts, each about its own centre, which is precise far from the origin.
 
 
 @dataclass(frozen=True)
 class Mass:
-    """Mass, centre of mass in body space [px], and inertia about that centre [mass · px²]."""
+    """Mass, centre of mass in body space [px], and inertia about the centre of mass [mass · px²]."""
 
     mass: float
     center: Vec2
@@ -47,7 +47,7 @@ def together(parts: Iterable[Mass]) -> Mass:
     parts = [part for part in parts if part.mass > 0.0]
     if not parts:
         return NOTHING
-    # Relative to the first part's centre, for precision far from the origin.
+    # Positions relative to the first part's centre are precise far from the origin.
     base_x, base_y = parts[0].center
     mass = math.fsum(part.mass for part in parts)
     x = math.fsum(part.mass * (part.center[0] - base_x) for part in parts) / mass
@@ -74,7 +74,7 @@ def polygon_mass(points: Points, density: float) -> Mass:
 
 
 def rounded_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of a rounded polygon: the polygon, a rectangle along each edge, a sector at each corner."""
+    """Return the mass of a rounded polygon: the polygon, a rectangle along each side, a sector at each corner."""
     parts = [polygon_mass(points, density)]
     count = len(points)
     edges = [
@@ -130,7 +130,7 @@ def capsule_mass(a: Pair, b: Pair, r: float, density: float) -> Mass:
 
 
 def convex_mass(points: Points, radius: float, density: float) -> Mass:
-    """Return the mass of a convex hull rounded by a radius [px]; points: 1 or more corners, clockwise on the screen."""
+    """Return the mass of a convex hull rounded by a radius [px]. points: 1 or more corners, clockwise on the screen."""
     if len(points) < 3:
         if len(points) == 2:
             return capsule_mass(points[0], points[1], radius, density)
@@ -142,8 +142,8 @@ def convex_mass(points: Points, radius: float, density: float) -> Mass:
 # Mass of the shapes of one body: overlapping area counts once, with the density of the densest shape.
 #
 # This holds for convex shapes and for pixel masks, which are the union of their pixel squares. Tile grids and lines
-# have no mass. Shapes connected by overlaps form a group, whose mass is that of its union. Shapes that only touch are
-# weighed alone, with the same result to the bit as if each were the body's only shape.
+# have no mass. Shapes connected by overlaps form a group, whose mass is the mass of the group's union. Shapes that only
+# touch are weighed alone, with the same result to the bit as if each were the body's only shape.
 
 
 class Hull(NamedTuple):
@@ -157,7 +157,7 @@ class Hull(NamedTuple):
 class Pixels(NamedTuple):
     """A pixel mask to be weighed, with its density [mass per px2]."""
 
-    mask: Any  # a PixelMask, which stands further right in the import order
+    mask: Any  # a PixelMask; its module imports this one
     density: float
 
 
@@ -165,7 +165,7 @@ Weighed = Hull | Pixels
 
 
 def weighed_once(parts: Sequence[tuple]) -> Mass:
-    """Return the mass of shapes, given as [(shape, density)]; shared area counts once, at the highest density."""
+    """Return the mass of shapes, given as [(shape, density)]. Shared area counts once, at the highest density."""
     if len(parts) < 2:
         return together(shape.mass_of(density) for shape, density in parts)
     figures = [_figure_of(shape, density) for shape, density in parts]
@@ -194,7 +194,7 @@ def _box_of(figure: Weighed) -> Box:
 
 
 def _groups(figures):
-    """Return the sets of figures connected by overlaps. Equal figures overlap: they are one member of their set."""
+    """Return the sets of figures connected by overlaps. Equal figures overlap, and count as one member of their set."""
     groups: list[set] = [{each} for each in dict.fromkeys(figures) if figures.count(each) > 1]
     different = list(dict.fromkeys(figures))
     for i, k in _near(different):
@@ -218,8 +218,8 @@ def _near(figures):
 def overlap(a: Hull, b: Hull) -> bool:
     """Return whether two rounded hulls share area, by the separating axis theorem.
 
-    Candidate axes are the normals of all sides and, because of the rounding, the lines between any two corners of both
-    hulls.
+    Candidate axes are the normals of all sides and, because of the rounding, the lines from each corner of one hull to
+    each corner of the other.
     """
     first, second = np.array(a.corners), np.array(b.corners)
     reach = a.radius + b.radius
@@ -255,7 +255,7 @@ def _outline(hulls: Sequence[Hull]) -> list[Stretch]:
 
 
 def _common(a: Box, b: Box) -> Box:
-    """Return the intersection of two boxes; if they do not overlap, its right < left or its bottom < top."""
+    """Return the intersection of two boxes; if they do not overlap, right < left or bottom < top."""
     return max(a[0], b[0]), max(a[1], b[1]), min(a[2], b[2]), min(a[3], b[3])
 
 
@@ -269,17 +269,18 @@ def _mass_of_group(group: set) -> Mass:
     hulls = sorted(each for each in group if isinstance(each, Hull))
     if not masks:
         return _union_mass(tuple(hulls))
-    # Sorted: the sum is independent of the order of the shapes.
+    # Sorted, so that the sum does not depend on the order of the shapes.
     return _mass_with_masks(
         sorted(masks, key=lambda each: (each.density, each.mask.bounds, each.mask.fingerprint)), hulls
     )
 
 
 def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> Mass:
-    """Return the mass of overlapping shapes, so that shared area has the density of the densest shape.
+    """Return the mass of overlapping shapes, in which shared area has the density of the densest shape.
 
-    The mass is a sum of layers: for each density in ascending order, the union of all shapes with at least that density
-    is weighed with the increase over the density before. found_of(shapes): returns the area moments of their union.
+    The mass is a sum of layers. For each density in ascending order, the union of all shapes with at least this density
+    is weighed with the increase over the density before. found_of(shapes): function that returns the Moments of their
+    union.
     """
     densities = sorted({each.density for each in group})
     layers = []
@@ -291,12 +292,12 @@ def _layered(group: Sequence[Weighed], found_of: Callable[[list], Moments]) -> M
 
 @lru_cache(maxsize=256)
 def _union_mass(group: tuple[Hull, ...]) -> Mass:
-    """Return the mass of overlapping hulls, in which shared area counts once; cached."""
+    """Return the mass of overlapping hulls, in which shared area counts once. Results are cached."""
     return _layered(group, lambda hulls: moments(_outline(hulls)))
 
 
 def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
-    """Return the mass of overlapping masks and hulls: that of the masks plus that of the hulls minus shared area."""
+    """Return the mass of overlapping masks and hulls: the sum of both, minus the mass of shared area."""
     base = _box_of(masks[0])[:2]
 
     def union(dense):
@@ -313,7 +314,7 @@ def _mass_with_masks(masks: Sequence[Pixels], hulls: Sequence[Hull]) -> Mass:
 
 
 def _mask_sums(masks: Sequence[Pixels], base) -> Sums:
-    """Return the area sums about base of the union of masks: the sum over all masks minus area counted repeatedly."""
+    """Return the area Sums about `base` of the union of masks: the sum over all masks minus area counted repeatedly."""
     sums = NO_SUMS
     for each in masks:
         weight: Mass = each.mask.mass_of(1.0)

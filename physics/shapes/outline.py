@@ -32,7 +32,8 @@ from physics.tables.shape import SHARPEST, WHOLE_MASK
 # Tiled outline of a large mask: carving recomputes only the tiles that it touches.
 #
 # A tile is a square of MASK_TILE pixels per side. Tiles are numbered row by row from the mask's top left pixel. Results
-# per tile are cached in `fitted`. A mask that differs from another in a few pixels reuses its tiles (keep_tiles).
+# per tile are cached in `fitted`. A mask that differs from another in a few pixels reuses the other's tiles
+# (keep_tiles).
 
 Box = tuple[int, int, int, int]  # left, top, right, bottom [px]
 
@@ -45,7 +46,7 @@ class Sprite(Protocol):
     @property
     def size(self) -> tuple[int, int]: ...  # [px]
     @property
-    def area(self) -> int: ...  # solid pixels
+    def area(self) -> int: ...  # number of solid pixels
     @property
     def origin(self) -> tuple[float, float]: ...
     @property
@@ -53,11 +54,11 @@ class Sprite(Protocol):
 
     fitted: dict[Any, Any]  # cached results
 
-    def window(self, left: int, top: int, size: int) -> np.ndarray: ...  # (size, size) bool, clear beyond the mask
+    def window(self, left: int, top: int, size: int) -> np.ndarray: ...  # (size, size) bool, clear outside the mask
 
 
 class OutlinePart(NamedTuple):
-    """A convex part of an outline in body space, with flags of its edges and corners inside the whole outline."""
+    """A convex part of an outline in body space, with flags of its hull edges and corners inside the whole outline."""
 
     shape: Circle | Capsule | Polygon
     inner: int  # flags in the format of the column `inner` of SHAPE
@@ -74,7 +75,7 @@ class Tile:
         self.parts = tile_parts(window, mask.smooth, self.at)  # in raster pixels
 
     def has_parts_of(self, other: "Tile") -> bool:
-        """Return whether the parts of both tiles are equal, to the bit."""
+        """Return whether the two tiles have equal parts, to the bit."""
         return all(mine.tobytes() == its.tobytes() for mine, its in zip(self.parts, other.parts, strict=True))
 
     @cached_property
@@ -87,9 +88,9 @@ class Tile:
 
 
 def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None = None) -> list[Polygon]:
-    """Return Polygons with the corners (n, 2) [px], listed polygon after polygon; counts (k,): corners of each.
+    """Return Polygons with these corners (n, 2) [px], listed polygon after polygon.
 
-    which: indices of the wanted polygons; None: all.
+    counts (k,): number of corners of each polygon; which: indices of the wanted polygons; None: all.
     """
     points, ends = corners.tolist(), [0, *np.cumsum(counts).tolist()]
     some = range(len(counts)) if which is None else which.tolist()
@@ -99,10 +100,10 @@ def polygons(corners: np.ndarray, counts: np.ndarray, which: np.ndarray | None =
 class TiledParts(NamedTuple):
     """The convex parts of one or more tiles of an outline, one after another, in body space."""
 
-    corners: np.ndarray  # (n, 2) float64 [px], of each part clockwise on the screen
-    counts: np.ndarray  # (k,) int64: corners of each part
+    corners: np.ndarray  # (n, 2) float64 [px]: corners part after part, clockwise on the screen
+    counts: np.ndarray  # (k,) int64: number of corners of each part
     inner: np.ndarray  # (k,) int64, flags in the format of the column `inner` of SHAPE
-    tiles: np.ndarray  # (k,) int64: the number of the tile
+    tiles: np.ndarray  # (k,) int64: number of the tile that contains the part
 
 
 def is_tiled(mask: Sprite) -> bool:
@@ -139,8 +140,8 @@ def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
 
     Both masks have the same size, origin and smooth; old may be the mask itself with changed pixels. boxes: left, top,
     right, bottom [px] in the raster, right and bottom exclusive. Only tiles within HALO px of a box are recomputed.
-    Returns the sorted numbers of the tiles whose outline may differ: tiles with other parts, and a neighbour of such a
-    tile if corners on their common border changed.
+    Return the sorted numbers of the tiles whose outline may differ: tiles with other parts, and the neighbours of such
+    a tile if corners on their common border changed.
     """
     tiles, inner = (_known(old, name).copy() for name in KEPT)
     mask.fitted.update(tiles=tiles, inner=inner)
@@ -165,7 +166,7 @@ def keep_tiles(mask: Sprite, old: Sprite, boxes: Iterable[Box]) -> list[int]:
     return sorted(changed)
 
 
-KEPT = ("tiles", "inner")  # lists in `fitted`, by tile number: the Tile, and `inner` of its parts; None: not known
+KEPT = ("tiles", "inner")  # lists in `fitted`, by tile number: the Tile, and `inner` of its parts; None: not computed
 
 
 def _known(mask, name) -> list:
@@ -176,7 +177,7 @@ def _known(mask, name) -> list:
 
 
 def _tiles(mask, numbers) -> list[Tile]:
-    """Return the tiles of these numbers; a tile is computed at its first use."""
+    """Return the tiles with these numbers; a tile is computed at its first use."""
     known = _known(mask, "tiles")
     for number in numbers:
         if known[number] is None:
@@ -185,7 +186,7 @@ def _tiles(mask, numbers) -> list[Tile]:
 
 
 def _inner(mask, numbers) -> list[np.ndarray]:
-    """Return for each tile the flags of its parts' inner edges and corners (see SHAPE), computed at their first use."""
+    """Return for each tile the flags of its parts' inner sides and corners (see SHAPE), computed at the first use."""
     known, (rows, columns) = _known(mask, "inner"), tiles_of(mask)
     missing = [number for number in numbers if known[number] is None]
     if missing:
@@ -222,10 +223,7 @@ def outline_of(mask: Sprite) -> tuple[OutlinePart, ...]:
 
 
 def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
-    """Return (tile number, its outline parts) for each tile of a mask.
-
-    If the outline is not tiled, the result is [(WHOLE_MASK, all parts)].
-    """
+    """Return (tile number, its outline parts) for each tile of a mask; [(WHOLE_MASK, all parts)] if it has no tiles."""
     if not is_tiled(mask):
         return [(WHOLE_MASK, outline_of(mask))]
     rows, columns = tiles_of(mask)
@@ -233,7 +231,7 @@ def outline_by_tile(mask: Sprite) -> list[tuple[int, tuple[OutlinePart, ...]]]:
 
 
 def _placed(part, outline_turns, origin):
-    """Return a part in body space, its collinear edges merged; a merged edge is inner if neighbours cover all of it."""
+    """Return a part in body space with collinear sides merged; a merged side is inner if neighbours cover all of it."""
     turns = np.flatnonzero(np.array(_angles(part.corners)) < HALF_TURN)
     corners, inner = part.corners - np.array(origin), np.asarray(part.inner, bool)
     if len(corners) == 1:
@@ -253,9 +251,9 @@ def _bits(sides, turns):
 def corner_turns(parts: Sequence[Part]) -> list[np.ndarray]:
     """Return for each part the angle [rad] by which the whole outline turns at each corner of the part.
 
-    The angle is pi where no other part meets the corner. Where several parts share a corner (equal
-    coordinates), only one of them gets the turn: the first that has a side of the outline at it. The others get
-    COVERED. All get COVERED if together they leave no convex corner.
+    The angle is pi where no other part meets the corner. Where several parts share a corner (equal coordinates), only
+    the first part that has a side of the outline there gets the turn; the others get COVERED. All get COVERED if
+    together they leave no convex corner.
     """
     angles: defaultdict[tuple, float] = defaultdict(float)
     for part in parts:
@@ -282,7 +280,7 @@ def _angles(corners):
 
 
 # ---- surface ---------------------------------------------------------------------------------------------------------
-# Upper side of a one-way mask as chains, which replace the convex parts in collisions with it.
+# Upper side of a one-way mask as chains, which replace the mask's convex parts in collisions.
 
 
 class Stretch(NamedTuple):
@@ -295,10 +293,10 @@ class Stretch(NamedTuple):
 def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
     """Return chains in body space along the upper side of a mask's outline; () for a mask without pixels.
 
-    A chain runs from left to right along consecutive edges whose outward normals point upwards in body space, which
-    includes floors of holes. It ends at a vertical edge or an underside. A vertical step of at most `smooth` [px]
-    between two such edges is replaced by one point in its middle, so that characters do not catch on it. The outline is
-    that of outline.contour. O(pixels) at the first call, then cached.
+    A chain leads from left to right along consecutive sides of the outline whose outward normals point upwards in body
+    space; these include floors of holes. A chain ends at a vertical side or an underside. A vertical step of at most
+    `smooth` [px] between two such sides is replaced by one point in the middle of the step, so that characters do not
+    catch on it. The outline is the result of outline.contour.outline. O(pixels) at the first call, then cached.
     """
     if "surfaces" not in mask.fitted:
         rings = [ring for piece in outline(mask.solid, mask.smooth) for ring in (piece.outer, *piece.holes)]
@@ -308,7 +306,7 @@ def surfaces_of(mask: Sprite) -> tuple[Stretch, ...]:
 
 
 def _joined(ring, most):
-    """Return a closed outline in which each vertical step of at most `most` px between two upper edges is one point."""
+    """Return a closed outline in which each vertical step of at most `most` px between upper sides is one point."""
     way = np.roll(ring, -1, axis=0) - ring
     right = way[:, 0] > 0.0
     step = (way[:, 0] == 0.0) & (np.abs(way[:, 1]) <= most) & np.roll(right, 1) & np.roll(right, -1)
@@ -317,9 +315,9 @@ def _joined(ring, most):
 
 
 def _runs(ring):
-    """Return the points (k, 2) [px] of each run of edges that lead right; the ring has the solid on its right."""
+    """Return the points (k, 2) [px] of each run of sides that lead right; the ring has the solid on its right."""
     right = np.roll(ring[:, 0], -1) > ring[:, 0]
-    first = int(np.flatnonzero(~right)[0])  # starts at an edge that leads back: no stretch crosses it
+    first = int(np.flatnonzero(~right)[0])  # start at a side that does not lead right, so that no run crosses the start
     ring, right = np.roll(ring, -first, axis=0), np.roll(right, -first)
     closed = np.concatenate([ring, ring[:1]])
     turns = np.flatnonzero(np.diff(right.astype(np.int8), prepend=0, append=0))

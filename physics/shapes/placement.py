@@ -13,9 +13,9 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PIXELS, P
 # ---- mask pose -------------------------------------------------------------------------------------------------------
 # Pose of a mask with snap=False: its raster at the angle 0, rotated and moved with its body.
 #
-# Other shapes are transformed into the raster space of the mask: x and y [px] run from the raster's top left corner, so
-# that its pixels are [i, i + 1) x [j, j + 1). Differences of positions are taken first, for precision far from the
-# world's origin. Quarter turns are exact.
+# Other shapes are transformed into the raster space of the mask: x and y [px] are measured from the raster's top left
+# corner, so that its pixels are [i, i + 1) x [j, j + 1). Positions are subtracted before they are rotated, which is
+# precise far from the world's origin. Quarter turns are exact.
 
 
 @subkernel
@@ -23,7 +23,7 @@ def exact_aabb(rasters, corners, raster, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a mask's solid pixels with its body at a pose.
 
     The AABB of an empty mask is the point (x, y). rasters, corners: tables of the geometry; raster: row of the mask's
-    raster at the angle 0. O(corners of the mask's hull).
+    raster at the angle 0; x, y, angle [px, px, rad]: pose. O(corners of the mask's hull).
     """
     r = rasters[raster]
     if r.hull_count == 0:
@@ -56,13 +56,13 @@ def out_of_raster(raster, body, cosine, sine, x, y):
 
 @subkernel
 def raster_of_shape(geometry, shape):
-    """Return the row of the raster by which a MASK is tested: as drawn with snap=True, else that of the angle 0."""
+    """Return the row of the raster by which a MASK is tested: as drawn if snap=True, else at the angle 0."""
     return shape.raster if shape.snap else geometry.raster_of[shape.geometry, 0]
 
 
 @subkernel
 def box_as_tested(geometry, shape):
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a MASK row's solid pixels as its tests place them.
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a MASK row's solid pixels where its tests place them.
 
     A snapped mask is tested as drawn, at whole pixels; any other mask at its exact pose.
     """
@@ -75,7 +75,7 @@ def box_as_tested(geometry, shape):
 
 @subkernel
 def raster_in_raster(geometry, frame_body, frame_shape, body, shape):
-    """Return the pose of one mask's raster in the raster space of another mask (the frame) with snap=False.
+    """Return the pose of one mask's raster in the raster space of another mask (the frame), which has snap=False.
 
     The result is (x, y of the top left corner [px], cosine, sine of the angle). The first mask may have either snap.
     """
@@ -101,12 +101,12 @@ def turn_of_mask(angle):
 # ---- placement -------------------------------------------------------------------------------------------------------
 # Placement of shapes at a pose: corners, raster on the pixel grid, AABB.
 
-# The fields that a stage of the step writes if it calls refresh_boxes.
+# The fields that a stage of the step declares as written if it calls refresh_boxes.
 PLACED = tuple(f"shapes.{name}" for name in ("min_x", "min_y", "max_x", "max_y", "raster", "left", "top"))
 TAU = math.tau
-WHOLE = 2.0**62  # below this a float converts to int64; above, the result is undefined if compiled, an error if not
+WHOLE = 2.0**62  # larger floats do not fit int64: compiled the conversion is undefined, in plain Python it is an error
 NOWHERE = -(1 << 62)  # pixel column or row that stands for a coordinate that is not finite or too large
-BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] largest difference between an angle and that of its bucket
+BUCKET_TURN = math.pi / MASK_ANGLE_BUCKETS  # [rad] largest difference between an angle and its bucket's angle
 
 
 @subkernel
@@ -115,22 +115,25 @@ def bucket_at(angle, buckets):
     turn = angle * buckets / TAU + 0.5
     if not abs(turn) < WHOLE:
         return 0
-    # The number of buckets is a power of two: the AND is the modulus, for negative numbers too, without a division.
+    # The number of buckets is a power of two, so the AND is the modulus, also of negative numbers, without a division.
     return math.floor(turn) & (buckets - 1)
 
 
 @subkernel
 def raster_at(geometry, mask, angle):
-    """Return the row of a mask's raster at an angle [rad]. mask: its geometry row. The raster must have been added."""
+    """Return the row of a mask's raster at an angle [rad]. The raster must have been added.
+
+    mask: geometry row of the mask.
+    """
     return geometry.raster_of[mask, bucket_at(angle, geometry.raster_of.shape[1])]
 
 
 @subkernel
 def snapped(coordinate, origin):
-    """Return the pixel column at which a raster's left edge is drawn; likewise the row of its top edge.
+    """Return the pixel column at which a raster's left side is drawn; likewise the row of its top side.
 
-    It is coordinate - origin, rounded half up; NOWHERE if not finite or too large. coordinate [px]: x (or y) of the
-    body; origin [px]: of the body in the raster.
+    The column is coordinate - origin, rounded half up; NOWHERE if it is not finite or too large. coordinate [px]: x (or
+    y) of the body; origin [px]: position of the body's origin in the raster.
     """
     at = coordinate - origin + 0.5
     return math.floor(at) if abs(at) < WHOLE else NOWHERE
@@ -140,20 +143,23 @@ def snapped(coordinate, origin):
 def is_drawn_when_asked(shape):
     """Return whether a SHAPE row is a mask with snap=True that is drawn only when a test needs it.
 
-    Its AABB is then that of the exact pose.
+    The AABB in such a row is the AABB at the exact pose.
     """
     return shape.snap and shape.role == PIXELS
 
 
 @subkernel
 def drawn_beyond(body, shape):
-    """Return how far [px] the drawn pixels of a mask may lie outside the AABB in its SHAPE row; 0: never outside."""
+    """Return the distance [px] by which the drawn pixels of a mask may exceed the AABB in its SHAPE row; 0: none."""
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
 @subkernel
 def raster_aabb(geometry, raster, x, y):
-    """Return the AABB [px] of a raster's solid pixels as drawn with the body at (x, y); of an empty one, that point."""
+    """Return the AABB [px] of a raster's solid pixels as drawn with the body at (x, y).
+
+    The AABB of an empty raster is the point (x, y).
+    """
     r = geometry.rasters[raster]
     if r.area == 0:
         return x, y, x, y
@@ -191,8 +197,8 @@ def box_corners(min_x, min_y, max_x, max_y, corners_out):
 def polygon_at(polygons, table, polygon, x, y, cosine, sine, corners_out):
     """Write the world corners [px] of a polygon at a pose to corners_out (16, 2). Return their number.
 
-    polygon: row of geometry.polygons. polygons, table: geometry.polygons and geometry.corners, passed alone because
-    passing the whole Geometry takes longer than this function.
+    polygon: row of geometry.polygons. polygons, table: geometry.polygons and geometry.corners, passed separately
+    because passing the whole Geometry takes longer than this function.
     """
     span = polygons[polygon]
     for k in range(span.count):
@@ -229,7 +235,7 @@ def is_hull(kind):
 
 @subkernel
 def rounding(shapes, row):
-    """Return the rounding radius [px] of a SHAPE row that is a hull; 0 for a BOUNDS, even one of a round shape."""
+    """Return the rounding radius [px] of a SHAPE row that is a hull; 0 for a BOUNDS, even of a round shape."""
     return 0.0 if shapes[row].kind == BOUNDS else shapes[row].radius
 
 
@@ -258,7 +264,8 @@ def chain_aabb(geometry, chain, cosine, sine):
 def aabb_at(geometry, shapes, row, x, y, angle):
     """Return the tight AABB (min_x, min_y, max_x, max_y) [px] of a shape with its body at a pose. O(corners).
 
-    For a mask it is the AABB of the solid pixels, as drawn if snap=True; for an empty mask the point (x, y).
+    For a mask it is the AABB of the solid pixels, at whole pixels if the row is drawn (snap=True, not the role PIXELS);
+    for an empty mask it is the point (x, y).
     """
     s = shapes[row]
     kind = s.kind
@@ -287,7 +294,7 @@ def aabb_at(geometry, shapes, row, x, y, angle):
 def hull_at(geometry, shapes, row, x, y, angle, corners_out):
     """Write the world corners [px] of a hull at a pose, clockwise on the screen, to corners_out (16, 2).
 
-    A circle has one corner, its centre. `rounding` returns the radius. Returns the number of corners.
+    A circle has one corner, its centre. `rounding` returns the radius. Return the number of corners.
     """
     s = shapes[row]
     if s.kind == CIRCLE:
@@ -300,9 +307,9 @@ def hull_at(geometry, shapes, row, x, y, angle, corners_out):
 
 @subkernel
 def corners_at(geometry, shapes, row, x, y, angle, corners_out):
-    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or BOUNDS at a pose, clockwise on the screen.
+    """Write the world corners [px] of a POLYGON, CAPSULE, SEGMENT or BOUNDS at a pose to corners_out (16, 2).
 
-    Those of a BOUNDS are the corners of its AABB. Returns the number of corners. corners_out (16, 2).
+    Corners are clockwise on the screen; for a BOUNDS they are the corners of its AABB. Return the number of corners.
     """
     if shapes[row].kind != BOUNDS:
         cosine, sine = rotation_of(angle)
@@ -321,8 +328,8 @@ def write_hull(geometry, shapes, row, x, y, angle, corners_out):
 def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
     """List rasters of masks (snap=True) that are needed now or at the end of the step and are not drawn yet.
 
-    rows: indices of SHAPE rows; dt [s]: of the step; missing_out (capacity, 2) int64: (geometry row of the mask, angle
-    bucket), possibly with duplicates. Returns the number found, which may exceed the capacity. O(rows).
+    rows: indices of SHAPE rows; dt [s]: length of the step; missing_out (capacity, 2) int64: (geometry row of the mask,
+    angle bucket), possibly with duplicates. O(rows). Return the number found, which may exceed the capacity.
     """
     found = 0
     buckets = raster_of.shape[1]
@@ -332,11 +339,11 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
             continue  # drawn when a test needs it, see library.draw_masks
         b = bodies[s.body_row]
         if b.angle == 0.0 and b.angular_velocity == 0.0:
-            continue  # unrotated, drawn when it was added
+            continue  # unrotated, drawn when the mask was added
         if rasters[raster_of[s.geometry, 0]].halo >= 0:
             continue  # tested at its exact pose
         if not abs(b.angle + dt * b.angular_velocity) < math.inf:
-            continue  # non-finite
+            continue  # pose not finite
         for end in range(2):
             bucket = bucket_at(b.angle + end * dt * b.angular_velocity, buckets)
             if raster_of[s.geometry, bucket] < 0:
@@ -351,7 +358,7 @@ def missing_rasters(rows, bodies, shapes, rasters, raster_of, dt, missing_out):
 def place_mask(rasters, raster_of, body, shape_inout):
     """Place a MASK (snap=True) at its body's pose: write its raster, pixel column and row, and the AABB of its pixels.
 
-    rasters, raster_of: tables of the geometry, passed alone because passing the whole Geometry takes longer.
+    rasters, raster_of: tables of the geometry, passed separately because passing the whole Geometry takes longer.
     """
     s = shape_inout
     s.raster = raster_of[s.geometry, bucket_at(body.angle, raster_of.shape[1])]
@@ -367,7 +374,7 @@ def place_mask(rasters, raster_of, body, shape_inout):
 
 @kernel
 def place_masks(rows, geometry, bodies, shapes_inout):
-    """Write raster, pixel column (left) and row (top) of masks at their bodies' poses. rows: of SHAPE. O(rows)."""
+    """Write raster, pixel column (left) and row (top) of masks at their bodies' poses. rows: rows of SHAPE. O(rows)."""
     for k in range(len(rows)):
         s = shapes_inout[rows[k]]
         b = bodies[s.body_row]
@@ -379,7 +386,7 @@ def place_masks(rows, geometry, bodies, shapes_inout):
 
 @subkernel
 def refresh_boxes(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of shapes at their bodies' poses, of drawn masks (snap=True) also raster, left and top.
+    """Write the tight AABBs of shapes at their bodies' poses; of drawn masks (snap=True) also raster, left and top.
 
     rows: indices of SHAPE rows. O(rows).
     """
@@ -392,7 +399,7 @@ def refresh_boxes(rows, geometry, bodies, shapes_inout):
         s = shapes_inout[row]
         b = bodies[s.body_row]
         if not abs(b.angle) < math.inf:
-            continue  # non-finite: the next step reports it
+            continue  # pose not finite: the next step reports it
         if s.kind == MASK:
             if s.role != PIXELS and s.snap:
                 place_mask(rasters, raster_of, b, s)
@@ -417,7 +424,10 @@ def refresh_boxes(rows, geometry, bodies, shapes_inout):
 
 @kernel
 def refresh_aabbs(rows, geometry, bodies, shapes_inout):
-    """Write the tight AABBs of the shapes in these SHAPE rows: refresh_boxes for callers outside kernels. O(rows)."""
+    """Write the tight AABBs of the shapes in these SHAPE rows: refresh_boxes for callers outside of kernels.
+
+    O(rows).
+    """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
 
 

@@ -1,4 +1,4 @@
-"""Base class of all shapes; Filter and Material, which a shape may have of its own; and the convex parts of a shape."""
+"""Base class of all shapes; Filter and Material, which a shape may have as its own; and convex parts of shapes."""
 
 import copy
 import math
@@ -22,7 +22,7 @@ from physics.tables.geometry import Geometry
 class Filter:
     """Collision filter of 32-bit sets: shapes collide if a.membership & b.mask and b.membership & a.mask are not 0.
 
-    Raises ValueError for a value outside 0..0xFFFFFFFF.
+    Raises TypeError for a value that is not a whole number, ValueError for a value outside 0..0xFFFFFFFF.
     """
 
     ALL: ClassVar["Filter"]  # collides with every shape
@@ -52,8 +52,9 @@ Filter.ALL = Filter(0xFFFFFFFF, 0xFFFFFFFF)
 class Material:
     """Material of a shape: density [mass per px2] > 0; friction, restitution and rolling_resistance >= 0.
 
-    surface_speed [px/s]: speed of the surface along its tangent, as of a conveyor belt. rolling_resistance: the torque
-    against rolling is at most rolling_resistance · radius · load. Raises ValueError for a value out of range.
+    surface_speed [px/s]: speed of the surface along its tangent, as on a conveyor belt. rolling_resistance: the torque
+    against rolling is at most rolling_resistance · radius · load. Raises TypeError for a value that is not a number,
+    ValueError for a value out of range.
     """
 
     density: float = 1.0
@@ -86,7 +87,10 @@ class Parts(NamedTuple):
 
 
 def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
-    """Return Parts of convex outlines, each of 1 to 16 corners clockwise on the screen. radii [px]: one or one each."""
+    """Return Parts of convex outlines, each of 1 to 16 corners clockwise on the screen.
+
+    radii [px]: one number for all outlines, or one each.
+    """
     corners, counts = np.zeros((len(outlines), 16, 2)), np.zeros(len(outlines), np.int64)
     for k, outline in enumerate(outlines):
         counts[k] = len(outline)
@@ -95,14 +99,14 @@ def parts_of(outlines: Sequence, radii: ArrayLike = 0.0) -> Parts:
 
 
 def with_boxes(corners: np.ndarray, counts: np.ndarray, radii: np.ndarray) -> Parts:
-    """Return Parts of these arrays with the AABBs, which are computed here. Shapes and units as in Parts."""
+    """Return Parts of these arrays, and compute their AABBs. Shapes and units as in Parts."""
     used = (np.arange(16)[None, :] < counts[:, None])[:, :, None]
     low, high = np.where(used, corners, np.inf).min(axis=1), np.where(used, corners, -np.inf).max(axis=1)
     return Parts(corners, counts, np.concatenate([low - radii[:, None], high + radii[:, None]], axis=1), radii)
 
 
 def turned_parts(parts: Parts, x: float, y: float, cosine: float, sine: float) -> Parts:
-    """Return parts in body space moved to a pose of the body: position (x, y) [px], cosine and sine of the angle."""
+    """Return parts in body space moved to a pose of the body: position (x, y) [px], cosine and sine of its angle."""
     corners = parts.corners @ np.array([[cosine, sine], [-sine, cosine]]) + (x, y)
     return with_boxes(corners, parts.counts, parts.radii)
 
@@ -121,16 +125,16 @@ def rectangle(left: float, top: float, right: float, bottom: float) -> list[tupl
 
 
 class Placed(NamedTuple):
-    """A shape of a world at its pose, and the point to which coordinates of its parts are relative, for precision."""
+    """A shape of a world at its pose, and the point (x, y) to which its coordinates are relative, for precision."""
 
     geometry: Geometry
     bodies: np.ndarray  # BODY
     shapes: np.ndarray  # SHAPE
-    row: int  # of shapes
-    x: float  # [px] (x, y): the point
+    row: int  # row of `shapes`
+    x: float  # [px] (x, y): point to which coordinates are relative
     y: float
     feet: float  # [px] lowest point of the other shape: a one-way tile is present only for shapes wholly above it
-    swept: bool = False  # a mask is represented by its outline at the exact pose, as in sweeps, not by its pixels
+    swept: bool = False  # True: parts of a mask are its outline at the exact pose, as in sweeps, not its pixels
 
     @property
     def body(self) -> Any:
@@ -156,29 +160,29 @@ class Shape:
     """Base of all shapes: immutable values in body space [px], x right, y down, without a pose.
 
     Callers use these methods and never test the type. The defaults here suit ground: no mass, and hulls that rotate
-    with the body. Convex (values.py) computes all from corners and a radius. SHAPES (kinds.py) lists the types.
+    with the body. Convex (values.py) computes all results from corners and a radius. SHAPES (kinds.py) lists the types.
     """
 
-    material: Material | None = None  # own material, filter and sensor of the shape; None: that of its body
+    material: Material | None = None  # own material, filter and sensor of the shape; None: its body's
     filter: Filter | None = None
     sensor: bool | None = None
 
     points: Points  # of a convex shape: its 1 to 16 corners, clockwise on the screen; of a chain: the ends of its links
     radius: float  # rounding of a shape with points [px]
-    snap: bool = False  # whether it is a mask that is tested as drawn
+    snap: bool = False  # whether the shape is a mask that is tested as drawn
     _kind: int  # kind of the SHAPE row: CIRCLE, POLYGON, …; it decides how the shape collides
     _is_convex: bool = False  # at each pose the shape is one convex hull with a rounding radius
-    _has_mass: bool = False  # the shape has an area: it weighs, and it can carve and be wrapped in a Bounds
+    _has_mass: bool = False  # the shape has an area: it has mass, and it can carve and be wrapped in a Bounds
     _is_ground: bool = False  # only for static and kinematic bodies, and never tested against other ground
     _may_turn: bool = True  # a body with this shape may have an angle other than 0
 
     def mass_of(self, density: float) -> Mass:
-        """Return the mass of the shape; density [mass per px2]."""
+        """Return the mass of the shape. density [mass per px2]."""
         return NOTHING
 
     @property
     def bounds(self) -> tuple[float, float, float, float] | None:
-        """Bounds (min_x, min_y, max_x, max_y) in body space [px] of a shape with mass; None for an empty one."""
+        """Bounds (min_x, min_y, max_x, max_y) in body space [px] of a shape with mass; None for an empty shape."""
         return None
 
     @property
@@ -192,7 +196,7 @@ class Shape:
         return self.min_half_extent
 
     def reach(self, x: float, y: float) -> float:
-        """Return the distance [px] from (x, y) to the furthest point of the shape, both in body space."""
+        """Return the distance [px] from (x, y) to the farthest point of the shape, both in body space."""
         return max(math.hypot(px - x, py - y) for px, py in self.points) + self.radius
 
     @property
@@ -211,7 +215,7 @@ class Shape:
 
     @property
     def _pixel_parts(self) -> Parts:
-        """The hulls of `_hulls` as Parts in body space; for a mask rectangles of pixels."""
+        """The hulls of `_hulls` as Parts in body space; for a mask, rectangles of pixels."""
         hulls = self._hulls()
         return parts_of([corners for corners, _ in hulls], [radius for _, radius in hulls])
 
@@ -221,7 +225,7 @@ class Shape:
         return self._pixel_parts
 
     def _box_at(self, angle: float) -> Parts:
-        """Return the shape's AABB at an angle [rad] of a body at (0, 0), as one part; no part if the shape is empty."""
+        """Return the shape's AABB as one part, for a body at (0, 0) with an angle [rad]; no part for an empty shape."""
         boxes = turned_parts(self._pixel_parts, 0.0, 0.0, math.cos(angle), math.sin(angle)).boxes
         return parts_of([rectangle(*boxes[:, :2].min(axis=0), *boxes[:, 2:].max(axis=0))] if len(boxes) else [])
 
@@ -236,16 +240,17 @@ class Shape:
         return parts_of([corners @ turn + placed.offset for corners, _ in self._hulls()])
 
     def _response_parts(self) -> Sequence[tuple[int, Sequence]]:
-        """Return [(tile, parts)], one SHAPE row per part, that collide in place of the shape; () if it has no parts."""
+        """Return [(tile, parts)] that collide in place of the shape, one SHAPE row per part; () if it has no parts."""
         return ()
 
     def _check_body(self, kind: int, angles: ArrayLike) -> None:
         """Raise ValueError if bodies of this kind at these angles [rad] cannot have the shape."""
 
     def with_(self, material: Material | None = None, filter: Filter | None = None, sensor: bool | None = None) -> Self:
-        """Return the shape with its own material, filter and sensor; None: those of the body that has the shape.
+        """Return the shape with these values of its own; None: the value of the body that has the shape.
 
-        A change of the body's values does not change them. The own density counts in the body's mass. Raises TypeError.
+        Own values do not change when the body's values change. An own density counts in the body's mass. Raises
+        TypeError for a value of another type.
         """
         for name, value, wanted in (("material", material, Material), ("filter", filter, Filter)):
             if value is not None and not isinstance(value, wanted):
@@ -260,7 +265,10 @@ class Shape:
 
     @property
     def bare(self) -> Self:
-        """The shape without own material, filter and sensor; a library stores one for all that differ in these."""
+        """The shape without own material, filter and sensor.
+
+        A library stores it once for all shapes that differ only in these values.
+        """
         return vars(self).get("_bare", self)
 
     def with_values_of(self, other: "Shape") -> Self:

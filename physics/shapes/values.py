@@ -26,19 +26,19 @@ from physics.tables.shape import CAPSULE, CHAIN, CIRCLE, POLYGON, SEGMENT, TILES
 # Circle has one corner, Capsule two, Polygon three to sixteen.
 
 STRAIGHT = 1e-12  # [rad] smaller turns count as straight
-CORNER_OF = partial(tuple.__new__, Vec2)  # from two numbers; Vec2._make would count them first
+CORNER_OF = partial(tuple.__new__, Vec2)  # makes a Vec2 of two numbers; Vec2._make would count them first
 PHYSICS = __name__.removesuffix(".shapes.values")  # the package that a user imports
-SHORTEST = 1e-9  # [hull sizes] the direction of a shorter edge is lost to rounding errors when the hull moves
+SHORTEST = 1e-9  # share of the hull's size: a shorter edge loses its direction to rounding errors when the hull moves
 
 
 class Convex(EqualByValue):
     """Base of the convex shapes: the hull of `points`, 1 to 16 corners clockwise on the screen, rounded by `radius`.
 
-    A subclass is a frozen dataclass that has `points`. With one corner it collides as a circle, with two as a capsule
-    or a segment, with more as a polygon.
+    A subclass is a frozen dataclass that has `points`. A hull of one corner collides as a circle, of two as a capsule
+    or a segment, of more as a polygon.
     """
 
-    radius = 0.0  # a field `radius` without a default is declared with field(), or this would be its default
+    radius = 0.0  # a subclass declares a field `radius` without a default with field(), else 0.0 would be its default
     _is_convex = True
     _has_mass = True  # False for a line
 
@@ -79,14 +79,17 @@ class Convex(EqualByValue):
 
     @classmethod
     def _load(cls, points: Points, facts: dict[str, Any]) -> Self:
-        """Return the shape stored in a snapshot; facts: the result of `_facts`. Raises TypeError, ValueError."""
+        """Return the shape stored in a snapshot. facts: the result of `_facts`.
+
+        Raises TypeError, ValueError for arguments that the constructor rejects.
+        """
         given = {"points": points} if any(each.name == "points" for each in fields(cls)) else {}
         return cls(**given, **facts)
 
 
 @dataclass(frozen=True)
 class Circle(Convex):
-    """A disc. Raises ValueError for a radius that is not > 0."""
+    """A disc. Raises TypeError or ValueError for a radius that is not a number > 0, or a center that is not a point."""
 
     radius: float = field()
     center: Pair = Vec2(0.0, 0.0)
@@ -104,7 +107,7 @@ class Circle(Convex):
 class Capsule(Convex):
     """All points within a radius of the line from a to b.
 
-    Raises ValueError for a radius <= 0, and for a and b so close that the line has no direction.
+    Raises ValueError for a radius <= 0, and for a and b so close to each other that the line has no direction.
     """
 
     a: Pair
@@ -132,8 +135,8 @@ class Capsule(Convex):
 class Polygon(Convex):
     """A convex polygon of 3 to 16 corners in either winding, stored clockwise on the screen, rounded by a radius.
 
-    Raises ValueError for too few or many corners, for zero area, for three collinear corners or equal ones, for a
-    concave outline, and for a radius that is not >= 0.
+    Raises ValueError for fewer than 3 or more than 16 corners, for zero area, for equal corners or three collinear
+    corners, for a concave outline, and for a radius that is not >= 0.
     """
 
     points: Points
@@ -151,7 +154,7 @@ class Polygon(Convex):
         shortest = np.hypot(*edges.T).min() <= SHORTEST * np.ptp(points, axis=0).max()
         if shortest or np.any(np.abs(turns) <= STRAIGHT * scale):
             raise ValueError(f"points must have no equal corners and no three in line (got {points.tolist()})")
-        # All turns have one sign, and sum to one full turn: those of a star have one sign, too.
+        # The turns of a convex polygon have one sign and sum to one full turn; a star's turns also have one sign.
         around = np.arctan2(turns, (edges * following).sum(axis=1)).sum()
         if not (np.all(turns > 0) or np.all(turns < 0)) or abs(around) > 1.5 * math.tau:
             raise ValueError(
@@ -166,7 +169,7 @@ class Polygon(Convex):
     def known(cls, points: list[list[float]]) -> "Polygon":
         """Return a polygon without checking its corners [px], which must be convex and clockwise on the screen.
 
-        For the outlines of masks, which have thousands of polygons.
+        Used for the outlines of masks, which have thousands of polygons.
         """
         found = object.__new__(cls)
         vars(found).update(points=tuple(map(CORNER_OF, points)), radius=0.0)
@@ -196,7 +199,8 @@ class Polygon(Convex):
 def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
     """Return disjoint rectangles (left, top, right, bottom) that cover the solid cells of solid[row, col].
 
-    Right and bottom are exclusive. Each is a run of cells in a row, extended down over rows with the same run.
+    Right and bottom are exclusive. Each rectangle is a run of cells in a row, extended down over rows with the same
+    run.
     """
     found, open_runs = [], {}
     edges = np.diff(np.pad(solid, ((0, 1), (1, 1))).astype(np.int8), axis=1)
@@ -215,10 +219,10 @@ def solid_blocks(solid: np.ndarray) -> list[tuple[int, int, int, int]]:
 class TileGrid(Shape):
     """A grid of square tiles of one size; the origin is the top left corner of tile (0, 0).
 
-    solid[row, col] bool; one_way[row, col] bool: platforms that are open from below; slopes[row, col] = (left, right):
-    height of the surface at the tile's left and right side above its bottom, as a fraction 0..1 of the tile. (0, 1)
-    rises to the right, (0, 0) is no slope. Raises ValueError if the arrays differ in shape, a slope is out of range, or
-    a cell is more than one of solid, one-way and slope.
+    solid[row, col] bool. one_way[row, col] bool: platforms; bodies pass through them from below. slopes[row, col] =
+    (left, right): height of the surface above the tile's bottom at its left and right side, as a fraction 0..1 of the
+    tile; (0, 1) rises to the right, (0, 0) means no slope. Raises ValueError if the arrays differ in shape, a slope is
+    out of range, or a cell is more than one of solid, one-way and slope; TypeError for arrays of other types.
     """
 
     _kind, _is_ground, _may_turn = TILES, True, False
@@ -287,7 +291,7 @@ class TileGrid(Shape):
         """Return the convex outlines of the tiles, with the grid's origin at (x, y) [px].
 
         feet [px]: y of the lowest point of the other shape, relative to the grid's origin. A one-way tile is listed, as
-        its top edge, only if that point is not below this edge.
+        the line along its top, only if this point is not below the line.
         """
         size = self.tile_size
         solid, slopes, one_way = self.blocks
@@ -326,7 +330,10 @@ class TileGrid(Shape):
 
 
 def bools(name: str, value: ArrayLike) -> np.ndarray:
-    """Return an array [row, col] of bools or integers as C-ordered bools. Raises TypeError, ValueError."""
+    """Return an array [row, col] of bools or integers as C-ordered bools.
+
+    Raises TypeError for other values and for rows of different lengths, ValueError for an array that is not 2D.
+    """
     _refuse_pixels_of_pygame(name, value)
     try:
         array = np.array(value)
@@ -352,9 +359,9 @@ def _refuse_pixels_of_pygame(name: str, value: Any) -> None:
 
 
 # ---- lines -----------------------------------------------------------------------------------------------------------
-# Lines without an inside: Segment, two-sided, and Chain, one-sided.
+# Lines without an inside: Segment (two-sided) and Chain (one-sided).
 
-SHORTEST_LINK = 1e-12  # relative to the largest coordinate: a shorter link has no direction
+SHORTEST_LINK = 1e-12  # share of the largest coordinate: a shorter link has no direction
 
 
 def _check_length(name, a, b):
@@ -384,11 +391,11 @@ class Segment(Convex):
 class Chain(EqualByValue):
     """Connected one-sided lines (links) from point to point, without mass; for static and kinematic bodies.
 
-    A link of direction (dx, dy) is solid from the side to which (dy, -dx) points: a floor is listed left to right, a
-    solid island clockwise on the screen, a room counter-clockwise. loop: whether the last point is linked to the first.
-    ghosts: (before, after), neighbours of the first and last point that only smooth collisions at the ends; each may be
-    None. materials: one Material per link; None: the body's. Raises ValueError for too few points, a link without
-    length, and ghosts of a loop.
+    A link of direction (dx, dy) is solid from the side to which (dy, -dx) points: the points of a floor are listed left
+    to right, of a solid island clockwise on the screen, of a room counter-clockwise. loop: whether the last point is
+    linked to the first. ghosts: (before, after), neighbours of the first and last point, which only smooth collisions
+    at the ends; each may be None. materials: one Material per link; None: the body's. Raises ValueError for too few
+    points, a link without length, a number of materials other than the number of links, and ghosts of a loop.
     """
 
     points: Points
