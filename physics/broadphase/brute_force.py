@@ -1,4 +1,4 @@
-"""Brute force: every changed proxy against every other. The baseline of all measurements.
+"""Brute force: every changed proxy against every other proxy. The baseline of all measurements.
 
 Exact, no state, O(changed · n). Best for a few dozen bodies; the reference in tests of the other strategies.
 """
@@ -16,7 +16,7 @@ from physics.tables.step_state import PAIRS_TESTED
 def find_all(proxies, changed, pairs_out, work_inout):
     """List the pairs of overlapping proxies of which at least one changed. Return their number. O(changed · n).
 
-    proxies: PROXY rows, in which free slots have row -1; changed: slots of the changed proxies.
+    proxies: PROXY rows, where a free slot has row -1; changed: slots of the changed proxies.
     """
     found = 0
     for i in range(len(changed)):
@@ -34,7 +34,7 @@ def find_all(proxies, changed, pairs_out, work_inout):
 
 @kernel
 def near_in_all(proxies, box, slots_out, work_inout):
-    """List the slots of the proxies whose box meets a closed box [px]. Return their number. O(n)."""
+    """List the slots of the proxies whose boxes meet a closed box [px]. Return their number. O(n)."""
     found = 0
     for slot in range(len(proxies)):
         p = proxies[slot]
@@ -50,8 +50,8 @@ def near_in_all(proxies, box, slots_out, work_inout):
 class BruteForce:
     """Broad phase that tests all pairs: O(n²) in the first step, O(moved · n) in later steps.
 
-    incremental: False tests all n (n - 1) / 2 pairs in every step, which "brute force" means in papers; the pairs found
-    are the same. Raises TypeError.
+    incremental: False tests all n (n - 1) / 2 pairs in every step, as "brute force" means in papers; it finds the same
+    pairs. Raises TypeError for a value that is not a bool.
     """
 
     name = "brute"
@@ -62,7 +62,8 @@ class BruteForce:
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises ValueError.
+        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
+        a wrong shape, NaN, and lower > upper.
         """
         return find_pairs(self.fresh(), lower, upper)
 

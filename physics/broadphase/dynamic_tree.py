@@ -1,11 +1,10 @@
-"""Two dynamic bounding volume hierarchies with AVL balance, one for static proxies and one for moving ones.
+"""Two dynamic bounding volume hierarchies with AVL balance, one for static proxies and one for moving proxies.
 
 A leaf holds a box with a margin (fat box): a proxy that moves within its fat box costs one comparison. Insertion
 descends by the surface area heuristic to a leaf or the parent of a leaf. Single rotations then restore the AVL balance
 on the way up. Children have no order, so a single rotation always suffices, and the height is at most 1.45·log2(n) + 2.
-When most proxies of a tree change at once, the tree is rebuilt by median splits. Source: Catto, Dynamic Bounding
-Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many static bodies and few moving
-ones.
+If most proxies of a tree change in one step, the tree is rebuilt by median splits. Source: Catto, Dynamic Bounding
+Volume Hierarchies, GDC 2019; Adelson-Velsky and Landis 1962. O(moved · log n). Suits many static and few moving bodies.
 """
 
 import numpy as np
@@ -17,9 +16,9 @@ from physics.jit import kernel, subkernel
 from physics.settings import AABB_MARGIN, AABB_MARGIN_FRACTION, PIXELS_PER_METER
 from physics.tables.step_state import NODES_VISITED, REINSERTS
 
-REBUILD_FROM = 64  # up to this many changed proxies, each leaf is moved by itself
+REBUILD_FROM = 64  # up to this number of changed proxies, each leaf is moved by itself
 STACK = 256  # far above any height that fits in memory
-WIDTH = 2  # boxes of a node. Four, tested at once, made a step at most 4 % faster (5,300 bodies, most of them static)
+WIDTH = 2  # boxes of a node. Four, tested together, made a step at most 4 % faster (5,300 bodies, most of them static)
 
 # ---- tree nodes ------------------------------------------------------------------------------------------------------
 # Nodes of a bounding volume hierarchy (BVH) with AVL balance: insert, remove, rotate, improve.
@@ -33,12 +32,12 @@ NODE = np.dtype(
         ("lower_y", np.float64),
         ("upper_x", np.float64),
         ("upper_y", np.float64),  # [px]
-        ("parent", np.int64),  # of a free node: the next free one
+        ("parent", np.int64),  # in a free node: the next free node
         ("child_a", np.int64),
         ("child_b", np.int64),  # -1 in a leaf
         ("height", np.int64),  # 0 in a leaf, -1 in a free node
-        ("slot", np.int64),  # of the proxy in a leaf, else -1
-        ("still", np.bool_),
+        ("slot", np.int64),  # slot of the proxy in a leaf, else -1
+        ("still", np.bool_),  # belongs to the tree of static proxies
     ],
     align=True,
 )
@@ -47,7 +46,7 @@ FREE, USED, ROOT_MOVING, ROOT_STILL = range(4)  # indices into the state array
 
 @subkernel
 def joined_outline(nodes, a, b):
-    """Return half the outline [px] of the box around two nodes: the surface area heuristic in two dimensions."""
+    """Return half the perimeter [px] of the box around two nodes: the surface area heuristic in two dimensions."""
     p, q = nodes[a], nodes[b]
     return (max(p.upper_x, q.upper_x) - min(p.lower_x, q.lower_x)) + (
         max(p.upper_y, q.upper_y) - min(p.lower_y, q.lower_y)
@@ -56,7 +55,7 @@ def joined_outline(nodes, a, b):
 
 @subkernel
 def refit(index, nodes_inout):
-    """Write the box and the height of a node from those of its children."""
+    """Write the box and the height of a node from the boxes and heights of its children."""
     n = nodes_inout[index]
     p, q = nodes_inout[n.child_a], nodes_inout[n.child_b]
     n.lower_x, n.lower_y = min(p.lower_x, q.lower_x), min(p.lower_y, q.lower_y)
@@ -81,12 +80,12 @@ def replace_child(parent, old, new, root, nodes_inout, state_inout):
 
 @subkernel
 def rotate(index, root, nodes_inout, state_inout):
-    """Raise the higher child C of a node A if it is two levels higher than the other. Return the node now on top.
+    """Raise the higher child C of a node A if it is two levels higher than the other child. Return the node now on top.
 
          A                  C
         / \\                / \\
-       B   C      ->      A   F      F: the higher child of C; of equal ones, G is the one with less outline beside B
-          / \\            / \\
+       B   C      ->      A   F      F: the higher child of C. If both are equally high,
+          / \\            / \\       G is the child whose joint box with B is smaller.
          F   G          B   G
     """
     a = nodes_inout[index]
@@ -115,9 +114,10 @@ def rotate(index, root, nodes_inout, state_inout):
 
 @subkernel
 def swap_pays(upper, lower_parent, lower, nodes):
-    """Return how much outline [px] is saved by swapping a child of a node with a child of its sibling.
+    """Return the perimeter [px] that is saved by swapping a child of a node with a child of its sibling.
 
-    It is 0 if the swap would violate the AVL balance. upper: the child; lower: the child of its sibling lower_parent.
+    upper: the child of the node; lower: the child of its sibling lower_parent. Return 0 if the swap would violate the
+    AVL balance.
     """
     q = nodes[lower_parent]
     other = q.child_b if q.child_a == lower else q.child_a
@@ -134,7 +134,7 @@ def swap_pays(upper, lower_parent, lower, nodes):
 def improve(index, nodes_inout):
     """Swap a child of a node with a child of its sibling if that shrinks the sibling's box and keeps the AVL balance.
 
-    Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
+    index: the parent of both. Source: Catto, GDC 2019, after Kopta et al. 2012, with the balance test added.
     """
     n = nodes_inout[index]
     best = 0.0
@@ -184,7 +184,7 @@ def repair_upward(index, root, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def take_node(nodes_inout, state_inout):
-    """Remove a node from the free nodes. Return its index. The caller ensures that there is a free node."""
+    """Remove a node from the list of free nodes. Return its index. The caller ensures that there is a free node."""
     index = state_inout[FREE]
     if index >= 0:
         state_inout[FREE] = nodes_inout[index].parent
@@ -196,7 +196,7 @@ def take_node(nodes_inout, state_inout):
 
 @subkernel
 def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Insert a leaf as the sibling of the node for which the outlines of all nodes grow least. O(height)."""
+    """Insert a leaf as the sibling of a node, chosen so that the perimeters of all nodes grow little. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     at = state_inout[root]
     if at < 0:
@@ -231,7 +231,7 @@ def insert_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
-    """Remove a leaf from its tree: its sibling takes the place of their parent. O(height)."""
+    """Remove a leaf from its tree: the leaf's sibling takes the place of their parent. O(height)."""
     root = ROOT_STILL if nodes_inout[leaf].still else ROOT_MOVING
     parent = nodes_inout[leaf].parent
     if parent < 0:
@@ -253,7 +253,7 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def select_median(along, first, last, middle, leaves_inout):
-    """Reorder leaves first..last so that `middle` holds the leaf of that rank by `along`, smaller ones before it.
+    """Reorder leaves first..last so that `middle` holds the leaf of this rank by `along`, with lower ones before it.
 
     along: coordinate of each leaf. Source: quickselect, Hoare 1961.
     """
@@ -280,7 +280,7 @@ def select_median(along, first, last, middle, leaves_inout):
 
 @subkernel
 def spread(along, leaves, first, last):
-    """Return the difference of the greatest and least value of `along` among leaves first..last."""
+    """Return the difference between the greatest and the least value of `along` among leaves first..last."""
     low = along[leaves[first]]
     high = low
     for k in range(first + 1, last + 1):
@@ -294,7 +294,7 @@ def spread(along, leaves, first, last):
 
 @kernel
 def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nodes_inout, state_inout):
-    """Rebuild the tree of the static leaves (still 1) or of the moving ones (still 0) by median splits. O(n log n).
+    """Rebuild the tree of the static leaves (still 1) or of the moving leaves (still 0) by median splits. O(n log n).
 
     The inner nodes of the old tree are freed first. leaf_of (slots): leaf of each proxy, or -1. Scratch: leaves_out
     (slots); spans_out (slots, 4); twice_x_out, twice_y_out (nodes): twice the centre of each leaf's box [px].
@@ -321,7 +321,7 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
             nodes_inout[leaves_out[0]].parent = -1
         return
     # A span is the range of leaves below one node: first leaf, last leaf, node, parent of the node. A node precedes its
-    # children, so that a backward refit visits children first.
+    # children, so a backward refit visits the children first.
     made = 1
     spans_out[0, 0] = 0
     spans_out[0, 1] = count - 1
@@ -351,7 +351,7 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
             select_median(twice_x_out, first, last, middle, leaves_out)
         else:
             select_median(twice_y_out, first, last, middle, leaves_out)
-        # The larger half first; a half of one leaf is linked directly.
+        # The larger half comes first; a half of one leaf is linked directly.
         for half in range(2):
             start = middle if half == 0 else first
             end = last if half == 0 else middle - 1
@@ -379,8 +379,8 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
 def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, work_inout):
     """List the pairs of overlapping proxies of which at least one changed. Return their number.
 
-    Both trees are searched with the box of each changed proxy. changed: slots; stack_inout: scratch. O(changed · log n
-    + pairs).
+    Both trees are searched with the box of each changed proxy. changed: slots of the changed proxies; stack_inout:
+    scratch. O(changed · log n + pairs).
     """
     found = 0
     for i in range(len(changed)):
@@ -443,12 +443,12 @@ def query_trees(nodes, roots, box, stack_inout, slots_out, work_inout):
 
 @kernel
 def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, state_inout, work_inout):
-    """Insert, remove, or move the leaves of the changed proxies. O(moved · log n).
+    """Insert, remove, or move the leaves of the changed proxies. Return the number of leaves changed. O(moved · log n).
 
-    A proxy that is still within the fat box of its leaf stays. changed: slots. margins: in px and as a share of the
-    box; the smaller one is the margin of a leaf. loose: for the moving and the static tree, 1 if the tree is rebuilt
-    next, so that leaves need not be linked or unlinked. leaf_of_inout (slots): leaf of each proxy, or -1. state_inout:
-    first free node, number of used nodes, both roots. Return the number of leaves moved, inserted and removed.
+    A leaf is not moved while its proxy is within the leaf's fat box. changed: slots of the changed proxies. margins:
+    margin of a leaf in px and as a share of the box's size; the smaller is used. loose: for the moving and the static
+    tree, 1 if the tree is rebuilt next, so that leaves need not be linked or unlinked. leaf_of_inout (slots): leaf of
+    each proxy, or -1. state_inout: first free node, number of used nodes, both roots.
     """
     moved = 0
     for i in range(len(changed)):
@@ -466,7 +466,7 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
                 and n.upper_x >= p.upper_x
                 and n.upper_y >= p.upper_y
             )
-            # The box of a body that was fast would otherwise stay too large.
+            # The box of a body that was fast would otherwise remain too large.
             if fits and (
                 (n.upper_x - n.lower_x) + (n.upper_y - n.lower_y)
                 <= 8.0 * grow + (p.upper_x - p.lower_x) + (p.upper_y - p.lower_y)
@@ -505,8 +505,8 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
 class DynamicTree:
     """Broad phase with two dynamic bounding volume trees.
 
-    width: boxes in a node, 2; None for 2. margin [px]: the greatest margin of a moving leaf; None takes the setting for
-    32 px per metre. Raises TypeError, ValueError.
+    width: boxes in a node, 2; None for 2. margin [px]: the greatest margin of a moving leaf; None: the setting at 32 px
+    per metre. Raises TypeError or ValueError for another width, and for a margin that is not a number >= 0.
     """
 
     name = "tree"
@@ -524,7 +524,8 @@ class DynamicTree:
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises ValueError.
+        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
+        a wrong shape, NaN, and lower > upper.
         """
         return find_pairs(self.fresh(), lower, upper)
 
@@ -537,7 +538,7 @@ class DynamicTree:
         if len(self.leaf_of) < len(arena.proxies):
             slots = max(len(arena.proxies), 2 * len(self.leaf_of))
             self.leaf_of = np.concatenate([self.leaf_of, np.full(slots - len(self.leaf_of), -1, np.int64)])
-            # Leaves, inner nodes of both trees, and those of an old tree until it is rebuilt.
+            # Leaves, inner nodes of both trees, and inner nodes of an old tree until it is rebuilt.
             nodes = np.zeros(3 * slots + 2, NODE)
             nodes[: len(self.nodes)] = self.nodes
             self.nodes = nodes
@@ -560,10 +561,10 @@ class DynamicTree:
                 rebuild(self.leaf_of, still, self.leaves, self.spans, *self.twice, self.nodes, self.state)
 
     def _rebuilds(self, arena):
-        """Return two flags, for the moving and the static tree: 1 to rebuild it.
+        """Return two flags, for the moving and the static tree: 1 if it is to be rebuilt.
 
-        A tree is rebuilt if most of its proxies have changed. That then costs less than moving each leaf, and gives the
-        better tree.
+        A tree is rebuilt if most of its proxies have changed. Then a rebuild costs less than moving each leaf, and
+        gives a better tree.
         """
         still = arena.proxies["still"]
         total = np.bincount(still[self.leaf_of[: len(still)] >= 0], minlength=2)
@@ -584,11 +585,11 @@ class DynamicTree:
 
     @property
     def height(self) -> int:
-        """Height of the higher one of both trees; 0 for a single leaf, -1 if both are empty."""
+        """Height of the higher of the two trees; 0 for a single leaf, -1 if both are empty."""
         return max(int(self.nodes[root]["height"]) if root >= 0 else -1 for root in self.state[ROOT_MOVING:])
 
     def boxes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return all nodes for drawing: (m, 4) boxes [px], and (m,) the depth of each below its root."""
+        """Return all nodes for drawing: their boxes (m, 4) [px], and the depth (m,) of each below its root."""
         found, depths = [], []
         for root in self.state[ROOT_MOVING:].tolist():
             todo = [(root, 0)] if root >= 0 else []

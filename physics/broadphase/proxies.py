@@ -1,4 +1,4 @@
-"""Proxies, the boxes that every broad phase compares, the swept AABBs that they hold, and the list of their pairs."""
+"""Proxies, the boxes that every broad phase compares, the swept AABBs in them, and the list of overlapping pairs."""
 
 from collections.abc import Callable
 from typing import NamedTuple, Protocol
@@ -26,7 +26,7 @@ from physics.tables.table import columns_of
 # ---- proxies ---------------------------------------------------------------------------------------------------------
 # The boxes that every broad phase works on, and the overlap test of two of them.
 #
-# A proxy is a slot of the PROXY table: box, filter, owner. Strategies differ in which pairs they test, never in the
+# A proxy is a slot of the PROXY table: box, filter, body. Strategies differ in the pairs that they test, not in the
 # test, so all of them find the same list of pairs.
 
 Box = tuple[float, float, float, float]  # lower x, y, upper x, y [px]
@@ -35,9 +35,9 @@ Query = Callable[[np.ndarray, np.ndarray], int]  # (pairs, work) -> number of pa
 
 @subkernel
 def overlaps(proxies, a, b, work_inout):
-    """Return whether two proxies may pair: the closed boxes touch and the filters agree.
+    """Return whether two proxies may pair: their closed boxes touch and their filters agree.
 
-    proxies PROXY rows, boxes in px; a, b are slots; work_inout: counters. O(1).
+    proxies: PROXY rows, boxes in px; a, b: slots; work_inout: counters. O(1).
     """
     p, q = proxies[a], proxies[b]
     work_inout[PAIRS_TESTED] += 1
@@ -48,10 +48,10 @@ def overlaps(proxies, a, b, work_inout):
 
 @subkernel
 def may_meet(proxies, a, b, work_inout):
-    """Return whether two touching boxes may pair. O(1).
+    """Return whether two proxies whose boxes touch may pair. O(1).
 
-    Excluded are two static boxes, two sleeping ones, boxes of one body, planes that avoid each other, and filtered
-    pairs.
+    Excluded are two static proxies, two sleeping proxies, proxies of one body, planes that avoid each other, and
+    filtered pairs.
     """
     p, q = proxies[a], proxies[b]
     if (p.still and q.still) or p.body == q.body or not (p.awake or q.awake) or (p.plane & q.avoids) != 0:
@@ -70,10 +70,10 @@ def meets_box(row, box):
 
 @subkernel
 def write_pair(a, b, found, pairs_out):
-    """Write a pair of slots if there is room, and return the new count, which may exceed the capacity.
+    """Write a pair of slots if the array has capacity. Return the new count, which may exceed the capacity.
 
     pairs_out (capacity, 2) int32. If the count exceeds the capacity, the caller enlarges the array and repeats the
-    call. O(1).
+    search. O(1).
     """
     if found < pairs_out.shape[0]:
         pairs_out[found, 0] = a
@@ -82,7 +82,7 @@ def write_pair(a, b, found, pairs_out):
 
 
 class Arena:
-    """The data of a broad-phase update: proxies, the changed ones, the array for pairs, and counters."""
+    """The data of a broad-phase update: proxies, slots of the changed proxies, the array for pairs, and counters."""
 
     def __init__(self) -> None:
         self.proxies = np.zeros(0, PROXY)
@@ -91,7 +91,10 @@ class Arena:
         self.work = np.zeros(len(COUNTERS), np.int64)
 
     def collect(self, query: Query) -> int:
-        """Run query(pairs, work) -> count, and repeat it with a larger array if the pairs did not fit."""
+        """Run query(pairs, work) -> count, and repeat it with a larger array if the pairs did not fit.
+
+        Return the count.
+        """
         work = self.work.copy()
         count = query(self.pairs, self.work)
         if count > len(self.pairs):
@@ -108,7 +111,11 @@ class Strategy(Protocol):
     incremental: bool  # whether the pairs of unchanged proxies are kept from the last step
 
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-        """Return (m, 2) int32 pairs a < b, sorted, of closed boxes (n, 2) lower, upper [px]. Raises ValueError."""
+        """Return the pairs of touching closed boxes: (m, 2) int32, sorted, each as indices a < b.
+
+        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
+        a wrong shape, NaN, and lower > upper.
+        """
         ...
 
     def fresh(self) -> "Strategy":
@@ -124,15 +131,15 @@ class Strategy(Protocol):
         ...
 
     def query_box(self, proxies: np.ndarray, box: Box, slots: np.ndarray, work: np.ndarray) -> int:
-        """Write the slots whose box meets box (lower x, y, upper x, y) [px] to `slots`. Return their number."""
+        """Write to `slots` the slots whose boxes meet box (lower x, y, upper x, y) [px]. Return their number."""
         ...
 
 
 def find_pairs(strategy: Strategy, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
-    """Return all pairs of closed boxes that touch: (m, 2) int32, a < b, sorted, each once.
+    """Return all pairs of closed boxes that touch: (m, 2) int32, a < b, sorted, each pair once.
 
-    strategy: a broad phase without state; lower, upper (n, 2) px. Raises ValueError on NaN, infinity where it is
-    out of order, or lower > upper.
+    strategy: a broad phase without state; lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values
+    that are not numbers, ValueError for a wrong shape, NaN, and lower > upper.
     """
     lower, upper = _corners("lower", lower), _corners("upper", upper)
     if len(lower) != len(upper):
@@ -174,7 +181,7 @@ def _corners(name, value):
 
 @kernel
 def tell_rows(shapes, proxies_inout):
-    """Write the shape rows of proxies that have a swept AABB. O(shapes)."""
+    """Write the shape rows of the proxies that have a swept AABB. O(shapes)."""
     for k in range(len(shapes)):
         slot = shapes[k].proxy
         if slot >= 0 and proxies_inout[slot].row >= 0:
@@ -182,18 +189,21 @@ def tell_rows(shapes, proxies_inout):
 
 
 def write_states(proxies: np.ndarray, states_out: np.ndarray) -> None:
-    """Write 2 for each changed proxy, plus 1 for each awake one: a compact array for many reads. O(proxies)."""
+    """Write to states_out 2 for each changed proxy plus 1 for each awake proxy. O(proxies).
+
+    The result is a compact array for many reads.
+    """
     np.left_shift(proxies["changed"].view(np.int8), 1, out=states_out)
     states_out |= proxies["awake"].view(np.int8)
 
 
 @kernel
 def keep_pairs(states, old, old_rows, old_count, kept_out, rows_out):
-    """Copy the pairs with no changed or freed side and at least one awake side, in their order.
+    """Copy the pairs without a changed or freed side and with at least one awake side, in their order.
 
-    states (proxies,) int8 of write_states(); old, kept_out (capacity, 2) int32 slots; old_rows, rows_out (capacity, 2)
-    int64 their shape rows. Return the number of kept pairs. The loop has no branch, because it would be mispredicted.
-    O(pairs).
+    states (proxies,) int8: result of write_states(); old, kept_out (capacity, 2) int32: slots; old_rows, rows_out
+    (capacity, 2) int64: shape rows of these slots. The loop has no branch, because a branch would be mispredicted.
+    O(pairs). Return the number of kept pairs.
     """
     kept = 0
     for i in range(old_count):
@@ -235,7 +245,7 @@ def drop_apart(proxies, count, apart, pairs_inout, work_inout):
 
 @kernel
 def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
-    """Order each pair by shape row and write a key that sorts by both rows.
+    """Order each pair by shape row, and write a key that sorts by both rows.
 
     pairs, pairs_inout: the same (capacity, 2) int32 slots; keys_out int64. O(pairs).
     """
@@ -252,10 +262,11 @@ def pair_keys(proxies, pairs, count, pairs_inout, keys_out):
 
 @kernel
 def merge_pairs(shapes, kept, kept_rows, kept_count, keys, new_count, pairs_out, candidates_out):
-    """Merge the kept pairs with the sorted keys of the new ones.
+    """Merge the kept pairs with the sorted keys of the new pairs.
 
-    shapes SHAPE rows; kept (n, 2) slots in row order, kept_rows their shape rows; keys int64 row << 32 | row, sorted;
-    pairs_out (capacity, 2) int32 slots, candidates_out (capacity, 2) int64 shape rows, both in row order. O(pairs).
+    shapes: SHAPE rows; kept (n, 2): slots in the order of their shape rows, kept_rows; keys int64: row << 32 | row,
+    sorted; pairs_out (capacity, 2) int32: slots, and candidates_out (capacity, 2) int64: shape rows, both in the order
+    of rows. O(pairs).
     """
     i = 0
     at = 0
@@ -284,11 +295,12 @@ def mark_settled(changed, proxies_inout):
 
 
 # ---- rectangles ------------------------------------------------------------------------------------------------------
-# Swept AABBs ("bounding motion rectangles"): where each shape can be during the step. The broad phase compares them.
+# Swept AABBs ("bounding motion rectangles"): the box that contains a shape during the whole step. The broad phase
+# compares these boxes.
 #
-# A swept AABB is kept while the box the shape needs stays inside it. In a world with stacking it has a margin all
-# round, so that resting bodies cost the broad phase nothing. In other worlds it is extended along the motion for
-# several steps, so that a moving body is updated once in some steps. This adds candidates, not contacts: the narrow
+# A swept AABB is kept while it contains the box that the shape needs. In a world with stacking it has a margin on all
+# sides, so that resting bodies cost the broad phase nothing. In other worlds it is extended along the motion for
+# several steps, so that a moving body is updated once in several steps. This adds candidates, not contacts: the narrow
 # phase tests the tight boxes. Source: Catto, Box2D v3.2, constants.h (margin); Bullet, btDbvtBroadphase (boxes extended
 # along the velocity).
 
@@ -302,14 +314,14 @@ class Reach(NamedTuple):
     margin: float  # [px] largest gap of a candidate pair
     spare: float  # [px] largest margin of a swept AABB …
     share: float  # … and its largest share of the box size
-    ahead: float  # steps of motion it is extended by, beyond this one
+    ahead: float  # number of further steps by whose motion a swept AABB is extended
 
 
 @kernel
 def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout, changed_out):
-    """Write the AABBs of these shape rows and the swept AABBs that no longer fit, and list the changed slots.
+    """Write the AABBs of these shape rows and the swept AABBs that no longer fit. List the changed slots.
 
-    Return the number of slots. reach: see Reach. O(rows).
+    reach: see Reach; changed_out: slots. O(rows). Return the number of changed slots.
     """
     refresh_boxes(rows, geometry, bodies, shapes_inout)
     rasters = geometry.rasters
@@ -349,12 +361,13 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
             most = AHEAD_FRACTION * size
             steps = ahead
             if fresh and ahead > 0.0:
-                steps = 1.0 + s.proxy % int(ahead)  # else all shapes added together would be updated in the same step
+                steps = 1.0 + s.proxy % int(ahead)  # differs, else shapes added together are updated in the same step
             ahead_x, ahead_y = min(max(steps * dx, -most), most), min(max(steps * dy, -most), most)
             # Rotation moves a point by at most its arc, or the diameter of its circle.
             arc = b.extent * min(abs(dt * b.angular_velocity), 2.0)
             if s.snap and s.role != PIXELS:
-                # Snapped to the pixel grid at both ends; at another angle the edges are rounded again.
+                # The mask is snapped to the pixel grid at both ends of the motion; at another angle its sides are
+                # rounded again.
                 r = rasters[s.raster]
                 dx = float(snapped(b.x + dx, r.origin_x) - s.left)
                 dy = float(snapped(b.y + dy, r.origin_y) - s.top)
@@ -367,7 +380,7 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
         fits = p.lower_x <= lower_x and p.lower_y <= lower_y and p.upper_x >= upper_x and p.upper_y >= upper_y
         room = max(fat, abs(ahead_x), abs(ahead_y))
         if room > 0.0:
-            # A swept AABB left from a fast step would be far too large.
+            # The swept AABB of an earlier, faster step would be far too large.
             slack = 4.0 * room + norm(upper_x - lower_x, upper_y - lower_y)
             fits = fits and norm(p.upper_x - p.lower_x, p.upper_y - p.lower_y) <= slack
         else:
@@ -387,7 +400,7 @@ def update_rectangles(rows, geometry, bodies, reach, shapes_inout, proxies_inout
 
 @kernel
 def list_outside(rows, bodies, shapes, proxies, rows_out):
-    """List the shape rows whose AABB, as drawn, extends beyond their swept AABB. Return their number. O(rows)."""
+    """List the shape rows whose AABB, as drawn, extends beyond its swept AABB. Return their number. O(rows)."""
     found = 0
     for k in range(len(rows)):
         s = shapes[rows[k]]
@@ -407,9 +420,10 @@ def list_outside(rows, bodies, shapes, proxies, rows_out):
 
 
 def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
-    """Write new swept AABBs for the shape rows that left theirs, and find their pairs.
+    """Write new swept AABBs for the shapes that left theirs, and find the pairs of these shapes.
 
-    The candidates then contain all overlaps at the final poses, and are valid for the next step.
+    rows: indices of SHAPE rows. The candidates then contain all overlaps at the final poses, and are valid for the next
+    step.
     """
     outside = state.workspace.rows_for(len(rows))
     found = list_outside(rows, state.bodies, state.shapes, state.pairs.proxies, outside)
@@ -424,7 +438,7 @@ def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
     writes=("pairs", "changed_count", "library", *PLACED),
 )
 def motion_rectangles(state: StepState) -> None:
-    """Update the AABBs, and the swept AABBs that no longer fit."""
+    """Update the AABBs of all awake shapes, and the swept AABBs that no longer fit."""
     state.changed_count = write_rectangles(state, state.awake.shapes)
 
 
@@ -436,7 +450,7 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
     bodies, shapes, pairs, tolerances, dt = tables.bodies, tables.shapes, tables.pairs, tables.tolerances, tables.dt
     piles = tables.stacks
     add_missing_rasters(tables.library, rows, bodies, shapes, dt)
-    # Where velocities are integrated first, they include gravity and forces.
+    # In worlds without stacking, velocities are integrated before this and already include gravity and forces.
     gravity_x, gravity_y = tables.gravity if tables.effects.gravity and piles else (0.0, 0.0)
     reach = Reach(
         gravity_x,
@@ -452,11 +466,11 @@ def write_rectangles(tables: WorldTables, rows: np.ndarray) -> int:
 
 
 # ---- pair list -------------------------------------------------------------------------------------------------------
-# The candidate pairs, kept between steps: only pairs with a changed side are searched again.
+# The candidate pairs are kept between steps: only pairs with a changed side are searched again.
 
 SOLID, PIXEL, OUTLINE, SENSED, NOWHERE = 1, 2, 4, 8, 16
 EVERYTHING = 31
-AVOIDS = np.zeros(NOWHERE + 1, np.int64)  # by plane
+AVOIDS = np.zeros(NOWHERE + 1, np.int64)  # for each plane, the planes that it never pairs with
 AVOIDS[[SOLID, PIXEL, OUTLINE, SENSED, NOWHERE]] = (
     PIXEL | NOWHERE,
     EVERYTHING - SENSED,
@@ -470,34 +484,35 @@ NOBODY_COUNTS = np.zeros(len(COUNTERS), np.int64)
 class PairList:
     """The proxies of the shapes of a world, and the sorted list of their pairs.
 
-    `rows` (n, 2): shape rows of the candidates of this step. sleeping: new proxies are asleep until they are set awake;
-    pairs without an awake side are not kept. Methods skip the slot -1 of a shape whose body is disabled (quarantine).
+    `rows` (n, 2): shape rows of the candidates of this step. sleeping: new proxies are asleep until they are set awake,
+    and pairs without an awake side are not kept. Methods skip the slot -1 of a shape whose body is disabled
+    (quarantine).
     """
 
     def __init__(self, sleeping: bool = False) -> None:
         self.sleeping = sleeping
         self.arena = Arena()
         self.free = []  # slots available to new shapes
-        self.freed = []  # slots freed since the last update, still in the strategy
+        self.freed = []  # slots freed since the last update, which are still in the strategy
         self.slots = np.zeros((64, 2), np.int32)
         self.candidates = np.zeros((64, 2), np.int64)
         self.changed = np.zeros(64, np.int64)
         self.count = 0
         self.rows = self.candidates[:0]
-        self.known_ids = self.owners = self.candidates[:0]  # None until they are read; owners as in SHAPE
+        self.known_ids = self.owners = self.candidates[:0]  # None until they are read; owners: parent ids of SHAPE
         self.everything = False  # the strategy is new: pass it all proxies
-        self.can_recycle = []  # slots whose pairs have to be searched again, besides those with changed boxes
+        self.can_recycle = []  # slots whose pairs must be searched again, in addition to slots with changed boxes
         self.sensors = 0  # number of sensor proxies
         self.apart = np.zeros(0, np.int64)  # pairs of bodies that never pair, see keep_apart
-        self.moved = False  # shape rows have moved since the last update
-        self.resting = False  # pairs may have lost their last awake side
+        self.moved = False  # whether shape rows have moved since the last update
+        self.resting = False  # whether pairs may have lost their last awake side
         self._make_room()
 
     def _make_room(self):
         """Create the arrays that an update writes before it reads them."""
         self.kept, self.kept_rows = np.zeros((64, 2), np.int32), np.zeros((64, 2), np.int64)
         self.states, self.keys = np.zeros(64, np.int8), np.zeros(64, np.int64)
-        self.viewed, self.views = None, {}  # proxies by column, for single ones
+        self.viewed, self.views = None, {}  # columns of the proxies, for writes to single rows
 
     def __getstate__(self):
         room = ("kept", "kept_rows", "states", "keys", "viewed", "views")
@@ -512,21 +527,24 @@ class PairList:
         return self.arena.proxies
 
     def ids(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) owner ids of the candidates; their rows refer to SHAPE rows unless named before."""
+        """Return the (n, 2) parent ids of the candidates, each pair once, sorted.
+
+        shapes: the SHAPE rows to which the candidates refer; not read if `name` was called before.
+        """
         if self.known_ids is None:
-            owners = np.sort(self.name(shapes), axis=1)  # new parts of a mask are in rows after those of later shapes
-            keys = np.unique(owners[:, 0] << 32 | owners[:, 1])  # each once, in the order of both
+            owners = np.sort(self.name(shapes), axis=1)  # rows of new parts of a mask follow the rows of later shapes
+            keys = np.unique(owners[:, 0] << 32 | owners[:, 1])  # each pair once, ordered by both ids
             self.known_ids = np.stack([keys >> 32, keys & 0xFFFFFFFF], axis=1)
         return self.known_ids
 
     def name(self, shapes: np.ndarray) -> np.ndarray:
-        """Return the (n, 2) owner ids of the candidates, read while the given SHAPE rows are still valid."""
+        """Return the (n, 2) parent ids of the candidates, and store them while the given SHAPE rows are still valid."""
         if self.owners is None:
             self.owners = shapes["parent"][self.rows]
         return self.owners
 
     def add_proxies(self, shapes: np.ndarray, rows: np.ndarray, still: np.ndarray) -> None:
-        """Assign a slot to each shape at these rows of a SHAPE array; still: whether each is static."""
+        """Assign a slot to each shape at these rows of a SHAPE array. still: whether each shape is static."""
         while len(self.free) < len(rows):
             used = len(self.proxies)
             grown = np.zeros(max(64, 2 * used, used + len(rows)), PROXY)
@@ -544,7 +562,7 @@ class PairList:
         self.proxies["row"][slots] = -1  # until its swept AABB is written
 
     def add_proxy(self, slot: int, body: int, values: dict[str, int], still: bool) -> None:
-        """Assign a free slot to one shape. values: its membership, mask, plane and avoids."""
+        """Assign a free slot to one shape. values: membership, mask, plane and avoids of the shape's proxy."""
         if self.viewed is not self.arena.proxies:
             self.viewed = self.arena.proxies
             self.views = columns_of(self.viewed)
@@ -565,22 +583,25 @@ class PairList:
         self.freed += slots.tolist()
 
     def touch(self, slots: np.ndarray) -> None:
-        """Mark slots to have their swept AABBs written, and their pairs searched, again."""
+        """Mark slots so that their swept AABBs are written again and their pairs are searched again."""
         slots = slots[slots >= 0]
         self.proxies["changed"][slots] = True
 
     def let_sleep(self, sleeping: bool) -> None:
-        """Set whether new proxies are asleep until they are set awake; otherwise all are awake."""
+        """Set whether new proxies are asleep until they are set awake. All present proxies become asleep or awake."""
         self.sleeping = sleeping
         self.proxies["awake"] = not sleeping
         self.start_over()
 
     def set_awake(self, slots: np.ndarray, awake: bool) -> None:
-        """Set whether slots are awake: pairs of woken slots are searched again, pairs of two sleeping ones dropped."""
+        """Set whether slots are awake.
+
+        Pairs of woken slots are searched again, pairs of two sleeping slots are dropped.
+        """
         slots = slots[slots >= 0]
         self.proxies["awake"][slots] = awake
         if awake:
-            known = slots[self.proxies["row"][slots] >= 0]  # a new proxy is listed with its swept AABB
+            known = slots[self.proxies["row"][slots] >= 0]  # a new proxy is listed when its swept AABB is written
             self.proxies["changed"][known] = True
             self.can_recycle.append(known)
         else:
@@ -593,15 +614,17 @@ class PairList:
         return self.changed
 
     def rename(self, shapes: np.ndarray) -> None:
-        """Write the new shape rows to the proxies after rows have moved; the next update writes the candidates'."""
+        """Write the new shape rows to the proxies after rows have moved.
+
+        The next update writes the candidates' rows.
+        """
         tell_rows(shapes, self.proxies)
         self.moved = True
 
     def widen(self, shapes: np.ndarray, margin: float) -> int:
-        """Extend the swept AABBs of SHAPE rows by their present AABBs, grown by a margin [px], and list them as
-        changed.
+        """Extend the swept AABBs of SHAPE rows to include their AABBs with a margin [px]. Return the number of slots.
 
-        Return their number.
+        The slots are listed as changed.
         """
         shapes = shapes[shapes["proxy"] >= 0]  # shapes of disabled bodies have no proxy
         slots = shapes["proxy"]
@@ -633,13 +656,13 @@ class PairList:
         self.touch(slots)
 
     def set_sensor(self, shapes: np.ndarray, rows: np.ndarray) -> None:
-        """Update the proxies after the shapes at these rows of a SHAPE array became sensors, or solid again."""
+        """Update the proxies after the shapes at these rows of a SHAPE array became sensors or solid."""
         rows = rows[shapes["proxy"][rows] >= 0]
         self._set_planes(shapes["proxy"][rows], shapes["role"][rows], shapes["sensor"][rows])
         self.touch(shapes["proxy"][rows])
 
     def _set_planes(self, slots, roles, sensors):
-        """Write the planes of slots: sensors and pixel shapes pair with whole masks, solid shapes with their parts."""
+        """Write the planes of slots: sensors and pixel shapes pair with whole masks, solid shapes with mask parts."""
         plane = np.where(sensors, SENSED, np.array([SOLID, PIXEL, OUTLINE])[roles])
         plane[sensors & (roles == PART)] = NOWHERE
         before = self.proxies["plane"][slots]
@@ -653,11 +676,11 @@ class PairList:
         self.touch(slots)
 
     def start_over(self) -> None:
-        """Mark all proxies to be passed to a new strategy."""
+        """Mark all proxies, so that the next update passes them to a new strategy."""
         self.everything = True
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
-        """Update the candidates with `changed_count` slots in `self.changed`, and the freed ones."""
+        """Update the candidates after changes to freed slots and to `changed_count` slots, listed in `self.changed`."""
         news = changed_count or self.freed or self.can_recycle or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
             self._take_in(strategy, shapes, changed_count, work)
@@ -668,7 +691,7 @@ class PairList:
         arena.work = work
         freed = np.array(self.freed, np.int64)
         if self.everything or not strategy.incremental:
-            # A new strategy has no freed slots; no pair is kept.
+            # A new strategy does not contain the freed slots. No pair is kept.
             arena.changed = np.flatnonzero(self.proxies["row"] >= 0)
             self.proxies["changed"][arena.changed] = True
             self.proxies["changed"][freed] = False
@@ -694,7 +717,7 @@ class PairList:
 
     def _collect(self, strategy, shapes):
         arena, proxies = self.arena, self.proxies
-        # Without changed proxies, pairs may only have fallen asleep: the strategy is not queried.
+        # Without changed proxies, pairs can only have fallen asleep, so the strategy is not queried.
         found = arena.collect(strategy.query(arena)) if len(arena.changed) else 0
         if len(self.kept) < self.count:
             self.kept, self.kept_rows = np.zeros_like(self.slots), np.zeros_like(self.candidates)
@@ -720,7 +743,7 @@ class PairList:
         self.known_ids = self.owners = None
 
     def _rename(self, shapes):
-        """Write the shape rows of the candidates again: removing a body without proxies moves rows."""
+        """Write the shape rows of the candidates again, because the removal of a body without proxies moved rows."""
         self.candidates[: self.count] = self.proxies["row"][self.slots[: self.count]]
         self.rows = self.candidates[: self.count]
         self.known_ids = self.owners = None

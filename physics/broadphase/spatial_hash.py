@@ -16,8 +16,8 @@ from physics.tables.step_state import CELLS_TOUCHED, NODES_VISITED, PAIRS_TESTED
 #
 # See "spatial hash" below for the structure and its sources.
 
-LEVELS = 24  # cell sizes base · 2^0 … 2^23; level 24 is the list of boxes that fit no level
-CELL_RANGE = 1e9  # cells from the origin within which coordinates are hashed exactly in 64 bits
+LEVELS = 24  # cell sizes base · 2^0 … base · 2^23; level 24 is the list of boxes that fit no level
+CELL_RANGE = 1e9  # largest number of cells from the origin at which coordinates are hashed exactly in 64 bits
 ENTRY = np.dtype(
     [
         ("lower_x", np.float64),
@@ -39,9 +39,9 @@ class Cells(NamedTuple):
     """Linked lists of the proxies: one list for each hash bucket, and one for each level of the grids."""
 
     levels: np.ndarray  # (slots,) level of each proxy, or -1
-    heads: np.ndarray  # (buckets,) first entry of each bucket, or -1; their number is a power of two
+    heads: np.ndarray  # (buckets,) first entry of each bucket, or -1; the number of buckets is a power of two
     entries: np.ndarray  # ENTRY, four for each slot: one for each cell that its box touches
-    lists: np.ndarray  # (slots, 2) previous and next slot of the level
+    lists: np.ndarray  # (slots, 2) previous and next slot in the list of the slot's level
     level_heads: np.ndarray  # (LEVELS + 1,) first slot of each level, or -1
     level_counts: np.ndarray  # (LEVELS + 1,) number of slots on each level
 
@@ -62,18 +62,18 @@ def cell_of(coordinate, inverse_size):
 
 @subkernel
 def bucket_at(level, cell_x, cell_y, mask):
-    """Return the hash bucket of a cell. mask: number of buckets minus one. Source: Teschner 2003.
+    """Return the hash bucket of a cell. Source: Teschner 2003.
 
-    Products stay below 2^62 for cells within CELL_RANGE.
+    mask: number of buckets minus one. Products stay below 2^62 for cells within CELL_RANGE.
     """
     return ((cell_x * 73856093) ^ (cell_y * 19349663) ^ (level * 83492791)) & mask
 
 
 @subkernel
 def level_of(lower_x, lower_y, upper_x, upper_y, base):
-    """Return the finest level whose cells are at least as large as the box [px]. base [px]: cell size on level 0.
+    """Return the finest level whose cells are at least as large as the box [px].
 
-    Return LEVELS if no level has such cells, or if the box is outside CELL_RANGE.
+    base [px]: cell size on level 0. Return LEVELS if no level has such cells, or if the box is outside CELL_RANGE.
     """
     extent = max(upper_x - lower_x, upper_y - lower_y)
     size = base
@@ -165,8 +165,8 @@ def put_in(proxies, slot, level, base, cells_inout, work_inout):
 def place_changed(proxies, changed, base, cells_inout, work_inout):
     """Link the changed proxies into the cells that their boxes touch. O(changed).
 
-    changed: slots. If the cells are still the same, only the box in them is updated. A box whose ends lie on cell
-    borders may span three cells along an axis; it goes to the next coarser level.
+    changed: slots of the changed proxies. If a proxy is still in the same cells, only the box stored there is updated.
+    A box whose ends lie on cell borders may span three cells along an axis; it goes to the next coarser level.
     """
     entries = cells_inout.entries
     for i in range(len(changed)):
@@ -206,19 +206,20 @@ def place_changed(proxies, changed, base, cells_inout, work_inout):
 
 
 # ---- cell pairs ------------------------------------------------------------------------------------------------------
-# Pairs in the cells of a hashed hierarchy of grids: those of changed proxies, and the proxies near a query box.
+# Search in the cells of a hashed hierarchy of grids: pairs of changed proxies, and proxies that meet a query box.
 
-CHAINS, NEAR = 8, 64  # cells whose lists are traversed side by side; entries collected before they are tested
+CHAINS, NEAR = 8, 64  # number of cells whose lists are traversed side by side; entries collected before their pair test
 
 
 @subkernel
 def follow(entries, p, level, count, chains_inout, near_out):
-    """Traverse the lists of several cells, and collect the entries whose boxes overlap the PROXY row p.
+    """Traverse the lists of several cells, and collect the entries whose boxes overlap the box of the PROXY row p.
 
-    It ends when NEAR entries might be exceeded. count: number of lists. chains_inout (CHAINS, 3) int64: the next entry
-    of each list, and the column and row of its cell; near_out (NEAR,) int64: the collected entries. The lists are
-    traversed side by side, so that their memory latencies overlap. The tests have no branch, because it would be
-    mispredicted. Return the number of unfinished lists, of collected entries, and of tests.
+    The traversal ends before more than NEAR entries could be collected. count: number of lists. chains_inout (CHAINS,
+    3) int64: the next entry of each list, and the column and row of its cell; near_out (NEAR,) int64: the collected
+    entries. The lists are traversed side by side, so that their memory latencies overlap. The tests have no branch,
+    because a branch would be mispredicted. Return (number of unfinished lists, number of collected entries, number of
+    tests).
     """
     near = 0
     tested = 0
@@ -228,7 +229,7 @@ def follow(entries, p, level, count, chains_inout, near_out):
             k = chains_inout[i, 0]
             cell_x = chains_inout[i, 1]
             cell_y = chains_inout[i, 2]
-            e = entries[k]  # the entry holds the box: most tests read nothing else
+            e = entries[k]  # the entry contains the box, so most tests read nothing else
             near_out[near] = k
             near += int(
                 (e.lower_x <= p.upper_x)
@@ -252,9 +253,10 @@ def follow(entries, p, level, count, chains_inout, near_out):
 def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out, work_inout):
     """List the pairs of overlapping proxies of which at least one changed. Return their number. O(cells + candidates).
 
-    On each level, the candidates are the proxies in the cells that the box touches; if there are too many cells, all
-    proxies of the level. So the number of cells is at most proportional to the outline of the box. A pair that shares
-    several cells is reported only in the cell with the lower corner of the overlap.
+    On each level, the candidates of a box are the proxies in the cells that the box touches. If these are too many
+    cells, the candidates are all proxies of the level. So the number of cells is at most proportional to the perimeter
+    of the box. A pair that shares several cells is reported only in the cell that contains the lower corner of the
+    overlap.
     """
     heads = cells.heads
     entries = cells.entries
@@ -325,11 +327,11 @@ def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out
 
 @kernel
 def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
-    """List the slots of the proxies whose box meets a closed box [px]. Return their number. O(cells + boxes in them).
+    """List the slots of the proxies whose boxes meet a closed box [px]. Return their number. O(cells + boxes in them).
 
-    On each level it reads the cells that the box touches, or the list of all proxies of the level if there are more
-    cells than proxies. A proxy in several of the cells is reported only in the cell with the lower corner of the
-    overlap.
+    On each level the cells that the box touches are read, or the list of all proxies of the level if there are more
+    cells than proxies. A proxy in several of the cells is reported only in the cell that contains the lower corner of
+    the overlap.
     """
     heads = cells.heads
     level_counts = cells.level_counts
@@ -389,18 +391,17 @@ def near_in_cells(base, cells, proxies, box, slots_out, work_inout):
 # A proxy is on the finest level whose cells are at least as large as its box, so it touches at most four cells. A very
 # large box is in a few coarse cells, and not in many fine ones. A box that would cover too many cells of a finer level
 # is tested against the list of that level instead. Source: Ericson, Real-Time Collision Detection, 7.1–7.2. O(cells
-# touched + candidates).
-# Suits many bodies of one size, moving or not.
+# touched + candidates). Suits many bodies of similar size, moving or not.
 
-CELL_OF_MEDIAN = 2.0  # cell size per median extent of the boxes: the flat optimum of `tests.bench broadphase`
-SMALLEST_CELL = 2.0**-1000  # its inverse is finite
+CELL_OF_MEDIAN = 2.0  # cell size / median extent of the boxes: the flat optimum of `tests.bench broadphase`
+SMALLEST_CELL = 2.0**-1000  # [px] its inverse is finite
 
 
 class SpatialHashGrid:
     """Broad phase with a hierarchical hash grid.
 
-    cell [px]: size of the finest cells; None: it follows from the sizes of the bodies. Raises ValueError for a cell
-    below 2^-1000.
+    cell [px]: size of the finest cells; None: the size follows from the sizes of the boxes. Raises TypeError for a cell
+    that is not a number, ValueError for a cell below 2^-1000.
     """
 
     name = "hash"
@@ -416,7 +417,8 @@ class SpatialHashGrid:
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises ValueError.
+        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
+        a wrong shape, NaN, and lower > upper.
         """
         return find_pairs(self.fresh(), lower, upper)
 
@@ -427,8 +429,8 @@ class SpatialHashGrid:
     def update(self, arena: Arena) -> None:
         """Move the changed proxies to their cells.
 
-        The table is enlarged when it has fewer buckets than proxies, and the cell size is tuned anew when the proxies
-        have doubled or most are on coarse levels.
+        The table is enlarged when it has fewer buckets than proxies. The cell size is tuned again when the number of
+        proxies has doubled or most proxies are on coarse levels.
         """
         proxies = arena.proxies
         changed = arena.changed
@@ -451,7 +453,7 @@ class SpatialHashGrid:
 
     @staticmethod
     def _tuned(boxes):
-        """Return a cell size [px]: twice the median extent of the finite boxes with a size; 1 if there are none."""
+        """Return a cell size [px]: twice the median extent of the finite boxes with a size; 1 without such boxes."""
         with np.errstate(invalid="ignore", over="ignore"):
             extent = np.maximum(boxes["upper_x"] - boxes["lower_x"], boxes["upper_y"] - boxes["lower_y"])
         extent = extent[np.isfinite(extent) & (extent > 0.0)]
@@ -468,7 +470,7 @@ class SpatialHashGrid:
         return near_in_cells(self.base, self.lists, proxies, box, slots, work)
 
     def cells(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return the occupied cells for drawing: (m, 4) rectangles [px], and (m,) the level of each."""
+        """Return the occupied cells for drawing: their rectangles (m, 4) [px], and the level (m,) of each."""
         linked = self.lists.entries["bucket"] >= 0
         used, level = self.lists.entries[linked], np.repeat(self.lists.levels, 4)[linked]
         cells = np.unique(np.stack([level, used["cell_x"], used["cell_y"]], axis=1), axis=0)

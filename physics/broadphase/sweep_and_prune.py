@@ -1,4 +1,4 @@
-"""Sweep and prune: sort the boxes along an axis and test only those whose intervals overlap there.
+"""Sweep and prune: sort the boxes along an axis and test only the pairs whose intervals overlap on this axis.
 
 `axes="auto"` sorts along the axis with the greater variance of the centres, and tests the intervals on the other axis.
 `axes="both"` sorts and sweeps along x and along y, and intersects the two lists of overlaps (dimension reduction). The
@@ -15,16 +15,16 @@ from physics.broadphase.proxies import Arena, Box, Query, find_pairs, may_meet, 
 from physics.jit import kernel
 from physics.tables.step_state import NODES_VISITED, PAIRS_TESTED, SWAPS
 
-AXIS_SWITCH = 2.0  # the variance along the other axis must be this much greater before the axis is switched
+AXIS_SWITCH = 2.0  # the axis is switched if the variance along the other axis is greater by this factor
 AXIS_INTERVAL = 32  # updates between two measurements of the variance
-SWAP_BUDGET = 16  # swaps per body after which a full sort is cheaper than insertion sort
+SWAP_BUDGET = 16  # swaps per proxy after which a full sort is cheaper than insertion sort
 
 
 @kernel
 def refresh_order(proxies, axis, order_inout, lower_out):
     """Remove freed slots from the order, and read the lower ends of the boxes along the axis (0: x). O(n).
 
-    order_inout: slots; lower_out [px]. Return the number of slots left.
+    order_inout: slots; lower_out [px]: lower ends. Return the number of slots left.
     """
     count = 0
     for i in range(len(order_inout)):
@@ -67,7 +67,7 @@ def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
     """Copy the boxes into sorted order, so that the sweep reads them sequentially. O(n).
 
     boxes_out (n, 4) float64 [px]: low and high end along the axis, then along the other axis. next_changed_out (n,):
-    for each place in the order, the place of the next changed proxy after it.
+    for each position in the order, the position of the next changed proxy after it.
     """
     following = count
     for k in range(count):
@@ -86,8 +86,8 @@ def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
 def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout):
     """List the overlapping pairs of which at least one proxy changed, by a sweep along the axis. Return their number.
 
-    order: slots; boxes, next_changed: see sort_boxes. An unchanged proxy is tested against changed proxies only, so few
-    moving bodies among many cost few tests. The boxes are read sequentially, which makes a test cheap.
+    order: slots; boxes, next_changed: see sort_boxes. An unchanged proxy is tested only against changed proxies, so a
+    few moving bodies among many cost few tests. The boxes are read sequentially, which makes a test cheap.
     """
     found = 0
     tested = 0
@@ -104,8 +104,8 @@ def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout)
         while j < count and boxes[j, 0] <= upper:
             if not changed:
                 tested += 1
-            # Each pair is written, and counted only if it overlaps, without a branch that could be mispredicted. When
-            # pairs_out is full, its last row takes all further pairs.
+            # Each tested pair is written, but counted only if it overlaps, without a branch that could be mispredicted.
+            # When pairs_out is full, all further pairs are written to its last row.
             at = min(found, room)
             pairs_out[at, 0] = a
             pairs_out[at, 1] = order[j]
@@ -131,8 +131,8 @@ def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout)
 def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_inout):
     """Write the interval overlaps along one axis of which at least one proxy changed. Return their number.
 
-    keys_out: lower slot << 32 | higher slot. Arguments: see sweep_one. Overlaps for which there is no room are only
-    counted.
+    keys_out: lower slot << 32 | higher slot. Other arguments: see sweep_one. Overlaps that do not fit in keys_out are
+    only counted.
     """
     found = 0
     for i in range(count):
@@ -155,7 +155,7 @@ def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_i
 
 @kernel
 def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
-    """Write the pairs that are in both sorted lists of keys, and may collide. Return their number. O(keys)."""
+    """Write the pairs that are in both sorted lists of keys and may collide. Return their number. O(keys)."""
     found = 0
     i, j = 0, 0
     low = 0xFFFFFFFF
@@ -175,11 +175,11 @@ def intersect(proxies, keys_x, count_x, keys_y, count_y, pairs_out, work_inout):
 
 @kernel
 def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
-    """List the slots of the proxies whose box meets a closed box, by binary search along the sorted axis.
+    """List the slots of the proxies whose boxes meet a closed box, by binary search along the sorted axis.
 
     order: slots by the lower ends of their boxes; boxes (n, 4) [px]: see sort_boxes; axis: 0 for x; highest (n,) [px]:
     running maximum of the high ends, by which boxes that end before the closed box are skipped. A very large box at the
-    start of the order prevents that. Return the number of slots. O(log n + boxes between).
+    start of the order prevents this skip. O(log n + boxes read). Return the number of slots.
     """
     count = len(order)
     lower, upper = box[axis], box[axis + 2]
@@ -204,12 +204,12 @@ def near_in_order(order, boxes, highest, axis, box, slots_out, work_inout):
 
 
 class Axis:
-    """The proxies in the order of the lower ends of their boxes along one axis; the order is kept between steps."""
+    """The proxies in the order of the lower ends of their boxes along one axis. The order is kept between steps."""
 
     def __init__(self, axis: int) -> None:
         self.axis = axis
         self.order = np.zeros(0, np.int64)
-        self.known = np.zeros(0, bool)  # for each slot: whether it is in the order
+        self.known = np.zeros(0, bool)  # whether each slot is in the order
         self.boxes = np.zeros((0, 4))
         self.next_changed = np.zeros(0, np.int64)
         self.keys = np.zeros(64, np.int64)
@@ -248,7 +248,7 @@ class Axis:
         return sweep_one(arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, pairs, work)
 
     def intervals(self, arena: Arena, work: np.ndarray) -> tuple[np.ndarray, int]:
-        """Return the sorted keys of the interval overlaps along this axis, see sweep_intervals, and their number."""
+        """Return the sorted keys of the interval overlaps along this axis (see sweep_intervals), and their number."""
         before = work.copy()
         count = sweep_intervals(
             arena.proxies, self.order, len(self.order), self.boxes, self.next_changed, self.keys, work
@@ -262,7 +262,10 @@ class Axis:
 
 
 class SweepAndPrune:
-    """Broad phase that sorts the boxes along x, y, or both. Raises ValueError for axes other than "auto" and "both"."""
+    """Broad phase that sorts the boxes along x, y, or both.
+
+    Raises ValueError for axes other than "auto" and "both", TypeError for a value that is not a string.
+    """
 
     name = "sweep"
     incremental = True
@@ -275,7 +278,8 @@ class SweepAndPrune:
     def find_pairs(self, lower: ArrayLike, upper: ArrayLike) -> np.ndarray:
         """Return the overlapping pairs of n closed boxes: (m, 2) int32, sorted, each as indices a < b.
 
-        lower, upper (n, 2) [px]: corners of the boxes. Raises ValueError.
+        lower, upper (n, 2) [px]: corners of the boxes. Raises TypeError for values that are not numbers, ValueError for
+        a wrong shape, NaN, and lower > upper.
         """
         return find_pairs(self.fresh(), lower, upper)
 
@@ -284,9 +288,9 @@ class SweepAndPrune:
         return SweepAndPrune(self.axes)
 
     def update(self, arena: Arena) -> None:
-        """Move the changed proxies to their places in the order.
+        """Move the changed proxies to their positions in the order.
 
-        With axes "auto", the axis is chosen anew every AXIS_INTERVAL updates, and when most proxies have changed.
+        With axes "auto", the axis is chosen again every AXIS_INTERVAL updates, and when most proxies have changed.
         """
         self.updates += 1
         if self.axes == "auto" and (

@@ -80,9 +80,9 @@ class Ring(Walls):
         return np.where(~self.reflex[k] & ~self.convex[k], from_after > low, within)
 
     def pairs(self) -> tuple[np.ndarray, np.ndarray]:
-        """Return two (n, n) bool matrices of corner pairs: those that a cut can join, and those that a line inside can.
+        """Return two (n, n) bool matrices of corner pairs: whether a cut can join them, and whether a line inside can.
 
-        A cut lies strictly inside; a line may also run along sides and through corners. O(n^3), vectorised.
+        A cut lies strictly inside; a line may also lie on sides and pass through corners. O(n^3), vectorised.
         """
         count = len(self.corners)
         i, j = np.triu_indices(count, 2)

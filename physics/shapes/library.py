@@ -335,7 +335,7 @@ class Library:
         self.tables = self._tables()
 
     def shapes_by_row(self) -> Geometries:
-        """Return the shapes of the library for a snapshot: `of` gives each of them the same geometry row again."""
+        """Return the shapes of the library for a snapshot: from them `of` makes a library with equal geometry rows."""
         return Geometries([*self.outlines], [*self.chain_shapes], [*self.tile_grids], [*self.masks])
 
     def shape_of(self, row: np.void) -> Shape:

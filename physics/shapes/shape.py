@@ -210,7 +210,7 @@ class Shape:
         return (self.radius, len(self.points), *(each for point in self.points for each in point))
 
     def _hulls(self) -> list[tuple[np.ndarray, float]]:
-        """Return [(corners (n, 2), radius)], convex hulls in body space that make up the shape (a mask: its pixels)."""
+        """Return [(corners (n, 2), radius)]: the convex hulls in body space of the shape, or of a mask's pixels."""
         return []
 
     @property
