@@ -27,8 +27,8 @@ from physics.tables.table import rows_of
 def outline_of_part(geometry, bodies, shapes, row, part, workspace):
     """Write the corners [px] of one part of a tile grid or chain to workspace.b. Return the number of corners.
 
-    row: of SHAPE; part: index of a run of tiles (one rectangle of equal cells), or of a link. A link is widened to a
-    rectangle, BACKING thick, because a line has no area.
+    row: row of SHAPE; part: for a grid the index of the first cell of a run of tiles (one rectangle of equal cells),
+    for a chain the index of a link. A link is widened to a rectangle, BACKING thick, because a line has no area.
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -66,7 +66,7 @@ def area_in_part(geometry, bodies, shapes, mask, other, part, workspace):
 def count_areas(geometry, bodies, shapes, workspace, manifolds_inout):
     """Recompute area_1 and area_2 [px2] of every CONTACT row whose area_1 is not 0, at the present poses.
 
-    area_2 is written only against tiles and chains, for a second point. O(pixels shared).
+    area_2 is written only against tiles and chains, for a second point. O(shared pixels).
     """
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
@@ -97,7 +97,7 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
     Rows name whole shapes, not the parts that touch. The area is 0 if neither shape is a mask, or if no pixels overlap.
     Each point reports the area of the whole pair; against tiles and chains, the area in the touched run or link. In
     worlds without contact response a step only tests whether two masks overlap; there this function also computes
-    their point, normal and depth.
+    point, normal and depth of these contacts.
     """
     whole, _ = by_parent(manifolds)
     shapes = tables.shapes
@@ -123,7 +123,7 @@ def with_areas(tables: WorldTables, manifolds: np.ndarray) -> np.ndarray:
 
 @kernel
 def put_back(full, places, manifolds_out):
-    """Copy the CONTACT rows `full` into manifolds_out: row i to places[full[i].candidate].
+    """Copy the CONTACT rows `full` into manifolds_out, row i to row places[full[i].candidate].
 
     places (pairs,): row in manifolds_out of each tested pair.
     """
@@ -146,9 +146,9 @@ def _told_in_full(tables, manifolds):
 
 
 def _rows(shapes, manifolds, side):
-    """Return the present SHAPE row of each manifold's shape on one side, "a" or "b"; -1 if the shape is gone.
+    """Return the present SHAPE row of each manifold's shape on one side, "a" or "b"; -1: the shape is gone.
 
-    The rows stored by the step are used, unless shapes were added or removed since.
+    The rows that the step stored are used, unless shapes were added or removed since.
     """
     rows, ids = np.minimum(manifolds["row_" + side], len(shapes) - 1), manifolds["shape_" + side]
     return rows if np.array_equal(shapes["id"][rows], ids) else rows_of(shapes, ids)

@@ -45,24 +45,25 @@ from physics.tables.step_state import MASK_TESTS
 #
 #         before
 #            \
-#             a ------------> b          front: the side of (dy, -dx), up here
+#             a ------------> b          front: the side to which (dy, -dx) points, here up
 #                              \
 #                               after    a convex corner: the solid side bends away
 #
-# The contact normal is the link's own or, at a convex corner, one between the normals of both links: a corner is felt
-# only as far as it sticks out. Of two links that share a corner, the earlier one reports the contact, unless the other
-# shape is behind that link. At an open end the contact normal may deviate from the link's by up to 90 degrees. Names as
-# in physics/tables/geometry.py, LINK.
+# The contact normal is the link's own normal or, at a convex corner, a normal between the normals of both links: a
+# corner pushes only as far as it protrudes. Of two links that share a corner, the earlier link reports the contact,
+# unless the other shape is behind the earlier link. At an open end the contact normal may deviate from the link's
+# normal by up to 90 degrees. Names as in physics/tables/geometry.py, LINK.
 
 STRAIGHT = 1e-9  # sine of a bend between two links that counts as straight
-ADMIT, SNAP, SKIP = (0, 1, 2)  # for a normal: use it; use the link's own instead; leave it to the neighbour
+ADMIT, SNAP, SKIP = (0, 1, 2)  # for a normal: use it; use the link's normal instead; leave it to the neighbour
 
 
 @subkernel
 def link_at(links, link, x, y, cosine, sine, corners_out):
     """Write four world points [px] to corners_out (16, 2): a link's ends a and b, and its neighbours' far ends.
 
-    links: LINK rows; link: row; x, y [px], cosine, sine: pose of the chain's body. Order: a, b, before, after.
+    links: LINK rows; link: row of the link; x, y [px], cosine, sine: pose of the chain's body. Order: a, b, before,
+    after.
     """
     k = links[link]
     for end in range(4):
@@ -77,7 +78,7 @@ def link_at(links, link, x, y, cosine, sine, corners_out):
 def dot_along(points, i, j, x, y, origin):
     """Return the dot product [px2] of two vectors: from point `origin` to (x, y), and from point i to point j.
 
-    points (16, 2) [px]; origin, i, j: rows of it.
+    points (16, 2) [px]; origin, i, j: rows of points.
     """
     return (points[j, 0] - points[i, 0]) * (x - points[origin, 0]) + (points[j, 1] - points[i, 1]) * (
         y - points[origin, 1]
@@ -86,7 +87,7 @@ def dot_along(points, i, j, x, y, origin):
 
 @subkernel
 def height_over(points, i, j, x, y):
-    """Return the signed distance [px] of (x, y) from the line through points i and j; positive in front of it."""
+    """Return the signed distance [px] of (x, y) from the line through points i and j; positive in front of the line."""
     nx, ny = unit(points[j, 1] - points[i, 1], points[i, 0] - points[j, 0], 0.0, -1.0)
     return nx * (x - points[i, 0]) + ny * (y - points[i, 1])
 
@@ -114,10 +115,10 @@ def is_gentle_hollow(points, i, j, k):
 
 @subkernel
 def is_behind(link, points, x, y):
-    """Return whether a shape with its centre at (x, y) is behind a link, and so does not collide with the link.
+    """Return whether a shape with its centre at (x, y) is behind a link, and therefore does not collide with it.
 
-    link: LINK row; points: see link_at. In a gentle hollow a shape's centre may slide past the end of one link and so
-    behind the next. The shape still collides with that next link while its centre is in front of the first one.
+    link: LINK row; points: see link_at. In a gentle hollow a shape's centre may slide past the end of one link to the
+    back of the next link. The shape still collides with the next link while its centre is in front of the first link.
     """
     if height_over(points, 0, 1, x, y) >= 0.0:
         return False
@@ -148,8 +149,8 @@ def owns_start(link, points, x, y):
 def collide_link_circle(link, points, x, y, radius):
     """Return (found, normal from link to disc, contact point, separation, feature) of a link and a disc [px].
 
-    link: LINK row; points: see link_at; x, y, radius: the disc. The contact point is midway between the surfaces.
-    Feature: 0 for the link's face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b.
+    link: LINK row; points: see link_at; x, y, radius: centre and radius of the disc. The contact point is midway
+    between the surfaces. Feature: 0 for the link's face, CIRCLE_CORNER for its end a, CIRCLE_CORNER + 1 for its end b.
     """
     nx, ny = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
     height = nx * (x - points[0, 0]) + ny * (y - points[0, 1])
@@ -158,7 +159,7 @@ def collide_link_circle(link, points, x, y, radius):
     corner = -1
     if dot_along(points, 0, 1, x, y, 0) < 0.0:
         if link.has_before:
-            # The same product, bit for bit, by which the previous link decides that this point is beyond its end.
+            # The previous link uses the same product, bit for bit, to decide that the point is beyond its end.
             if dot_along(points, 2, 0, x, y, 0) < 0.0:
                 return False, nx, ny, x, y, 0.0, 0
             if is_convex(points, 2, 0, 1):
@@ -194,8 +195,8 @@ def is_towards_end(points, nx, ny):
 def classify_normal(link, points, towards_end, nx, ny):
     """Return how to treat the normal (nx, ny) from a link to a hull: ADMIT, SNAP or SKIP.
 
-    ADMIT: use the normal. SNAP: use the link's own normal. SKIP: no contact, the neighbouring link reports it.
-    towards_end: whether the hull touches the link's end b (otherwise a), so which neighbour is considered.
+    ADMIT: use the normal. SNAP: use the link's own normal. SKIP: no contact, because the neighbouring link reports it.
+    towards_end: whether the hull touches the link's end b (otherwise a); the neighbour at this end is considered.
     """
     has_neighbour = link.has_after if towards_end else link.has_before
     own_x, own_y = unit(points[1, 1] - points[0, 1], points[0, 0] - points[1, 0], 0.0, -1.0)
@@ -222,8 +223,8 @@ def classify_normal(link, points, towards_end, nx, ny):
 def neighbour_separates(points, nx, ny, hull, x, y, face):
     """Return whether a neighbouring link faces a Hull and the Hull is less deep behind it than behind this link.
 
-    The neighbour is the one in the direction (nx, ny). x, y: centre of the Hull; face [px]: separation of the Hull from
-    this link's face.
+    The neighbour is at the end in the direction (nx, ny). x, y: centre of the Hull; face [px]: separation of the Hull
+    from this link's face.
     """
     towards_end = is_towards_end(points, nx, ny)
     i = 1 if towards_end else 2
@@ -241,7 +242,7 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
     """Write a contact point that pushes a Hull out past an open end of the chain. Return the number of points, 0 or 1.
 
     The reference plane goes through the open end, perpendicular to the link. A point is written only if the Hull's
-    separation from that plane exceeds `face` [px], its separation from the link's face.
+    separation from this plane exceeds `face` [px], the Hull's separation from the link's face.
     """
     ex, ey = unit(points[1, 0] - points[0, 0], points[1, 1] - points[0, 1], 1.0, 0.0)
     manifold_out[0] = 0.0
@@ -273,7 +274,7 @@ def push_at_open_end(link, points, hull, face, margin, manifold_out):
 
 @subkernel
 def keep_owned(link, points, x, y, count, manifold_out):
-    """Drop the contact points at end a if the previous link reports them. Return the number of points left."""
+    """Drop the contact points at end a that the previous link reports. Return the number of points left."""
     nx, ny = manifold_out[1], manifold_out[2]
     if is_towards_end(points, nx, ny) or owns_start(link, points, x, y):
         return count
@@ -295,8 +296,8 @@ def keep_owned(link, points, x, y, count, manifold_out):
 def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out):
     """Write the manifold of a link and a Hull of two or more corners. Return the number of points.
 
-    margin, bias, manifold_out: see hulls.collide_hulls. is_second: whether this is the second pass, made if each link
-    left the contact to its neighbour; then no contact is left to neighbours.
+    margin, bias, manifold_out: see hulls.collide_hulls. is_second: whether this is the second pass, which is made if
+    each link left the contact to its neighbour; in this pass no contact is left to neighbours.
     """
     corners = hull.corners
     count = hull.count
@@ -357,14 +358,14 @@ def collide_link_hull(link, points, hull, margin, bias, is_second, manifold_out)
 
 
 # ---- chain pairs -----------------------------------------------------------------------------------------------------
-# The pass over the candidate pairs with a chain, link by link. Links far from the other shape are skipped in blocks.
+# The pass over the candidate pairs with a chain, link by link. Distant links are skipped in blocks.
 
-BACKING = 2.0  # [px] thickness given to a link behind its front when it is tested against a mask: a line has no area
+BACKING = 2.0  # [px] thickness added behind a link when it is tested against a mask, because a line has no area
 
 
 @subkernel
 def box_in_body(min_x, min_y, max_x, max_y, x, y, cosine, sine):
-    """Return the AABB [px] of a world box in the local space of a body with the pose x, y, cosine, sine."""
+    """Return the AABB [px] of a world box in the local space of a body. x, y, cosine, sine: pose of the body."""
     middle_x, middle_y = rotate(0.5 * (min_x + max_x) - x, 0.5 * (min_y + max_y) - y, cosine, -sine)
     half_x, half_y = 0.5 * (max_x - min_x), 0.5 * (max_y - min_y)
     reach_x = abs(cosine) * half_x + abs(sine) * half_y
@@ -400,7 +401,7 @@ def collide_chain_pair(batch, pair, workspace, manifolds_out, found, work_inout)
         dx, dy = travel.time * travel.vx, travel.time * travel.vy
         min_x, max_x = min_x + min(dx, 0.0), max_x + max(dx, 0.0)
         min_y, max_y = min_y + min(dy, 0.0), max_y + max(dy, 0.0)
-    # Slightly more than the margin: rounding of the rotated box must not lose a contact.
+    # Slightly more than the margin, so that rounding of the rotated box does not lose a contact.
     rim = margin + 1e-9 * (max_x - min_x + max_y - min_y) + 1e-15 * (abs(p.x) + abs(p.y) + abs(q.x) + abs(q.y))
     min_x, min_y, max_x, max_y = box_in_body(min_x - rim, min_y - rim, max_x + rim, max_y + rim, p.x, p.y, cosine, sine)
     hull = Hull(workspace.b, 0, 0.0, ALL_EDGES)
@@ -465,17 +466,17 @@ collide_chain_pairs = make_pass(CHAIN_ANY, collide_chain_pair)
 
 
 # ---- surfaces --------------------------------------------------------------------------------------------------------
-# One-way surfaces: which pairs may touch the upper side of a mask that is open from below.
+# One-way surfaces: selection of the pairs that may touch the upper side of a one-way mask.
 #
-# Such a side is a chain, and a chain is open from behind for shapes with their centre behind it. This is not enough for
-# a platform: a body that jumps half through it and falls would be lifted out once its centre is above. So a pair counts
-# only if it touched in the last step, or if no part of the body was across the line before the last motion. The line is
+# Such a side is a chain. A shape whose centre is behind a chain passes through it. This is not enough for a platform: a
+# body that jumps halfway through it and falls back would be lifted out when its centre is above. So a pair counts only
+# if it touched in the last step, or if no part of the body was across the line before the last motion. The line is
 # extended horizontally beyond both ends, so that bodies may also pass from the side. For tiles see tiles.py.
 
 
 @subkernel
 def line_separation(line, hull):
-    """Return the separation [px] of a Hull from a line of two points; negative if it lies across the line."""
+    """Return the separation [px] of a Hull from the line between two points; negative if it lies across the line."""
     corners = hull.corners
     count = hull.count
     if count > 1:
@@ -564,7 +565,7 @@ def admit_to_surfaces(batch, known, workspace, kinds_inout, counts_inout):
 
     They may collide if they touched in the last step, or if the shape was not across the surface at the previous poses.
     known: whether workspace.memory holds the contacts of the last step. kinds_inout (candidates,): kind of each pair;
-    counts_inout: number of pairs of each kind. O(candidates + links near).
+    counts_inout: number of pairs of each kind. O(candidates + nearby links).
     """
     for i in range(batch.count):
         if kinds_inout[i] != SURFACE_ANY:

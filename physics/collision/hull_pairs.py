@@ -44,12 +44,12 @@ from physics.tables.shape import BOUNDS, CIRCLE
 # Pairs that meet within the step are evaluated at the predicted contact and not at the start pose.
 #
 # B is moved relative to A, in a straight line, to the pose of contact or of least distance. The manifold is computed at
-# that pose; its separation is the distance that B still has to move along the normal. Without this, a pair that closes
-# by more than the margin in a step would first be detected as overlapping, and be pushed back along its path. The fixed
+# this pose; its separation is the distance that B still has to move along the normal. Without this, a pair that closes
+# by more than the margin in a step would first be detected as overlapping, and be pushed back along its path. The
 # margin is Box2D's b2_speculativeDistance (Catto). The search is conservative advancement (Mirtich, Impulse-based
 # Dynamic Simulation, 1996).
 
-MAX_ADVANCES = 16  # most iterations for one pair; a pair that has not met by then is found in a later step
+MAX_ADVANCES = 16  # most iterations for one pair; a pair that needs more is found in a later step
 NEVER = -1.0  # in place of a time: the shapes do not meet
 
 
@@ -57,7 +57,7 @@ NEVER = -1.0  # in place of a time: the shapes do not meet
 def needs_ccd(body, distance):
     """Return whether a body that moves a distance [px] in a step needs continuous collision detection.
 
-    It does if the distance exceeds the body's inradius. Such a body gets no speculative contacts. body: BODY row.
+    It needs it if the distance exceeds its inradius; then it gets no speculative contacts. body: BODY row.
     """
     return body.kind != STATIC and distance > body.inradius
 
@@ -66,9 +66,9 @@ def needs_ccd(body, distance):
 def speculative_distance(a, b, speed, margin, lookahead):
     """Return the largest gap [px] at which two bodies get a speculative contact.
 
-    It is the margin [px] or, if greater, the distance that the bodies may close in `lookahead` [s], also if one of them
-    is stopped. It is the margin if a body needs continuous collision detection. a, b: BODY rows; speed [px/s]: of B
-    relative to A.
+    The gap is the margin [px] or, if greater, the distance that the bodies may close in `lookahead` [s], even if one of
+    them is stopped. It is the margin if a body needs continuous collision detection. a, b: BODY rows; speed [px/s]:
+    speed of B relative to A.
     """
     distance = lookahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if needs_ccd(a, distance) or needs_ccd(b, distance) else max(margin, distance)
@@ -76,10 +76,10 @@ def speculative_distance(a, b, speed, margin, lookahead):
 
 @subkernel
 def speculative_rotation(a, b, speed, margin, lookahead):
-    """Return the largest gap [px] that the rotation of two bodies may close within `lookahead` [s], at least margin.
+    """Return the largest gap [px] that the rotation of two bodies may close in `lookahead` [s]; at least the margin.
 
-    The distance closed by rotation is limited to half the extent of the smaller body. Other arguments as in
-    speculative_distance.
+    The distance closed by rotation is limited to half the extent of the smaller body. If a body needs continuous
+    collision detection, the result is the margin. Arguments as in speculative_distance.
     """
     distance = lookahead * speed
     if needs_ccd(a, distance) or needs_ccd(b, distance):
@@ -106,8 +106,8 @@ def collide_circles(ax, ay, a_radius, bx, by, b_radius):
 def toi_circles(dx, dy, radii, vx, vy):
     """Return the time [s] at which two discs touch, or NEVER.
 
-    dx, dy [px]: from the centre of the first disc to that of the second; radii [px]: sum of both radii; vx, vy [px/s]:
-    velocity of the second disc relative to the first.
+    dx, dy [px]: vector from the centre of the first disc to the centre of the second; radii [px]: sum of both radii;
+    vx, vy [px/s]: velocity of the second disc relative to the first.
     """
     along = dx * vx + dy * vy
     square = vx * vx + vy * vy
@@ -123,7 +123,8 @@ def toi_circles(dx, dy, radii, vx, vy):
 def time_of_closest_approach(dx, dy, vx, vy):
     """Return the time [s] of closest approach of two points; 0 without relative motion.
 
-    dx, dy [px]: from the first to the second; vx, vy [px/s]: velocity of the second relative to the first.
+    dx, dy [px]: vector from the first point to the second; vx, vy [px/s]: velocity of the second point relative to the
+    first.
     """
     square = vx * vx + vy * vy
     return -(dx * vx + dy * vy) / square if square > 0.0 else 0.0
@@ -133,9 +134,9 @@ def time_of_closest_approach(dx, dy, vx, vy):
 def toi_hulls(a, vx, vy, target, most, b_inout):
     """Return the time [s] at which the gap of two Hulls has shrunk to `target` [px] (conservative advancement).
 
-    B moves at vx, vy [px/s] relative to A. Return the time of least distance if the gap stops shrinking first, and
-    NEVER if the gap is not reached within `most` [s]. The corners of B are moved to the pose at that time. O(corners²)
-    an iteration.
+    B moves at vx, vy [px/s] relative to A, and its corners are moved to the pose at this time. Return the time of least
+    distance if the gap stops shrinking before, and NEVER if the gap is not reached within `most` [s]. O(corners²) an
+    iteration.
     """
     time = 0.0
     corners = b_inout.corners
@@ -155,7 +156,7 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
             return time  # least distance: a deflection must not drive the bodies into each other
         if gap - target > speed * (most - time):
             return NEVER
-        # Half the target is left, so that rounding cannot miss it.
+        # Half the target gap is left, so that rounding cannot miss the target.
         span = (gap - 0.5 * target) / speed
         move_corners(b_inout.count, span * vx, span * vy, corners)
         time += span
@@ -166,9 +167,9 @@ def toi_hulls(a, vx, vy, target, most, b_inout):
 def advance_to_contact(margin, lookahead, p, q, a, b_inout):
     """Move the corners of Hull B to its predicted contact with Hull A. Slow pairs are not moved.
 
-    p, q: BODY rows of A and B; margin [px]; lookahead [s]. Return (time [s] of that contact, 0 for slow pairs, or
-    NEVER; velocity of B relative to A [px/s]; largest separation [px] of a contact point at that pose). This separation
-    exceeds the margin if rotation may close a wider gap.
+    p, q: BODY rows of A and B; margin [px]; lookahead [s]. Return (time, vx, vy, reach): time [s] of the contact, 0 for
+    slow pairs, or NEVER; velocity of B relative to A [px/s]; largest separation [px] of a contact point at this pose.
+    reach exceeds the margin if rotation may close a wider gap.
     """
     if lookahead == 0.0:
         return 0.0, 0.0, 0.0, margin
@@ -184,8 +185,9 @@ def advance_to_contact(margin, lookahead, p, q, a, b_inout):
 def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
     """Return the time [s] at which the gap of a Hull and a moving disc has shrunk to `target` [px].
 
-    x, y, radius [px], vx, vy [px/s]: the disc, velocity relative to the Hull. Return the time of least distance if the
-    gap stops shrinking first, and NEVER if the gap is not reached within `most` [s]. O(corners) an iteration.
+    x, y, radius [px]: centre and radius of the disc; vx, vy [px/s]: its velocity relative to the Hull. Return the time
+    of least distance if the gap stops shrinking before, and NEVER if the gap is not reached within `most` [s].
+    O(corners) an iteration.
     """
     whole = Hull(hull.corners, hull.count, hull.radius, ALL_EDGES)
     time = 0.0
@@ -204,9 +206,9 @@ def toi_hull_circle(hull, x, y, radius, vx, vy, target, most):
 
 @subkernel
 def path_offsets(time, vx, vy, nx, ny):
-    """Return the displacement [px] of B after a time [s] at vx, vy [px/s], split into two components.
+    """Return the two components of B's displacement [px] after a time [s] at the velocity vx, vy [px/s].
 
-    The first is against the unit normal (nx, ny), the second along the tangent (-ny, nx).
+    The first component is against the unit normal (nx, ny), the second along the tangent (-ny, nx).
     """
     return -time * (vx * nx + vy * ny), time * (vy * nx - vx * ny)
 
@@ -215,14 +217,14 @@ def path_offsets(time, vx, vy, nx, ny):
 def move_manifold_back(time, vx, vy, points_inout):
     """Convert a manifold computed at the predicted contact to the present position of B.
 
-    B had been moved for a time [s] at vx, vy [px/s]. points_inout (11,): layout at "clipping" in hulls.py. Return the
+    B had been moved for a time [s] at vx, vy [px/s]. points_inout (11,): see "clipping" in hulls.py. Return the
     distance [px] that B moves along the tangent (-ny, nx) until the contact.
     """
     nx, ny = points_inout[1], points_inout[2]
     closed, tangential = path_offsets(time, vx, vy, nx, ny)
     for k in range(int(points_inout[0])):
         at = 3 + 4 * k
-        # Midway between the two surfaces at their present positions.
+        # The point is midway between the two surfaces at their present positions.
         points_inout[at] += 0.5 * closed * nx
         points_inout[at + 1] += 0.5 * closed * ny
         points_inout[at + 2] += closed
@@ -230,12 +232,12 @@ def move_manifold_back(time, vx, vy, points_inout):
 
 
 class Travel(NamedTuple):
-    """Motion of a shape relative to a tile grid or chain within a step, the same for each run of tiles or link."""
+    """Motion of a shape relative to a tile grid or chain within a step, the same for all runs of tiles or links."""
 
     vx: float  # [px/s]
     vy: float
     reach: float  # [px] largest separation of a contact point
-    time: float  # [s] how far ahead contacts are predicted; 0: no prediction, only gaps within the margin count
+    time: float  # [s] contacts within this time are predicted; 0: no prediction, only gaps within the margin count
 
 
 class Meeting(NamedTuple):
@@ -243,17 +245,17 @@ class Meeting(NamedTuple):
 
     piece: Hull
     travel: Travel
-    time: float  # [s] until they meet
+    time: float  # [s] until hull and piece meet
     sign: float  # 1.0 if the ground is A, else -1.0
-    part: int  # offset of the piece's feature ids: index of the run or link times PART
+    part: int  # offset of the piece's feature ids, see hulls.part_feature
 
 
 @inlined
 def travel_of(batch, ground, body):
-    """Return the Travel of a body relative to the ground; ground, body: BODY rows.
+    """Return the Travel of a body relative to the ground. ground, body: BODY rows.
 
-    For a slow body, and for a fast one that is left to continuous collision detection, the Travel has no prediction:
-    reach is the margin and time is 0.
+    The Travel has no prediction for a slow body, nor for a fast body that is left to continuous collision detection:
+    then reach is the margin and time is 0.
     """
     if batch.lookahead == 0.0:
         return Travel(0.0, 0.0, batch.margin, 0.0)
@@ -265,9 +267,9 @@ def travel_of(batch, ground, body):
 
 @subkernel
 def advance_to_piece(travel, margin, piece, hull, corners_out):
-    """Write the corners [px] of a Hull at its predicted contact with `piece`. Return the time [s] of contact or NEVER.
+    """Write the corners [px] of a Hull at its predicted contact with a piece of ground. Return the time [s] or NEVER.
 
-    piece: Hull of a run of tiles or link; margin [px]. Without prediction (travel.time 0) the Hull is not moved.
+    piece: Hull of a run of tiles or of a link; margin [px]. Without prediction (travel.time 0) the Hull is not moved.
     """
     corners = hull.corners
     for k in range(hull.count):
@@ -282,14 +284,14 @@ def advance_to_piece(travel, margin, piece, hull, corners_out):
 
 @subkernel
 def move_piece_manifold_back(time, travel, sign, points_inout):
-    """Convert a manifold of ground and hull, computed at their predicted contact, to the present position of the hull.
+    """Convert a manifold of ground and hull, computed at their predicted contact, to the hull's present position.
 
-    time [s]: until that contact; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): see hulls.py. Return the
-    distance [px] that B moves along the tangent, relative to A, until the contact.
+    time [s]: time until the contact; sign: 1.0 if the ground is A, else -1.0; points_inout (11,): see "clipping" in
+    hulls.py. Return the distance [px] that B moves along the tangent, relative to A, until the contact.
     """
     tangential = move_manifold_back(time, travel.vx, travel.vy, points_inout)
     if sign < 0.0:
-        # The hull is A: the points move to where it is now.
+        # The hull is A: move the points to its present position.
         for k in range(int(points_inout[0])):
             points_inout[3 + 4 * k] += tangential * points_inout[2]
             points_inout[4 + 4 * k] -= tangential * points_inout[1]
@@ -298,9 +300,10 @@ def move_piece_manifold_back(time, travel, sign, points_inout):
 
 @subkernel
 def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
-    """Return whether the predicted contact of a disc with a corner is false: its path misses the ground piece.
+    """Return whether the predicted contact of a disc with a corner is false because the disc's path misses the piece.
 
-    disc: (x, y, radius); separation [px] and feature: of the contact; corners_out (16, 2): scratch.
+    meeting: Meeting; disc: (x, y, radius); separation [px], feature: values of the contact; corners_out (16, 2):
+    scratch.
     """
     travel = meeting.travel
     if travel.time == 0.0 or separation <= graze or feature < CIRCLE_CORNER:
@@ -315,7 +318,7 @@ def piece_misses_circle(meeting, graze, disc, separation, feature, corners_out):
 
 @subkernel
 def set_tangential_offset(before, found, offset, manifolds_out):
-    """Write a tangential offset [px] to manifolds_out[before] if a manifold was added: if found exceeds before.
+    """Write a tangential offset [px] to manifolds_out[before] if a manifold was added there.
 
     before, found: number of manifolds before and after the addition; found may exceed the capacity.
     """
@@ -335,7 +338,7 @@ def time_to_piece(travel, margin, piece, x, y, radius):
 def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifolds_out, found):
     """Append the contact of a disc with a piece of ground. Return the new number of manifolds.
 
-    disc: (x, y, radius) at the predicted contact; contact: result of the collision function at that position, as of
+    disc: (x, y, radius) at the predicted contact; contact: result of the collision function for this position, see
     hulls.collide_hull_circle.
     """
     travel, sign = meeting.travel, meeting.sign
@@ -358,7 +361,7 @@ def add_circle_on_piece(batch, pair, meeting, disc, contact, workspace, manifold
 def add_points_on_piece(batch, pair, meeting, workspace, manifolds_out, found):
     """Append the manifold of a hull and a piece of ground from workspace.points. Return the new number of manifolds.
 
-    workspace.points was computed at the predicted contact, `meeting`, and is converted to the present position.
+    The manifold was computed at the predicted contact `meeting`; it is converted to the present position.
     """
     sign = meeting.sign
     tangential = 0.0
@@ -391,7 +394,7 @@ def collide_circle_pair(batch, pair, workspace, manifolds_out, found, work_inout
         if time < 0.0:
             # Least distance: a deflection must not drive the bodies into each other.
             time = time_of_closest_approach(bx - ax, by - ay, vx, vy)
-        # Pairs that touch in the next step are included: their present normal would deflect them in this one.
+        # Pairs that touch in the next step are included, because their present normal would deflect them in this step.
         if 0.0 < time <= 2.0 * batch.lookahead:
             nx, ny, x, y, separation = collide_circles(ax, ay, a_radius, bx + time * vx, by + time * vy, b_radius)
             closed, tangential = path_offsets(time, vx, vy, nx, ny)
@@ -436,11 +439,11 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
         if path_misses(hull, Hull(workspace.b, 1, radius, ALL_EDGES), 0.0, wx, wy):
             return found
     closed, tangential = path_offsets(time, vx, vy, nx, ny)
-    # Midway between the present surfaces, measured on the polygon's side.
+    # The point is midway between the present surfaces, measured from the polygon.
     px += 0.5 * closed * nx
     py += 0.5 * closed * ny
     if side > 0.0:
-        # A is the disc: move the point to where the polygon is now.
+        # A is the disc: move the point to the polygon's present position.
         px += tangential * ny
         py -= tangential * nx
     before = found
@@ -454,9 +457,9 @@ def collide_polygon_circle_pair(batch, pair, workspace, manifolds_out, found, wo
 def overlaps_narrowly(a, b, most, far, manifold):
     """Return whether two Hulls with a face contact overlap by at most `most` [px] along the face.
 
-    Either their extents along the face overlap by that little or, with `far`, their two contact points are that close.
-    far: whether the Hulls move far in this step; at rest so narrow a contact may carry a load (the edge of a card).
-    manifold (11,): see "clipping" in hulls.py.
+    The overlap is measured by the Hulls' extents along the face or, with `far`, also by the distance of the two contact
+    points. far: whether the Hulls move far in this step; at rest such a narrow contact may carry a load (the edge of a
+    card). manifold (11,): see "clipping" in hulls.py.
     """
     if far and manifold[0] == 2.0 and norm(manifold[7] - manifold[3], manifold[8] - manifold[4]) <= most:
         return True
@@ -467,11 +470,12 @@ def overlaps_narrowly(a, b, most, far, manifold):
 
 @subkernel
 def is_grazing(a, b, batch, p, q, manifold):
-    """Return whether the contact of two Hulls is to be dropped because they pass each other in this step.
+    """Return whether to drop the contact of two Hulls because they only pass each other in this step.
 
-    The path of B must miss A, up to an overlap of batch.graze [px]. Only a contact between corners, with a normal
-    mainly along the motion, or on a patch no wider than graze is dropped. Without this, a tile that stands slightly
-    above its neighbour would stop a sliding body. p, q: BODY rows of A and B; manifold (11,): see hulls.py.
+    The path of B must miss A, up to an overlap of batch.graze [px]. Dropped are only contacts between corners, contacts
+    with a normal mainly along the motion, and contacts on a patch no wider than graze. Without this, a tile that stands
+    slightly above its neighbour would stop a sliding body. p, q: BODY rows of A and B; manifold (11,): see "clipping"
+    in hulls.py.
     """
     graze = batch.graze
     least = manifold[5] if manifold[0] == 1.0 else min(manifold[5], manifold[9])
@@ -480,7 +484,7 @@ def is_grazing(a, b, batch, p, q, manifold):
         return False
     vx, vy = relative_velocity(p, q, manifold[3], manifold[4], manifold[3], manifold[4])
     along = vx * manifold[1] + vy * manifold[2]
-    # Only a motion along the normal passes a side: a surface that a body slides on is touched all the time.
+    # Only a motion along the normal passes a side; a surface on which a body slides is touched all the time.
     passes = corners or 2.0 * along * along > vx * vx + vy * vy
     far = batch.lookahead * norm(vx, vy) > graze
     passes = passes or (along < 0.0 and overlaps_narrowly(a, b, graze, far, manifold))
@@ -514,7 +518,7 @@ def collide_polygon_pair(batch, pair, workspace, manifolds_out, found, work_inou
         b_edges = b.edges & pushing_edges(b, a, True)
         a = Hull(a.corners, a.count, a.radius, a_edges)
         b = Hull(b.corners, b.count, b.radius, b_edges)
-        # Without a dynamic body there is no response: the contact of any part will do.
+        # Without a dynamic body there is no response, so the contact of any part is sufficient.
         deepest = margin if p.kind == DYNAMIC or q.kind == DYNAMIC else math.inf
     time, vx, vy, reach = advance_to_contact(margin, batch.lookahead, p, q, a, b)
     if time < 0.0:

@@ -14,22 +14,23 @@ from physics.tables.shape import TURNS
 # ---- features --------------------------------------------------------------------------------------------------------
 # Feature ids: they identify a manifold point in the next step.
 #
-# A feature is an integer that encodes which edge, corner, tile, link or pixel touch. It is the same in the next step as
-# long as the same parts touch, whatever the poses. A point takes over the impulses of the point with the same feature
-# in the last step (warm start). "Support" is the deepest corner under a face. All collision functions share one layout:
+# A feature is an integer that encodes the hull edge, corner, tile, link or pixel of a point. It is the same in the next
+# step as long as the same parts touch, independent of the poses. A point starts with the impulses of the point that had
+# the same feature in the last step (warm start). "Support" is the deepest corner under a face. All collision functions
+# use the same numbers:
 #
 #     hulls, a face     ((edge * 16 + corner) * 2 + side) * 2 + flipped           0 .. 1023
 #     hulls, a support  (edge * 16 + corner) * 4 + flipped                        0 .. 1023
 #     hulls, corners    CORNERS + corner of A * 16 + corner of B               2048 .. 2303
 #     a link's open end OPEN_END + end                                         3000 .. 3001
 #     a disc            the edge, or CIRCLE_CORNER + corner                       0 .. 47
-#     tiles, links      the number of the run or link * PART + one of the above
+#     tiles, links      first cell of the run, or link * PART + one of the above
 #     masks             the pixel: row * width + column
 
-CIRCLE_CORNER = 32  # a disc on a corner, + its number
+CIRCLE_CORNER = 32  # a disc on a corner, + the corner's number
 CORNERS = 2048  # two corners of hulls, + i * 16 + j
 OPEN_END = 3000  # the face across an open end of a chain, + 0 at a or 1 at b
-FLAT = math.cos(math.radians(6.0))  # least cosine between the normals of two sides that may lie on each other
+FLAT = math.cos(math.radians(6.0))  # least cosine between the normals of two hull edges that may lie on each other
 PART = 4096  # number of feature ids of one tile run or one link
 
 
@@ -37,15 +38,15 @@ PART = 4096  # number of feature ids of one tile run or one link
 def clipped_feature(edge, corner, side, flipped):
     """Return the feature id of a clipped manifold point.
 
-    edge: of the reference polygon; corner: of the incident one; side: 0 or 1, which end of the incident edge; flipped:
-    1 if the reference polygon is B.
+    edge: number of the reference edge; corner: number of the incident corner; side: end of the incident edge, 0 or 1;
+    flipped: 1 if the reference polygon is B, else 0.
     """
     return ((edge * 16 + corner) * 2 + side) * 2 + flipped
 
 
 @subkernel
 def support_feature(edge, corner, flipped):
-    """Return the feature id of a corner deepest under a reference edge; flipped: 1 if that edge belongs to B."""
+    """Return the feature id of the corner deepest under a reference edge. flipped: 1 if the edge is of B, else 0."""
     return (edge * 16 + corner) * 4 + flipped
 
 
@@ -59,20 +60,20 @@ def corners_feature(i, j):
 def part_feature(part, feature):
     """Return the feature id of a contact with one part of a tile grid or chain.
 
-    part: index of the run of tiles or link; feature: feature id on that part alone.
+    part: index of the first cell of a run of tiles, or of a link; feature: feature id on this part alone.
     """
     return part * PART + feature
 
 
 @subkernel
 def part_of(feature):
-    """Return the index of the run of tiles or link that a feature id belongs to; inverse of part_feature."""
+    """Return the index of the run's first cell, or of the link, that a feature id names (inverse of part_feature)."""
     return feature // PART
 
 
 @subkernel
 def pixel_feature(row, column, width):
-    """Return the feature id of a mask pixel; width: of the mask [px]."""
+    """Return the feature id of a mask pixel. width [px]: width of the mask."""
     return row * width + column
 
 
@@ -90,11 +91,11 @@ def pixel_feature(row, column, width):
 # Source: Gregorius, The Separating Axis Test, GDC 2013; Catto, Contact Manifolds, GDC 2007.
 
 ANGLE_STEP = 1.0 / TURNS  # [rad]
-# A manifold before it is stored as a CONTACT row is an array of 11 floats: number of points, normal x and y, then for
+# Before a manifold is stored as a CONTACT row, it is an array of 11 floats: number of points, normal x and y, then for
 # each of two points x, y, separation, feature.
 COVERED_OVERLAP = -1.0  # in place of the number of points: the hulls overlap, and a neighbour covers the nearer edges
-# Touchable edges and corners are those that no neighbouring part or tile covers. Bits: low 16, touchable edges; next
-# 16, touchable corners; above, as SHAPE's inner.
+# Hull edges and corners are touchable if no neighbouring part or tile covers them. Bits: low 16, touchable edges; next
+# 16, touchable corners; higher bits, as in `inner` of SHAPE.
 ALL_EDGES = 0xFFFFFFFF
 
 
@@ -109,7 +110,7 @@ class Hull(NamedTuple):
 
 @subkernel
 def edge_normal(corners, count, k):
-    """Return the outward unit normal of edge k, (0, -1) if the edge has no length."""
+    """Return the outward unit normal of hull edge k; (0, -1) if the edge has no length."""
     n = k + 1 if k + 1 < count else 0
     dx = corners[n, 0] - corners[k, 0]
     dy = corners[n, 1] - corners[k, 1]
@@ -134,8 +135,8 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
     """Return whether the unit direction (nx, ny) is a valid contact normal at a corner of a hull or of a part.
 
     At a corner that is not touchable (covered by a neighbouring part) no normal is valid. At a corner where only one
-    side of the part is on the outline of the whole shape, the normal may deviate from that side's by at most the angle
-    stored in `edges`. At other corners all normals are valid. edges: bits, see ALL_EDGES.
+    edge of the part is on the outline of the whole shape, the normal may deviate from this edge's normal by at most the
+    angle stored in `edges`. At other corners all normals are valid. edges: bits, see ALL_EDGES.
     """
     if (edges >> (16 + corner)) & 1 == 0:
         return False
@@ -152,11 +153,11 @@ def is_normal_at_corner(corners, count, edges, corner, nx, ny):
 
 @subkernel
 def find_max_separation(corners, count, allowed, other, other_count):
-    """Return the edge of a polygon along whose normal another polygon is furthest away (separating axis test).
+    """Return the edge of a polygon along whose normal another polygon is farthest away (separating axis test).
 
     corners, other (16, 2) [px]; count, other_count: numbers of corners; allowed: bits of the edges that may be
-    returned. Return (edge or -1, greatest separation over the allowed edges [px], the same over all edges [px]).
-    O(count · other_count).
+    returned. The result is (edge or -1, greatest separation over the allowed edges [px], greatest separation over all
+    edges [px]). O(count · other_count).
     """
     best = -1
     best_separation = -math.inf
@@ -175,11 +176,11 @@ def find_max_separation(corners, count, allowed, other, other_count):
 
 @subkernel
 def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
-    """Write the manifold of a reference edge and the incident edge of the other Hull, clipped to the reference edge.
+    """Write the manifold of an edge of the Hull `reference` and the opposite edge of the Hull `incident`.
 
-    edge: of the Hull `reference`; incident: the other Hull; limit [px]: points with a larger separation are dropped;
-    flipped: the reference is B, so the normal is inverted; manifold_out (11,): layout above at COVERED_OVERLAP. Return
-    the number of points.
+    The opposite edge is clipped to the reference edge. edge: number of the reference edge; limit [px]: points with a
+    larger separation are dropped; flipped: `reference` is B, so the normal is inverted; manifold_out (11,): see the
+    comment above COVERED_OVERLAP. Return the number of points.
     """
     corners, count, radius, _ = reference
     others, other_count, other_radius, _ = incident
@@ -196,7 +197,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
     tx, ty = -ny, nx
     start = tx * corners[edge, 0] + ty * corners[edge, 1]
     end = tx * corners[following, 0] + ty * corners[following, 1]
-    # The incident edge has the opposite direction of the reference edge.
+    # The direction of the incident edge is opposite to the direction of the reference edge.
     px = others[far, 0]
     py = others[far, 1]
     qx = others[facing, 0]
@@ -235,7 +236,7 @@ def clip_edges(reference, edge, incident, limit, flipped, manifold_out):
 
 @subkernel
 def support_manifold(reference, edge, incident, flipped, manifold_out):
-    """Write a manifold of one point: the corner of the incident Hull deepest under an edge of the reference Hull.
+    """Write a manifold of one point: the corner of the Hull `incident` deepest under an edge of the Hull `reference`.
 
     Arguments as in clip_edges. Return 1, the number of points.
     """
@@ -272,9 +273,9 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
     """Return (found, normal to the disc, contact point, separation, feature) of a convex polygon and a disc [px].
 
     The contact point is midway between the surfaces. edges: bits of the touchable edges and corners, see ALL_EDGES. If
-    the nearest edge or corner is not touchable, nothing is found: the neighbour that covers it reports the contact. If
-    the centre of the disc is inside, the nearest touchable edge is used; if there is none, feature is COVERED.
-    O(count).
+    the nearest edge or corner is not touchable, nothing is found, because the neighbour that covers it reports the
+    contact. If the centre of the disc is inside, the nearest touchable edge is used; without such an edge, feature is
+    COVERED. O(count).
     """
     best = -1
     inner = -1
@@ -301,7 +302,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
         ey = corners[following, 1] - corners[best, 1]
         from_start = ex * (x - corners[best, 0]) + ey * (y - corners[best, 1])
         from_end = ex * (x - corners[following, 0]) + ey * (y - corners[following, 1])
-        # Exactly over a corner the face decides: one of two tiles that share a covered corner has to report it.
+        # Exactly over a corner the face is used, because one of two tiles that share a covered corner must report it.
         if from_start < 0.0 or from_end > 0.0:
             corner = best if from_start < 0.0 else following
             dx = x - corners[corner, 0]
@@ -331,7 +332,7 @@ def collide_polygon_circle(corners, count, edges, x, y, radius):
 # ---- aabbs -----------------------------------------------------------------------------------------------------------
 # Collision of axis-aligned boxes that never rotate (shapes of kind BOUNDS), from the AABBs in the shape table.
 #
-# Points, separations and features are equal to those that collide_hulls finds for the same boxes.
+# Points, separations and features are equal to the results of collide_hulls for the same boxes.
 
 
 @subkernel
@@ -352,8 +353,8 @@ def move_corners(count, x, y, corners_inout):
 def collide_aabb_corners(a, b, margin, manifold_out):
     """Write a manifold of one point, between the nearest corners of two boxes that are apart along both axes.
 
-    a, b: SHAPE rows; manifold_out (11,): see "clipping" above. Return the number of points, 0 if the corners are
-    further apart than the margin [px].
+    a, b: SHAPE rows; manifold_out (11,): see the comment above COVERED_OVERLAP. Return the number of points; 0 if the
+    corners are farther apart than the margin [px].
     """
     right = b.min_x > a.max_x
     below = b.min_y > a.max_y
@@ -378,9 +379,10 @@ def collide_aabb_corners(a, b, margin, manifold_out):
 
 @subkernel
 def collide_aabbs(a, b, margin, manifold_out):
-    """Write the manifold of the AABBs of two SHAPE rows, normal from A to B.
+    """Write the manifold of the AABBs of two SHAPE rows, with the normal from A to B.
 
-    Return the number of points, 0 if the separation exceeds the margin [px]. manifold_out: see "clipping" above.
+    manifold_out (11,): see the comment above COVERED_OVERLAP. Return the number of points; 0 if the separation exceeds
+    the margin [px].
     """
     up = a.min_y - b.max_y
     right = b.min_x - a.max_x
@@ -432,17 +434,18 @@ def collide_aabbs(a, b, margin, manifold_out):
 # radii are added afterwards.
 #
 # A hull of two corners (capsule, segment) is a polygon with two opposite edges. While the cores overlap, the axis of
-# least penetration is a face normal, and both radii are added. While they are apart, the nearest features decide: a
-# face and the part over it or, where nothing is over the faces, two corners. The distance of the corners less the radii
-# is exact.
+# least penetration is a face normal, and both radii are added. While the cores are apart, the nearest features
+# determine the contact: a face and the corners over it or, if nothing is over the faces, two corners. Then the distance
+# of the corners minus the radii is exact.
 #
-# Degenerate cases have one result each. Of faces with equal separation the first of A wins. Cores that cross without
-# depth (a segment on a segment's line) push along that face's normal. Coincident corners push along (0, -1).
+# Degenerate cases have one result each. Of faces with equal separation the first face of A is used. Cores that cross
+# without depth (a segment on another segment's line) push along this face's normal. Coincident corners push along (0,
+# -1).
 
 
 @subkernel
 def nearest_on_edge(ax, ay, bx, by, x, y):
-    """Return the position, as a fraction 0..1 of the way from a to b, of the edge's point nearest to (x, y)."""
+    """Return the position of the point nearest to (x, y) on the line segment from a to b: 0 at a, 1 at b."""
     ex, ey = bx - ax, by - ay
     along = ex * (x - ax) + ey * (y - ay)
     square = ex * ex + ey * ey
@@ -453,7 +456,7 @@ def nearest_on_edge(ax, ay, bx, by, x, y):
 
 @subkernel
 def distance_to_edge(ax, ay, bx, by, x, y):
-    """Return the distance [px] of the point (x, y) from the edge from a to b."""
+    """Return the distance [px] of the point (x, y) from the line segment from a to b."""
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     return norm(x - ax - t * (bx - ax), y - ay - t * (by - ay))
 
@@ -462,7 +465,7 @@ def distance_to_edge(ax, ay, bx, by, x, y):
 def same_side(a, b):
     """Return 1.0 if both ends of segment a are on the same side of the line through segment b.
 
-    Return -1.0 if they are on opposite sides, and 0.0 if an end is on the line. a, b (2, 2): ends [px].
+    Return -1.0 if the ends are on opposite sides, and 0.0 if an end is on the line. a, b (2, 2): ends [px].
     """
     ex = b[1, 0] - b[0, 0]
     ey = b[1, 1] - b[0, 1]
@@ -475,7 +478,7 @@ def same_side(a, b):
 
 @subkernel
 def segment_distance(a, b):
-    """Return the distance [px] of two segments, 0 if they cross. a, b (2, 2): ends [px].
+    """Return the distance [px] of two segments; 0 if they cross. a, b (2, 2): ends [px].
 
     It supplements the separating axis test, whose face normals cannot separate two segments on one line.
     """
@@ -512,7 +515,7 @@ def nearest_corners(a, a_count, b, b_count):
 def corner_manifold(a, i, b, j, limit, manifold_out):
     """Write a manifold of one point between corner i of Hull A and corner j of Hull B.
 
-    Return the number of points, 0 if the separation exceeds the limit [px].
+    Return the number of points; 0 if the separation exceeds the limit [px].
     """
     x = a.corners[i, 0]
     y = a.corners[i, 1]
@@ -536,7 +539,7 @@ def corner_manifold(a, i, b, j, limit, manifold_out):
 
 @subkernel
 def ends_face(corners, count, edges, corner, nx, ny):
-    """Return whether a corner ends a touchable edge with a normal within 6 degrees of the unit vector (nx, ny)."""
+    """Return whether a corner ends a touchable edge whose normal is within 6 degrees of the unit vector (nx, ny)."""
     for back in range(2):
         side = corner if back == 0 else (corner - 1 if corner > 0 else count - 1)
         if (edges >> side) & 1:
@@ -548,7 +551,7 @@ def ends_face(corners, count, edges, corner, nx, ny):
 
 @subkernel
 def is_over(corners, count, edge, x, y):
-    """Return whether the projection of the point (x, y) onto an edge of a polygon lies between the ends of the edge."""
+    """Return whether the projection of the point (x, y) onto an edge of a polygon lies between the edge's ends."""
     following = edge + 1 if edge + 1 < count else 0
     dx = corners[following, 0] - corners[edge, 0]
     dy = corners[following, 1] - corners[edge, 1]
@@ -561,8 +564,8 @@ def pushing_edges(a, b, over_ends):
     """Return the bits of the edges of Hull A whose normals may push A out of Hull B, a part of a larger outline.
 
     Such an edge faces a touchable corner of B. Other edges face a corner at which B's neighbour continues the surface.
-    over_ends: also return edges nearly parallel to a touchable edge of B whose end lies over them, because the other
-    end of that edge may be touched, too.
+    over_ends: also return edges that are nearly parallel to a touchable edge of B and have an end of this edge over
+    them, because the other end of B's edge may also be touched. All bits of corners are set.
     """
     if b.edges == ALL_EDGES:
         return ALL_EDGES
@@ -580,7 +583,7 @@ def pushing_edges(a, b, over_ends):
 
 @subkernel
 def overlaps_edge(hull, edge, other):
-    """Return whether the projections of an edge of `hull` and of the Hull `other` onto the edge overlap."""
+    """Return whether the projections of an edge of `hull` and of the Hull `other` onto this edge overlap."""
     corners = hull.corners
     others = other.corners
     following = edge + 1 if edge + 1 < hull.count else 0
@@ -597,7 +600,7 @@ def overlaps_edge(hull, edge, other):
 
 @subkernel
 def clip_tolerance(corners, count, edge):
-    """Return the rounding error [px] allowed for a point that is clipped against an edge."""
+    """Return the rounding error [px] allowed for a point that is clipped to an edge."""
     n = edge + 1 if edge + 1 < count else 0
     ex = abs(corners[n, 0] - corners[edge, 0]) + abs(corners[n, 1] - corners[edge, 1])
     return 1e-9 * ex + 1e-15 * (abs(corners[edge, 0]) + abs(corners[edge, 1]))
@@ -605,7 +608,7 @@ def clip_tolerance(corners, count, edge):
 
 @subkernel
 def least_separation(count, manifold):
-    """Return the least separation [px] of the points of a manifold; infinite without points. count: of the points."""
+    """Return the least separation [px] of a manifold's points; infinite without points. count: number of points."""
     if count == 0:
         return math.inf
     return min(manifold[5], manifold[9]) if count > 1 else manifold[5]
@@ -625,7 +628,8 @@ def extent_along(corners, count, nx, ny):
 def path_misses(a, b, allowed, vx, vy):
     """Return whether Hull B, moving in the direction (vx, vy), never overlaps Hull A by more than `allowed` [px].
 
-    It is used to drop predicted contacts, whose normal is fixed for the whole step: they would deflect B as it passes.
+    Predicted contacts of such hulls are dropped: the normal of a contact is fixed for the whole step, so it would
+    deflect B while B passes.
     """
     nx, ny = unit(-vy, vx, 0.0, 0.0)
     low, high = extent_along(a.corners, a.count, nx, ny)
@@ -636,13 +640,13 @@ def path_misses(a, b, allowed, vx, vy):
 
 @subkernel
 def collide_hulls(a, b, margin, bias, deepest, manifold_out):
-    """Write the manifold of two Hulls of two or more corners, normal from A to B (separating axis test, clipping).
+    """Write the manifold of two Hulls of two or more corners, with the normal from A to B (SAT, clipping).
 
-    Return the number of points, 0 if the separation exceeds the margin [px]. bias [px]: by how much B's separation must
-    exceed A's to make B the reference, so that the reference does not flip between equal faces. deepest [px]: an
-    overlap deeper than this is left to a neighbour that covers an edge with less depth. If an overlap is left to a
-    neighbour, 0 is returned and manifold_out[0] is COVERED_OVERLAP. manifold_out (11,): layout above at
-    COVERED_OVERLAP. O(corners of A · corners of B).
+    bias [px]: B is the reference if its separation exceeds A's by more than this, so that the reference does not
+    alternate between equal faces. deepest [px]: an overlap deeper than this is left to a neighbour if the neighbour
+    covers an edge with less depth. manifold_out (11,): see the comment above COVERED_OVERLAP. O(corners of A · corners
+    of B). Return the number of points; 0 if the separation exceeds the margin [px]. If an overlap is left to a
+    neighbour, 0 is returned and manifold_out[0] is COVERED_OVERLAP.
     """
     a_corners, a_count, a_radius, a_edges = a
     b_corners, b_count, b_radius, b_edges = b
@@ -671,7 +675,7 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
         and max(a_all, b_all) > allowed
         and not (overlaps_edge(b, b_edge, a) if from_b else overlaps_edge(a, a_edge, b))
     ):
-        # The nearer face is covered by a neighbour, and the other hull is not over the touchable face.
+        # A neighbour covers the nearer face, and the other hull is not over the touchable face.
         manifold_out[0] = covered
         return 0
     for attempt in range(2):
@@ -688,14 +692,14 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
             slack = clip_tolerance(a_corners, a_count, a_edge)
         least = least_separation(count, manifold_out)
         if apart and own < -slack:
-            continue  # separated by an edge that is not touchable: nothing is over this face
+            continue  # an edge that is not touchable separates the hulls: nothing is over this face
         if not apart:
             if least > -rounding:
                 if flipped:
                     return support_manifold(b, b_edge, a, True, manifold_out)
                 return support_manifold(a, a_edge, b, False, manifold_out)
             return count
-        # If a point is over this face, no feature is nearer. Of sharp faces along each other either face will do.
+        # If a point is over this face, no feature is nearer. If two sharp faces lie on each other, both are valid.
         if rounding == 0.0 and abs(a_separation - b_separation) <= bias:
             slack = max(bias, slack)
         if count > 0 and least <= own - rounding + slack:
@@ -714,8 +718,8 @@ def collide_hulls(a, b, margin, bias, deepest, manifold_out):
 def collide_line_circle(ax, ay, bx, by, x, y, radius):
     """Return (normal to the disc, nearest point of the line, separation, feature) of a line segment and a disc [px].
 
-    The segment goes from (ax, ay) to (bx, by). Feature: 0 or 1 for a side of the segment, CIRCLE_CORNER for its start,
-    CIRCLE_CORNER + 1 for its end. If the centre of the disc is on the line, the normal of side 0 is used.
+    The segment leads from (ax, ay) to (bx, by). Feature: 0 or 1 for a side of the segment, CIRCLE_CORNER for its start,
+    CIRCLE_CORNER + 1 for its end. If the centre of the disc is on the segment, the normal of side 0 is used.
     """
     t = nearest_on_edge(ax, ay, bx, by, x, y)
     px, py = ax + t * (bx - ax), ay + t * (by - ay)
@@ -724,7 +728,7 @@ def collide_line_circle(ax, ay, bx, by, x, y, radius):
     side_x, side_y = unit(by - ay, ax - bx, 0.0, -1.0)
     height = side_x * (x - ax) + side_y * (y - ay)
     if 0.0 < t < 1.0:
-        # The line's own normal is used, so that rounding of the nearest point does not rotate it.
+        # The line's own normal is used, so that rounding of the nearest point does not rotate the result.
         sign = -1.0 if height < 0.0 else 1.0
         return (
             sign * side_x,

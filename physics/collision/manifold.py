@@ -1,4 +1,4 @@
-"""CONTACT rows: how they are written by the narrow phase, mixed materials, order, and conversion for reports."""
+"""CONTACT rows: how the narrow phase writes them, mixed materials, order, and conversion for reports."""
 
 import math
 from collections.abc import Callable
@@ -15,7 +15,7 @@ from physics.tables.geometry import Geometry
 from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 
 # ---- owners ----------------------------------------------------------------------------------------------------------
-# Manifolds as reported: they name whole shapes (owners), not the parts of them that touch.
+# Manifolds for reports: they name whole shapes (parents), not the parts that touch.
 
 SIDES = ("body_", "shape_", "parent_", "body_row_", "row_")
 
@@ -31,10 +31,10 @@ def are_whole(manifolds):
 
 
 def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
-    """Return (CONTACT rows with each part replaced by the shape that owns it; the row in `manifolds` of each, or None).
+    """Return (CONTACT rows in which whole shapes replace their parts, the row in `manifolds` of each or None).
 
-    The rows are sorted by the ids of the owners, and A is the owner with the smaller id. None: no side is a part, and
-    `manifolds` itself is returned.
+    The rows are sorted by the ids of the whole shapes, and A is the shape with the smaller id. None: no side is a part,
+    and `manifolds` itself is returned.
     """
     if are_whole(manifolds):
         return manifolds, None
@@ -62,9 +62,9 @@ def by_parent(manifolds: np.ndarray) -> tuple[np.ndarray, np.ndarray | None]:
 def mixed(geometry, a, b, manifold):
     """Return the mixed (friction, restitution, rolling resistance [px], surface speed [px/s]) of a contact.
 
-    a, b: SHAPE rows; manifold: CONTACT row, whose feature names the link of a chain, which has its own material.
-    Friction is the geometric mean, restitution and rolling resistance the greater value, surface speed the sum. Rolling
-    resistance is a length: the coefficient times the greater radius (Catto, Box2D v3.1).
+    a, b: SHAPE rows; manifold: CONTACT row, whose feature names the link of a chain, because each link has its own
+    material. Friction is the geometric mean, restitution and rolling resistance the greater value, surface speed the
+    sum. Rolling resistance is a length: the coefficient times the greater radius (Catto, Box2D v3.1).
     """
     friction = 1.0
     restitution = 0.0
@@ -96,9 +96,9 @@ def mixed(geometry, a, b, manifold):
 # ---- manifold --------------------------------------------------------------------------------------------------------
 # Rows of the manifold table: written by the passes over pairs, then sorted in the order of the candidates.
 
-# Kinds of pairs; each pass takes the candidates of one kind.
+# Kinds of pairs; each pass processes the candidates of one kind.
 CIRCLES, POLYGON_CIRCLE, POLYGONS, MASKS, MASKS_EXACT, MASK_HULL, GRID_ANY, CHAIN_ANY = range(8)  # exact: not snapped
-SURFACE_ANY, NOTHING = 8, 9  # surface: a chain that is the upper side of a mask open from below
+SURFACE_ANY, NOTHING = 8, 9  # surface: a chain that is the upper side of a one-way mask
 BLOCK = 64  # candidates that a pass lists before it collides them
 POINTS = 11  # floats of a manifold before it is stored: see "clipping" in hulls.py
 
@@ -110,12 +110,12 @@ class Batch(NamedTuple):
     bodies: np.ndarray  # BODY
     shapes: np.ndarray  # SHAPE
     candidates: np.ndarray  # (capacity, 2) int64 shape rows
-    kinds: np.ndarray  # (count) kind of each pair
-    count: int  # candidates in use
+    kinds: np.ndarray  # (count,) kind of each pair
+    count: int  # number of candidates in use
     margin: float  # [px] largest gap of a pair that gets a contact
     bias: float  # [px] see hulls.collide_hulls
-    graze: float = 0.0  # [px] largest overlap of bodies that only pass each other: see hull_pairs.py
-    lookahead: float = 0.0  # [s] pairs that meet within this time get a contact: see hull_pairs.py
+    graze: float = 0.0  # [px] largest overlap of bodies that only pass each other, see hull_pairs.py
+    lookahead: float = 0.0  # [s] pairs that meet within this time get a contact, see hull_pairs.py
 
 
 class Workspace(NamedTuple):
@@ -127,9 +127,9 @@ class Workspace(NamedTuple):
     points: np.ndarray  # (POINTS,) manifold of the pair, see "clipping" in hulls.py
     depths: np.ndarray  # (16,)
     previous: np.ndarray  # CONTACT rows of the last step, for pairs with one-way ground
-    memory: np.ndarray  # (candidates, 2) first row in previous, number of rows
+    memory: np.ndarray  # (candidates, 2) first row of each pair in `previous`, number of its rows
     block: np.ndarray  # (BLOCK,) candidates that a pass collides next
-    fallback: np.ndarray  # (candidates + 1,) number of candidates for the fallback of mask_parts.py, then their rows
+    fallback: np.ndarray  # (candidates + 1,) number of candidates for the fallback of mask_parts.py, then their indices
 
 
 def new_workspace() -> Workspace:
@@ -192,7 +192,7 @@ def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
     if found < len(manifolds_out):
         nx, ny, x, y, separation, area, feature = point
         m = manifolds_out[found]
-        # Plus 0.0 turns -0.0 into 0.0, for printing and comparison.
+        # Adding 0.0 turns -0.0 into 0.0, for printing and comparison.
         open_manifold(shapes, candidates, pair, nx + 0.0, ny + 0.0, m)
         m.count = 1
         m.x_1, m.y_1 = x, y
@@ -204,7 +204,7 @@ def add_manifold(shapes, candidates, pair, point, manifolds_out, found):
 
 @subkernel
 def add_point(shapes, candidates, pair, point, manifolds_out, found):
-    """Add a point to the last manifold if that has the same pair and normal and one point, else to a new manifold.
+    """Add a point to the last manifold if it has the same pair and normal and one point, else to a new manifold.
 
     Arguments as in add_manifold. Return the number of manifolds, which may exceed the capacity.
     """
@@ -223,7 +223,7 @@ def add_point(shapes, candidates, pair, point, manifolds_out, found):
 
 @subkernel
 def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, found):
-    """Append the manifold in `points` (11,), laid out as in hulls.py, "clipping". Return the new number of manifolds.
+    """Append the manifold in `points` (11,), see "clipping" in hulls.py. Return the new number of manifolds.
 
     sign: -1.0 if A and B were swapped for the test, else 1.0; part: offset added to the feature ids.
     """
@@ -237,7 +237,7 @@ def add_points(shapes, candidates, pair, sign, points, part, manifolds_out, foun
 
 @subkernel
 def circle_at(bodies, shapes, row):
-    """Return (centre x, y in the world, radius) [px] of a CIRCLE shape; row: of SHAPE."""
+    """Return (centre x, y in the world, radius) [px] of a CIRCLE shape. row: row of SHAPE."""
     s = shapes[row]
     b = bodies[s.body_row]
     u, v = rotate(s.local_x, s.local_y, *rotation_of(b.angle))
@@ -246,9 +246,9 @@ def circle_at(bodies, shapes, row):
 
 @inlined
 def hull_of(geometry, bodies, shapes, row, corners_out):
-    """Return the Hull of a shape in the world: a BOUNDS has the corners of its AABB, a CIRCLE one corner.
+    """Return the Hull of a shape in the world. A BOUNDS has the corners of its AABB, a CIRCLE has one corner.
 
-    row: of SHAPE; corners_out (16, 2): receives the corners [px].
+    row: row of SHAPE; corners_out (16, 2) receives the corners [px].
     """
     s = shapes[row]
     b = bodies[s.body_row]
@@ -270,7 +270,7 @@ def hull_of(geometry, bodies, shapes, row, corners_out):
 
 @inlined
 def always(batch, pair):
-    """Return True: the default of make_pass, with which every pair of the kind is tested."""
+    """Return True. As may_touch of make_pass it selects every pair of the kind."""
     return True
 
 
@@ -279,8 +279,9 @@ def make_pass(kind: int, collide_pair: Callable, may_touch: Callable = always) -
 
     collide_pair(batch, pair, workspace, manifolds_out, found, work_inout) appends the manifolds of one candidate at row
     `found`, and returns the new number of manifolds. may_touch(batch, pair): cheap test that selects pairs for
-    collide_pair. It runs without branches for a block of pairs at a time, which avoids branch mispredictions. Both
-    functions must be inlined: passing a whole Batch to a call costs more than a test of two circles.
+    collide_pair. may_touch is called without branches for a block of pairs before these are collided, which avoids
+    branch mispredictions. Both functions must be inlined: passing a whole Batch to a call costs more than a test of two
+    circles.
     """
 
     @kernel
@@ -318,7 +319,7 @@ def sides_by_kind(batch, pair, kind):
 
 
 # ---- order -----------------------------------------------------------------------------------------------------------
-# Manifolds in the order of their candidates, and as reported.
+# Manifolds in the order of their candidates, and conversion to reported rows.
 
 
 @subkernel
@@ -329,7 +330,10 @@ def copy_manifold(contacts, source, target, contacts_out):
 
 @subkernel
 def drop_empty(count, manifolds_inout):
-    """Remove manifolds without points, keeping the order. Return the number of manifolds left. O(count)."""
+    """Remove manifolds without points and keep the order of the others. Return the number of manifolds left.
+
+    O(count).
+    """
     kept = 0
     for i in range(count):
         if manifolds_inout[i].count > 0:
@@ -341,7 +345,7 @@ def drop_empty(count, manifolds_inout):
 
 @subkernel
 def is_before(contact, shape_a, shape_b):
-    """Return whether a CONTACT row sorts before those of the pair of shapes with the ids shape_a and shape_b."""
+    """Return whether a CONTACT row sorts before the rows of the pair of shapes with the ids shape_a and shape_b."""
     return contact.shape_a < shape_a or (contact.shape_a == shape_a and contact.shape_b < shape_b)
 
 
@@ -407,7 +411,7 @@ def contacts_of(manifolds: np.ndarray) -> np.ndarray:
 
 @subkernel
 def velocity_at(body, x, y):
-    """Return the velocity [px/s] of a body's point that is at (x, y) in the world; body: BODY row."""
+    """Return the velocity [px/s] of a body's point that is at (x, y) in the world. body: BODY row."""
     return (
         body.vx - body.angular_velocity * (y - body.center_y),
         body.vy + body.angular_velocity * (x - body.center_x),
@@ -416,7 +420,7 @@ def velocity_at(body, x, y):
 
 @subkernel
 def relative_velocity(a, b, ax, ay, bx, by):
-    """Return the velocity [px/s] of point (bx, by) of body B relative to point (ax, ay) of body A, BODY rows."""
+    """Return the velocity [px/s] of point (bx, by) of body B relative to point (ax, ay) of body A. a, b: BODY rows."""
     px, py = velocity_at(a, ax, ay)
     qx, qy = velocity_at(b, bx, by)
     return qx - px, qy - py
@@ -436,7 +440,7 @@ def center_velocity(a, b):
 
 @subkernel
 def closing_speed_bound(a, b):
-    """Return an upper bound [px/s] of both bodies' speeds and of the norm returned by center_velocity; BODY rows."""
+    """Return an upper bound [px/s] of both bodies' speeds and of the norm that center_velocity returns; BODY rows."""
     distance = abs(b.center_x - a.center_x) + abs(b.center_y - a.center_y)
     turning = abs(a.angular_velocity) + abs(b.angular_velocity)
     return abs(a.vx) + abs(a.vy) + abs(b.vx) + abs(b.vy) + turning * distance
@@ -446,7 +450,8 @@ def closing_speed_bound(a, b):
 def closing_speed(a, b, x, y, nx, ny, tangential):
     """Return the closing speed [px/s] of two bodies along the normal at a contact point; negative if they separate.
 
-    a, b: BODY rows; x, y [px]: the point; tangential [px]: how far B slides along (-ny, nx) before a predicted contact.
+    a, b: BODY rows; x, y [px]: the point; tangential [px]: distance that B slides along (-ny, nx) before a predicted
+    contact.
     """
     ax, ay = x - a.center_x, y - a.center_y
     bx, by = x - b.center_x + tangential * ny, y - b.center_y - tangential * nx
@@ -457,7 +462,7 @@ def closing_speed(a, b, x, y, nx, ny, tangential):
 
 @inlined
 def approach(a, b, manifold_inout):
-    """Write the closing speed [px/s] of each point of a CONTACT row, before any response; a, b: BODY rows."""
+    """Write the closing speed [px/s] of each point of a CONTACT row, before any response. a, b: BODY rows."""
     m = manifold_inout
     m.speed_1 = closing_speed(a, b, m.x_1, m.y_1, m.normal_x, m.normal_y, m.tangential_offset)
     if m.count == 2:

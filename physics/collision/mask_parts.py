@@ -1,4 +1,4 @@
-"""Deep-penetration fallback for shapes made of convex parts: one direction that separates all parts at once."""
+"""Deep-penetration fallback for shapes made of convex parts: one direction that separates all parts."""
 
 import math
 
@@ -12,10 +12,11 @@ from physics.tables.contact import CONTACT
 from physics.tables.table import rows_of
 
 # ---- minimum translation ---------------------------------------------------------------------------------------------
-# The shortest direction out of all overlapping parts at once (minimum translation).
+# The shortest translation that leads out of all overlapping parts (minimum translation).
 #
-# Along a direction a body has left a convex part as soon as one axis separates the two. It has left the whole outline
-# when it has left every part. The nearest edge of one part may lead into the next part, all along a rim.
+# A body that moves along a direction has left a convex part when one axis separates the two. It has left the whole
+# outline when it has left every part. The nearest hull edge of a single part may lead into the next part, and so on
+# along a rim.
 
 FACES = 32  # greatest number of faces of a pair
 # Columns of a face: unit normal, from A to B; depth of the other hull behind the face [px]; 1.0 if it is touchable.
@@ -25,7 +26,7 @@ ALONG = 0.5  # least cosine between directions that count as the same
 
 @subkernel
 def write_faces(hull, other, sign, first, faces_out):
-    """Write the faces of a Hull to faces_out, from row `first`. Return the row after the last one.
+    """Write the faces of a Hull to faces_out, from row `first` on. Return the row after the last face.
 
     A disc has no faces. other: the overlapping Hull, whose depth behind each face is written; sign: 1.0 if `hull`
     belongs to A, -1.0 if to B; faces_out (any, 4): columns DIRECTION_X, DIRECTION_Y, DEPTH, MAY_PUSH.
@@ -48,7 +49,7 @@ def write_faces(hull, other, sign, first, faces_out):
 
 @subkernel
 def translation_along(faces, starts, count, nx, ny):
-    """Return the distance [px] that B has to move along the unit vector (nx, ny) to leave all parts of A. O(faces).
+    """Return the distance [px] that B must move along the unit vector (nx, ny) to leave all parts of A. O(faces).
 
     faces (any, 4): see write_faces; starts (count + 1,): first face of each of the `count` overlapping pairs of parts.
     """
@@ -68,8 +69,7 @@ def minimum_translation(faces, starts, count, last_x, last_y):
     """Return the face along whose normal B leaves all parts of A with the shortest move.
 
     The result is (index of the pair of parts, row of the face), or (-1, -1) if no face may push. Normals within 60
-    degrees of (last_x, last_y), a unit vector or 0, are preferred. Other arguments as in translation_along.
-    O(faces · faces).
+    degrees of (last_x, last_y), a unit vector or 0, are preferred. Other arguments as in translation_along. O(faces²).
     """
     best = -1
     best_part = -1
@@ -95,7 +95,7 @@ def minimum_translation(faces, starts, count, last_x, last_y):
 
 @subkernel
 def face_manifold(a, edge, b, flipped, margin, manifold_out):
-    """Write the manifold of two overlapping Hulls with an edge of Hull a as the reference, however deep they overlap.
+    """Write the manifold of two overlapping Hulls with an edge of Hull a as the reference, at any depth of the overlap.
 
     flipped: a is shape B of the pair; margin [px]; manifold_out (11,): see "clipping" in hulls.py.
     """
@@ -105,12 +105,12 @@ def face_manifold(a, edge, b, flipped, margin, manifold_out):
     if count == 0 or least_separation(count, manifold_out) > -a.radius - b.radius:
         support_manifold(a, edge, b, flipped, manifold_out)
     if b.count == 1:
-        manifold_out[6] = float(edge)  # features of a disc are numbered by the edge alone: see hulls.py
+        manifold_out[6] = float(edge)  # the feature of a disc is the number of the edge, see hulls.py
 
 
 @subkernel
 def hulls_of_pair(batch, pair, workspace):
-    """Return the Hulls of shapes A and B of a candidate pair; pair: index of the candidate."""
+    """Return the Hulls of shapes A and B of a candidate pair. pair: index of the candidate."""
     geometry = batch.geometry
     a = hull_of(geometry, batch.bodies, batch.shapes, batch.candidates[pair, 0], workspace.a)
     b = hull_of(geometry, batch.bodies, batch.shapes, batch.candidates[pair, 1], workspace.b)
@@ -119,11 +119,10 @@ def hulls_of_pair(batch, pair, workspace):
 
 @kernel
 def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_out, manifolds_out):
-    """Write the manifold that pushes shape B out of shape A along the shortest way.
+    """Write the manifold that pushes shape B out of shape A by the shortest translation. Return 0 or 1, its number.
 
     pairs: indices of the candidates whose sides are overlapping parts of A and B; last_x, last_y: unit normal of the
-    last step, or 0; starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch. Return the number of manifolds, 0
-    or 1. O(faces · faces).
+    last step, or 0; starts_out (pairs + 1,), faces_out (FACES · pairs, 4): scratch. O(faces²).
     """
     starts_out[0] = 0
     for k in range(len(pairs)):
@@ -144,11 +143,12 @@ def write_fallback(batch, pairs, last_x, last_y, workspace, starts_out, faces_ou
 
 
 # ---- fallback --------------------------------------------------------------------------------------------------------
-# The fallback for a body deep among thin parts, with which no part reports a contact.
+# The fallback for a body deep inside thin parts if no part reports a contact.
 #
-# A part reports no contact if the nearest edge is covered by a neighbouring part, which is expected to report it. If a
-# body jumps into a thin rim in one fast step, each part may leave the contact to another. Then the pair gets the edge
-# with the shortest way out of all parts. Tiles have a similar second pass, see tiles.py.
+# A part reports no contact if the nearest hull edge is covered by a neighbouring part, which is expected to report the
+# contact. If a body jumps into a thin rim in one fast step, each part may leave the contact to another part. Then the
+# pair gets the hull edge with the shortest translation out of all parts. Tiles have a similar second pass, see
+# tiles.py.
 
 OPPOSED = -0.5  # cosine of normals that oppose each other
 ALIKE = 0.99  # cosine of normals of two parts that belong to one face
@@ -156,7 +156,7 @@ ALIKE = 0.99  # cosine of normals of two parts that belong to one face
 
 @subkernel
 def depth_of(manifold):
-    """Return the greatest overlap [px] of the points of a CONTACT row; negative if its points do not overlap."""
+    """Return the greatest overlap [px] of the points of a CONTACT row; negative if no point overlaps."""
     if manifold.count == 2:
         return -min(manifold.separation_1, manifold.separation_2)
     return -manifold.separation_1
@@ -164,7 +164,7 @@ def depth_of(manifold):
 
 @kernel
 def find_deep(bodies, manifolds, count, deep, flags_out):
-    """Flag the deep manifolds of parts: overlap above `deep` [px], a part on at least one side, a dynamic body.
+    """Flag deep manifolds of parts: overlap above `deep` [px], a part on at least one side, and a dynamic body.
 
     count: number of manifolds; flags_out (count,) bool. Return the number of flagged manifolds.
     """
@@ -184,8 +184,8 @@ def find_deep(bodies, manifolds, count, deep, flags_out):
 def drop_opposed_rows(order, deep, manifolds_inout):
     """Drop each deep manifold if a shallower manifold of the same two shapes has an opposite normal.
 
-    order: row numbers of the manifolds, sorted by parent ids; deep (manifolds,) bool: flags of find_deep. The manifolds
-    left are moved to the front; return their number. O(manifolds · manifolds of a pair).
+    order: row numbers of the manifolds, sorted by parent ids; deep (manifolds,) bool: flags of find_deep. The remaining
+    manifolds are moved to the front. O(manifolds · manifolds of a pair). Return the number of remaining manifolds.
     """
     first = 0
     count = len(order)
@@ -216,8 +216,8 @@ def drop_opposed_rows(order, deep, manifolds_inout):
 def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray, manifolds: np.ndarray) -> int:
     """Drop each manifold of parts deeper than `deep` [px] if a shallower one of the same shapes has an opposite normal.
 
-    Otherwise a body thrown into a notch narrower than itself would be squeezed between both sides; now the nearer side
-    pushes it out. count: number of manifolds; flags (count,): scratch. Return the number of manifolds left.
+    Otherwise a body thrown into a notch narrower than itself would be squeezed between both sides; with this the nearer
+    side pushes it out. count: number of manifolds; flags (count,): scratch. Return the number of remaining manifolds.
     """
     if not find_deep(bodies, manifolds, count, deep, flags):
         return count
@@ -228,9 +228,9 @@ def drop_opposed(bodies: np.ndarray, count: int, deep: float, flags: np.ndarray,
 def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, workspace: Workspace) -> np.ndarray:
     """Return additional CONTACT rows, at most one for each pair of shapes with parts in the fallback queue.
 
-    A pair gets one if it has no overlapping manifold, or if its manifolds are deeper than the margin: those may push
-    along a wall and not out of it. found: manifolds of this step; previous: those of the last step, whose normals are
-    preferred so that the direction of the push does not alternate.
+    A pair gets a row if it has no overlapping manifold, or if its manifolds are deeper than the margin, because these
+    may push along a wall and not out of it. found: manifolds of this step; previous: manifolds of the last step, whose
+    normals are preferred so that the direction of the push does not alternate.
     """
     shapes = batch.shapes
     queued = np.sort(workspace.fallback[1 : 1 + workspace.fallback[0]])
@@ -266,7 +266,7 @@ def fallback_manifolds(batch: Batch, found: np.ndarray, previous: np.ndarray, wo
 def _pair_keys(shapes, pairs):
     """Return an integer key (n,) for each pair of shapes, equal for all pairs of parts of the same two shapes.
 
-    pairs (n, 2): SHAPE rows. Keys sort like the rows of the whole shapes.
+    pairs (n, 2): SHAPE rows. The keys have the same order as the rows of the whole shapes.
     """
     owners = rows_of(shapes, shapes["parent"][pairs].ravel()).reshape(-1, 2)
     return owners[:, 0] * len(shapes) + owners[:, 1]

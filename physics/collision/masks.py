@@ -28,15 +28,15 @@ from physics.tables.step_state import MASK_TESTS
 # Contact of two masks: point, normal and depth.
 #
 # The normal is the direction in which moving B shrinks the shared area fastest: the gradient of the area over the
-# offset, by central differences of one pixel (the recipe of pygame's Mask documentation). Where the gradient vanishes,
-# the direction between the centres of the solid bounds is used or, if these coincide, their axis of least overlap. The
-# depth is searched pixel by pixel along the normal. If the bounds separate sooner along an axis, that axis is taken:
-# the depth is never more than the least overlap of the bounds.
+# offset, by central differences of one pixel (the recipe of pygame's Mask documentation). If the gradient is 0, the
+# direction between the centres of the solid bounds is used or, if the centres coincide, the axis of least overlap of
+# the bounds. The depth is searched pixel by pixel along the normal. If the bounds separate after a shorter move along
+# an axis, this axis is used, so the depth is never more than the least overlap of the bounds.
 
 
 @subkernel
 def center_normal(a, b, dx, dy):
-    """Return the unit direction from the centre of A's solid bounds to that of B's; (1, 0) if they coincide.
+    """Return the unit direction from the centre of A's solid bounds to the centre of B's; (1, 0) if they coincide.
 
     a, b: RASTER rows; dx, dy [px]: offset of B's top left corner from A's.
     """
@@ -69,14 +69,14 @@ class RasterPair(NamedTuple):
 
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64
-    a: int  # rows of RASTER
-    b: int
-    dx: int  # [px] of B's top left corner from A's
+    a: int  # rows of RASTER: A and …
+    b: int  # … B
+    dx: int  # [px] offset of B's top left corner from A's
     dy: int
 
 
 class Remainders(NamedTuple):
-    """Fractions [px] in 0..1 that snapping to whole pixels has removed from the positions of masks A and B.
+    """Fractions [px] in 0..1 by which snapping to whole pixels has changed the positions of masks A and B.
 
     With them a tested move is rounded to the same pixels as the real move will be.
     """
@@ -89,10 +89,10 @@ class Remainders(NamedTuple):
 
 @subkernel
 def separation_along(pair, remainders, nx, ny, most):
-    """Return the least move [px], a whole number, along the normal (nx, ny) that ends the overlap of two rasters.
+    """Return the least whole number of pixels to move along the normal (nx, ny) that ends the overlap of two rasters.
 
-    pair: RasterPair. The overlap must end whether B moves along the normal or A against it. The result exceeds `most`
-    if no move up to it is enough.
+    pair: RasterPair. The overlap must end if B moves along the normal and also if A moves against it. A result above
+    `most` [px] means that no move up to `most` is enough.
     """
     rasters = pair.rasters
     words = pair.words
@@ -103,7 +103,7 @@ def separation_along(pair, remainders, nx, ny, most):
     row_a, row_b = a.offset, b.offset
     depth = 0.0
     found = True
-    row = 0  # row of the last shared pixel: a pixel further there usually is one too
+    row = 0  # row of the last shared pixel; one pixel farther, the same row usually shares a pixel again
     while found and depth <= most:
         depth += 1.0
         x = pair.dx + math.floor(remainders.bx + nx * depth)
@@ -171,16 +171,16 @@ def mask_contact(pair, remainders):
 # Collision of a mask with a disc or convex polygon. The mask is the union of its pixel squares as drawn.
 #
 # Masks are open sets: a hit shares area, and touching is not a hit. The normal points from the mask to the other shape.
-# Against a disc it runs from the centroid of the overlapping pixels to the centre. Against a polygon it is opposite to
-# the face of least depth.
+# Against a disc it points from the centroid of the overlapping pixels to the disc's centre. Against a polygon it is
+# opposite to the normal of the face of least depth.
 
 
 @subkernel
 def pixel_range(low, high, start, set_low, set_high):
-    """Return the first pixel index, and the last one + 1, of the pixels that overlap the open interval low..high.
+    """Return (first, last + 1) of the indices of the pixels that overlap the open interval low..high on one axis.
 
-    low, high, start [px]: the interval, and the position of pixel 0, on one axis; set_low, set_high: bounds of the
-    solid pixels, to which the result is limited. low and high may be infinite, so they are clamped before rounding.
+    low, high [px]: the interval; start [px]: position of pixel 0; set_low, set_high: bounds of the solid pixels, to
+    which the result is limited. low and high may be infinite, so they are clamped before rounding.
     """
     first = math.floor(min(float(set_high), max(float(set_low), low - start)))
     last = math.floor(max(set_low - 1.0, min(set_high - 1.0, high - start))) + 1
@@ -192,8 +192,8 @@ class PlacedRaster(NamedTuple):
 
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64
-    row: int  # of RASTER
-    left: int  # [px]
+    row: int  # row of RASTER
+    left: int  # [px] position
     top: int
 
 
@@ -223,14 +223,15 @@ def pixels_under(raster, hull):
 def make_pixel_sum(touches: Callable) -> Any:
     """Return a kernel that counts the solid pixels of a mask that overlap a hull, and computes their centroid.
 
-    touches(hull, x, y, depths_out): inlined test whether the hull overlaps the pixel square at x, y.
+    touches(hull, x, y, depths_out): inlined test of whether the hull overlaps the pixel square with top left corner x,
+    y.
     """
 
     @subkernel
     def sum_pixels(raster, hull, depths_out):
-        """Return (number of overlapping pixels, centroid x and y [px], pixel_feature of the first one); 0 for none.
+        """Return (number of overlapping pixels, centroid x and y [px], pixel_feature of the first pixel).
 
-        raster: PlacedRaster; depths_out (16,): scratch for `touches`.
+        All values are 0 without overlap. raster: PlacedRaster; depths_out (16,): scratch for `touches`.
         """
         r = raster.rasters[raster.row]
         first_x, last_x, first_y, last_y = pixels_under(raster, hull)
@@ -256,7 +257,7 @@ def make_pixel_sum(touches: Callable) -> Any:
 
 @inlined
 def square_in_disc(hull, x, y, depths_out):
-    """Return whether the unit square with its top left corner at x, y shares area with a disc, a Hull of one corner."""
+    """Return whether the unit square with top left corner x, y shares area with a disc, a Hull of one corner."""
     beside = max(max(x - hull.corners[0, 0], hull.corners[0, 0] - (x + 1.0)), 0.0)
     above = max(max(y - hull.corners[0, 1], hull.corners[0, 1] - (y + 1.0)), 0.0)
     return beside * beside + above * above < hull.radius * hull.radius
@@ -264,9 +265,9 @@ def square_in_disc(hull, x, y, depths_out):
 
 @subkernel
 def square_exit_distance(x, y, nx, ny, radius):
-    """Return the distance [px] that a disc must move along (nx, ny) to clear a unit square.
+    """Return the distance [px] that a disc must move along (nx, ny) to leave a unit square.
 
-    The disc is at the origin, the square's top left corner at (x, y). The disc is clear when its centre has left the
+    The disc is at the origin, the square's top left corner at (x, y). The disc has left when its centre has left the
     square grown by the radius, through a rounded corner or a straight side.
     """
     depth = 0.0
@@ -291,11 +292,11 @@ sum_pixels_in_disc = make_pixel_sum(square_in_disc)
 
 @subkernel
 def collide_mask_circle(raster, hull, depths_out):
-    """Return (area, normal from mask to disc, point, separation, feature) of a PlacedRaster and a disc, a Hull.
+    """Return (area, normal from mask to disc, point, separation, feature) of a PlacedRaster and a disc (a Hull).
 
-    The area is the number of overlapping pixels, 0 for no contact. The point [px] is their centroid, the feature the
-    pixel_feature of the first one. The separation [px] is minus the move of the disc along the normal that clears all
-    pixels. O(pixels in the disc's AABB).
+    The area is the number of overlapping pixels; 0: no contact. The point [px] is the centroid of these pixels, the
+    feature the pixel_feature of the first. The separation [px] is minus the move of the disc along the normal that
+    clears all pixels. O(pixels in the disc's AABB).
     """
     r = raster.rasters[raster.row]
     cx = hull.corners[0, 0]
@@ -317,7 +318,7 @@ def collide_mask_circle(raster, hull, depths_out):
 
 @subkernel
 def offset_line(points, front, back, corners_out):
-    """Write the corners (4 rows) of the rectangle that widens the line from points[0] to points[1] to both sides.
+    """Write the corners (4 rows) of a rectangle: the line from points[0] to points[1], widened to both sides.
 
     front, back [px]: width in front of the line (towards its normal (dy, -dx)) and behind it.
     """
@@ -340,7 +341,7 @@ def square_in_polygon(corners, count, x, y):
         min_y = min(min_y, corners[k, 1])
         max_y = max(max_y, corners[k, 1])
         nx, ny = edge_normal(corners, count, k)
-        # The corner of the square that lies deepest behind the edge.
+        # (px, py) is the corner of the square that lies deepest behind the edge.
         px = x if nx > 0.0 else x + 1.0
         py = y if ny > 0.0 else y + 1.0
         if nx * (px - corners[k, 0]) + ny * (py - corners[k, 1]) >= 0.0:
@@ -350,9 +351,9 @@ def square_in_polygon(corners, count, x, y):
 
 @inlined
 def square_depths(hull, x, y, depths_out):
-    """Return whether the unit square at x, y shares area with a convex polygon, and record how deep it is.
+    """Return whether the unit square at x, y shares area with a convex polygon, and record its depths.
 
-    depths_out (16,): greatest depth [px] of all squares so far behind each edge of the polygon.
+    depths_out (16,): for each edge of the polygon the greatest depth [px] behind it of all squares so far.
     """
     corners = hull.corners
     if not square_in_polygon(corners, hull.count, x, y):
@@ -370,10 +371,10 @@ sum_pixels_in_polygon = make_pixel_sum(square_depths)
 
 @subkernel
 def collide_mask_polygon(raster, hull, depths_out):
-    """Return (area, normal, point, separation, feature) of a PlacedRaster and a convex polygon, a Hull without radius.
+    """Return (area, normal, point, separation, feature) of a PlacedRaster and a convex polygon (Hull without radius).
 
-    Values as in collide_mask_circle, but the normal is opposite to that of the touchable edge behind which the
-    overlapping pixels are least deep, and the separation is minus that depth [px]. depths_out (16,): scratch.
+    The normal is opposite to the normal of the touchable edge behind which the overlapping pixels are least deep; the
+    separation is minus this depth [px]. Other values as in collide_mask_circle. depths_out (16,): scratch.
     """
     count = hull.count
     for k in range(count):
@@ -395,11 +396,11 @@ def collide_mask_polygon(raster, hull, depths_out):
 
 @subkernel
 def border_pixels(raster, line, low, high, level):
-    """Find the places where a border between two rows or columns of pixels has solid pixels on both sides.
+    """Find the positions at which a border between two rows or columns of pixels has solid pixels on both sides.
 
-    Return (number of places, sum of their positions [px] along the border, pixel_feature of the first or -1). raster:
-    PlacedRaster; line: index of the row or column after the border; level: the border is between rows; low, high [px]:
-    open interval along the border, from the raster's corner.
+    raster: PlacedRaster; line: index of the row or column after the border; level: the border is between rows; low,
+    high [px]: open interval along the border, from the raster's corner. Return (number of positions, sum of the
+    positions [px] along the border, pixel_feature of the first or -1).
     """
     words = raster.words
     r = raster.rasters[raster.row]
@@ -427,10 +428,10 @@ def border_pixels(raster, line, low, high, level):
 
 @subkernel
 def collide_mask_line(raster, hull, depths_out):
-    """Return (area, normal, point, separation, feature) of a PlacedRaster and a line, a Hull of two corners.
+    """Return (area, normal, point, separation, feature) of a PlacedRaster and a line (a Hull of two corners).
 
-    Values as in collide_mask_circle. The line is solid from both sides. It touches where it crosses a solid pixel, or
-    runs along the border between two solid pixels; there the normal points away from the middle of the mask.
+    The line is solid from both sides. It touches where it crosses a solid pixel, or lies on the border between two
+    solid pixels; there the normal points away from the middle of the mask. Other values as in collide_mask_circle.
     depths_out (16,): scratch.
     """
     points = hull.corners
@@ -482,7 +483,7 @@ def square_distance(corners, count, x, y):
 
 @inlined
 def square_in_rounded(hull, x, y, depths_out):
-    """Return whether the unit square with its top left corner at x, y shares area with a rounded hull."""
+    """Return whether the unit square with top left corner x, y shares area with a rounded hull."""
     return square_distance(hull.corners, hull.count, x, y) < hull.radius
 
 
@@ -506,7 +507,8 @@ def direction_to_core(corners, count, x, y):
 def depth_along(raster, hull, nx, ny):
     """Return the move [px] of a rounded hull along the unit vector (nx, ny) that separates it from a mask.
 
-    After the move a line across (nx, ny) separates the hull from all pixels that it overlaps now. raster: PlacedRaster.
+    After the move a line perpendicular to (nx, ny) separates the hull from all pixels that it overlaps now. raster:
+    PlacedRaster.
     """
     r = raster.rasters[raster.row]
     least, _ = extent_along(hull.corners, hull.count, nx, ny)
@@ -530,9 +532,9 @@ sum_pixels_in_rounded = make_pixel_sum(square_in_rounded)
 def collide_mask_rounded(raster, hull, depths_out):
     """Return (area, normal, point, separation, feature) of a PlacedRaster and a rounded Hull of two or more corners.
 
-    Values as in collide_mask_circle. The normal is opposite to a face normal, or points from the centroid of the
-    overlapping pixels to the core, whichever needs the shorter move to clear the pixels. The separation is minus that
-    move. O(pixels in the hull's AABB · corners).
+    The normal is opposite to a face normal, or points from the centroid of the overlapping pixels to the core; the
+    direction with the shorter move that clears the pixels is used. The separation is minus this move. Other values as
+    in collide_mask_circle. O(pixels in the hull's AABB · corners).
     """
     corners = hull.corners
     count = hull.count
@@ -556,7 +558,7 @@ def collide_mask_rounded(raster, hull, depths_out):
 
 @subkernel
 def collide_mask_hull(raster, hull, depths_out):
-    """Return (area, normal, point, separation, feature) of a PlacedRaster and any Hull; see collide_mask_circle.
+    """Return (area, normal, point, separation, feature) of a PlacedRaster and any Hull, see collide_mask_circle.
 
     depths_out (16,): scratch.
     """
@@ -586,8 +588,8 @@ def bounds_overlap(batch, pair):
 def make_mask_pass(full: bool) -> Any:
     """Return the kernel that collides all pairs of snapped masks.
 
-    full: compute area, centroid, normal and depth. Otherwise only find the first shared pixel: the normal is then the
-    direction between the centres, and the separation is -1.
+    full: whether area, centroid, normal and depth are computed. Otherwise only the first shared pixel is found; then
+    the normal is the direction between the centres, and the separation is -1.
     """
 
     @inlined

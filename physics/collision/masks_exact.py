@@ -33,13 +33,14 @@ from physics.tables.step_state import MASK_TESTS
 # ---- hull shares -----------------------------------------------------------------------------------------------------
 # Area and centroid of the overlap of a mask's pixel squares and a rounded hull, in closed form.
 #
-# The hull's outline is its edges, moved out by the radius, and an arc round each corner. Each run of solid pixels in a
-# row is a box, and each edge and arc contributes to the area inside it: see raster/exact.py.
+# The hull's outline consists of its edges, moved outward by the radius, and an arc around each corner. Each run of
+# solid pixels in a row is a box, and each hull edge and arc contributes to the area inside the box: see
+# raster/exact.py.
 
 
 @subkernel
 def arc_at(corners, count, k):
-    """Return (start, end) [rad] of the arc round corner k of a rounded hull, between the normals of its two edges."""
+    """Return (start, end) [rad] of the arc around corner k of a rounded hull, between the normals of its two edges."""
     if count == 1:
         return 0.0, math.tau
     ax, ay = edge_normal(corners, count, k - 1 if k > 0 else count - 1)
@@ -54,7 +55,8 @@ def arc_at(corners, count, k):
 def hull_share(hull, x, y, width, height):
     """Return (area, moment of x, moment of y) of the overlap of a Hull and a box.
 
-    x, y [px]: top left corner of the box, about which the moments are taken; width, height [px]. O(corners).
+    x, y [px]: top left corner of the box, about which the moments are taken; width, height [px]: size of the box.
+    O(corners).
     """
     corners = hull.corners
     count = hull.count
@@ -115,9 +117,9 @@ def shared_with_hull(rasters, words, mask, hull):
 # ---- mask exact ------------------------------------------------------------------------------------------------------
 # Masks that are not snapped, at their exact pose, against hulls and tiles.
 #
-# The test runs in the space of the mask's raster, with the other shape rotated by minus the mask's angle. Overlap,
-# normal and depth are computed as in masks.py. The area and the contact point (the centroid) are exact to rounding. A
-# line has no area, so the pixels that it crosses are counted, as with a snapped mask.
+# The test is made in the space of the mask's raster, with the other shape rotated by minus the mask's angle. Overlap,
+# normal and depth are computed as in masks.py. The area and the contact point (the centroid) are exact up to rounding.
+# A line has no area, so the pixels that it crosses are counted, as with a snapped mask.
 
 
 @subkernel
@@ -144,8 +146,8 @@ def move_into_raster(raster, body, count, corners_inout):
 def hull_in_raster(geometry, bodies, shapes, mask, other, corners_out):
     """Return the Hull of shape `other` in the raster space of shape `mask`, which is not snapped.
 
-    mask, other: rows of SHAPE; corners_out (16, 2): receives the corners. The angles are subtracted before their sine
-    and cosine are taken, so that two bodies at multiples of 90 degrees stay exact.
+    mask, other: rows of SHAPE; corners_out (16, 2) receives the corners. The angles are subtracted before their sine
+    and cosine are computed, so that two bodies at multiples of 90 degrees stay exact.
     """
     s, o = shapes[mask], shapes[other]
     b = bodies[s.body_row]
@@ -203,7 +205,8 @@ def out_of_mask(geometry, body, shape, nx, ny, x, y):
 def collide_as_drawn(geometry, shape, hull, depths_out):
     """Return (area, normal from mask to Hull, point, separation, feature) of a snapped mask and a Hull in the world.
 
-    shape: SHAPE row of the mask. The area is the number of pixels that the Hull overlaps. Else as collide_in_raster.
+    shape: SHAPE row of the mask. The area is the number of pixels that the Hull overlaps. Other values as in
+    collide_in_raster.
     """
     raster = PlacedRaster(geometry.rasters, geometry.words, shape.raster, shape.left, shape.top)
     pixels, nx, ny, x, y, separation, first = collide_mask_hull(raster, hull, depths_out)
@@ -253,9 +256,9 @@ def collide_mask_shape(geometry, bodies, shapes, mask, other, workspace):
 # Contact of two masks of which at least one is not snapped: point, normal and depth.
 #
 # As for snapped masks (masks.py), the normal is the direction in which moving B shrinks the shared area fastest, by
-# differences of one pixel. Where this gradient vanishes, the direction between the centres of the AABBs is used or, if
-# these coincide, their axis of least overlap. The depth along the normal is exact, not in whole pixels. If it exceeds
-# the least overlap of the boxes, the normal and depth along that axis are taken.
+# differences of one pixel. If this gradient is 0, the direction between the centres of the AABBs is used or, if the
+# centres coincide, the axis of least overlap of the AABBs. The depth along the normal is exact, not in whole pixels. If
+# it exceeds the least overlap of the AABBs, the normal and depth along the axis of least overlap are used.
 #
 # In this section A is the mask in whose raster space (the frame) the test runs; see raster/exact.py.
 
@@ -264,7 +267,7 @@ NOISE = 1e-9  # rounding error of area differences, as a share of the area
 
 @subkernel
 def boxes_normal(a, b):
-    """Return (unit direction from A's AABB centre to B's, whether the centres differ); a, b: SHAPE rows."""
+    """Return (unit direction from A's AABB centre to B's, whether the centres differ). a, b: SHAPE rows."""
     x, y = (b.min_x - a.min_x) + (b.max_x - a.max_x), (b.min_y - a.min_y) + (b.max_y - a.max_y)
     nx, ny = unit(x, y, 1.0, 0.0)
     return nx, ny, x != 0.0 or y != 0.0
@@ -274,7 +277,8 @@ def boxes_normal(a, b):
 def area_normal(pair, area):
     """Return (unit direction in A's raster in which moving B shrinks the shared area fastest, whether it is defined).
 
-    pair: SquaresPair; area [px2]: shared now. The direction is undefined if a move changes the area by rounding only.
+    pair: SquaresPair; area [px2]: present shared area. The direction is undefined if a move changes the area only by
+    rounding.
     """
     before, _, _ = shared_squares(pair, pair.u - 1.0, pair.v)
     behind, _, _ = shared_squares(pair, pair.u + 1.0, pair.v)
@@ -288,7 +292,8 @@ def area_normal(pair, area):
 def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
     """Return the move [px] of B along the world normal (nx, ny) that ends the overlap of a SquaresPair.
 
-    turn_cosine, turn_sine: of A's angle. The result exceeds `most` [px] if no move up to it is enough.
+    turn_cosine, turn_sine: cosine and sine of A's angle. A result above `most` [px] means that no move up to `most` is
+    enough.
     """
     rx, ry = rotate(nx, ny, turn_cosine, -turn_sine)
     return squares_way_out(pair, rx, ry, most)
@@ -298,8 +303,9 @@ def depth_of_squares(pair, nx, ny, turn_cosine, turn_sine, most):
 def exact_contact(pair, a, b, turn_cosine, turn_sine):
     """Return (area [px2], point, normal from A to B in the world, separation [px]) of two overlapping masks.
 
-    pair: SquaresPair of both; a, b: their SHAPE rows; turn_cosine, turn_sine: of A's angle. The point is the centroid
-    of the overlap in A's raster. The separation is minus the move along the normal that ends the overlap.
+    pair: SquaresPair of the masks; a, b: their SHAPE rows; turn_cosine, turn_sine: cosine and sine of A's angle. The
+    point is the centroid of the overlap in A's raster. The separation is minus the move along the normal that ends the
+    overlap.
     """
     area, x, y = shared_squares(pair, pair.u, pair.v)
     slack = slack_of(pair.rasters[pair.frame], pair.rasters[pair.other])
@@ -340,9 +346,9 @@ def share_no_area(geometry, a, b):
 
 @subkernel
 def is_first_the_frame(geometry, a, b):
-    """Return whether two masks are tested in A's raster space (otherwise in B's); a, b: SHAPE rows.
+    """Return whether two masks are tested in A's raster space, and not in B's. a, b: SHAPE rows.
 
-    The space of an unsnapped mask is used; if neither is snapped, that of the mask with the greater area.
+    The space of an unsnapped mask is used; if neither is snapped, the space of the mask with the greater area.
     """
     if a.snap or b.snap:
         return not a.snap
@@ -352,7 +358,7 @@ def is_first_the_frame(geometry, a, b):
 
 @subkernel
 def squares_pair(geometry, bodies, frame, other):
-    """Return the SquaresPair of two masks, SHAPE rows, in the raster space of `frame`, which is not snapped."""
+    """Return the SquaresPair of two masks (SHAPE rows) in the raster space of `frame`, which is not snapped."""
     u, v, cosine, sine = raster_in_raster(geometry, bodies[frame.body_row], frame, bodies[other.body_row], other)
     rows = raster_of_shape(geometry, frame), raster_of_shape(geometry, other)
     return SquaresPair(geometry.rasters, geometry.words, rows[0], rows[1], u, v, cosine, sine)
@@ -373,8 +379,8 @@ def exact_mask_area(geometry, bodies, a, b):
 def make_exact_mask_pass(full: bool) -> Any:
     """Return the kernel that collides all pairs of masks of which at least one is not snapped.
 
-    full: compute area, centroid, normal and depth. Otherwise only find two overlapping pixels: the normal is then the
-    direction between the centres of the AABBs, and the separation is -1.
+    full: whether area, centroid, normal and depth are computed. Otherwise only two overlapping pixels are found; then
+    the normal is the direction between the centres of the AABBs, and the separation is -1.
     """
 
     @inlined

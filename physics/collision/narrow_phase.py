@@ -49,16 +49,16 @@ from physics.tables.step_state import COUNTERS, NARROW_TESTS, SENSOR_TESTS, Step
 from physics.tables.table import zeros_in_lines
 
 # ---- box pairs -------------------------------------------------------------------------------------------------------
-# Which candidates a pass reads, and the pass that compares AABBs only.
+# Selection of the candidates that a pass reads, and the pass that only compares AABBs.
 
-# Which candidates a call tests: ALL; NO_SENSORS, those without a sensor; SOLIDS, those without a sensor whose contact
-# can change in a step; SENSORS, those with a sensor.
+# Candidates that a call tests. ALL: all. NO_SENSORS: candidates without a sensor. SOLIDS: candidates without a sensor
+# whose contact can change in a step. SENSORS: candidates with a sensor.
 ALL, NO_SENSORS, SOLIDS, SENSORS = 0, 1, 2, 3
 
 
 @inlined
 def may_change(a, b):
-    """Return whether a step can change the contact of two bodies, BODY rows: one is active or wakes the other."""
+    """Return whether a step can change the contact of two bodies (BODY rows): one is active or wakes the other."""
     return is_active(a) or is_active(b) or wakes(a, b) or wakes(b, a)
 
 
@@ -70,7 +70,10 @@ def is_wanted(which, a, b):
 
 @subkernel
 def is_asked(which, bodies, a, b):
-    """Return whether `which` selects a pair of SHAPE rows; for SOLIDS its contact must also be able to change."""
+    """Return whether `which` selects a pair of SHAPE rows.
+
+    For SOLIDS the pair's contact must also be able to change.
+    """
     if not is_wanted(which, a, b):
         return False
     return which != SOLIDS or may_change(bodies[a.body_row], bodies[b.body_row])
@@ -78,10 +81,10 @@ def is_asked(which, bodies, a, b):
 
 @kernel
 def collide_boxes(batch, which, manifolds_out, work_inout):
-    """Write the contacts of the candidates from their AABBs alone.
+    """Write the contacts of the candidates from their AABBs alone. Return the number of contacts. O(candidates).
 
     The normal is the axis of least overlap, the point the middle of the overlap. which: ALL, NO_SENSORS, SOLIDS or
-    SENSORS. Return the number of contacts. O(candidates).
+    SENSORS.
     """
     shapes, candidates = batch.shapes, batch.candidates
     found = 0
@@ -113,7 +116,7 @@ def collide_boxes(batch, which, manifolds_out, work_inout):
 
 
 # ---- classify --------------------------------------------------------------------------------------------------------
-# The kind of each candidate pair, and which pairs a pass reads.
+# The kind of each candidate pair, which selects its pass.
 
 # Counters after the kinds of pairs: pairs with a part, and pairs with a mask whose raster is drawn for the test.
 WITH_CHILD, DRAWN_PAIRS = NOTHING + 1, NOTHING + 2
@@ -124,7 +127,7 @@ def kind_of_pair(low, high):
     """Return the kind of pair (CIRCLES, POLYGONS, …) of two shapes of the kinds `low` <= `high`."""
     if low == CIRCLE and high == CIRCLE:
         return CIRCLES
-    # Grids and chains are never moved by contacts: no contact between two of them.
+    # Contacts never move grids and chains, so two of them have no contact.
     if high == CHAIN:
         return CHAIN_ANY if low != TILES and low != CHAIN else NOTHING
     if high == TILES or low == TILES:
@@ -138,10 +141,10 @@ def kind_of_pair(low, high):
 
 @inlined
 def as_snapped(kind, a, b):
-    """Return the kind of pair of two SHAPE rows; kind: the result of kind_of_pair for them.
+    """Return the kind of pair of two SHAPE rows. kind: the result of kind_of_pair for them.
 
-    The result differs from `kind` for two masks of which one is not snapped (MASKS_EXACT), and for a chain that is the
-    one-way surface of a mask (SURFACE_ANY).
+    The result differs from `kind` for two masks of which at least one is not snapped (MASKS_EXACT), and for a chain
+    that is the one-way surface of a mask (SURFACE_ANY).
     """
     if kind == CHAIN_ANY:
         chain = a if a.kind == CHAIN else b
@@ -153,7 +156,7 @@ def as_snapped(kind, a, b):
 
 @inlined
 def boxes_apart(a, b, margin):
-    """Return whether the boxes of two SHAPE rows are further apart than a margin [px]."""
+    """Return whether the boxes of two SHAPE rows are farther apart than a margin [px]."""
     return (
         a.min_x - margin > b.max_x
         or b.min_x - margin > a.max_x
@@ -164,7 +167,7 @@ def boxes_apart(a, b, margin):
 
 @inlined
 def kind_asked(bodies, a, b, margin, lookahead, which):
-    """Return the kind of a candidate pair of SHAPE rows, or NOTHING if the pair is not to be tested.
+    """Return the kind of a candidate pair of SHAPE rows; NOTHING: the pair is not tested.
 
     margin [px], lookahead [s]: see Batch; which: ALL, NO_SENSORS, SOLIDS or SENSORS.
     """
@@ -199,10 +202,10 @@ def is_of_child(a, b):
 def classify(batch, which, kinds_out, counts_out, work_inout):
     """Write the kind of each candidate pair, and the number of pairs of each kind. O(candidates).
 
-    which: ALL, NO_SENSORS, SOLIDS or SENSORS; pairs that are not selected get the kind NOTHING. So do SOLIDS and
-    SENSORS with AABBs further apart than batch.margin, unless they may meet within batch.lookahead.
-    counts_out[WITH_CHILD]: number of pairs with a part of a larger shape; counts_out[DRAWN_PAIRS]: of pairs with a mask
-    to be rasterized first.
+    which: ALL, NO_SENSORS, SOLIDS or SENSORS; pairs that are not selected get the kind NOTHING. With SOLIDS and SENSORS
+    also pairs whose AABBs are farther apart than batch.margin get NOTHING, unless they may meet within batch.lookahead.
+    counts_out[WITH_CHILD]: number of pairs with a part of a larger shape; counts_out[DRAWN_PAIRS]: number of pairs with
+    a mask that must be rasterized first.
     """
     bodies, shapes, candidates = batch.bodies, batch.shapes, batch.candidates
     for i in range(len(counts_out)):
@@ -223,14 +226,14 @@ def classify(batch, which, kinds_out, counts_out, work_inout):
 
 
 # ---- one-way ground --------------------------------------------------------------------------------------------------
-# Contacts of the last step with one-way ground, which is open from below.
+# Contacts of the last step with one-way ground; bodies pass through it from below.
 
 
 @kernel
 def remember_ground(batch, previous, memory_out):
     """Find the contacts of the last step of each candidate with a tile grid or one-way surface.
 
-    They tell which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape ids like
+    They show which bodies stood on one-way ground. previous: CONTACT rows of the last step, sorted by shape ids like
     the candidates; memory_out (count, 2): first row in `previous`, number of rows. O(candidates + previous).
     """
     j = 0
@@ -251,14 +254,14 @@ def remember_ground(batch, previous, memory_out):
 
 
 # ---- dispatch --------------------------------------------------------------------------------------------------------
-# From candidate pairs to contacts: one pass per kind of pair, called only when such pairs exist.
+# From candidate pairs to contacts: one pass per kind of pair, which is called only if such pairs exist.
 
 
 class NarrowPhase:
     """Narrow phase of one world, with the arrays that are reused between steps.
 
-    full_masks: compute area, normal and depth of pairs of masks, and not only whether they overlap; one_way: the world
-    has one-way ground; boxes_only: find contacts from AABBs alone.
+    full_masks: whether area, normal and depth of pairs of masks are computed, and not only whether they overlap;
+    one_way: whether the world has one-way ground; boxes_only: whether contacts are found from AABBs alone.
     """
 
     def __init__(self, full_masks: bool, one_way: bool, boxes_only: bool) -> None:
@@ -323,18 +326,18 @@ class NarrowPhase:
         graze: float,
         lookahead: float,
     ) -> Batch:
-        """Return the Batch of these candidates, with an array for their kinds; arguments as in collide and Batch."""
+        """Return the Batch of these candidates, with an array for their kinds. Arguments as in collide and Batch."""
         count = len(candidates)
         self._make_room_for_pairs(count)
         return Batch(library.tables, bodies, shapes, candidates, self.kinds, count, margin, bias, graze, lookahead)
 
     def find_boxes(self, batch: Batch, which: int, work: np.ndarray) -> np.ndarray:
-        """Return the contacts of the candidates from their AABBs alone; which: ALL, NO_SENSORS, SOLIDS or SENSORS."""
+        """Return the contacts of the candidates from their AABBs alone. which: ALL, NO_SENSORS, SOLIDS or SENSORS."""
         found = self._with_room(work, lambda: collide_boxes(batch, which, self.raw, work))
-        return self.raw[:found]  # a larger table than before, where there was no room
+        return self.raw[:found]  # self.raw is a new, larger table if the old one was too small
 
     def complete(self, batch: Batch, previous: np.ndarray | None, recycled: int, work: np.ndarray) -> np.ndarray:
-        """Test all pairs that `classify` has selected, and return the manifolds in the order of the candidates.
+        """Test all pairs that `classify` has selected. Return the manifolds in the order of the candidates.
 
         recycled: number of recycled manifolds already at the beginning of self.raw, which are part of the result.
         """
@@ -362,8 +365,9 @@ class NarrowPhase:
     def _detect(self, batch, workspace, previous, counts, recycled, work) -> tuple[int, int]:
         """Run the passes, and append their manifolds to self.raw after the first `recycled` rows.
 
-        Return (number of manifolds including the recycled ones, number of passes that appended manifolds). The
-        manifolds of one pass are in the order of the candidates, so a merge is needed only after several passes.
+        Return (number of manifolds including the recycled ones, number of passes made, with the fallback if it added a
+        manifold). The manifolds of one pass are in the order of the candidates, so they must be sorted only after
+        several passes.
         """
         used = [run for kind, run in self.passes if counts[kind]]
         if len(workspace.fallback) < batch.count + 1:
@@ -424,9 +428,9 @@ class NarrowPhase:
         return drop_seams(batch, previous, found, self.workspace, self.lists, self.ground, self.raw)
 
     def room_for(self, count: int) -> np.ndarray:
-        """Return an array with room for `count` CONTACT rows, into which the caller writes recycled contacts.
+        """Return an array for at least `count` CONTACT rows, to which the caller writes recycled contacts.
 
-        The next call of `complete` takes their number as `recycled`.
+        The next call of `complete` receives their number as `recycled`.
         """
         self._make_room(count)
         return self.raw
@@ -455,7 +459,7 @@ def detect(state: StepState) -> np.ndarray:
     """Return the CONTACT rows at the present poses, with closing speeds.
 
     Before the call state.contact_rows holds the contacts of the last step. With contact response, pairs with sensors
-    are left out: the stage `sense` tests them at the final poses.
+    are left out, because the stage `sense` tests them at the final poses.
     """
     slop = state.tolerances.slop
     narrow = state.workspace.narrow
@@ -477,7 +481,7 @@ def detect(state: StepState) -> np.ndarray:
 def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
     """Recompute points, normals and separations of contacts that a sweep has found, at the present poses.
 
-    met: CONTACT rows to update; a row stays as it is if the narrow phase finds no contact with a similar normal.
+    met: CONTACT rows to update; a row is unchanged if the narrow phase finds no contact with a similar normal.
     """
     found = state.workspace.narrow.collide(
         state.library,
@@ -490,7 +494,7 @@ def place_swept_contacts(state: StepState, met: np.ndarray) -> None:
     )
     pair = found["candidate"]
     alike = met["normal_x"][pair] * found["normal_x"] + met["normal_y"][pair] * found["normal_y"]
-    # Where a pair touches in several places, the sweep's contact is the one with its normal.
+    # If a pair touches at several points, the contact with the normal most similar to the sweep's is used.
     best = np.lexsort((-alike, pair))
     best = best[np.unique(pair[best], return_index=True)[1]]
     best = best[alike[best] > 0.0]

@@ -1,4 +1,4 @@
-"""Ghost collisions: contacts at the seam between two flush pieces of ground are dropped."""
+"""Removal of ghost collisions: contacts at the seam between two flush pieces of ground are dropped."""
 
 import math
 from typing import NamedTuple
@@ -26,24 +26,25 @@ from physics.tables.geometry import BLOCK_LINKS, EMPTY, SLOPE
 from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 
 # ---- seams -----------------------------------------------------------------------------------------------------------
-# Contacts of a dynamic body with several pieces of ground: grids, links of chains, static boxes, segments, parts.
+# Contacts of a dynamic body with several pieces of ground: runs of tiles, links, static boxes, segments, parts.
 #
 #            body            a face contact with piece A supports the body: normal up, plane along the surface
 #        ____________
 #     -------+-------        piece B is no higher than that plane near the body: its side and its corner are inside
 #        A   |   B           the ground, and a contact with them is a ghost collision
 #
-# The plane of a face contact separates the body from A. Where it separates the body from another piece too, up to the
-# tolerance for passing bodies, that piece can push along the plane's normal only. Any other contact with it is dropped
-# if it lies ahead of the body, or if another piece that the body touches covers the place. A piece that stands higher
-# than the tolerance is felt, and so is an edge beside a gap.
+# The plane of a face contact separates the body from A. If it also separates the body from another piece, up to the
+# tolerance for passing bodies, the other piece can push only along the plane's normal. Any other contact with this
+# piece is dropped if the contact lies ahead of the body, or if its points lie on another piece of ground. A piece that
+# stands higher than the tolerance keeps its contacts, and so does a corner next to a gap.
 #
-# Whether a corner is exposed depends on the neighbouring pieces, so a single pair cannot decide it. Source: Catto,
-# Ghost Collisions, box2d.org, 2020, where a chain's neighbours are known; here they are found among the candidates.
+# Whether a corner is exposed depends on the neighbouring pieces, so it cannot be determined from a single pair. Source:
+# Catto, Ghost Collisions, box2d.org, 2020, where a chain's neighbours are known; here they are found among the
+# candidates.
 
 PARALLEL = 0.996  # least cosine between the normals of two faces that may support a body together (5 degrees)
 SAME_NORMAL = 1.0 - 1e-12  # least cosine between normals that count as equal
-WIDE = 4.0  # a face contact wider than this many tolerances (batch.graze) is not at a seam
+WIDE = 4.0  # a face contact wider than this multiple of the tolerance (batch.graze) is not at a seam
 NONE = -1
 
 
@@ -56,7 +57,7 @@ class BodyLists(NamedTuple):
 
 @subkernel
 def ground_side(bodies, shapes, manifold):
-    """Return which side of a CONTACT row is ground touched by a dynamic body: 0 for A, 1 for B, or NONE.
+    """Return the side of a CONTACT row that is ground touched by a dynamic body: 0 for A, 1 for B, or NONE.
 
     NONE: both bodies or neither are dynamic, or a shape is a mask.
     """
@@ -71,7 +72,7 @@ def ground_side(bodies, shapes, manifold):
 
 @subkernel
 def is_at_corner(shapes, manifold):
-    """Return whether a contact is between two corners, or a disc and a corner, so the normal is not a face's."""
+    """Return whether a contact is between two corners, or a disc and a corner, so its normal is not a face normal."""
     part = manifold.feature_1 % PART
     disc = shapes[manifold.row_a].kind == CIRCLE or shapes[manifold.row_b].kind == CIRCLE
     return part >= (CIRCLE_CORNER if disc else CORNERS)
@@ -81,7 +82,7 @@ def is_at_corner(shapes, manifold):
 def piece_at(batch, row, feature, corners_out):
     """Return the Hull of the piece of ground that a feature id names: a run of tiles, a link, or the whole shape.
 
-    row: of SHAPE; corners_out (16, 2): receives the corners [px].
+    row: row of SHAPE; corners_out (16, 2) receives the corners [px].
     """
     geometry = batch.geometry
     s = batch.shapes[row]
@@ -105,7 +106,7 @@ def piece_at(batch, row, feature, corners_out):
 
 @subkernel
 def may_be_seam(batch, side, manifold, corners_out):
-    """Return whether a contact with ground may be at a seam: near an end of its ground piece, or not yet touching.
+    """Return whether a contact with ground may be at a seam: near an end of its piece of ground, or not yet touching.
 
     side: 0 if A is the ground, 1 if B is. A contact over a wide face, or of a disc with a face, is not at a seam.
     corners_out (16, 2): scratch.
@@ -128,9 +129,9 @@ def may_be_seam(batch, side, manifold, corners_out):
 
 @subkernel
 def highest_within(hull, nx, ny, low, high):
-    """Return how far [px] a Hull reaches along (nx, ny) within a strip: the interval low..high along (-ny, nx) [px].
+    """Return the greatest coordinate [px] along (nx, ny) of a Hull within a strip; -inf for a Hull outside the strip.
 
-    Return -inf for a Hull outside the strip.
+    The strip is the interval low..high [px] along (-ny, nx).
     """
     corners = hull.corners
     low -= hull.radius
@@ -187,7 +188,7 @@ def is_behind_plane(batch, seam, support, workspace):
     own = ground == (support.row_a if other_side == 0 else support.row_b)
     if own and part_of(seam.feature_1) == part_of(support.feature_1):
         return False
-    # A disc over the joint of two pieces touches both of their corners, and neither is the surface beside it.
+    # A disc over the joint of two pieces touches a corner of each; neither of these contacts shows the surface.
     if is_at_corner(shapes, support) and norm(seam.x_1 - support.x_1, seam.y_1 - support.y_1) <= 2.0 * batch.graze:
         return False
     sign = 1.0 if other_side == 0 else -1.0
@@ -195,7 +196,7 @@ def is_behind_plane(batch, seam, support, workspace):
     cosine = (nx * seam.normal_x + ny * seam.normal_y) * (1.0 if side == 0 else -1.0)
     if cosine >= (SAME_NORMAL if is_at_corner(shapes, seam) else PARALLEL):
         return False
-    # The surface of the supporting piece, and how deep the body is in it.
+    # The surface of the supporting piece, and the depth of the body in it.
     level = nx * support.x_1 + ny * support.y_1 - 0.5 * support.separation_1
     deepest = support.separation_1
     if support.count == 2:
@@ -217,7 +218,7 @@ def is_behind_plane(batch, seam, support, workspace):
 def is_on_piece(batch, row, x, y, own_part, workspace):
     """Return whether the point (x, y) is on a ground shape, or within batch.graze of it.
 
-    row: of SHAPE; own_part: index of a run of tiles or link to ignore, or NONE.
+    row: row of SHAPE; own_part: index of a run's first cell, or of a link, that is ignored; NONE: nothing is ignored.
     """
     geometry = batch.geometry
     near = batch.graze
@@ -259,10 +260,10 @@ def is_on_piece(batch, row, x, y, own_part, workspace):
 
 @subkernel
 def is_covered(batch, seam, first, others, workspace):
-    """Return whether all touching points of a contact lie on other pieces of ground, too.
+    """Return whether each touching point of a contact also lies on another piece of ground.
 
-    seam: CONTACT row; first, others: linked list of the ground candidates of its dynamic body (index of the first one,
-    and index of the next one for each candidate).
+    seam: CONTACT row; first, others: linked list of the ground candidates of its dynamic body (index of the first
+    candidate, and for each candidate the index of the next).
     """
     shapes = batch.shapes
     side = ground_side(batch.bodies, shapes, seam)
@@ -290,7 +291,10 @@ def is_covered(batch, seam, first, others, workspace):
 
 @subkernel
 def list_ground(batch, lists_out):
-    """Write for each dynamic body the list of its candidate pairs with ground (non-dynamic bodies). O(candidates)."""
+    """Write for each dynamic body the list of its candidate pairs with ground (bodies that are not dynamic).
+
+    O(candidates).
+    """
     for row in range(len(batch.bodies)):
         lists_out.heads[row] = NONE
     for pair in range(batch.count):
@@ -315,7 +319,7 @@ def has_seams(batch, manifolds, count, workspace):
 
 @subkernel
 def is_recycled(batch, contact):
-    """Return whether a CONTACT row of the last step belongs to a candidate that this step does not test again."""
+    """Return whether a CONTACT row of the last step belongs to a candidate that is not tested again in this step."""
     pair = contact.candidate
     if pair < 0 or pair >= batch.count or batch.kinds[pair] != NOTHING:
         return False
@@ -341,7 +345,7 @@ def drop_seams(batch, previous, count, workspace, contacts_out, ground_out, mani
     """Drop the contacts of dynamic bodies at seams between pieces of ground. Return the number of manifolds left.
 
     manifolds_inout: CONTACT rows, `count` in use, whose order is kept; previous: CONTACT rows of the last step, of
-    which recycled ones count as supports. contacts_out, ground_out: scratch, BodyLists for contacts and candidates.
+    which the recycled rows count as supports. contacts_out, ground_out: scratch, BodyLists for contacts and candidates.
     O(manifolds · manifolds of a body).
     """
     bodies = batch.bodies

@@ -33,13 +33,13 @@ from physics.tables.step_state import MASK_TESTS
 # ---- tiles -----------------------------------------------------------------------------------------------------------
 # A slope, or a run of equal tiles in a row, as a convex polygon, and its touchable edges.
 #
-# An edge that a neighbouring tile covers is inside the ground. No contact may push through it, or bodies would catch on
-# the seams between tiles (ghost collisions).
+# A hull edge of a tile that a neighbouring tile covers is inside the ground. No contact may push through such an edge,
+# else bodies would catch on the seams between tiles (ghost collisions).
 
 
 @subkernel
 def is_covered(grids, cells, grid, row, column, from_row, from_column):
-    """Return whether the cell at (row, column) covers the edge shared with the cell (from_row, from_column)."""
+    """Return whether the cell at (row, column) covers the edge that it shares with the cell (from_row, from_column)."""
     g = grids[grid]
     if row < 0 or row >= g.rows or column < 0 or column >= g.columns:
         return False
@@ -62,7 +62,7 @@ def is_covered(grids, cells, grid, row, column, from_row, from_column):
 def bends_down(grids, cells, grid, row, column, side):
     """Return whether the ground bends down between a tile and its neighbour, so that the corner is exposed.
 
-    side: -1 for the left neighbour, 1 for the right one.
+    side: -1 for the left neighbour, 1 for the right neighbour.
     """
     g = grids[grid]
     other = column + side
@@ -78,17 +78,17 @@ def bends_down(grids, cells, grid, row, column, side):
 
 @subkernel
 def corners_between(edges, count):
-    """Return the bits of the corners whose two adjacent edges are both set in `edges`; count: of edges."""
+    """Return the bits of the corners whose two adjacent edges are both set in `edges`. count: number of edges."""
     return edges & ((edges << 1) | (edges >> (count - 1)))
 
 
 @inlined
 def run_at(geometry, grid, x, y, row, column, under, corners_out):
-    """Write the world corners [px] of the run of solid or one-way cells that a cell belongs to.
+    """Write the world corners [px] of the run of solid or one-way cells that contains a cell.
 
-    Return (number of corners, bits of touchable edges and corners, see tile_at). The run is one rectangle, without
-    seams between its cells. under: first and last column under the other shape; the top (bottom) edge is touchable if a
-    cell within these columns has no neighbour above (below) that covers it.
+    The run is one rectangle, without seams between its cells. under: first and last column under the other shape; the
+    top (bottom) edge is touchable if a cell within these columns has no neighbour above (below) that covers the edge.
+    Return (number of corners, bits of touchable edges and corners, see tile_at).
     """
     grids, cells = geometry.grids, geometry.cells
     low, high = under
@@ -123,10 +123,10 @@ def run_at(geometry, grid, x, y, row, column, under, corners_out):
 def tile_at(geometry, grid, x, y, row, column, corners_out):
     """Write the world corners [px] of a tile, clockwise on the screen from the top left.
 
-    Return (number of corners, edges). `edges`: bits of the touchable edges (not covered by a neighbour) and, 16 bits
-    higher, of the touchable corners; a corner at a covered edge is touchable where the ground bends down. If all edges
-    are covered, all are touchable, so that a body inside the tile gets out. A slope has three or four corners. grid:
-    row of GRID; x, y [px]: the grid's origin; corners_out (16, 2).
+    A slope has three or four corners. grid: row of GRID; x, y [px]: the grid's origin; corners_out (16, 2). Return
+    (number of corners, bits): the low 16 bits are the touchable edges (not covered by a neighbour), the next 16 bits
+    the touchable corners. A corner at a covered edge is touchable where the ground bends down. If all edges are
+    covered, all are touchable, so that a body inside the tile is pushed out.
     """
     grids, cells = geometry.grids, geometry.cells
     g = grids[grid]
@@ -145,7 +145,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
     n = 0
     edges = 0
     corners = 0
-    # Each corner starts an edge: surface, right side, bottom, left side.
+    # Each corner is the start of an edge: surface, right side, bottom, left side.
     if heights_left > 0.0:
         corners_out[n, 0] = left
         corners_out[n, 1] = bottom - heights_left * g.tile_size
@@ -159,7 +159,7 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
     if heights_right > 0.0:
         corners_out[n, 0] = right
         corners_out[n, 1] = bottom - heights_right * g.tile_size
-        # Without a left side this is the second corner: the surface runs from the bottom left corner, written last.
+        # Without a left side, the surface leads from the bottom left corner, which is written last, to this corner.
         if not is_covered(grids, cells, grid, row, column + 1, row, column):
             edges |= 1 << n
         elif bends_down(grids, cells, grid, row, column, 1):
@@ -189,12 +189,12 @@ def tile_at(geometry, grid, x, y, row, column, corners_out):
 def pushing_edges_on_tile(corners, count, tile_edges):
     """Return the bits of the edges of a polygon whose normals may push it out of a tile.
 
-    An edge may not if it would push the polygon out through a covered side of the tile. tile_edges: bits returned by
+    An edge that would push the polygon out through a covered side of the tile is excluded. tile_edges: bits returned by
     tile_at for a tile of four corners (surface, right, bottom, left).
     """
     if (tile_edges & 15) == 15:
         return ALL_EDGES
-    edges = 0xFFFF0000  # the corners may touch whatever sticks out of the tile
+    edges = 0xFFFF0000  # all corners may touch
     for k in range(count):
         nx, ny = edge_normal(corners, count, k)
         # The edge's normal points into the tile; the polygon leaves the tile on the opposite side.
@@ -235,7 +235,7 @@ def touched_run(workspace, pair, run):
 
 
 def make_grid_pass(one_way: bool) -> Any:
-    """Return the kernel that collides tile grids with all other shapes; one_way: whether one-way tiles collide."""
+    """Return the kernel that collides tile grids with all other shapes. one_way: whether one-way tiles collide."""
 
     @inlined
     def collide_grid_pair(batch, pair, workspace, manifolds_out, found, work_inout):
@@ -264,12 +264,12 @@ def make_grid_pass(one_way: bool) -> Any:
             work_inout[MASK_TESTS] += 1
         else:
             hull = hull_of(geometry, bodies, shapes, other, workspace.b)
-        # Columns that the shape overlaps on its way, not only touches.
+        # Columns that the shape overlaps during its motion, without columns that it only touches.
         under = (math.floor((min_x - p.x) / g.tile_size), math.ceil((max_x - p.x) / g.tile_size) - 1)
         start = found
         seen = 0
         for attempt in range(2):
-            # Second pass, for a deep overlap if each tile left the contact to a neighbour: all edges are touchable.
+            # Second pass, if each tile left a deep overlap to a neighbour: all edges are touchable.
             if attempt == 1 and (seen == 0 or found > start):
                 break
             deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
@@ -283,7 +283,7 @@ def make_grid_pass(one_way: bool) -> Any:
                     if kind == EMPTY or (kind == ONE_WAY and not one_way):
                         continue
                     run = tile_row * g.columns + cell.first
-                    # One-way: only a shape that came from above the tile, or was in contact with it, may touch it.
+                    # Only a shape that came from above a one-way tile, or was in contact with it, may touch it.
                     if kind == ONE_WAY and (
                         attempt == 1
                         or (was_above > p.y + tile_row * g.tile_size + margin and not touched_run(workspace, pair, run))
@@ -336,7 +336,7 @@ def make_grid_pass(one_way: bool) -> Any:
                             deepest,
                             workspace.points,
                         )
-                        # Ends of two faces that pass each other, as in collide_polygon_pair.
+                        # Two faces whose ends pass each other, as in collide_polygon_pair.
                         if (
                             batch.graze > 0.0
                             and kind != ONE_WAY

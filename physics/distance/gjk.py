@@ -11,10 +11,10 @@ from physics.math2d import norm, unit
 # ---- gjk -------------------------------------------------------------------------------------------------------------
 # Distance of two convex hulls by the algorithm of Gilbert, Johnson and Keerthi (GJK) in two dimensions.
 #
-# The Minkowski difference A - B has a point a - b for each pair of points; its distance from the origin is that of A
-# and B. The simplex has up to three of its corners. The search ends when the support point towards the origin is in the
-# simplex already, or is further by no more than rounding: no tolerance is a length. Source: Gilbert, Johnson and
-# Keerthi 1988; Catto, Computing Distance, GDC 2010.
+# The Minkowski difference A - B has a point a - b for each pair of points; its distance from the origin is the distance
+# between A and B. The simplex consists of up to three corners of the difference. The search ends when the support point
+# towards the origin is already in the simplex, or is nearer to the origin by no more than rounding: no tolerance is a
+# length. Source: Gilbert, Johnson and Keerthi 1988; Catto, Computing Distance, GDC 2010.
 #
 # A normal points from A to B: out of the difference, towards the origin.
 
@@ -22,16 +22,16 @@ SEARCHING, APART, TOUCHING = 0, 1, 2
 GJK_CAP = 48  # rounds: a difference of two hulls of 16 corners has at most 32 corners
 ROUNDING = 2.0**-50  # four units in the last place: the rounding error of a scalar product of differences
 COUNT, NORMAL_X, NORMAL_Y, ROUNDS, CAPPED = range(5)  # indices into the state of a search
-SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range(11)  # indices into a gap
+SEPARATION, NX, NY, AX, AY, BX, BY, FIRST_A, FIRST_B, SECOND_A, SECOND_B = range(11)  # indices into GapWorkspace.gap
 
 
 class GapWorkspace(NamedTuple):
     """Scratch memory for GJK and EPA, for one pair of hulls at a time. Corners of A and B are stored as indices."""
 
-    state: np.ndarray  # (5,) corners kept, direction of the search, rounds, times the cap was hit
+    state: np.ndarray  # (5,) number of corners in the simplex, search direction, rounds, times the cap was hit
     simplex: np.ndarray  # (3, 4) corner of A, corner of B, their difference [px]
-    polytope: np.ndarray  # (64, 5) corner of A, corner of B; normal and depth of the edge that starts there
-    gap: np.ndarray  # (11,) separation, normal, nearest points, and the corners these lie between
+    polytope: np.ndarray  # (64, 5) corner of A, corner of B; normal and depth of the polytope edge that starts there
+    gap: np.ndarray  # (11,) separation, normal, nearest points, and the corners between which the points lie
 
 
 def new_gap_workspace() -> GapWorkspace:
@@ -40,7 +40,7 @@ def new_gap_workspace() -> GapWorkspace:
 
 @subkernel
 def support(corners, count, x, y):
-    """Return the support point: the corner furthest along a direction, the first of equal ones. O(count)."""
+    """Return the support point: the corner farthest along a direction; on ties, the first. O(count)."""
     best = 0
     most = 0.0
     for k in range(1, count):
@@ -84,10 +84,10 @@ def edge_of(a, b, p, q, simplex):
 
 @subkernel
 def region_of(x, y, ex, ey):
-    """Return where the origin projects onto an edge (ex, ey) that starts at (x, y): -1 before it, 0 on it, 1 beyond it.
+    """Return whether the origin projects onto a line segment: -1 before its start, 0 on it, 1 beyond its end.
 
-    A projection past an end by no more than rounding counts as on the edge: parallel faces with flush ends get the face
-    normal.
+    The segment starts at (x, y) and has the vector (ex, ey). A projection past an end by no more than rounding counts
+    as on the segment, so that parallel faces with flush ends get the face normal.
     """
     along = -(x * ex + y * ey)
     length2 = ex * ex + ey * ey
@@ -100,7 +100,7 @@ def region_of(x, y, ex, ey):
 
 @subkernel
 def edge_distance(a, b, p, q, simplex):
-    """Return the distance [px] of the origin from the edge between rows p and q of the simplex."""
+    """Return the distance [px] of the origin from the line segment between rows p and q of the simplex."""
     ex, ey = edge_of(a, b, p, q, simplex)
     x = simplex[p, 2]
     y = simplex[p, 3]
@@ -115,10 +115,10 @@ def edge_distance(a, b, p, q, simplex):
 
 @subkernel
 def drop_corner(a, b, simplex_inout):
-    """Reduce a triangle to one of the two edges at its newest corner (row 2): the one nearest to the origin.
+    """Reduce a triangle to one of the two edges at its newest corner (row 2), the edge nearer to the origin.
 
-    Return False when the origin lies in the triangle, else True. The third edge is not tested, because the search has
-    just crossed it.
+    The third edge is not tested, because the search has just crossed it. Return False if the origin lies in the
+    triangle, else True.
     """
     ex, ey = edge_of(a, b, 0, 1, simplex_inout)
     fx, fy = edge_of(a, b, 0, 2, simplex_inout)
@@ -140,10 +140,10 @@ def drop_corner(a, b, simplex_inout):
 
 @subkernel
 def reduce_simplex(a, b, state_inout, simplex_inout):
-    """Reduce the simplex to its corner or edge nearest to the origin, and write the direction from there to the origin.
+    """Reduce the simplex to its corner or edge nearest to the origin. Write the direction from there to the origin.
 
-    Return TOUCHING when the origin lies in or on the simplex, else SEARCHING. state_inout, simplex_inout: of a
-    GapWorkspace.
+    state_inout, simplex_inout: arrays of a GapWorkspace. Return TOUCHING if the origin lies in or on the simplex, else
+    SEARCHING.
     """
     count = int(state_inout[COUNT])
     if count == 3:
@@ -180,7 +180,7 @@ def reduce_simplex(a, b, state_inout, simplex_inout):
 def start_walk(a, b, i, j, state_out, simplex_out):
     """Start a GJK search at corner a[i] - b[j] of the Minkowski difference of two hulls.
 
-    Any corner will do; one near the result of the search before saves rounds.
+    Any corner is valid; a corner near the result of the search before saves rounds.
     """
     write_corner(a, b, i, j, 0, simplex_out)
     state_out[COUNT] = 1.0
@@ -192,10 +192,10 @@ def start_walk(a, b, i, j, state_out, simplex_out):
 
 @subkernel
 def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
-    """Run one round of GJK: reduce the simplex to its feature nearest to the origin, then add the support point beyond.
+    """Run one round of GJK: reduce the simplex to its feature nearest to the origin, then add the support point.
 
-    Return SEARCHING when a support point was added; APART when none is nearer to the origin, so that the feature is the
-    nearest; TOUCHING when the origin lies in the simplex. O(corners).
+    Return SEARCHING if a support point was added, APART if no support point is nearer to the origin than the feature,
+    and TOUCHING if the origin lies in the simplex. O(corners).
     """
     state_inout[ROUNDS] += 1.0
     if reduce_simplex(a, b, state_inout, simplex_inout) == TOUCHING:
@@ -218,8 +218,8 @@ def walk_on(a, a_count, b, b_count, state_inout, simplex_inout):
 def write_edge_gap(a, b, places, p, q, nx, ny, gap_out):
     """Write separation, normal and nearest points of two hulls for an edge of their Minkowski difference.
 
-    The edge leads from row p to row q of `places`: the simplex or the polytope, whose rows begin with the indices of a
-    corner of A and one of B. (nx, ny): unit normal of the edge. gap_out: see GapWorkspace.
+    The edge leads from row p to row q of `places`, which is the simplex or the polytope: rows that begin with the
+    indices of a corner of A and a corner of B. (nx, ny): unit normal of the edge. gap_out: see GapWorkspace.
     """
     i = int(places[p, 0])
     j = int(places[p, 1])
@@ -254,10 +254,10 @@ def write_nearest(a, b, state, simplex, gap_out):
 
 @subkernel
 def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
-    """Run GJK for two hulls: write workspace.gap and return APART, or only return TOUCHING. At most GJK_CAP rounds.
+    """Run GJK for two hulls. Return APART and write workspace.gap, or return TOUCHING. At most GJK_CAP rounds.
 
     a, b: world corners (n, 2) [px], 1 to 16 of them; i, j: indices of the corners of A and B at which the search
-    starts. When the cap is hit, the result so far is returned and workspace.state[CAPPED] is increased.
+    starts. If the cap is hit, the result so far is used and workspace.state[CAPPED] is increased.
     """
     start_walk(a, b, i, j, workspace.state, workspace.simplex)
     status = SEARCHING
@@ -277,10 +277,10 @@ def walk_to_nearest(a, a_count, b, b_count, i, j, workspace):
 # ---- epa -------------------------------------------------------------------------------------------------------------
 # Penetration depth of two overlapping hulls by the expanding polytope algorithm (EPA).
 #
-# A polygon inside the Minkowski difference grows at its edge nearest to the origin until that edge is one of the
-# difference. In two dimensions this is exact, and takes at most as many rounds as the difference has corners. The
-# polygon starts as two corners, so that the result does not depend on the origin's place in a thin triangle. A depth
-# may be slightly negative: hulls that are barely apart get the face normal as well. Source: van den Bergen 2001.
+# A polygon inside the Minkowski difference grows at its edge nearest to the origin until this edge is also an edge of
+# the difference. In two dimensions this is exact, and takes at most as many rounds as the difference has corners. The
+# polygon starts as two corners, so that the result does not depend on the position of the origin in a thin triangle. A
+# depth may be slightly negative: hulls that are barely apart also get a face normal. Source: van den Bergen 2001.
 
 EPA_CAP = 60  # rounds; less than the capacity of the polytope
 
@@ -294,8 +294,7 @@ def write_polytope_corner(i, j, k, polytope_out):
 
 @subkernel
 def measure_edge(a, b, k, count, polytope_inout):
-    """Write the outward normal of the polytope edge that starts in row k, and the depth [px] of the origin behind the
-    edge.
+    """Write the outward normal of the polytope edge that starts in row k, and the origin's depth [px] behind it.
 
     count: number of corners of the polytope.
     """
@@ -311,10 +310,10 @@ def measure_edge(a, b, k, count, polytope_inout):
 
 @subkernel
 def start_polytope(a, a_count, b, b_count, polytope_out):
-    """Start the polytope with the two corners of the Minkowski difference furthest apart along x, or along y if it has
-    no width.
+    """Start the polytope with the two corners of the Minkowski difference that are farthest apart along x.
 
-    Return the number of corners: 2, or 1 if the difference is a point.
+    If the difference has no width, the corners farthest apart along y are used. Return the number of corners: 2, or 1
+    if the difference is a point.
     """
     for axis in range(2):
         x, y = 1.0 - axis, float(axis)
@@ -333,7 +332,7 @@ def start_polytope(a, a_count, b, b_count, polytope_out):
 
 @subkernel
 def shallowest_edge(polytope, count):
-    """Return the row in which the polytope edge nearest to the origin starts, the first of equal ones."""
+    """Return the row in which the polytope edge nearest to the origin starts; on ties, the first."""
     best = 0
     for k in range(1, count):
         if polytope[k, 4] < polytope[best, 4]:
@@ -345,15 +344,15 @@ def shallowest_edge(polytope, count):
 def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
     """Replace the polytope edge nearest to the origin by two edges that meet in the support point beyond it.
 
-    Return the new number of corners. It is unchanged if no corner of the Minkowski difference lies beyond the edge,
-    which then belongs to the difference. O(corners).
+    Return the new number of corners. The number is unchanged if no corner of the Minkowski difference lies beyond the
+    edge; then the edge belongs to the difference. O(corners).
     """
     k = shallowest_edge(polytope_inout, count)
     n = k + 1 if k + 1 < count else 0
     nx = polytope_inout[k, 2]
     ny = polytope_inout[k, 3]
     i, j = support(a, a_count, nx, ny), support(b, b_count, -nx, -ny)
-    # Tested at both ends: a corner collinear with the edge is no progress.
+    # Tested at both ends, because a corner collinear with the edge is not progress.
     for end in range(2):
         at = k if end == 0 else n
         p = int(polytope_inout[at, 0])
@@ -374,7 +373,7 @@ def grow_polytope(a, a_count, b, b_count, count, polytope_inout):
 def write_depth(a, b, count, polytope, gap_out):
     """Write separation (minus the depth), normal and points of the polytope edge nearest to the origin.
 
-    For a polytope of a single point the normal is (1, 0).
+    For a polytope that is a single point, the normal is (1, 0).
     """
     if count < 2:
         write_edge_gap(a, b, polytope, 0, 0, 1.0, 0.0, gap_out)
@@ -386,10 +385,10 @@ def write_depth(a, b, count, polytope, gap_out):
 
 @subkernel
 def measure_depth(a, a_count, b, b_count, workspace):
-    """Write to workspace.gap how far, and along which normal, B must move to end its overlap with A (EPA).
+    """Write to workspace.gap the distance that B must move to end its overlap with A, and the normal (EPA).
 
-    The rounds are added to workspace.state[ROUNDS], and 1 to workspace.state[CAPPED] if they reach EPA_CAP. O(corners
-    squared).
+    The rounds are added to workspace.state[ROUNDS]; if they reach EPA_CAP, 1 is added to workspace.state[CAPPED].
+    O(corners squared).
     """
     count = start_polytope(a, a_count, b, b_count, workspace.polytope)
     if count > 1:
@@ -407,8 +406,8 @@ def measure_depth(a, a_count, b, b_count, workspace):
 
 
 # ---- separation ------------------------------------------------------------------------------------------------------
-# Signed distance of rounded hulls. A core is the hull without its radius: GJK for cores that are apart,
-# EPA for cores that overlap; then the radii are subtracted.
+# Signed distance of rounded hulls. A core is the hull without its radius. GJK measures cores that are apart, EPA cores
+# that overlap; then the radii are subtracted.
 
 
 @subkernel
@@ -436,7 +435,7 @@ def shape_separation(a, a_count, a_radius, b, b_count, b_radius, first, workspac
 
 @subkernel
 def box_gap(boxes_a, i, boxes_b, j):
-    """Return the distance [px] of two boxes (min_x, min_y, max_x, max_y), 0 when they overlap."""
+    """Return the distance [px] of two boxes (min_x, min_y, max_x, max_y); 0 if they overlap."""
     across = max(0.0, max(boxes_a[i, 0] - boxes_b[j, 2], boxes_b[j, 0] - boxes_a[i, 2]))
     down = max(0.0, max(boxes_a[i, 1] - boxes_b[j, 3], boxes_b[j, 1] - boxes_a[i, 3]))
     return norm(across, down)
@@ -452,12 +451,11 @@ def copy_part(corners, part, count, corners_out):
 
 @kernel
 def separate_parts(a, b, corners_a_out, corners_b_out, workspace, totals_out):
-    """Write separation, normal and points of the nearest two convex parts of A and B to workspace.gap. Return the
-    separation.
+    """Write to workspace.gap separation, normal and points of the nearest two convex parts of A and B.
 
-    The separation [px] is infinite if A or B has no parts. a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch;
-    totals_out (2,): rounds of GJK and EPA, number of caps hit. Parts whose boxes are further apart than the nearest two
-    so far are skipped. O(parts of A · parts of B).
+    a, b: Parts; corners_a_out, corners_b_out (16, 2): scratch; totals_out (2,): rounds of GJK and EPA, number of caps
+    hit. Parts whose boxes are farther apart than the nearest two parts found before are skipped. O(parts of A · parts
+    of B). Return the separation [px]; infinite if A or B has no parts.
     """
     best = math.inf
     best_i, best_j = -1, -1
