@@ -16,10 +16,10 @@ from physics.tables.step_state import TOI_CALLS
 
 @subkernel
 def is_fast(bodies, paths, row, other):
-    """Return whether a dynamic body moves so far relative to a kinematic one that the two may pass through each other.
+    """Return whether a dynamic body moves so far relative to a kinematic body that the two may pass through each other.
 
-    That is, a point moves by more than the dynamic body's inradius. row, other: of BODY, the dynamic and the kinematic
-    body; paths: see Sweep.
+    True if a point may move by more than the dynamic body's inradius. row, other: rows of BODY, of the dynamic and the
+    kinematic body; paths: see Sweep.
     """
     b = bodies[row]
     if b.kind != DYNAMIC or bodies[other].kind != KINEMATIC or b.continuous == OFF or b.quarantined:
@@ -46,7 +46,7 @@ def cut_path(paths, row, start, end, cut_out):
 
 # ---- straight --------------------------------------------------------------------------------------------------------
 # First impacts of bodies that move without rotation: circles, convex polygons and rays, in closed form, relative to the
-# other shape. Overlaps deeper than the slop at the start are left to the sweep of rotational.py.
+# other shape. Pairs that overlap by more than the slop at the start are left to the sweep of rotational.py.
 
 
 @subkernel
@@ -57,7 +57,7 @@ def is_straight(shape):
 
 @subkernel
 def has_closed_form(mover, other, mode):
-    """Return whether the sweep of a fast shape against another has a closed form.
+    """Return whether the sweep of a fast shape against another shape has a closed form.
 
     mover, other: SHAPE rows; mode: continuous mode of the mover's body. With RAY only the centre of the mover is swept,
     so the mover may be any hull.
@@ -71,8 +71,8 @@ def has_closed_form(mover, other, mode):
 def sweep_disc(x, y, radius, move, outline, slack):
     """Return (fraction of the move until impact or MISS, normal from the Hull) of a moving disc and a resting Hull.
 
-    x, y, radius [px]: the disc; move: (dx, dy) [px]; outline: the Hull. An overlap at the start deeper than slack [px]
-    is MISS.
+    x, y, radius [px]: centre and radius of the disc; move: (dx, dy) [px]; outline: the Hull. The result is MISS if the
+    overlap at the start is deeper than slack [px].
     """
     corners, count, _, edges = outline
     fraction, nx, ny = sweep_circle_polygon(corners, count, edges, x, y, move[0], move[1], radius)
@@ -87,7 +87,8 @@ def sweep_disc(x, y, radius, move, outline, slack):
 def sweep_pair(row, other, dt, sweep, scratch):
     """Return (fraction or MISS, normal from `other` to `row`) of the first impact of two shapes within dt [s].
 
-    row, other: of SHAPE; both bodies move at their velocities without rotation. fraction: of dt; scratch: a Workspace.
+    row, other: rows of SHAPE; both bodies move at their velocities without rotation. fraction: share of dt; scratch: a
+    Workspace.
     """
     geometry, bodies, shapes, slack = sweep.geometry, sweep.bodies, sweep.shapes, sweep.slack
     s, o = shapes[row], shapes[other]
@@ -97,7 +98,7 @@ def sweep_pair(row, other, dt, sweep, scratch):
     if q.kind != STATIC:
         dx -= dt * q.vx
         dy -= dt * q.vy
-    # A disc by its centre and radius, a ray by the middle of the mover, a polygon by its corners.
+    # A disc is given by its centre and radius, a ray by the middle of the mover, a polygon by its corners.
     radius = 0.0
     count = 0
     if s.kind == CIRCLE:
@@ -116,7 +117,7 @@ def sweep_pair(row, other, dt, sweep, scratch):
             fraction, nx, ny = sweep_circles(x, y, dx, dy, radius)
             is_deep = s.kind == CIRCLE and fraction == 0.0 and norm(x, y) < radius - slack
             return MISS if is_deep else fraction, nx, ny
-        # The circle moves the opposite way, against the polygon at rest.
+        # The circle moves in the opposite direction, against the polygon at rest.
         outline = Hull(scratch.b, count, 0.0, ALL_EDGES)
         fraction, nx, ny = sweep_disc(q.x + u, q.y + v, o.radius, (-dx, -dy), outline, slack)
         return fraction, -nx, -ny
@@ -130,10 +131,10 @@ def sweep_pair(row, other, dt, sweep, scratch):
 
 @subkernel
 def asks_sweep(body, dt, only_straight):
-    """Return whether a body is to be swept without rotation in this step of dt [s]; body: BODY row.
+    """Return whether a body is swept without rotation in this step of dt [s]. body: BODY row.
 
-    Modes "ray" and "swept" always are; mode "auto" is if the body moves by more than its inradius and only_straight is
-    false.
+    True for the modes "ray" and "swept"; for mode "auto" if the body moves by more than its inradius and only_straight
+    is false.
     """
     if body.continuous == OFF or body.continuous == TOI or body.kind == STATIC or body.quarantined:
         return False
@@ -166,8 +167,8 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
     """Find the impacts of fast bodies within dt [s] by sweeps in closed form. Return their number. O(candidates).
 
     impacts_out (n, 8) float64, columns: candidate, fraction of the step, normal from A to B, 1.0 if the body stops, -1;
-    the last two stay unset. An impact does not stop the body if its motion into the obstacle within dt is less than a
-    quarter of its smallest half extent. Then the contact solver resolves the overlap, and a body that slides on the
+    the last two are not written. An impact does not stop the body if its motion into the obstacle within dt is at most
+    a quarter of its smallest half extent: then the contact solver resolves the overlap, and a body that slides on the
     ground is not held. only_straight: leave bodies in mode "auto" to the sweep with rotation. scratch: a Workspace.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
@@ -214,7 +215,7 @@ def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
         if a.sensor or b.sensor or impacts[i, 4] == 0.0:
             continue
         p, q = bodies_inout[a.body_row], bodies_inout[b.body_row]
-        # A kinematic body goes on and pushes the body that it meets.
+        # A kinematic body moves on and pushes the body that it meets.
         if p.kind == DYNAMIC:
             p.fraction = min(p.fraction, impacts[i, 1])
         if q.kind == DYNAMIC:
@@ -222,16 +223,17 @@ def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
 
 
 # ---- impacts ---------------------------------------------------------------------------------------------------------
-# The sweep over one step of bodies that also rotate: the first impact of each fast body, and where it stops.
+# The sweep over one step of bodies that also rotate: the first impact of each fast body, and the pose at which it
+# stops.
 #
-# Two bullets that meet stop each other. A body that stops earlier than expected may be in the way of another, so pairs
-# of moving bodies are swept again until no body stops earlier. Sources: Catto, Box2D v3, solver.c (fast bodies, core
+# Two bullets that meet stop each other. A body that stops earlier than expected may block another body, so pairs of
+# moving bodies are swept again until no body stops earlier. Sources: Catto, Box2D v3, solver.c (fast bodies, core
 # circle); Mirtich, Timewarp Rigid Body Simulation, 2000 (conservative rounds).
 
 
 @subkernel
 def first_meeting(mover, other, slack, sweep_inout):
-    """Return the first impact of two shapes: (fraction of the step or MISS, normal from other to mover, feature).
+    """Return (fraction of the step or MISS, normal from other to mover, feature) of the first impact of two shapes.
 
     mover, other: rows of SHAPE. Each body moves along its path up to its own BODY fraction of the step, and then rests.
     slack [px]: see Mover.
@@ -259,7 +261,7 @@ def first_meeting(mover, other, slack, sweep_inout):
 
 @subkernel
 def stands_still(bodies, paths, row):
-    """Return whether a body is not dynamic and does not move in this step; row: of BODY."""
+    """Return whether a body is not dynamic and does not move in this step. row: row of BODY."""
     return bodies[row].kind != DYNAMIC and (
         paths[row, 0] == paths[row, 3] and paths[row, 1] == paths[row, 4] and paths[row, 2] == paths[row, 5]
     )
@@ -267,7 +269,7 @@ def stands_still(bodies, paths, row):
 
 @subkernel
 def rest_where_it_is(bodies, row, paths_inout, fast_inout):
-    """Write a path without motion, and clear the fast flag, if a body is not active in this step; row: of BODY."""
+    """If a body is not active in this step, write a path without motion and clear its fast flag. row: row of BODY."""
     b = bodies[row]
     if b.active:
         return
@@ -280,9 +282,9 @@ def rest_where_it_is(bodies, row, paths_inout, fast_inout):
 
 @subkernel
 def goes_on(bodies, paths, mover, other, fraction, nx, ny):
-    """Return how far [px] two bodies would move on after an impact at a fraction of the step.
+    """Return the distance [px] that two bodies would move further after an impact at a fraction of the step.
 
-    It is the greater of the motion into each other along the normal (nx, ny), from other to mover, and the motion of
+    It is the greater of their motion into each other along the normal (nx, ny), from other to mover, and the motion of
     their outermost points by rotation. mover, other: rows of BODY.
     """
     left_m = max(0.0, bodies[mover].fraction - fraction)
@@ -298,10 +300,10 @@ def goes_on(bodies, paths, mover, other, fraction, nx, ny):
 
 @subkernel
 def is_swept(moving, a, b, sweep_inout):
-    """Return whether a pair of SHAPE rows is to be swept: one body is fast relative to the other.
+    """Return whether a pair of SHAPE rows is swept: one body is fast relative to the other.
 
     moving: 0 selects pairs with a resting body, 1 pairs of two moving bodies. With a stacking solver two dynamic bodies
-    are swept only if one is a bullet.
+    are swept only if at least one is a bullet.
     """
     bodies, paths, fast = sweep_inout.bodies, sweep_inout.paths, sweep_inout.fast
     rest_where_it_is(bodies, a.body_row, paths, fast)
@@ -320,7 +322,8 @@ def is_swept(moving, a, b, sweep_inout):
 def is_first_mover(a, b, bodies, fast):
     """Return whether the sweep of a pair of SHAPE rows treats A as the mover, and B as the obstacle.
 
-    If only one of the bodies is dynamic, it is the mover, because it can be stopped. Otherwise A is if it is fast.
+    If only one of the bodies is dynamic, it is the mover, because it can be stopped. Otherwise A is the mover if it is
+    fast.
     """
     is_dynamic = bodies[a.body_row].kind == DYNAMIC
     return fast[a.body_row] if is_dynamic == (bodies[b.body_row].kind == DYNAMIC) else is_dynamic
@@ -332,8 +335,9 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
 
     impacts_out (n, 8), columns: candidate, fraction of the step, normal from A to B, 1.0 if the body stops, feature.
     moving: 0 for pairs with a resting body, 1 for pairs of two moving bodies. Without a stacking solver a motion into
-    the obstacle by less than a quarter of the smallest half extent does not stop a body, because the contact resolves
-    the overlap at once. rotation: whether bodies rotate; if not, pairs with a closed form are left to find_impacts.
+    the obstacle by at most a quarter of the smallest half extent does not stop a body, because the contact resolves the
+    overlap in the same step. rotation: whether bodies rotate; if not, pairs with a closed form are left to
+    find_impacts.
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     stacking, slack = sweep_inout.stacking, sweep_inout.slack
@@ -353,7 +357,7 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
         mode = bodies[shapes[mover].body_row].continuous
         straight = mode == RAY or mode == SWEPT or (mode == AUTO and not (stacking or rotation))
         if straight and has_closed_form(shapes[mover], shapes[other], mode):
-            # The closed form leaves overlaps deeper than the slack to this sweep.
+            # The closed form leaves pairs that overlap by more than the slack to this sweep.
             if not stands_deep(mover, other, sweep_inout):
                 continue
         sweep_inout.work[TOI_CALLS] += 1
@@ -365,7 +369,7 @@ def find_rotational_impacts(moving, rotation, sweep_inout, impacts_out):
         room_left = 0.25 * bodies[m].min_half_extent
         stops = stacking or goes_on(bodies, sweep_inout.paths, m, o, fraction, nx, ny) > room_left
         if not stops and (shapes[other].kind == TILES or shapes[other].kind == CHAIN):
-            # Another part of the same ground may stop the body: a ball that rolls down a wall meets the floor.
+            # Another part of the same ground may stop the body, as when a ball that rolls down a wall meets the floor.
             later, u, v, part = first_meeting(mover, other, slack + room_left, sweep_inout)
             if later <= 1.0:
                 fraction, nx, ny, feature, stops = later, u, v, part, True
@@ -380,9 +384,9 @@ FREELY = 1e-3  # greatest deviation of a path from free fall, as a share of the 
 def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
     """Correct the velocity of a body that is stopped within a step, so that it gains no energy from gravity.
 
-    The body does not make the share `lost` of its path, but its velocity includes the gravity of the whole step. If it
-    fell freely, it gets the velocity of the time at which it stopped. Otherwise its kinetic energy is reduced by the
-    potential energy of the lost path. path_x, path_y [px]: the whole path; gravity [px/s2]; dt [s].
+    The body does not move along the share `lost` of its path, but its velocity includes the gravity of the whole step.
+    If it fell freely, it gets the velocity of the time at which it stopped. Otherwise its kinetic energy is reduced by
+    the potential energy of the lost path. path_x, path_y [px]: the whole path; gravity [px/s2]; dt [s].
     """
     b = body_inout
     pull = norm(gravity_x, gravity_y) * abs(b.gravity_scale)
@@ -404,8 +408,8 @@ def lose_fall(lost, path_x, path_y, gravity_x, gravity_y, dt, body_inout):
 def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
     """Move the stopped dynamic bodies back to their first impact. They lose the rest of the step of dt [s]. O(rows).
 
-    rows: of BODY; paths (bodies, 6): see Sweep; gravity_x, gravity_y [px/s2]: their velocities are corrected for it,
-    see lose_fall.
+    rows: rows of BODY; paths (bodies, 6): see Sweep; gravity_x, gravity_y [px/s2]: gravity for which the velocities are
+    corrected, see lose_fall.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -431,17 +435,17 @@ def move_back(rows, paths, gravity_x, gravity_y, dt, bodies_inout):
 
 @subkernel
 def is_ray(body, other):
-    """Return whether a body is swept against another as a ray from its centre, not with its outline; BODY rows."""
+    """Return whether a body is swept against another as a ray from its centre, not with its outline. Rows of BODY."""
     return body.continuous == RAY and body.kind != STATIC and other.continuous != SWEPT and other.continuous != TOI
 
 
 @subkernel
 def impact_point(body, shape, side, nx, ny, fraction, flew_on):
-    """Return an estimate (x, y) [px] of the point where a shape hit another.
+    """Return an estimate (x, y) [px] of the point where a shape hit another shape.
 
-    It is the point of the shape's AABB furthest along side · (nx, ny), or the centre for a ray. body, shape: BODY and
-    SHAPE rows, at the end of the step. fraction: of the step at the impact. flew_on: whether the body moved on after
-    the impact without response; then the point is moved back to that time.
+    It is the point of the shape's AABB farthest along side · (nx, ny); for a ray it is the centre. body, shape: BODY
+    and SHAPE rows, at the end of the step. fraction: fraction of the step at the impact. flew_on: whether the body
+    moved on after the impact without response; then the point is moved back to the time of the impact.
     """
     reach = 0.0 if body.continuous == RAY and body.kind != STATIC else side
     x = 0.5 * (shape.min_x + shape.max_x) + reach * nx * 0.5 * (shape.max_x - shape.min_x)
@@ -458,8 +462,8 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
     """Write a CONTACT row for each impact that its bodies reached before they stopped. Return the number of rows.
 
     impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. An unknown point (nan)
-    is estimated by impact_point for the shape with the smaller AABB, or for a ray. response: 1 if the separation [px]
-    is to be computed at the final poses, from the motion after the impact; else it is 0.
+    is estimated by impact_point, for a ray if there is one, else for the shape with the smaller AABB. response: 1 if
+    the separation [px] is computed at the final poses, from the motion after the impact; otherwise the separation is 0.
     """
     found = 0
     for i in range(len(impacts)):
@@ -485,7 +489,7 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
         if response == 1:
             after_x = (q.x - q.previous_x) - (p.x - p.previous_x) - impacts[i, 1] * dt * (q.vx - p.vx)
             after_y = (q.y - q.previous_y) - (p.y - p.previous_y) - impacts[i, 1] * dt * (q.vy - p.vy)
-            # The motion after a grazing contact is no overlap.
+            # The motion after a grazing contact does not count as overlap.
             separation = min(0.0, nx * after_x + ny * after_y) if impacts[i, 4] == 1.0 else 0.0
         if found < len(manifolds_out):
             m = manifolds_out[found]

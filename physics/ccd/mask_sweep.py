@@ -1,8 +1,8 @@
 """Sweep of masks by their pixels, for worlds without contact response and for sensors: the time of the first overlap.
 
-A mask is the union of its solid pixel squares at the exact pose, also if it is drawn snapped. The pixels are grouped
-into rectangles. As in rotational.py, but without a slop, a motion that leads no deeper than the overlap at the start
-is no impact. So grazing contacts and seams between two rectangles are no impacts.
+A mask is the union of its solid pixel squares at the exact pose, even if it is drawn snapped. The pixels are grouped
+into rectangles. As in rotational.py, but without a slop, a motion that leads no deeper than the overlap at the start is
+not an impact. So grazing contacts and seams between two rectangles are not impacts.
 """
 
 import math
@@ -38,14 +38,14 @@ class Squares(NamedTuple):
     """Cache of the solid pixels of all masks of a library, grouped into rectangles."""
 
     spans: np.ndarray  # (masks, 2) first row in boxes, number of rows; -1: not computed yet
-    boxes: np.ndarray  # (n, 4) left top right bottom [px] in body space
+    boxes: np.ndarray  # (n, 4) left, top, right, bottom [px] in body space
 
 
 NO_SQUARES = Squares(np.zeros((0, 2), np.int64), np.zeros((0, 4)))
 
 
 def squares_of(library: Library, masks: np.ndarray, known: Squares) -> Squares:
-    """Return the cache `known`, extended by the rectangles of these masks; masks: rows of the library."""
+    """Return the cache `known`, extended by the rectangles of these masks. masks: rows of the library."""
     missing = [row for row in masks.tolist() if row >= len(known.spans) or known.spans[row, 0] < 0]
     if not missing:
         return known
@@ -75,10 +75,10 @@ def write_square(boxes, k, body, corners_out):
 
 @subkernel
 def pieces_of(shape, body, spans, as_ray):
-    """Return (first rectangle, number of pieces, whether they are rectangles) of a shape.
+    """Return (first rectangle, number of pieces, whether the pieces are rectangles) of a shape.
 
     A mask has one piece for each rectangle. A hull, or a body swept as a ray, is a single piece. shape, body: SHAPE and
-    BODY rows; as_ray: whether mode "ray" counts.
+    BODY rows; as_ray: whether a body in mode "ray" is swept as a ray.
     """
     if shape.kind != MASK or (as_ray and body.continuous == RAY):
         return 0, 1, False
@@ -87,7 +87,7 @@ def pieces_of(shape, body, spans, as_ray):
 
 @subkernel
 def write_single(geometry, bodies, shapes, row, workspace):
-    """Write the corners of a hull, or the point of a ray, to workspace.mover. Return the Mover; row: of SHAPE."""
+    """Write the corners of a hull, or the point of a ray, to workspace.mover. Return the Mover. row: row of SHAPE."""
     if shapes[row].kind == MASK:
         workspace.mover[0, 0] = 0.0
         workspace.mover[0, 1] = 0.0
@@ -117,9 +117,10 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
     """Sweep one piece of the moving shape against all pieces of the other shape, or measure their overlap.
 
     mover: the piece, with its corners in workspace.mover. depth [px]: overlap at the start, which does not count as an
-    impact. If it is negative, nothing is swept, and the deepest overlap [px] at the start is returned; else 0. body:
-    BODY row of the other shape; span: result of pieces_of for that shape; hull: its only piece if it is no mask, with
-    the corners in workspace.advance.local_b. best_out (5,): first impact so far, see sweep_squares. O(pieces near).
+    impact. If depth is negative, nothing is swept, and the deepest overlap [px] at the start is returned; else 0. body:
+    BODY row of the other shape; span: result of pieces_of for the other shape; hull: its only piece if it is not a
+    mask, with the corners in workspace.advance.local_b. best_out (5,): first impact so far, see sweep_squares. O(nearby
+    pieces).
     """
     r = workspace.advance
     first, pieces, are_squares = span
@@ -163,8 +164,8 @@ def sweep_on_pieces(mover, depth, body, squares, span, hull, workspace, best_out
 def middle_of_mask(geometry, shape, body, angle):
     """Return the centre (x, y) [px] of a mask's AABB, in body space relative to the centre of mass.
 
-    angle [rad]: of the mask, at which the AABB is taken; shape, body: SHAPE and BODY rows. The centre decides on which
-    side of a link the mask is.
+    angle [rad]: angle of the mask for which the AABB is computed; shape, body: SHAPE and BODY rows. The centre
+    determines the side of a link on which the mask is.
     """
     raster = geometry.raster_of[shape.geometry, 0]
     left, top, right, bottom = exact_aabb(geometry.rasters, geometry.corners, raster, 0.0, 0.0, angle)
@@ -177,7 +178,7 @@ def sweep_on_ground(geometry, other, body, middle, mover, one_way, workspace, be
     """Sweep one piece of the moving shape against tiles or a chain.
 
     other, body: SHAPE and BODY rows of the tiles or chain; mover: the piece, with its corners in workspace.mover;
-    middle: of the whole moving shape, see middle_of_mask. best_out (5,): first impact so far, see sweep_squares.
+    middle: centre of the whole moving shape, see middle_of_mask. best_out (5,): first impact so far, see sweep_squares.
     """
     local = (body.local_center_x, body.local_center_y)
     if other.kind == TILES:
@@ -196,8 +197,8 @@ def sweep_on_ground(geometry, other, body, middle, mover, one_way, workspace, be
 def sweep_squares(row, other, squares, sweep_inout, best_out):
     """Sweep two moving shapes, at least one of them a mask, along the paths in sweep_inout.cuts.
 
-    row, other: of SHAPE; squares: Squares of the masks. Write (fraction or MISS, normal from other to row, point [px]
-    or nan if unknown) to best_out (5,). O(pieces · pieces near).
+    row, other: rows of SHAPE; squares: Squares of the masks. Write (fraction or MISS, normal from other to row, point
+    [px] or nan if unknown) to best_out (5,). O(pieces · nearby pieces).
     """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
@@ -242,8 +243,8 @@ def sweep_squares(row, other, squares, sweep_inout, best_out):
 def first_shared(row, other, squares, sweep_inout, best_out):
     """Write the first overlap in the step of two shapes, at least one of them a mask, to best_out (5,).
 
-    Columns as in sweep_squares, but the fraction is of the step. Each body moves along its path up to its own BODY
-    fraction of the step, and then rests.
+    Columns as in sweep_squares, but the fraction is a fraction of the step. Each body moves along its path up to its
+    own BODY fraction of the step, and then rests.
     """
     bodies, paths, cuts = sweep_inout.bodies, sweep_inout.paths, sweep_inout.cuts
     p, q = sweep_inout.shapes[row].body_row, sweep_inout.shapes[other].body_row
@@ -266,7 +267,7 @@ def first_shared(row, other, squares, sweep_inout, best_out):
 
 @kernel
 def find_shared_areas(moving, squares, sweep_inout, best_out, impacts_out):
-    """Find the pairs with a mask that begin to overlap on their way. Return their number. O(candidates).
+    """Find the pairs with a mask that begin to overlap during their motion. Return their number. O(candidates).
 
     impacts_out (n, 8), columns: candidate, fraction of the step, normal from A to B, 0 (no body is stopped), -1, point
     x and y. moving: 0 for pairs with a resting body, 1 for pairs of two moving bodies; squares: Squares of all masks

@@ -41,13 +41,13 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, TOI_CALLS
 # A mover may overlap a shape by the depth that it has at the start, plus a slop. If it gets deeper, it is moved back to
 # the last fraction at which it was no deeper than at the start. So resting and sliding bodies are not held, and a body
 # that overlaps at the start cannot break through. Seams between flush pieces of ground are not hit, because the mover
-# is no deeper in one piece than in the whole. A very deep mover is swept by its core instead, a circle about its centre
-# of mass with a quarter of its smallest half extent as radius: its centre never crosses a surface (core circle of Box2D
-# v3). One-sided ground is hit only while the mover is in front of it.
+# is no deeper in one piece than in the whole ground. A very deep mover is swept by its core circle instead, whose
+# centre is the centre of mass and whose radius is a quarter of the smallest half extent: so the centre of mass never
+# crosses a surface (core circle of Box2D v3). One-sided ground is hit only while the mover is in front of it.
 
-BEFORE = 2.0**-20  # a fraction of the path that counts as "just before" an impact
-BACKWARDS = 6  # most iterations of Newton's method in back_to; two or three are needed
-CORE_LEFT = 0.9  # radius of a core circle that would overlap at the start, as a share of the distance of its centre
+BEFORE = 2.0**-20  # fraction of the path before an impact that counts as "just before" it
+BACKWARDS = 6  # most iterations of Newton's method in back_to; two or three are usual
+CORE_LEFT = 0.9  # radius of a core circle that would overlap at the start, as a share of its centre's distance
 CORE = 0.25  # radius of a core circle, as a share of the body's smallest half extent
 
 
@@ -63,8 +63,8 @@ class Mover(NamedTuple):
 
     count: int  # number of corners
     radius: float  # [px] rounding
-    half: float  # [px] smallest half extent of its body, which gives the core circle; 0 for no core circle
-    slack: float  # [px] depth allowed in addition to the depth at the start; 0: rounding errors only
+    half: float  # [px] smallest half extent of its body, which determines the core circle; 0: no core circle
+    slack: float  # [px] depth allowed in addition to the depth at the start; 0: only rounding errors
 
 
 class Sweep(NamedTuple):
@@ -107,8 +107,8 @@ def write_motion(motions, body_row, motion_out):
 def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
     """Write the corners [px] of a hull relative to its body's centre of mass at angle 0. Return their number.
 
-    A shape of kind BOUNDS never rotates: its corners are those at the start angle, and the rotation in motion_inout
-    (6,) is set to 0. row: of SHAPE.
+    A shape of kind BOUNDS never rotates: its corners are the corners at the start angle, and the rotation in
+    motion_inout (6,) is set to 0. row: row of SHAPE.
     """
     b = bodies[shapes[row].body_row]
     if shapes[row].kind != BOUNDS:
@@ -124,7 +124,7 @@ def write_local(geometry, bodies, shapes, row, motion_inout, corners_out):
 def place_mover(count, workspace):
     """Copy the mover's corners to workspace.advance.local_a, and reset the state of GJK.
 
-    count: number of corners. Return the distance [px] of the furthest corner from the centre of mass.
+    count: number of corners. Return the distance [px] of the farthest corner from the centre of mass.
     """
     for k in range(count):
         workspace.advance.local_a[k, 0] = workspace.mover[k, 0]
@@ -136,7 +136,7 @@ def place_mover(count, workspace):
 
 @subkernel
 def depth_at_start(mover, other_count, other_radius, workspace):
-    """Return how deep [px] the mover overlaps the hull in workspace.advance.local_b before they move; 0 for none."""
+    """Return the depth [px] of the mover in the hull in workspace.advance.local_b at the start; 0 without overlap."""
     place_mover(mover.count, workspace)
     return max(0.0, -separate_at(mover.count, mover.radius, other_count, other_radius, 0.0, workspace.advance))
 
@@ -164,7 +164,7 @@ def back_to(mover, other_count, other_radius, depth, fraction, size, workspace):
     """Return the last fraction before `fraction` at which the mover was `depth` [px] deep (Newton's method).
 
     At `fraction` the mover is deeper. The iteration starts at `fraction`, so that an earlier contact with another side
-    of the obstacle is not found. The obstacle is in workspace.advance.local_b; size [px]: of both shapes.
+    of the obstacle is not found. The obstacle is in workspace.advance.local_b; size [px]: size of both shapes.
     """
     count, radius, _, _ = mover
     gap = workspace.advance.gap.gap
@@ -194,7 +194,7 @@ def sweep_part(mover, other_count, other_radius, depth, workspace):
     reach = place_mover(count, workspace)
     if count == 1 and radius == 0.0:  # the point of a ray has no depth: touching is an impact
         fraction = advance(1, 0.0, other_count, other_radius, workspace.advance)
-        if fraction <= 1.0:  # touching has no normal, so the one just before is used
+        if fraction <= 1.0:  # at the touch there is no normal, so the normal just before is used
             separate_at(1, 0.0, other_count, other_radius, max(0.0, fraction - BEFORE), workspace.advance)
         return fraction, False
     motion = workspace.advance.motion_a
@@ -224,7 +224,7 @@ def swept_box(reach, motion_a, motion_b):
 
 
 # ---- rotational ground -----------------------------------------------------------------------------------------------
-# The sweep of a hull against tiles and chains, piece by piece, by the rule above.
+# The sweep of a hull against tiles and chains, piece by piece, by the rule under "rotational".
 
 
 @subkernel
@@ -244,10 +244,11 @@ def feet_of(mover, local_y, workspace):
 
 @subkernel
 def place_tile(geometry, grid, line, column, local, stood, workspace):
-    """Write the corners of a tile to workspace.advance.local_b. Return their number, 0 if it cannot stop the mover.
+    """Write the corners of a tile to workspace.advance.local_b. Return their number; 0: the tile cannot stop the mover.
 
-    line, column: of the cell; local: see sweep_tiles; stood [px]: lowest point of the mover at the start, less its
-    slack. Of a one-way tile only the top edge is written, and only if the mover started above the tile.
+    line, column: row and column of the cell; local: see sweep_tiles; stood [px]: lowest point of the mover at the
+    start, minus its slack. Of a one-way tile only the line along its top is written, and only if the mover started
+    above the tile.
     """
     g = geometry.grids[grid]
     kind = geometry.cells[g.offset + line * g.columns + column].kind
@@ -264,8 +265,8 @@ def sweep_tiles(geometry, grid, local, mover, one_way, but, workspace):
     """Return (fraction or MISS, normal from the tiles, feature) of the first impact of the mover with a tile grid.
 
     grid: row of geometry.grids; local: centre of mass (x, y) [px] of the grid in its body space (a grid does not
-    rotate); one_way: whether one-way tiles stop motion from above; but: feature id to ignore, or -1. O(cells in the
-    mover's swept AABB).
+    rotate); one_way: whether one-way tiles stop motion from above; but: feature id that is ignored, or -1. O(cells in
+    the mover's swept AABB).
     """
     local_x, local_y = local
     g = geometry.grids[grid]
@@ -322,7 +323,7 @@ def place_link(link, local, workspace):
 
 @subkernel
 def ahead_of(ax, ay, bx, by, u, v):
-    """Return the signed distance of the point (u, v) from the line a to b, times its length; positive in front."""
+    """Return the signed distance of the point (u, v) from the line a to b, times |b - a|; positive in front."""
     return (by - ay) * (u - ax) - (bx - ax) * (v - ay)
 
 
@@ -330,9 +331,9 @@ def ahead_of(ax, ay, bx, by, u, v):
 def is_before(link, local, middle, fraction, core, workspace):
     """Return whether the mover is in front of a link at a fraction of the motion.
 
-    The mover's point that decides is `middle` [px], relative to its centre of mass at angle 0; with `core`, the centre
-    of mass itself. If this point is beyond an end of the link, and the chain bends towards its front there, the point
-    must be in front of the neighbouring link, too. link: LINK row; local: see sweep_chain.
+    The mover's side is determined by its point `middle` [px], relative to its centre of mass at angle 0; with `core`,
+    by the centre of mass itself. If this point is beyond an end of the link at which the chain bends towards its front,
+    the point must also be in front of the neighbouring link. link: LINK row; local: see sweep_chain.
     """
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -371,7 +372,7 @@ def misses_block(block, local, box):
 
 @subkernel
 def depth_in_chain(geometry, chain, local, middle, mover, workspace):
-    """Return the greatest depth [px] of the mover at the start in any link that it is in front of; see is_before."""
+    """Return the greatest depth [px] of the mover at the start in any link that it is in front of, see is_before."""
     span = geometry.chains[chain]
     motion = workspace.advance.motion_a
     other = workspace.advance.motion_b
@@ -417,7 +418,7 @@ def sweep_chain(geometry, chain, local, mover, but, workspace):
     """Return (fraction or MISS, normal from the chain, feature) of the first impact of the mover with a chain's front.
 
     chain: row of geometry.chains; local: centre of mass (x, y) [px] of the chain's body in body space; but: feature id
-    to ignore, or -1. O(links near the path).
+    that is ignored, or -1. O(links near the path).
     """
     middle = middle_of(workspace.mover, mover.count)
     return sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
@@ -450,7 +451,7 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
             link = geometry.links[k]
             place_link(link, local, workspace)
             fraction, core = sweep_part(mover, 2, 0.0, depth, workspace)
-            # The point of a ray is on the link at the impact, so its start decides on the side.
+            # The point of a ray is on the link at the impact, so its start determines the side.
             when = 0.0 if mover.count == 1 and mover.radius == 0.0 else fraction
             if fraction < best and is_before(link, local, middle, when, core, workspace):
                 best = fraction
@@ -460,7 +461,7 @@ def sweep_chain_seen_from(geometry, chain, local, middle, mover, but, workspace)
 
 
 # ---- rotational pairs ------------------------------------------------------------------------------------------------
-# Rotational continuous collision of one shape with any other, along the paths of their bodies.
+# Rotational continuous collision of one shape with any other shape, along the paths of their bodies.
 
 
 @subkernel
@@ -474,13 +475,13 @@ def shrink_to_middle(count, mover_inout):
 def sweep_hull(mover, core_b, n, radius_b, workspace):
     """Return (fraction or MISS, normal from the obstacle) of the first impact of the mover with another hull.
 
-    The obstacle is in workspace.advance.local_b: n corners, rounding radius_b [px], core circle of radius core_b [px]
-    (0 for none).
+    The obstacle is in workspace.advance.local_b: n corners, rounding radius_b [px], core circle of radius core_b [px];
+    0: no core circle.
     """
     depth = depth_at_start(mover, n, radius_b, workspace)
     fraction, core = sweep_part(mover, n, radius_b, depth, workspace)
     if core and fraction > 1.0 and core_b > 0.0:
-        # A deep overlap: sweep core circle against core circle, so that the bodies do not pass each other.
+        # For a deep overlap sweep core circle against core circle, so that the bodies do not pass each other.
         workspace.advance.local_b[0, 0] = 0.0
         workspace.advance.local_b[0, 1] = 0.0
         fraction = sweep_core(CORE * mover.half, 1, core_b, workspace)
@@ -489,7 +490,7 @@ def sweep_hull(mover, core_b, n, radius_b, workspace):
 
 @subkernel
 def stands_deep(row, other, sweep_inout):
-    """Return whether two hulls overlap by more than sweep_inout.slack at the start of the step; rows of SHAPE."""
+    """Return whether two hulls overlap by more than sweep_inout.slack at the start of the step. Rows of SHAPE."""
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
     r = workspace.advance
@@ -505,9 +506,9 @@ def stands_deep(row, other, sweep_inout):
 def sweep_rotational(row, other, slack, but, sweep_inout):
     """Return the first impact of two shapes whose bodies move and rotate along the paths in sweep_inout.cuts.
 
-    The result is (fraction of these paths or MISS, normal from other to row, feature id of the tile or link, -1 for a
-    hull). row, other: of SHAPE; row must be a hull, other a hull, tile grid or chain, else the result is MISS. slack
-    [px]: see Mover; but: feature id of tiles or links to ignore, or -1.
+    The result is (fraction of these paths or MISS, normal from other to row, feature id of the tile or link; -1 for a
+    hull). row, other: rows of SHAPE; row must be a hull, other a hull, tile grid or chain, else the result is MISS.
+    slack [px]: see Mover; but: feature id of a tile or link that is ignored, or -1.
     """
     geometry, bodies, shapes = sweep_inout.geometry, sweep_inout.bodies, sweep_inout.shapes
     workspace = sweep_inout.workspace
@@ -565,7 +566,7 @@ def begin_sweep(workspace, impact_out):
 
 @subkernel
 def keep_first(fraction, nx, ny, impact_out):
-    """Write an impact to impact_out (3,) if its fraction is smaller than that of the impact stored there."""
+    """Write an impact to impact_out (3,) if its fraction is smaller than the fraction of the impact stored there."""
     if fraction < impact_out[0]:
         impact_out[0] = fraction
         impact_out[1] = nx
@@ -589,12 +590,11 @@ def gap_at_start(a_count, a_radius, b_count, b_radius, workspace):
 
 @kernel
 def advance_parts(a, b, workspace, impact_out):
-    """Write the first impact of any part of A with any part of B: fraction or MISS, normal from A to B.
+    """Write the first impact of any part of A with any part of B to impact_out (3,).
 
-    impact_out (3,): receives it.
-
-    a, b: Parts in body space; workspace: RotationalWorkspace with both motions, which receives the counters. Pairs of
-    parts that cannot meet before the first impact so far are skipped. O(parts of A · parts of B).
+    impact_out: (fraction or MISS, normal from A to B). a, b: Parts in body space; workspace: RotationalWorkspace with
+    both motions, to which the counters are written. Pairs of parts that cannot meet before the first impact so far are
+    skipped. O(parts of A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(workspace, impact_out)
@@ -614,8 +614,8 @@ def advance_parts(a, b, workspace, impact_out):
 def sweep_unions(a, b, workspace, impact_out):
     """Write the first impact of two shapes whose parts may lie flush, such as masks. Arguments as in advance_parts.
 
-    A motion that leads no deeper than the overlap at the start is no impact (see "rotational" above). So seams between
-    parts and grazing contacts are no impacts. O(parts of A · parts of B).
+    A motion that leads no deeper than the overlap at the start is not an impact (see "rotational" above). So seams
+    between parts and grazing contacts are not impacts. O(parts of A · parts of B).
     """
     r = workspace.advance
     path = begin_sweep(workspace, impact_out)
@@ -643,7 +643,7 @@ def sweep_unions(a, b, workspace, impact_out):
 
 @kernel
 def advance_on_ground(geometry, ground, is_chain, a, workspace, impact_out):
-    """Write the first impact of a shape made of parts with a tile grid or chain to impact_out (3,); see advance_parts.
+    """Write the first impact of a shape made of parts with a tile grid or chain to impact_out (3,), see advance_parts.
 
     ground: row of geometry.grids or, with is_chain 1, of geometry.chains; a: Parts. Tiles are hit only on uncovered
     sides, a chain only from its front.

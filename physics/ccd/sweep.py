@@ -30,7 +30,7 @@ from physics.tables.step_state import CAP_HITS, StepState, stage
 from physics.tables.table import joined
 
 # ---- paths -----------------------------------------------------------------------------------------------------------
-# Paths of the bodies through a step, and the bodies that are fast enough to pass through others.
+# Paths of the bodies in a step, and the bodies that are fast enough to pass through others.
 #
 # Source: Catto, Box2D v3, solver.c (half the smallest extent).
 
@@ -39,8 +39,8 @@ from physics.tables.table import joined
 def list_paths(rows, bodies, paths_out):
     """Write the path of each body in the step. O(rows).
 
-    rows: of BODY; paths_out (bodies, 6): centre of mass x, y [px] and angle [rad] before the step, then after it. The
-    angle of a body in mode "ray" or "swept" is that before the step, both times.
+    rows: rows of BODY; paths_out (bodies, 6): centre of mass x, y [px] and angle [rad] before the step, then after it.
+    For a body in mode "ray" or "swept" both angles are the angle before the step.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -57,24 +57,24 @@ def list_paths(rows, bodies, paths_out):
 
 @subkernel
 def asks_straight(body):
-    """Return whether a body is dynamic, and its continuous mode, "ray" or "swept", is a sweep without rotation."""
+    """Return whether a body is dynamic and its continuous mode ("ray" or "swept") is a sweep without rotation."""
     return body.kind == DYNAMIC and (body.continuous == RAY or body.continuous == SWEPT)
 
 
 @subkernel
 def way_of(bodies, paths, row):
-    """Return an upper bound [px] of the distance that any point of a body moves in the step; row: of BODY."""
+    """Return an upper bound [px] of the distance that any point of a body moves in the step. row: row of BODY."""
     moved = norm(paths[row, 3] - paths[row, 0], paths[row, 4] - paths[row, 1])
     return moved + bodies[row].extent * min(abs(paths[row, 5] - paths[row, 2]), 2.0)
 
 
 @kernel
 def find_fast(rows, bodies, paths, fast_out):
-    """Flag the bodies to sweep. Return (number of bodies whose pairs are to be tested, number swept without rotation).
+    """Flag the bodies to sweep. Return (number of bodies whose pairs must be tested, number swept without rotation).
 
-    A moving body in mode "toi", "ray" or "swept" is always flagged; in mode "auto", if a point of it may move by more
-    than the body's inradius. The first number also includes bodies without a flag that a kinematic body may pass
-    through: see impacts.is_fast. rows: of BODY; paths: see list_paths; fast_out (bodies,) bool. O(rows).
+    A moving body in mode "toi", "ray" or "swept" is always flagged; a body in mode "auto" is flagged if a point of it
+    may move by more than its inradius. The first number also includes bodies without a flag that a kinematic body may
+    pass through: see impacts.is_fast. rows: rows of BODY; paths: see list_paths; fast_out (bodies,) bool. O(rows).
     """
     found = 0
     straight = 0
@@ -103,7 +103,7 @@ def find_fast(rows, bodies, paths, fast_out):
 def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
     """List the shapes of swept bodies that have left their broad-phase AABB. Return their number. O(rows).
 
-    rows, rows_out: of SHAPE; proxies: with the AABBs lower_x … upper_y [px]; fast (bodies,) bool.
+    rows, rows_out: rows of SHAPE; proxies: rows with the AABBs lower_x … upper_y [px]; fast (bodies,) bool.
     """
     found = 0
     for k in range(len(rows)):
@@ -125,7 +125,7 @@ def find_outgrown(rows, bodies, shapes, proxies, fast, rows_out):
 def foresee_paths(rows, bodies, dt, paths_out):
     """Write the predicted path of each body in dt [s], at its velocity and without obstacles. O(rows).
 
-    rows: of BODY; paths_out (bodies, 6): see list_paths.
+    rows: rows of BODY; paths_out (bodies, 6): see list_paths.
     """
     for k in range(len(rows)):
         i = rows[k]
@@ -141,20 +141,20 @@ def foresee_paths(rows, bodies, dt, paths_out):
 
 
 # ---- push ahead ------------------------------------------------------------------------------------------------------
-# Kinematic bodies push the bodies that stopped in their way, for the rest of the step.
+# For the rest of the step, kinematic bodies push bodies that stopped in front of them.
 #
 # A body that was stopped at an impact waits for the next step, but a kinematic body moves on. So the rest of the step
-# is swept again: if the surface of a kinematic body would enter a stopped body, it pushes the body along.
+# is swept again: if the surface of a kinematic body would enter a stopped body, it pushes the stopped body.
 
-MEETINGS = 2  # most tiles or links of one kinematic body tested per call: the two sides of a corner
+MEETINGS = 2  # most tiles or links of one kinematic body that a call tests: the two sides of a corner
 
 
 @kernel
 def push_ahead(sweep_inout, moves_inout):
     """Push stopped bodies out of the way of kinematic bodies for the rest of the step. Return the number of pushes.
 
-    moves_inout (bodies, 2) [px]: translation of each stopped body from the place where it stopped; each push adds to
-    it. A push is along one normal, so a corner needs several calls: repeat until the result is 0. O(candidates).
+    moves_inout (bodies, 2) [px]: translation of each stopped body from the position where it stopped; each push is
+    added. A push is along one normal, so a corner needs several calls: repeat until the result is 0. O(candidates).
     """
     bodies, shapes, candidates = sweep_inout.bodies, sweep_inout.shapes, sweep_inout.candidates
     cuts, slack = sweep_inout.cuts, sweep_inout.slack
@@ -182,8 +182,8 @@ def push_ahead(sweep_inout, moves_inout):
                 fraction, nx, ny, feature = sweep_rotational(mover, other, slack, but, sweep_inout)
                 if fraction >= 1.0:
                     break
-                # Displacement until the end of the step of the pusher's point that is now at the body's centre of mass,
-                # less the remaining move of the body.
+                # (dx, dy): displacement until the end of the step of the pusher's point that is now at the body's
+                # centre of mass, minus the remaining move of the body.
                 left = 1.0 - fraction
                 x = cuts[row, 0] + fraction * moves_inout[row, 0]
                 y = cuts[row, 1] + fraction * moves_inout[row, 1]
@@ -201,18 +201,19 @@ def push_ahead(sweep_inout, moves_inout):
                     break
                 if feature < 0:
                     break
-                but = feature  # this tile or link pushes no further; ignore it and test the other side of a corner
+                but = feature  # this tile or link does not push further; ignore it and test the other side of a corner
     return found
 
 
 # ---- sweep -----------------------------------------------------------------------------------------------------------
 # The stages that stop fast bodies at their first impact.
 #
-# Without a stacking solver, impacts are predicted, and a body moves no further than to its first one. A stacking solver
-# moves all bodies first; then each fast body is swept from its pose before the step to its pose after it. It is moved
-# back to its first impact and keeps its velocity, so that the contact of the next step gets the full impact speed.
+# Without a stacking solver, impacts are predicted, and a body moves no farther than to its first impact. A stacking
+# solver moves all bodies first; then each fast body is swept from its pose before the step to its pose after the step.
+# The body is moved back to its first impact and keeps its velocity, so that the contact of the next step gets the full
+# impact speed.
 
-SAME_FRACTION = 1e-9  # difference of two fractions of a step that counts as none
+SAME_FRACTION = 1e-9  # smaller differences of two fractions of a step count as 0
 NO_IMPACTS, NO_ROWS = np.zeros((0, 8)), np.zeros(0, np.int64)
 
 
@@ -238,7 +239,7 @@ class Sweeper:
     def pairs_of(self, state: StepState, strict: bool = False) -> Sweep:
         """Return the Sweep of the candidates of a step.
 
-        strict: an impact of any depth stops a body, as in worlds with a stacking solver.
+        strict: whether an impact of any depth stops a body, as in worlds with a stacking solver.
         """
         return Sweep(
             state.library.tables,
@@ -257,7 +258,7 @@ class Sweeper:
 
 
 def _look(state, moving, strict=False) -> np.ndarray:
-    """Return the impacts (n, 8) of fast bodies with resting bodies (moving 0) or with moving ones (moving 1).
+    """Return the impacts (n, 8) of fast bodies with resting bodies (moving 0) or with moving bodies (moving 1).
 
     Columns: see impacts.write_impacts. strict: see Sweeper.pairs_of.
     """
@@ -273,7 +274,7 @@ def _look(state, moving, strict=False) -> np.ndarray:
     sweeper.squares = squares_of(state.library, masks, sweeper.squares)
     found = find_shared_areas(moving, sweeper.squares, sweep, sweeper.best, sweeper.impacts)
     shared = sweeper.impacts[:found].copy()
-    sweeper.impacts[:, 6:] = np.nan  # the other sweeps know no point
+    sweeper.impacts[:, 6:] = np.nan  # the other sweeps compute no point
     return np.concatenate([impacts, shared])
 
 
@@ -287,7 +288,7 @@ def _masks_in(state) -> np.ndarray:
 
 
 def _look_straight(state, bodies, dt, only_straight) -> np.ndarray:
-    """Return the impacts (n, 8) within dt [s] of bodies whose sweep has a closed form; see impacts.find_impacts.
+    """Return the impacts (n, 8) within dt [s] of bodies whose sweep has a closed form, see impacts.find_impacts.
 
     bodies: BODY rows with the start poses and velocities.
     """
@@ -328,7 +329,7 @@ def foresee_impacts(state: StepState) -> None:
 def detect_moved(state: StepState) -> None:
     """Find the contacts at the final poses, and add predicted impacts that are not among them.
 
-    For worlds without a stacking solver. Stopped bodies are first pushed on by kinematic bodies.
+    For worlds without a stacking solver. Kinematic bodies first push stopped bodies on.
     """
     rows = state.awake.bodies
     stopped = rows[state.bodies["fraction"][rows] < 1.0] if len(state.impacts) and state.effects.response else rows[:0]
@@ -341,12 +342,12 @@ def detect_moved(state: StepState) -> None:
     met = _written(state, state.impacts, int(state.effects.response))
     if state.effects.response:
         state.swept_sensors, met = met[met["sensor"]], met[~met["sensor"]]
-    # If a body moved on after the impact, as a kinematic one does, the contact at the final poses may have the wrong
+    # If a body moved on after the impact, as a kinematic body does, the contact at the final poses may be on the wrong
     # side.
     passed = met["candidate"][met["separation_1"] < -state.tolerances.slop]
     manifolds = manifolds[~np.isin(manifolds["candidate"], passed)]
-    # A pair with an impact may also have a contact at the final poses. It is kept, and marked as swept, if it
-    # approaches. If it separates across a gap (the body ended just behind its obstacle), the impact replaces it.
+    # A pair with an impact may also have a contact at the final poses. The contact is kept, and marked as swept, if the
+    # bodies approach. If they separate across a gap (the body ended just behind its obstacle), the impact replaces it.
     two = manifolds["count"] == 2
     nears = (manifolds["speed_1"] > 0.0) | (two & (manifolds["speed_2"] > 0.0))
     apart = (manifolds["separation_1"] > 0.0) & ~(two & (manifolds["separation_2"] <= 0.0))
@@ -381,7 +382,7 @@ def _written(state, impacts, response) -> np.ndarray:
 def sweep_piles(state: StepState) -> None:
     """Find the fast bodies, move each back to its first impact in the step, and add the impacts to the contacts.
 
-    For worlds with a stacking solver, after it has moved all bodies.
+    For worlds with a stacking solver, after the solver has moved all bodies.
     """
     bodies, rows, sweeper = state.bodies, state.awake.bodies, state.workspace.sweep
     state.ghosts = None
@@ -407,7 +408,7 @@ def sweep_piles(state: StepState) -> None:
 
 
 def _cover(state):
-    """Enlarge the broad-phase AABBs of swept bodies that have left theirs, and find their new candidate pairs."""
+    """Enlarge the broad-phase AABBs of swept bodies that have left them, and find the new candidate pairs."""
     own, shapes, pairs = state.awake.shapes, state.shapes, state.pairs
     rows = state.workspace.rows_for(len(own))
     found = find_outgrown(own, state.bodies, shapes, pairs.proxies, state.workspace.sweep.fast, rows)
@@ -442,7 +443,7 @@ def _sweep_rotational(state) -> np.ndarray:
             state.work[CAP_HITS] += 1
             break
         found.append(_look(state, 1))
-    # Impacts of earlier rounds that a body no longer reaches are left out when they are written.
+    # write_impacts leaves out impacts of earlier rounds that a body no longer reaches.
     return np.concatenate(found)
 
 
@@ -451,14 +452,14 @@ def _stop(state, impacts) -> bool:
     rows = state.awake.bodies
     before = state.bodies["fraction"][rows]
     stop_at_impacts(state.shapes, state.pairs.rows, impacts, state.bodies)
-    # The same impact may come out slightly earlier from shortened paths, which is no new stop.
+    # With shortened paths the same impact may be found slightly earlier, which is not a new stop.
     return bool((state.bodies["fraction"][rows] < before - SAME_FRACTION).any())
 
 
 def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
-    """Let kinematic bodies push stopped bodies for the rest of the step, until a resting body is in the way.
+    """Let kinematic bodies push stopped bodies for the rest of the step, until a resting body blocks them.
 
-    stopped: rows of BODY of the bodies stopped at an impact. Return whether any body was pushed.
+    stopped: rows of BODY, of the bodies stopped at an impact. Return whether any body was pushed.
     """
     sweeper, bodies = state.workspace.sweep, state.bodies
     moves = np.zeros((len(bodies), 2))
@@ -475,10 +476,10 @@ def push_stopped(state: StepState, stopped: np.ndarray) -> bool:
 
 
 def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived: bool = False) -> None:
-    """Translate bodies, each until a resting body is in the way.
+    """Translate bodies, each until a resting body blocks it.
 
-    rows (n,): of BODY; moves (n, 2): translations [px]; arrived: whether kinematic bodies are at their final poses;
-    then they count as resting, too.
+    rows (n,): rows of BODY; moves (n, 2): translations [px]; arrived: whether kinematic bodies are at their final
+    poses; then they also count as resting.
     """
     sweeper, bodies, awake = state.workspace.sweep, state.bodies, state.awake.bodies
     sweeper.grow(state)
@@ -499,12 +500,12 @@ def shift_freely(state: StepState, rows: np.ndarray, moves: np.ndarray, arrived:
 def _tell(state, met):
     """Add the impacts (n, 8) to the contacts and to the pairs sensed by sensors.
 
-    Such a contact begins in this step, but its impulse follows in the next one.
+    Such a contact begins in this step, but its impulse follows in the next step.
     """
     if not len(met):
         return
     written = _written(state, met, 0)
-    # An impact that was found in two ways is one impact.
+    # An impact that both sweeps found is one impact.
     _, first = np.unique(written["shape_a"] << 32 | written["shape_b"], return_index=True)
     written = written[first]
     sensed = written[written["sensor"]]

@@ -26,8 +26,8 @@ from physics.math2d import norm, rotate, unit
 # First time of impact in closed form, of two shapes that move along a line without rotation: discs, polygons, rays.
 #
 # Polygons: their Minkowski difference is convex, and its faces have the normals of both outlines, so the relative
-# motion enters it through the face that it crosses last (Cyrus and Beck 1978). Circles: quadratic per corner, linear
-# per edge (Ericson, Real-Time Collision Detection, 5.5).
+# motion enters the difference through the face that it crosses last (Cyrus and Beck 1978). Circles: a quadratic
+# equation per corner, a linear equation per hull edge (Ericson, Real-Time Collision Detection, 5.5).
 
 MISS = 2.0  # in place of a fraction 0..1 of the motion: no impact
 
@@ -36,8 +36,9 @@ MISS = 2.0  # in place of a fraction 0..1 of the motion: no impact
 def sweep_circles(x, y, dx, dy, radius):
     """Return (fraction of the motion or MISS, normal from the first disc to the second) of two discs that meet.
 
-    x, y [px]: centre of the second disc relative to the first; dx, dy [px]: its motion relative to the first; radius
-    [px]: sum of both radii. If the discs touch or overlap at the start, the fraction is 0 if they approach, else MISS.
+    x, y [px]: centre of the second disc relative to the first; dx, dy [px]: motion of the second disc relative to the
+    first; radius [px]: sum of both radii. If the discs touch or overlap at the start, the fraction is 0 if they
+    approach, else MISS.
     """
     nx, ny = unit(x, y, 1.0, 0.0)
     approach = x * dx + y * dy
@@ -50,7 +51,7 @@ def sweep_circles(x, y, dx, dy, radius):
     discriminant = approach * approach - a * c
     if discriminant < 0.0:
         return MISS, nx, ny
-    # The smaller root, in the form without cancellation.
+    # The smaller root, in a form without cancellation.
     fraction = c / (-approach + math.sqrt(discriminant))
     if fraction > 1.0:
         return MISS, nx, ny
@@ -62,8 +63,8 @@ def sweep_circles(x, y, dx, dy, radius):
 def cast_on_polygon(corners, count, edges, x, y, dx, dy):
     """Return (fraction of the ray or MISS, normal) of a ray that starts outside a convex polygon.
 
-    x, y [px]: start of the ray; dx, dy [px]: from its start to its end; edges: bits of the edges that may be hit. The
-    ray is clipped by the half plane of each edge, so that it cannot slip through between two edges (Cyrus and Beck
+    x, y [px]: start of the ray; dx, dy [px]: vector from its start to its end; edges: bits of the edges that may be
+    hit. The ray is clipped by the half plane of each edge, so that it cannot pass between two edges (Cyrus and Beck
     1978).
     """
     enter = -1.0
@@ -91,8 +92,8 @@ def cast_on_polygon(corners, count, edges, x, y, dx, dy):
 def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
     """Return (fraction of the motion or MISS, normal from polygon to disc) of a moving disc and a resting polygon.
 
-    x, y, radius [px]: the disc, a ray for radius 0; dx, dy [px]: its motion; edges: bits of the edges (low 16) and
-    corners (next 16) that may be hit.
+    x, y, radius [px]: centre and radius of the disc, which is a ray if the radius is 0; dx, dy [px]: its motion; edges:
+    bits of the edges (low 16) and corners (next 16) that may be hit.
     """
     hit, nx, ny, _, _, separation, _ = collide_polygon_circle(corners, count, edges, x, y, radius)
     if hit and separation <= 0.0:
@@ -126,12 +127,12 @@ def sweep_circle_polygon(corners, count, edges, x, y, dx, dy, radius):
 
 @subkernel
 def half_planes(a, a_count, b, b_count, side, move, slack, clip):
-    """Clip the interval of time in which two polygons overlap by the faces of polygon b.
+    """Clip the interval of time in which two polygons overlap by the faces of the polygon in b.
 
-    a, b (16, 2) [px]: corners; side: 1.0 if a is polygon A and b is B, -1.0 if a is B and b is A. move: motion (x, y)
-    [px] of polygon A. A face that is crossed by less than `slack` [px] does not count. clip, and the result: (fraction
-    at which the overlap begins or MISS, fraction at which it ends, face k of B entered last or -1 - k for face k of A,
-    normal from B to A).
+    a, b (16, 2) [px]: corners; side: 1.0 if a holds polygon A and b holds B, -1.0 if a holds B and b holds A. move:
+    motion (x, y) [px] of polygon A. A face that is crossed by less than `slack` [px] does not count. clip, and the
+    result: (fraction at which the overlap begins or MISS, fraction at which it ends, face k of B entered last or -1 - k
+    for face k of A, normal from B to A).
     """
     enter, leave, entering, nx, ny = clip
     for k in range(b_count):
@@ -157,8 +158,8 @@ def half_planes(a, a_count, b, b_count, side, move, slack, clip):
 def sweep_polygons(a, a_count, b, b_count, move, slack):
     """Return (fraction of the motion or MISS, normal from B to A) of a moving polygon A and a resting polygon B.
 
-    move: motion (x, y) [px] of A; slack [px]: an overlap up to this depth is no impact. A deeper overlap at the start
-    is MISS, because the contact solver resolves it.
+    move: motion (x, y) [px] of A; slack [px]: an overlap up to this depth is not an impact. A deeper overlap at the
+    start is MISS, because the contact solver resolves it.
     """
     clip = half_planes(a, a_count, b, b_count, 1.0, move, slack, (-1.0, 1.0, 0, 0.0, -1.0))
     if clip[0] <= 1.0:
@@ -166,7 +167,7 @@ def sweep_polygons(a, a_count, b, b_count, move, slack):
     enter, leave, _, nx, ny = clip
     if enter < 0.0 or enter > leave or enter > 1.0:
         return MISS, nx, ny
-    # Back from the fraction at which the overlap is `slack` to that of first touch.
+    # Move back from the fraction at which the overlap is `slack` to the fraction of first touch.
     approach = -(nx * move[0] + ny * move[1])
     if approach <= 0.0:
         return MISS, nx, ny
@@ -176,19 +177,19 @@ def sweep_polygons(a, a_count, b, b_count, move, slack):
 # ---- advance ---------------------------------------------------------------------------------------------------------
 # First time of impact of two rounded hulls that move and rotate, by conservative advancement of second order.
 #
-# At a fraction t of the motion the nearest points give a normal n. Along this fixed n every corner moves by its
-# velocity, and its path bends by no more than (angular velocity)² · arm, so each pair of corners is apart until the
-# root of a quadratic. The motion is free up to the smallest root, where a new normal is computed. Each stop is before
-# the impact, and near it the gap shrinks quadratically, as in Newton's method: few rounds are needed, and no impact is
-# missed at any angular velocity. Source: Mirtich, Impulse-based Dynamic Simulation, 1996; Catto, Continuous Collision,
-# GDC 2013.
+# At a fraction t of the motion the nearest points give a normal n. Along this fixed n every corner moves with its
+# velocity and an acceleration of at most (angular velocity)² · arm, so each pair of corners is apart until the root of
+# a quadratic. The motion is free up to the smallest root, where a new normal is computed. Each such stop is before the
+# impact, and near the impact the gap shrinks quadratically, as in Newton's method: few rounds are needed, and no impact
+# is missed at any angular velocity. Source: Mirtich, Impulse-based Dynamic Simulation, 1996; Catto, Continuous
+# Collision, GDC 2013.
 
-ADVANCE_CAP = 256  # greatest number of iterations; head-on impacts take under ten, grazing ones about forty
+ADVANCE_CAP = 256  # greatest number of iterations; head-on impacts take under ten, grazing impacts about forty
 LEAVING_CAP = (
     1024  # most iterations while a pair touches and does not approach; each advances by at least 1 / LEAVING_CAP
 )
 TOLERANCE = 2.0**-43  # separation that counts as touching, as a share of the size of shapes and motion
-TOUCHING_BAND = 2.0**-30  # corners this near to the touching one along the normal touch, too; as a share of the size
+TOUCHING_BAND = 2.0**-30  # corners this near to the touching corner along the normal also touch; as a share of the size
 RESTING = 2.0**-42  # approach speed that counts as rounding error, as a share of the greatest speed
 CENTER_X, CENTER_Y, ANGLE, MOVE_X, MOVE_Y, TURN = range(6)
 
@@ -239,12 +240,12 @@ def place_at(local, count, motion, fraction, x, y, corners_out):
 def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
     """Return the separation [px] of the two hulls of a workspace at a fraction of their motions.
 
-    Afterwards workspace.gap.gap holds the normal, and workspace.a and workspace.b hold the corners at that fraction.
+    Then workspace.gap.gap holds the normal, and workspace.a and workspace.b hold the corners at this fraction.
     """
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
     place_at(workspace.local_a, a_count, workspace.motion_a, fraction, x, y, workspace.a)
     place_at(workspace.local_b, b_count, workspace.motion_b, fraction, x, y, workspace.b)
-    # Reset the state of the last pair, so that it does not affect this one, not even in the last bit.
+    # Reset the state of the last pair, so that it does not affect this pair, not even in the last bit.
     i = min(int(workspace.gap.gap[FIRST_A]), a_count - 1) if fraction > 0.0 else 0
     j = min(int(workspace.gap.gap[FIRST_B]), b_count - 1) if fraction > 0.0 else 0
     separation = shape_separation(workspace.a, a_count, a_radius, workspace.b, b_count, b_radius, (i, j), workspace.gap)
@@ -255,7 +256,7 @@ def separate_at(a_count, a_radius, b_count, b_radius, fraction, workspace):
 
 @subkernel
 def reach_of(local, count):
-    """Return the distance [px] of the furthest corner from the centre of rotation of a hull."""
+    """Return the distance [px] of the farthest corner from the centre of rotation of a hull."""
     reach = 0.0
     for k in range(count):
         reach = max(reach, norm(local[k, 0], local[k, 1]))
@@ -266,7 +267,8 @@ def reach_of(local, count):
 def along(corners, motion, fraction, k, x, y, nx, ny):
     """Return (position [px], velocity, bound of the acceleration) of corner k along the unit vector (nx, ny).
 
-    The time unit is the whole motion. corners (16, 2) [px]: at this fraction, relative to the world point (x, y).
+    The time unit is the whole motion. corners (16, 2) [px]: corners at this fraction, relative to the world point (x,
+    y).
     """
     arm_x = corners[k, 0] - ((motion[CENTER_X] - x) + fraction * motion[MOVE_X])
     arm_y = corners[k, 1] - ((motion[CENTER_Y] - y) + fraction * motion[MOVE_Y])
@@ -279,7 +281,8 @@ def along(corners, motion, fraction, k, x, y, nx, ny):
 def free_until(gap, speed, bend):
     """Return the first root t of gap + speed · t - bend / 2 · t² for gap >= 0; infinite without a root.
 
-    Until then two corners cannot meet. gap [px]; speed: at which the gap grows; bend: bound of the acceleration, >= 0.
+    Two corners cannot meet before this root. gap [px]; speed: speed at which the gap grows; bend: bound of the
+    acceleration, >= 0.
     """
     if bend > 0.0:
         root = math.sqrt(speed * speed + 2.0 * bend * gap)
@@ -295,8 +298,8 @@ def free_until(gap, speed, bend):
 def free_motion(a_count, b_count, radii, fraction, separation, workspace):
     """Return a lower bound of the further fraction of the motion in which the hulls cannot meet.
 
-    It is the time until any two corners can meet along the present normal. separation [px]: of the hulls at `fraction`;
-    no pair of corners counts as nearer. radii [px]: sum of both. O(corners of A · corners of B).
+    It is the time until any two corners can meet along the present normal. separation [px]: separation of the hulls at
+    `fraction`; no pair of corners counts as nearer. radii [px]: sum of both radii. O(corners of A · corners of B).
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     x, y = workspace.motion_a[CENTER_X], workspace.motion_a[CENTER_Y]
@@ -305,11 +308,11 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
         at_a, speed_a, bend_a = along(workspace.a, workspace.motion_a, fraction, i, x, y, nx, ny)
         for j in range(b_count):
             at_b, speed_b, bend_b = along(workspace.b, workspace.motion_b, fraction, j, x, y, nx, ny)
-            # No pair is nearer than the separation, also after rounding.
+            # No pair is nearer than the separation, even with rounding errors.
             gap = max(separation, at_b - at_a - radii)
             until = min(until, free_until(max(0.0, gap), speed_b - speed_a, bend_a + bend_b))
     if separation > 0.0:
-        # Far apart and rotating fast: no corner leaves its circle.
+        # For hulls that are far apart and rotate fast: no corner leaves the circle around its centre of rotation.
         center = nx * (
             (workspace.motion_b[CENTER_X] - x)
             + fraction * workspace.motion_b[MOVE_X]
@@ -332,8 +335,8 @@ def free_motion(a_count, b_count, radii, fraction, separation, workspace):
 def speed_of(motion, seen_from, fraction, x, y, nx, ny):
     """Return the velocity [px per motion] along the unit vector (nx, ny) of a body's point at (x, y).
 
-    x, y [px]: relative to the centre of rotation at the start of the motion `seen_from`; motion: of the body; fraction:
-    of the motion.
+    x, y [px]: relative to the centre of rotation at the start of the motion `seen_from`; motion: motion of the body;
+    fraction: fraction of the motion.
     """
     arm_x = x - ((motion[CENTER_X] - seen_from[CENTER_X]) + fraction * motion[MOVE_X])
     arm_y = y - ((motion[CENTER_Y] - seen_from[CENTER_Y]) + fraction * motion[MOVE_Y])
@@ -344,7 +347,7 @@ def speed_of(motion, seen_from, fraction, x, y, nx, ny):
 def touching_span(corners, count, nx, ny, side, band):
     """Return the interval (low, high) [px] along the tangent (-ny, nx) that a hull's touching face or corner covers.
 
-    It includes the corners that are furthest in the direction side · (nx, ny), up to a difference of `band` [px].
+    It includes the corners that are farthest in the direction side · (nx, ny), up to a difference of `band` [px].
     """
     furthest = -math.inf
     for k in range(count):
@@ -361,8 +364,8 @@ def touching_span(corners, count, nx, ny, side, band):
 def approach_at(a_count, b_count, fraction, band, workspace):
     """Return the greatest approach speed [px per motion] along the normal of two touching hulls.
 
-    If two faces touch, within `band` [px], the speed is greatest at an end of their common part. workspace: with
-    normal and corners at `fraction`, from separate_at.
+    If two faces touch, within `band` [px], the speed is greatest at an end of their common part. workspace: with normal
+    and corners at `fraction`, as written by separate_at.
     """
     nx, ny = workspace.gap.gap[NX], workspace.gap.gap[NY]
     a_low, a_high = touching_span(workspace.a, a_count, nx, ny, 1.0, band)
@@ -388,9 +391,9 @@ def approach_at(a_count, b_count, fraction, band, workspace):
 def advance(a_count, a_radius, b_count, b_radius, workspace):
     """Return the first fraction of the motion at which two moving hulls meet, or MISS.
 
-    workspace: the caller fills in local_a, local_b, motion_a, motion_b; on return gap.gap holds normal and points at
-    the impact, and totals is increased. a_radius, b_radius [px]: roundings. If the hulls touch or overlap at the start,
-    the result is 0 if they approach; otherwise the search continues until they approach. If ADVANCE_CAP is hit, a
+    workspace: the caller writes local_a, local_b, motion_a, motion_b; on return gap.gap holds normal and points at the
+    impact, and totals is increased. a_radius, b_radius [px]: roundings. If the hulls touch or overlap at the start, the
+    result is 0 if they approach; otherwise the search continues until they approach. If ADVANCE_CAP is reached, a
     fraction before the impact is returned.
     """
     turn_a, turn_b = abs(workspace.motion_a[TURN]), abs(workspace.motion_b[TURN])
@@ -416,7 +419,7 @@ def advance(a_count, a_radius, b_count, b_radius, workspace):
             if approach_at(a_count, b_count, fraction, TOUCHING_BAND * size, workspace) > RESTING * speed:
                 return fraction
             if turn_a * reach_a + turn_b * reach_b == 0.0:
-                return MISS  # convex and without rotation: they separate for good
+                return MISS  # convex hulls without rotation do not meet again
             leaving += 1
             fraction += max(free_motion(a_count, b_count, radii, fraction, separation, workspace), 1.0 / LEAVING_CAP)
             if fraction >= 1.0:
@@ -426,7 +429,7 @@ def advance(a_count, a_radius, b_count, b_radius, workspace):
         stops += 1
         if fraction == 1.0:
             return MISS
-        # A motion that ends within rounding of a contact may touch at the end.
+        # A motion that ends within rounding errors of a contact may touch at its end.
         fraction += free_motion(a_count, b_count, radii, fraction, separation, workspace)
         if fraction > 1.0 + TOUCHING_BAND:
             return MISS
