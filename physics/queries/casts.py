@@ -58,13 +58,13 @@ from physics.tables.step_state import CAP_HITS, GJK_ITERATIONS, NARROW_TESTS, TO
 from physics.tables.table import joined
 
 # ---- boxes -----------------------------------------------------------------------------------------------------------
-# Bodies by boxes: those whose AABBs meet a box, and the AABB of a body.
+# Boxes: the bodies whose AABBs meet a box, and the AABB of a body.
 
 
 def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
     """Return the bodies with a shape whose AABB meets a closed box [px]. Empty masks and grids have no AABB.
 
-    Raises ValueError for lower > upper.
+    Raises TypeError for values that are not points, ValueError for lower > upper.
     """
     lower, upper = checks.vector("lower", lower), checks.vector("upper", upper)
     if lower[0] > upper[0] or lower[1] > upper[1]:
@@ -79,9 +79,10 @@ def query_aabb(world: AskedWorld, lower: Pair, upper: Pair) -> list:
 
 
 def query_rect(world: AskedWorld, rect: Any) -> list:
-    """Return the bodies with a shape whose AABB meets a rectangle [px]. Raises TypeError, ValueError.
+    """Return the bodies with a shape whose AABB meets a rectangle [px].
 
-    rect: (x, y, width, height) or ((x, y), (width, height)).
+    rect: (x, y, width, height) or ((x, y), (width, height)). Raises TypeError for another value, ValueError for a width
+    or height < 0 and for a number that is not finite.
     """
     try:
         parts = tuple(rect)
@@ -94,9 +95,7 @@ def query_rect(world: AskedWorld, rect: Any) -> list:
 
 
 def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, float] | None:
-    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a body's shapes at its pose; None if all its shapes are
-    empty.
-    """
+    """Return the AABB (min_x, min_y, max_x, max_y) [px] of a body's shapes at its pose; None if all are empty."""
     world.queries.refresh(world)
     rows = with_content(world, np.flatnonzero(world.shapes["body"] == identity))
     if not len(rows):
@@ -106,13 +105,13 @@ def bounds_of(world: IndexedWorld, identity: int) -> tuple[float, float, float, 
 
 
 def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
-    """Return those of the shape rows that are neither empty masks nor empty grids."""
+    """Return the given shape rows without empty masks and empty grids."""
     shapes, library = world.shapes[rows], world.library
     kinds = np.where(shapes["kind"] == BOUNDS, shapes["wrapped"], shapes["kind"])
     keep = np.ones(len(rows), bool)
     masks = np.flatnonzero(kinds == MASK)
     if len(masks):
-        upright = library.raster_of[shapes["geometry"][masks], 0]  # rotated, it has as many pixels
+        upright = library.raster_of[shapes["geometry"][masks], 0]  # a rotated raster has as many pixels
         keep[masks] = library.rasters.rows["area"][upright] > 0
     grids = np.flatnonzero(kinds == TILES)
     keep[grids] = [not library.tile_grids[grid].is_empty for grid in shapes["geometry"][grids].tolist()]
@@ -120,12 +119,12 @@ def with_content(world: IndexedWorld, rows: np.ndarray) -> np.ndarray:
 
 
 # ---- cast rows -------------------------------------------------------------------------------------------------------
-# A ray, a shape that moves without rotation, or a point, against listed shapes that stand still.
+# A ray, a shape that moves without rotation, or a point, against listed shapes at rest.
 
 
 @subkernel
 def write_hit(row, fraction, nx, ny, found, hits_out):
-    """Write (row, fraction, normal) of a hit to row `found` of hits_out, and return found + 1."""
+    """Write (row, fraction, normal) of a hit to row `found` of hits_out. Return found + 1."""
     hits_out[found, 0] = float(row)
     hits_out[found, 1] = fraction
     hits_out[found, 2] = nx
@@ -137,7 +136,7 @@ def write_hit(row, fraction, nx, ny, found, hits_out):
 def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_out, work_inout):
     """Write (row, fraction, normal) of every listed shape that a ray (x, y, dx, dy) [px] hits. Return their number.
 
-    rows: numbers of SHAPE rows. corners_inout (16, 2): scratch. hits_out (rows, 4).
+    rows: indices of SHAPE rows. corners_inout (16, 2): scratch. hits_out (rows, 4).
     """
     found = 0
     for k in range(len(rows)):
@@ -150,10 +149,10 @@ def cast_ray_at_rows(geometry, bodies, shapes, rows, ray, corners_inout, hits_ou
 
 @kernel
 def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
-    """Write (fraction, normal) of the nearest hit of a ray from the origin by (dx, dy) [px] on convex parts to
-    hit_out[1:].
+    """Write (fraction, normal) of the nearest hit of a ray from the origin on convex parts to hit_out[1:].
 
-    Return whether the ray hits a part. parts: Parts. corners_inout (16, 2): scratch. hit_out (4,). O(parts).
+    dx, dy [px]: vector of the ray; parts: Parts; corners_inout (16, 2): scratch; hit_out (4,). O(parts). Return whether
+    the ray hits a part.
     """
     hit_out[1] = MISS
     for k in range(len(parts.counts)):
@@ -175,9 +174,9 @@ def cast_ray_at_parts(parts, dx, dy, corners_inout, hit_out, work_inout):
 def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out, work_inout):
     """Write (row, fraction, normal) of every listed shape that a moving hull hits. Return their number.
 
-    The normal points from the shape to the hull. rows: numbers of SHAPE rows, without masks. hull: a Hull, its corners
+    The normal points from the shape to the hull. rows: indices of SHAPE rows, without masks. hull: a Hull, its corners
     relative to its centre of rotation. workspace: RotationalWorkspace that holds the hull's motion. hits_out (rows, 4).
-    Touching at the start is a hit at 0 if the hull approaches.
+    If a shape touches the hull at the start, it is hit at 0 if the hull approaches.
     """
     r = workspace.advance
     corners, count, radius, _ = hull
@@ -217,10 +216,11 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 
 @kernel
 def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, work_inout):
-    """Write (distance, x, y) [px] of the place nearest to a point on the listed hulls. Return the row of that hull.
+    """Write (distance, x, y) [px] of the point nearest to a given point on the listed hulls.
 
-    The result is -1 if no hull is listed. rows: numbers of SHAPE rows in order; tiles, masks and chains are left out.
-    If the point lies in a hull, the distance is 0 and the place is the point itself. workspace: AdvanceWorkspace.
+    rows: indices of SHAPE rows in ascending order; tiles, masks and chains are left out. If the given point lies in a
+    hull, the distance is 0 and the nearest point is the given point. workspace: AdvanceWorkspace. Return -1 if no hull
+    is listed. Return the row of this hull.
     """
     x, y = point
     own, corners = workspace.local_a, workspace.local_b
@@ -231,7 +231,7 @@ def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, 
         if not is_hull(s.kind):
             continue
         b = bodies[s.body_row]
-        # Relative to the point, so that precision does not depend on the distance from the origin.
+        # Coordinates relative to the point, so that precision does not depend on the distance from the origin.
         own[0, 0] = 0.0
         own[0, 1] = 0.0
         n = hull_at(geometry, shapes, rows[k], b.x - x, b.y - y, b.angle, corners)
@@ -251,8 +251,8 @@ def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, 
 # Queries of a world between steps: rays, casts, overlaps, points. They read the present poses and search the broad
 # phase; the work of the last query is in `world.queries.counters`.
 
-RAY_PIECES = 16  # a long slanted ray searches up to this many boxes along it, not one around it …
-PIECE = 8.0  # [m] … of about this width
+RAY_PIECES = 16  # a long slanted ray searches up to this number of boxes along the ray, not one box around it …
+PIECE = 8.0  # [m] … each of about this width
 
 
 @dataclass(frozen=True)
@@ -269,10 +269,11 @@ class RayHit:
 def ray_cast_all(
     world: AskedWorld, origin: Pair, translation: Pair, filter: Filter, sensors: bool, first: bool = False
 ) -> list[RayHit]:
-    """Return all hits of a ray, nearest first, ties by shape id; with `first` the nearest one only.
+    """Return all hits of a ray, nearest first, on ties in the order of shape ids; with `first` only the nearest hit.
 
-    A ray that starts inside a shape hits at fraction 0, with the normal against its direction. A ray of zero length is
-    a point query with normals (0, -1). Raises TypeError, ValueError.
+    A ray that starts inside a shape hits it at fraction 0, with the normal against the ray's direction. A ray of zero
+    length is a point query with normals (0, -1). Raises TypeError for values of other types, ValueError for numbers
+    that are not finite or an origin too far away.
     """
     x, y = checks.position("origin", origin)
     dx, dy = checks.vector("translation", translation)
@@ -302,7 +303,7 @@ def ray_cast_all(
             break
     hits = hits[np.lexsort((hits[:, 0], hits[:, 1]))]
     _, nearest = np.unique(world.shapes["parent"][hits[:, 0].astype(np.int64)], return_index=True)
-    hits = hits[np.sort(nearest)]  # the first hit of a mask's parts
+    hits = hits[np.sort(nearest)]  # only the first hit of each mask's parts
     return [
         _hit(world, row, fraction, nx, ny, (x + fraction * dx, y + fraction * dy))
         for row, fraction, nx, ny in hits[: 1 if first else None].tolist()
@@ -310,7 +311,7 @@ def ray_cast_all(
 
 
 def _beside(world, rows, x, y, dx, dy, beyond) -> np.ndarray:
-    """Return those of the SHAPE rows whose AABBs, grown by `beyond` [px], cross the infinite line through a ray."""
+    """Return the SHAPE rows whose AABBs, enlarged by `beyond` [px], cross the infinite line through a ray."""
     if not len(rows):
         return rows
     left, top, right, bottom = (world.shapes[name][rows] for name in ("min_x", "min_y", "max_x", "max_y"))
@@ -333,14 +334,14 @@ def _rays_at_outlines(world, rows, x, y, dx, dy) -> list[np.ndarray]:
 
 
 def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, filter: Filter) -> RayHit | None:
-    """Return the first hit of a shape that moves from a pose by a translation [px], ties by shape id; None without a
-    hit.
+    """Return the first hit of a shape that moves from a pose by a translation [px]; None without a hit.
 
-    Sensors are left out. The normal points from the shape that is hit to the cast shape, and the point lies midway
-    between them. Touching or overlapping at the start is a hit at fraction 0 if the shape approaches; otherwise the
-    cast goes on. A cast of zero length returns the first shape that it overlaps. A PixelMask is cast as its outline at
-    the exact pose, and a grazing contact is no hit. A Chain is hit from its front, a one-way tile or mask from above.
-    Raises TypeError, ValueError.
+    On ties the shape with the smallest id is returned. Sensors are left out. The normal points from the hit shape to
+    the cast shape, and the point lies midway between them. If the shapes touch or overlap at the start, that is a hit
+    at fraction 0 if the cast shape approaches; otherwise the cast continues. A cast of zero length returns the first
+    shape that it overlaps. A PixelMask is cast as its outline at the exact pose, and a grazing contact is not a hit. A
+    Chain is hit from its front, a one-way tile or mask from above. Raises TypeError for values of other types,
+    ValueError for numbers that are not finite or a pose that the shape cannot have.
     """
     pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
     dx, dy = checks.vector("translation", translation)
@@ -377,11 +378,10 @@ def shape_cast(world: AskedWorld, shape: Shape, pose: Pose, translation: Pair, f
 
 
 def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
-    """Return (row, fraction, normal towards the cast shape) of each shape that a cast shape hits; for a mask its first
-    row.
+    """Return (row, fraction, normal towards the cast shape) of each shape that a cast shape hits.
 
-    probe: Parts of the cast shape; rows: SHAPE rows to test; motion: start x, y and translation [px]; feet: y [px] of
-    the lowest point of the cast shape at its start.
+    The row of a mask is its first row. probe: Parts of the cast shape; rows: SHAPE rows to test; motion: start x, y and
+    translation [px]; feet: y [px] of the lowest point of the cast shape at its start.
     """
     x, y, dx, dy = motion
     workspace, hits, found, work = new_rotational_workspace(), np.zeros((len(rows), 4)), 0, world.queries.work
@@ -412,7 +412,7 @@ def _sweep(world, shape, probe, rows, motion, feet) -> np.ndarray:
 
 
 def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
-    """Return the convex parts of one shape, relative to (x, y) [px], that a cast shape may hit on its way.
+    """Return the convex parts of one shape, relative to (x, y) [px], that a cast shape may hit during its motion.
 
     rows: SHAPE rows of the one shape; probe: Parts of the cast shape; way: its translation [px]; feet: y [px] of its
     lowest point.
@@ -429,17 +429,18 @@ def _outline_at(world, rows, x, y, probe, way, feet) -> Parts:
 def _swept_parts(world, row, x, y, feet) -> Parts:
     """Return the convex parts of a SHAPE row for casts, relative to (x, y) [px].
 
-    feet: y [px] of the lowest point of the cast shape; a one-way tile counts only if it lies below.
+    feet: y [px] of the lowest point of the cast shape; a one-way tile counts only if it lies below this.
     """
     placed = Placed(world.library.tables, world.bodies, world.shapes, row, x, y, feet, True)
     return world.library.shape_of(world.shapes[row])._parts_at(placed)
 
 
 def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, float] | None:
-    """Return (body, point, distance) [px] of the nearest point of any shape, ties by shape id; None in an empty world.
+    """Return (body, point, distance) [px] of the nearest point of any shape; None in an empty world.
 
-    If `point` lies inside a shape, the nearest point is itself and the distance 0. Sensors are left out. A Chain has
-    both sides, a one-way tile its upper one. Raises TypeError, ValueError.
+    On ties the shape with the smallest id is returned. If `point` lies inside a shape, the nearest point is `point`
+    itself and the distance 0. Sensors are left out. A Chain is measured from both sides, a one-way tile by its top.
+    Raises TypeError for values of other types, ValueError for a point that is not finite or too far away.
     """
     x, y = checks.position("point", point)
     filter, index = _checked(filter), world.queries
@@ -454,7 +455,7 @@ def closest(world: AskedWorld, point: Pair, filter: Filter) -> tuple[Any, Vec2, 
         found = _nearest(world, _allowed(world, rows, filter, False), x, y)
         if everything or (found and found[1] <= reach):
             break
-        # A result bounds the search; without one the box grows.
+        # A result bounds the search; without a result the box grows.
         reach = found[1] * (1.0 + 1e-9) if found else 4.0 * reach
     if not found:
         return None
@@ -482,14 +483,20 @@ def _nearest(world, rows, x, y):
 
 
 def query_point(world: AskedWorld, point: Pair) -> list:
-    """Return the bodies with a shape that contains the point [px], sensors included."""
+    """Return the bodies with a shape that contains the point [px], sensors included.
+
+    Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away.
+    """
     checks.vector("point", point)
     hits = ray_cast_all(world, point, (0.0, 0.0), Filter.ALL, True)
     return [world.body(each) for each in sorted({hit.body.id for hit in hits})]
 
 
 def overlap(world: AskedWorld, shape: Shape, pose: Pose, filter: Filter) -> list:
-    """Return the bodies that a shape at a pose overlaps, sensors included. Raises TypeError, ValueError."""
+    """Return the bodies that a shape at a pose overlaps, sensors included.
+
+    Raises TypeError for values of other types, ValueError for a pose that the shape cannot have.
+    """
     pose, filter = checked_pose("shape", shape, "pose", pose), _checked(filter)
     world.queries.begin(world)
     with world.library.visited():
@@ -531,8 +538,9 @@ def _first_contact(world, bodies, shapes, rows):
 
 
 def _probe(world, shape, pose):
-    """Return the BODY and SHAPE rows of a query shape at a pose. Its geometry is dropped at the end of
-    library.visited().
+    """Return the BODY and SHAPE rows of a query shape at a pose.
+
+    The geometry of the shape is removed at the end of library.visited().
     """
     bodies, shapes = np.zeros(1, BODY), np.zeros(1, SHAPE)
     place(world.library, shape, bodies, shapes, 0, pose)
@@ -547,7 +555,7 @@ def _checked(filter):
 
 
 def _allowed(world, rows, filter, sensors, leave=PIXELS):
-    """Return those of the SHAPE rows that pass the filter of a query, with sensors only if `sensors` is True.
+    """Return the SHAPE rows that pass the filter of a query, with sensors only if `sensors` is True.
 
     leave: role of the mask rows to leave out: PIXELS for queries of outlines, PART for queries of pixels.
     """
@@ -565,7 +573,7 @@ def _box_around(start, end, beyond):
 
 
 def _beyond_drawn(world):
-    """Return how far [px] a mask's outline at the exact pose may leave the box in which its pixels are drawn."""
+    """Return the distance [px] by which a mask's outline at the exact pose may exceed the box in which it is drawn."""
     if not world.library.masks or not len(world.bodies):
         return 0.0
     extent = world.bodies["extent"]

@@ -16,28 +16,27 @@ from physics.shapes.placement import add_missing_rasters, refresh_aabbs
 from physics.tables.step_state import COUNTERS, PAIRS_TESTED, WorldTables
 
 # ---- index -----------------------------------------------------------------------------------------------------------
-# The shapes that may meet a box now, found in the data structure of the broad phase between steps.
+# The shapes that may meet a box at present, found in the data structure of the broad phase between steps.
 #
-# The structure is as the last step left it. Shapes that have left their boxes since, were added, or were moved out by
-# the step itself are listed as loose and compared one by one, so an answer equals that of a search of all shapes. Poses
-# may be written into world.bodies, so they are compared with those last read: one pass over the bodies that may have
+# The structure has the state of the last step. Shapes that were added since, or are no longer inside their boxes, are
+# listed as loose and compared one by one, so a query has the same result as a search of all shapes. Callers may write
+# poses into world.bodies, so the poses are compared with the poses last read: one pass over the bodies that may have
 # moved.
 
-ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates: casts are rounded, too
+ROUNDING = 2.0**-48  # margin of a searched box relative to its coordinates, because casts are also rounded
 
 
 @subkernel
 def is_found(body):
-    """Return whether queries can find a body: it is simulated, and its pose is finite and within the limits."""
+    """Return whether queries can find a body: it is not quarantined, and its pose is finite and within the limits."""
     return is_within_limits(body) and not body.quarantined
 
 
 @kernel
 def find_moved(rows, bodies, poses_inout, moved_out):
-    """List in moved_out the body rows whose pose differs from the one last read, and store the new poses. Return how
-    many.
+    """List in moved_out the body rows whose pose differs from the pose last read. Return their number.
 
-    rows: body rows to compare; poses_inout (bodies, 3): poses last read. O(rows).
+    The new poses are stored. rows: body rows to compare; poses_inout (bodies, 3): poses last read. O(rows).
     """
     found = 0
     for n in range(len(rows)):
@@ -58,9 +57,9 @@ def find_moved(rows, bodies, poses_inout, moved_out):
 def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_out):
     """List in loose_out the shape rows that a search of the broad phase may miss. Return their number.
 
-    The broad phase finds a shape if its AABB lies within the box of its proxy. row_of_slot_inout gets the row of such a
-    shape at the slot of its proxy, otherwise -1. rows: shape rows to look at. known: 0 if the broad phase has no data
-    yet. Rows of bodies that queries cannot find are in neither list. O(rows).
+    The broad phase finds a shape if its AABB lies within the box of its proxy. For such a shape row_of_slot_inout
+    receives the shape's row at the slot of its proxy, otherwise -1. rows: shape rows to examine. known: 0 if the broad
+    phase has no data yet. Rows of bodies that queries cannot find are in neither list. O(rows).
     """
     found = 0
     for n in range(len(rows)):
@@ -91,9 +90,10 @@ def find_loose(rows, bodies, shapes, proxies, known, row_of_slot_inout, loose_ou
 
 @kernel
 def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
-    """List in rows_out the shape rows whose AABB meets a closed box [px] (lower x, y, upper x, y). Return their number.
+    """List in rows_out the shape rows whose AABBs meet a closed box [px] (lower x, y, upper x, y). Return their number.
 
-    slots: slots that the broad phase found; row_of_slot: their shape rows, -1: none; loose: further shape rows to test.
+    slots: slots that the broad phase found; row_of_slot: shape rows of the slots, or -1; loose: further shape rows to
+    test.
     """
     lower_x, lower_y, upper_x, upper_y = box
     found = 0
@@ -113,7 +113,7 @@ def rows_meeting(shapes, row_of_slot, slots, loose, box, rows_out, work_inout):
 
 
 def is_same(now: tuple, before: tuple) -> bool:
-    """Return whether two tuples hold the same objects. Ints need only be equal."""
+    """Return whether two tuples hold the same objects. Ints are compared by value."""
     return len(now) == len(before) and all(
         a is b or (type(a) is int and a == b) for a, b in zip(now, before, strict=True)
     )
@@ -132,7 +132,10 @@ class IndexedWorld(WorldTables, Protocol):
 
 
 class AskedWorld(IndexedWorld, Protocol):
-    """The fields of a world that queries read. Any stands for a type of a module that imports this one."""
+    """The fields of a world that queries read.
+
+    A field annotated Any has a type from a module that imports this one.
+    """
 
     def body(self, identity: int) -> Any:
         """Return the Body of an id."""
@@ -148,8 +151,8 @@ class QueryIndex:
     def __init__(self) -> None:
         self.work = np.zeros(len(COUNTERS), np.int64)
         self.asked: list[Box] = []
-        self.seen = ()  # the tables that were read: other tables make the index stale
-        self.step = -1  # the step after which it was last refreshed
+        self.seen = ()  # the tables that were read; other tables make the index stale
+        self.step = -1  # the step after which the index was last refreshed
         self.awake = np.zeros(0, np.int64)  # body rows that were awake at the last refresh
         self.lists, self.watched = (), np.zeros(0, np.int64)
         self.poses = np.zeros((0, 3))
@@ -160,7 +163,7 @@ class QueryIndex:
         self.loose_count = 0
 
     def __getstate__(self):
-        return self.work, self.asked  # the rest belongs to tables that a copy does not have
+        return self.work, self.asked  # the other attributes belong to tables that a copy does not have
 
     def __setstate__(self, state):
         self.__init__()
@@ -168,7 +171,7 @@ class QueryIndex:
 
     @property
     def counters(self) -> dict[str, int]:
-        """The work of the last query: {name: int}; every name of COUNTERS is present."""
+        """The work of the last query, {name: int}, with every name of COUNTERS."""
         return dict(zip(COUNTERS, self.work.tolist(), strict=True))
 
     def begin(self, world: IndexedWorld) -> None:
@@ -178,16 +181,15 @@ class QueryIndex:
         self.refresh(world)
 
     def asks_broadphase(self, world: IndexedWorld) -> bool:
-        """Return whether a query searches the broad phase: it has data, and at least one shape is found by it."""
+        """Return whether a query searches the broad phase: it has data, and it can find at least one shape."""
         return not world.pairs.everything and self.loose_count < len(world.shapes)
 
     def refresh(self, world: IndexedWorld) -> None:
-        """Refresh the AABBs of shapes at the present poses, and the list of loose shapes, which the broad phase may
-        miss.
+        """Refresh the AABBs of shapes at the present poses, and the list of loose shapes.
 
-        world: a World, or the StepState of its step. After a step of a world with sleeping, only bodies are read that
-        were awake before or after it, moved or were edited; otherwise all bodies are. If no body moved since the last
-        call, nothing else is done.
+        Loose shapes are shapes that the broad phase may miss. world: a World, or the StepState of its step. After a
+        step of a world with sleeping, only bodies are read that were awake before or after the step, have moved or were
+        edited; otherwise all bodies are read. If no body moved since the last call, nothing else is done.
         """
         bodies, shapes, pairs, awake = world.bodies, world.shapes, world.pairs, world.awake
         newest = int(shapes["id"][-1]) if len(shapes) else -1
@@ -201,9 +203,9 @@ class QueryIndex:
         if known and world.steps == self.step:
             if not moved:
                 return
-            rows = self.moved[:moved]  # the boxes in the structure are the same
+            rows = self.moved[:moved]  # the boxes in the structure have not changed
         self.seen, self.step = seen, world.steps
-        self.awake = np.arange(len(bodies)) if awake.stale else awake.bodies  # a stale index names rows that are gone
+        self.awake = np.arange(len(bodies)) if awake.stale else awake.bodies  # a stale index may name removed rows
         of = awake.shapes_of(rows) if some else np.arange(len(shapes))
         if some:
             of = np.union1d(of, self.loose[: self.loose_count])
@@ -216,7 +218,10 @@ class QueryIndex:
         )
 
     def _watched(self, awake, bodies):
-        """Return the body rows that may have moved. The result is cached while the lists of awake bodies stay."""
+        """Return the body rows that may have moved.
+
+        The result is cached while the lists of awake bodies are unchanged.
+        """
         lists = (self.awake, awake.bodies, awake.dynamic, awake.kinematic)
         if awake.dirty or not is_same(lists, self.lists):
             self.lists, self.watched = lists, awake.may_move(bodies, self.awake)
@@ -231,7 +236,7 @@ class QueryIndex:
             self.loose, self.rows = np.zeros(2 * len(shapes), np.int64), np.zeros(2 * len(shapes), np.int64)
 
     def rows_in(self, world: IndexedWorld, lower: Pair, upper: Pair) -> np.ndarray:
-        """Return the shape rows, in order, whose AABB meets a closed box [px]. Quarantined bodies are left out."""
+        """Return the shape rows, in order, whose AABBs meet a closed box [px]. Quarantined bodies are left out."""
         reach = ROUNDING * max(abs(lower[0]), abs(lower[1]), abs(upper[0]), abs(upper[1]))
         box = (float(lower[0]) - reach, float(lower[1]) - reach, float(upper[0]) + reach, float(upper[1]) + reach)
         self.asked.append(box)
@@ -244,9 +249,9 @@ class QueryIndex:
 
 
 # ---- visited ---------------------------------------------------------------------------------------------------------
-# The boxes of the last query in the data structure of the broad phase, for drawing. Functions only read.
+# The boxes of the last query in the data structure of the broad phase, for drawing. These functions change nothing.
 #
-# The structure is walked once more, as `query_box` of the strategies does, with each box that the query searched.
+# The structure is searched once more, as by `query_box` of the strategies, with each box that the query searched.
 
 CORNERS = ("lower_x", "lower_y", "upper_x", "upper_y")
 
@@ -257,7 +262,7 @@ class Visited(NamedTuple):
     kind: str  # brute, sweep, hash, tree
     asked: np.ndarray  # (k, 4) min_x min_y max_x max_y
     rects: np.ndarray  # (m, 4) nodes of the tree, cells of the hash, boxes that were compared
-    met: np.ndarray  # (m,) whether it meets the searched box
+    met: np.ndarray  # (m,) whether the compared box meets the searched box
 
 
 def visited(world: IndexedWorld) -> Visited:

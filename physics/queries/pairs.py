@@ -30,8 +30,8 @@ from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, SHAPE
 # ---- pair rows -------------------------------------------------------------------------------------------------------
 # Two shapes at two poses as the rows that kernels read, without a world.
 #
-# Data that follow from a shape alone are cached with the shape, which is immutable. Convex shapes need little more than
-# their corners; a concave shape gets a library of its own.
+# Data that depend only on a shape are cached with the shape, which is immutable. Convex shapes need little more than
+# their corners; a pair with another shape gets a library of its own.
 
 At = tuple[float, float, float]  # x, y, angle
 Kept = TypeVar("Kept")
@@ -46,10 +46,10 @@ class PairRows(NamedTuple):
 
 
 class HullRow(NamedTuple):
-    """The table rows of a hull, cached as bytes: two of them are joined at a tenth of the cost of structured arrays."""
+    """The table rows of a hull, cached as bytes: joining two of them costs a tenth of joining structured arrays."""
 
-    first: bytes  # its SHAPE row as the first of a pair
-    second: bytes
+    first: bytes  # its SHAPE row as the first shape of a pair
+    second: bytes  # its SHAPE row as the second shape of a pair
     corners: bytes  # CORNER rows; empty for a circle
     count: int  # number of corners
 
@@ -85,14 +85,14 @@ def hull_row(shape: Shape) -> HullRow | None:
 
 @kept_with_shape
 def order_of(shape: Shape) -> tuple:
-    """Return a sort key of a shape. Pairs are measured in sorted order: a swap of the shapes changes only signs."""
+    """Return a sort key of a shape. Pairs are measured in sorted order, so that a swap changes only signs."""
     inside = () if shape._inner is shape else (rank_of(shape._inner),)
     return (rank_of(shape), *inside, *shape._inner._key)
 
 
 @kept_with_shape
 def name_of(shape: Shape) -> tuple:
-    """Return a second sort key of a shape, made from its constructor call, which collide() uses."""
+    """Return a sort key of a shape for collide(), made from its constructor call."""
     return rank_of(shape), repr(shape), order_of(shape)
 
 
@@ -127,7 +127,7 @@ def any_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At) -> tuple[Li
 # ---- pair manifold ---------------------------------------------------------------------------------------------------
 # collide: the contact of two shapes at two poses.
 
-# Arguments of a pass over one pair that it only reads.
+# Arguments of a pass over one pair; the pass only reads them.
 PAIRS = {False: np.array([[0, 1]], np.int64), True: np.array([[1, 0]], np.int64)}
 KINDS = {kind: np.array([kind], np.int64) for kind in (CIRCLES, POLYGON_CIRCLE, POLYGONS)}
 HULL_PASSES = {
@@ -140,9 +140,9 @@ NAMES = CONTACT.names or ()
 
 @dataclass(frozen=True)
 class Manifold:
-    """A contact: unit normal from A to B, points (n, 2) midway between the surfaces [px], separations (n,).
+    """A contact: unit normal from A to B, points (n, 2) midway between the surfaces [px], separations (n,) [px].
 
-    separations are negative where the shapes overlap. features (n,) identify the points. area [px2] is the shared area
+    Separations are negative where the shapes overlap. features (n,) identify the points. area [px2] is the shared area
     of two masks. len() is the number of points; without points the normal is (0, 0).
     """
 
@@ -157,12 +157,12 @@ class Manifold:
 
 
 def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: float = 0.0) -> Manifold:
-    """Return the contact of two shapes at poses (x, y) or (x, y, angle); without points if they are more than margin
-    [px] apart.
+    """Return the contact of two shapes at poses (x, y) or (x, y, angle), with points if they are within margin [px].
 
     In the other order of shapes the points and separations are the same, and the normal is reversed. Against a TileGrid
-    or a Chain the points of all tiles or links are listed, with the normal of the deepest one. A TileGrid or Chain
-    never collides with another one. Raises TypeError, ValueError.
+    or a Chain the points of all tiles or links are listed, with the normal of the deepest point. Two shapes that are
+    each a TileGrid or a Chain never collide. Raises TypeError for values that are not shapes, poses or numbers,
+    ValueError for a pose that the shape cannot have or a margin < 0.
     """
     poses = [checked_pose("shape_a", shape_a, "pose_a", pose_a), checked_pose("shape_b", shape_b, "pose_b", pose_b)]
     margin = checks.number("margin", margin, low=0.0)
@@ -175,8 +175,9 @@ def collide(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose, margin: 
 
 
 def _collide_hulls(rows, margin, swapped) -> Manifold:
-    """Return the Manifold of two convex shapes. swapped: they are tested in the other order, and the normal is
-    reversed.
+    """Return the Manifold of two convex shapes.
+
+    swapped: whether the shapes are tested in the other order and the normal is reversed.
     """
     low, high = sorted(rows.shapes["kind"].tolist())
     kind = kind_of_pair(low, high)
@@ -220,14 +221,14 @@ def _collide_any(shape_a, pose_a, shape_b, pose_b, margin, swapped) -> Manifold:
 
 
 def nowhere() -> Manifold:
-    """Return the manifold of shapes that do not touch."""
+    """Return the Manifold of shapes that do not touch."""
     return Manifold(Vec2(0.0, 0.0), np.zeros((0, 2)), np.zeros(0), np.zeros(0, np.int64), 0.0)
 
 
 # ---- pair distance ---------------------------------------------------------------------------------------------------
 # distance: the distance of two shapes at two poses.
 
-ROUNDING_BAND = 1e-11  # share of the size below which the contact test decides whether two shapes touch
+ROUNDING_BAND = 1e-11  # share of the size: below this distance the contact test determines whether two shapes touch
 NEXT_TO_NOTHING = math.ulp(
     0.0
 )  # [px] the smallest positive number: the distance of shapes that touch without a contact
@@ -235,7 +236,7 @@ NEXT_TO_NOTHING = math.ulp(
 
 @dataclass(frozen=True)
 class Distance:
-    """A distance [px], negative for an overlap, with nearest points and the unit normal from A to B.
+    """A distance [px], negative for an overlap, with the nearest points and the unit normal from A to B.
 
     point_b = point_a + distance · normal. For overlapping shapes the distance is minus the shortest translation of B
     along the normal that ends the overlap, and the points lie on the two surfaces. iterations: rounds of GJK and EPA.
@@ -251,12 +252,13 @@ class Distance:
 def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Distance:
     """Return the distance of two shapes at poses (x, y) or (x, y, angle).
 
-    It is <= 0 where `collide` finds a contact, < 0 for masks. Convex shapes: exact to rounding. Concave shapes: the
-    distance of the nearest parts, or minus the depth of `collide` for an overlap. A shape that touches a mask without
-    shared area has distance 0 and no contact. Other shapes may touch or cross without a contact (a Chain from behind,
-    tiles on tiles): their distance is then the smallest positive number. A mask is measured by its pixels, a snapped
-    one as it is drawn on the pixel grid. To an empty shape the distance is infinite, with the normal (1, 0). Raises
-    TypeError, ValueError.
+    It is <= 0 if `collide` finds a contact, and < 0 if masks have a contact. Convex shapes: exact up to rounding.
+    Concave shapes: the distance of the nearest parts, or for an overlap minus the depth of `collide`. A shape that
+    touches a mask without shared area has distance 0 and no contact. Other shapes may touch or cross without a contact
+    (a Chain from behind, tiles on tiles): then their distance is the smallest positive number. A mask is measured by
+    its pixels, a snapped mask as it is drawn on the pixel grid. The distance to an empty shape is infinite, with the
+    normal (1, 0). Raises TypeError for values that are not shapes or poses, ValueError for a pose that the shape cannot
+    have.
     """
     pose_a = checked_pose("shape_a", shape_a, "pose_a", pose_a)
     pose_b = checked_pose("shape_b", shape_b, "pose_b", pose_b)
@@ -273,7 +275,7 @@ def distance(shape_a: Shape, pose_a: Pose, shape_b: Shape, pose_b: Pose) -> Dist
 
 
 def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
-    # Relative to A, so that precision does not depend on the distance from the origin.
+    # Coordinates are relative to A, so that precision does not depend on the distance from the origin.
     x, y = pose_a[0], pose_a[1]
     workspace, row_a, row_b = new_gap_workspace(), hull_row(shape_a), hull_row(shape_b)
     if row_a is not None and row_b is not None:
@@ -287,11 +289,11 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
     convex, kinds = shape_a._is_convex and shape_b._is_convex, (shape_a._kind, shape_b._kind)
     band = ROUNDING_BAND * size + 4.0 * math.ulp(max(map(abs, (*pose_a[:2], *pose_b[:2]))))
     if CHAIN in kinds:
-        band = size  # a shape that was pressed through a link may lie wholly behind it and still be pushed out
+        band = size  # a shape that was pressed through a link may lie wholly behind the link and still be pushed out
     if found <= band and not (convex and found < -band):
         contact = collide(shape_a, pose_a, shape_b, pose_b)
         if not len(contact):
-            # Masks are open: touching, they have distance 0 and share no area.
+            # Masks are open sets: if they touch, they have distance 0 and share no area.
             found = max(found, 0.0 if MASK in kinds and CHAIN not in kinds else NEXT_TO_NOTHING)
         elif convex:
             found = min(found, 0.0)
@@ -309,8 +311,8 @@ def _measure(shape_a, pose_a, shape_b, pose_b) -> Distance:
 def separate_hulls(geometry, bodies, shapes, x, y, corners_a_out, corners_b_out, workspace):
     """Write separation, normal and points of the hulls in rows 0 and 1 to workspace.gap, relative to (x, y) [px].
 
-    corners_a_out, corners_b_out (16, 2): scratch. Return (separation [px], greater size of the two [px], rounds of GJK
-    and EPA).
+    corners_a_out, corners_b_out (16, 2): scratch. Return (separation [px], greater size of the two hulls [px], rounds
+    of GJK and EPA).
     """
     a, b = bodies[0], bodies[1]
     count_a = hull_at(geometry, shapes, 0, a.x - x, a.y - y, a.angle, corners_a_out)
@@ -336,10 +338,7 @@ def size_of(corners, count, radius):
 
 
 def _separate_any(shape_a, pose_a, shape_b, pose_b, workspace):
-    """Return (separation, size, rounds) as separate_hulls, for any two shapes.
-
-    If one of the shapes is empty, the separation is infinite.
-    """
+    """Return (separation, size, rounds) as separate_hulls, for any two shapes; infinite for an empty shape."""
     parts_a, parts_b = parts_of_pair(shape_a, pose_a, shape_b, pose_b, pose_a[0], pose_a[1])
     totals = np.zeros(2)
     found = separate_parts(parts_a, parts_b, np.zeros((16, 2)), np.zeros((16, 2)), workspace, totals)
@@ -361,16 +360,16 @@ def parts_of_pair(shape_a: Shape, pose_a: At, shape_b: Shape, pose_b: At, x: flo
 # ---- pair impact -----------------------------------------------------------------------------------------------------
 # time_of_impact: the first contact of two moving shapes.
 
-BOX_STOPS = 4000  # limit of the steps for a rotating Bounds, each of which ends before the impact
-LOOKS = 1024  # parts of a motion in which shapes that touch are tested until they approach
+BOX_STOPS = 4000  # greatest number of advances for a rotating Bounds; each ends before the impact
+LOOKS = 1024  # number of parts of a motion at which touching shapes are tested until they approach
 
 
 @dataclass(frozen=True)
 class TimeOfImpact:
-    """The first impact of two moving shapes: hit, fraction 0..1 at which they touch, point [px], unit normal from A to
-    B.
+    """The first impact of two moving shapes: hit, fraction, point, normal.
 
-    Without an impact hit is False, fraction 1, and point and normal are None.
+    fraction 0..1 of the motion at which they touch; point [px]; unit normal from A to B. Without an impact hit is
+    False, fraction is 1, and point and normal are None.
     """
 
     hit: bool
@@ -387,12 +386,13 @@ def time_of_impact(
 ) -> TimeOfImpact:
     """Return the first fraction at which two shapes touch while their poses move linearly from start to end.
 
-    Poses are (x, y) or (x, y, angle), angles unwrapped. Two discs are solved in closed form, other convex shapes to
-    1e-13 of their size and motion. Touching or overlapping at the start is fraction 0 if they approach; otherwise the
-    search goes on until they approach. A Chain is hit from its front, a one-way tile from above. Seams between tiles or
-    links are not hit. Grazing contacts with tiles, links and PixelMasks are no impacts; a PixelMask moves as its
-    outline at the exact pose. A Bounds whose shape rotates changes its size on the way; its impact is found to 1e-12 of
-    size and motion. Tiles and chains do not collide with each other. Raises TypeError, ValueError.
+    Poses are (x, y) or (x, y, angle); angles are not wrapped. Two discs are solved in closed form, other convex shapes
+    to 1e-13 of their size and motion. If the shapes touch or overlap at the start, the fraction is 0 if they approach;
+    otherwise the search continues until they approach. A Chain is hit from its front, a one-way tile from above. Seams
+    between tiles or links are not hit. Grazing contacts with tiles, links and PixelMasks are not impacts; a PixelMask
+    moves as its outline at the exact pose. A Bounds whose shape rotates changes its size during the motion; its impact
+    is found to 1e-12 of size and motion. Tiles and chains do not collide with each other. Raises TypeError for values
+    that are not shapes or poses, ValueError for a pose that the shape cannot have.
     """
     moves = [
         [checked_pose(f"shape_{side}", shape, f"{when}_{side}", at) for when, at in (("start", start), ("end", end))]
@@ -479,7 +479,7 @@ def _parts_at(shape, move, fraction, x, y) -> Parts:
 
 
 def _point(a, move_a, b, move_b, fraction):
-    """Return the point midway between the nearest points of two moving shapes at a fraction of their motion [px]."""
+    """Return the point [px] midway between the nearest points of two moving shapes at a fraction of their motion."""
     x, y = move_a[0][:2]
     gap = _gap_at(*(_parts_at(each, move, fraction, x, y) for each, move in ((a, move_a), (b, move_b))))
     return Vec2(float(x + 0.5 * (gap[AX] + gap[BX])), float(y + 0.5 * (gap[AY] + gap[BY])))
@@ -503,7 +503,7 @@ def _advance_boxes(a, move_a, b, move_b):
     reach = [float(np.hypot(*np.abs(each.boxes).reshape(-1, 2, 2).max(axis=(0, 1)))) for each in parts]
     turn = [abs(move[1][2] - move[0][2]) for move in (move_a, move_b)]
     path = math.hypot(*((move_b[1][k] - move_b[0][k]) - (move_a[1][k] - move_a[0][k]) for k in (0, 1)))
-    # Each side of a rotating box moves no faster than its shape's furthest point, and a normal meets two sides.
+    # Each side of a rotating box moves no faster than its shape's farthest point, and two sides contribute to a normal.
     speed = path + math.sqrt(2.0) * (turn[0] * reach[0] + turn[1] * reach[1])
     tolerance = 1e-12 * (sum(reach) + path)
 

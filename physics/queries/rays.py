@@ -20,8 +20,8 @@ from physics.tables.shape import CHAIN, CIRCLE, MASK, TILES
 def cast_on_line(ax, ay, bx, by, x, y, dx, dy):
     """Return the fraction at which a ray from (x, y) by (dx, dy) [px] hits the closed line from a to b, or MISS.
 
-    The test compares on which side of the ray each end lies, so no ray passes between two lines that share an end. A
-    ray along the line hits the nearer end; a start on the line is a hit at 0.
+    The test compares the sides of the ray on which the two ends lie, so no ray passes between two lines that share an
+    end. A ray along the line hits the nearer end; a start on the line is a hit at 0.
     """
     side_a, side_b = dx * (ay - y) - dy * (ax - x), dx * (by - y) - dy * (bx - x)
     if (side_a > 0.0 and side_b > 0.0) or (side_a < 0.0 and side_b < 0.0):
@@ -57,7 +57,7 @@ def cast_on_segment(corners, x, y, dx, dy):
 
 @subkernel
 def cast_on_disc(x, y, dx, dy, radius):
-    """Return (fraction or MISS, normal) of a ray at a closed disc. (x, y) [px] is relative to the centre of the disc.
+    """Return (fraction or MISS, normal) of a ray at a closed disc. (x, y) [px] is relative to the disc's centre.
 
     A start inside is a hit at 0, with the normal against the ray.
     """
@@ -71,7 +71,7 @@ def cast_on_disc(x, y, dx, dy, radius):
 def cast_on_hull(corners, count, radius, x, y, dx, dy):
     """Return (fraction or MISS, normal) of a ray at a closed hull of two or more corners with a rounding radius [px].
 
-    A start inside gives 0 and the normal against the ray. A ray of zero length tests its point.
+    A start inside is a hit at 0, with the normal against the ray. A ray of zero length tests its point.
     """
     if radius == 0.0 and count == 2:
         return cast_on_segment(corners, x, y, dx, dy)
@@ -131,10 +131,9 @@ def crosses_box(x, y, dx, dy, min_x, min_y, max_x, max_y):
 
 @subkernel
 def cast_on_chain(geometry, chain, body, ray):
-    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] at the links of a body's chain, hit from their
-    front.
+    """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] at the fronts of the links of a body's chain.
 
-    A ray of zero length tests whether its point is on the line. O(blocks + links near the ray).
+    A ray of zero length tests whether its point is on a link. O(blocks + links near the ray).
     """
     cosine, sine = math.cos(body.angle), math.sin(body.angle)
     x, y = rotate(ray[0] - body.x, ray[1] - body.y, cosine, -sine)
@@ -172,8 +171,9 @@ def cast_on_chain(geometry, chain, body, ray):
 
 @subkernel
 def enter_box(x, y, dx, dy, width, height):
-    """Return the fractions at which a ray enters and leaves the box from (0, 0) to (width, height); enter > leave: a
-    miss.
+    """Return the fractions at which a ray enters and leaves the box from (0, 0) to (width, height).
+
+    If the ray misses the box, the first fraction is greater than the second.
     """
     enter = 0.0
     leave = 1.0
@@ -194,7 +194,7 @@ def enter_box(x, y, dx, dy, width, height):
 
 @subkernel
 def next_border(position, step, cell, size):
-    """Return the fraction of a ray at which it leaves a cell along one axis; infinite for a ray along the other."""
+    """Return the fraction at which a ray leaves a cell along one axis; infinite if it does not move along this axis."""
     if step > 0.0:
         return ((cell + 1) * size - position) / step
     if step < 0.0:
@@ -206,7 +206,7 @@ def next_border(position, step, cell, size):
 def start_cell(position, step, size, count):
     """Return the index, along one axis, of the cell in which a ray starts or which it enters first.
 
-    On a border that is the cell into which the ray moves.
+    If the position is on a border, it is the cell into which the ray moves.
     """
     at = position / size
     cell = math.floor(at)
@@ -234,10 +234,10 @@ def cast_on_cell(geometry, grid, row, column, ray, corners_inout):
 
 @subkernel
 def cast_on_tiles(geometry, grid, ray, corners_inout):
-    """Return (fraction or MISS, normal) of a ray at the closed tiles of a grid. O(cells on the way).
+    """Return (fraction or MISS, normal) of a ray at the closed tiles of a grid. O(cells on the ray).
 
     A ray along a border hits the tiles on both sides, and a ray through a corner all four tiles, so the neighbours of
-    each cell are tested, too. ray: (x, y, dx, dy) [px] relative to the grid's origin. corners_inout (16, 2): scratch.
+    each cell are also tested. ray: (x, y, dx, dy) [px] relative to the grid's origin. corners_inout (16, 2): scratch.
     """
     x, y, dx, dy = ray
     g = geometry.grids[grid]
@@ -252,7 +252,7 @@ def cast_on_tiles(geometry, grid, ray, corners_inout):
     best = MISS
     best_x, best_y = 0.0, -1.0
     while 0 <= column < g.columns and 0 <= row < g.rows:
-        # This cell and its neighbours: a border belongs to both sides.
+        # This cell and its neighbours, because a border belongs to both sides.
         for j in range(-1, 2):
             for i in range(-1, 2):
                 fraction, nx, ny = cast_on_cell(geometry, grid, row + j, column + i, ray, corners_inout)
@@ -261,7 +261,7 @@ def cast_on_tiles(geometry, grid, ray, corners_inout):
                     best_x, best_y = nx, ny
         across = next_border(x, dx, column, size)
         down = next_border(y, dy, row, size)
-        # A cell in between may still have a nearer hit.
+        # The search ends when no cell before the hit is left.
         if best <= min(across, down) or min(across, down) > leave:
             break
         if across < down:
@@ -273,8 +273,7 @@ def cast_on_tiles(geometry, grid, ray, corners_inout):
 
 @subkernel
 def is_solid_at(rasters, words, mask, x, y):
-    """Return whether a point [px] relative to a raster's corner lies in a solid pixel, which spans [i, i + 1) x [j, j +
-    1).
+    """Return whether a point [px] relative to a raster's corner lies in a solid pixel [i, i + 1) x [j, j + 1).
 
     mask: row of the raster.
     """
@@ -286,7 +285,7 @@ def is_solid_at(rasters, words, mask, x, y):
 
 @subkernel
 def is_in_mask(geometry, shape, body, x, y):
-    """Return whether a point [px] lies in a solid pixel of a mask: as drawn if it snaps, else at its exact pose."""
+    """Return whether a point [px] lies in a solid pixel of a mask: as drawn if snapped, else at its exact pose."""
     if not shape.snap:
         mask = raster_of_shape(geometry, shape)
         cosine, sine = cosine_and_sine(body.angle, body.angle)
@@ -301,7 +300,7 @@ def is_in_mask(geometry, shape, body, x, y):
 
 @subkernel
 def inside_polygon(corners, count, x, y):
-    """Return whether a point lies in a closed convex polygon, whose corners run clockwise on the screen."""
+    """Return whether a point lies in a closed convex polygon, whose corners are clockwise on the screen."""
     for k in range(count):
         n = k + 1 if k + 1 < count else 0
         ex = corners[n, 0] - corners[k, 0]
@@ -316,7 +315,7 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
     """Return whether a point [px] relative to the grid's origin lies in a closed solid tile or slope."""
     g = geometry.grids[grid]
     column, row = math.floor(x / g.tile_size), math.floor(y / g.tile_size)
-    # On a border the tile before it contains the point, too.
+    # A point on a border is also in the tile before the border.
     first_column = column - 1 if column * g.tile_size == x else column
     first_row = row - 1 if row * g.tile_size == y else row
     for j in range(max(0, first_row), min(g.rows - 1, row) + 1):
@@ -335,8 +334,8 @@ def point_in_tiles(geometry, grid, x, y, corners_inout):
 def cast_on_shape(geometry, bodies, shapes, row, ray, corners_inout):
     """Return (fraction or MISS, normal) of a ray (x, y, dx, dy) [px] at the shape in SHAPE row `row`.
 
-    A ray of zero length tests its point. Of a mask only that point is tested, against its pixels; longer rays are cast
-    at the mask's outline elsewhere.
+    A ray of zero length tests its point. Against a mask only the start of the ray is tested, against the pixels; longer
+    rays are cast at the mask's outline by other functions.
     """
     x, y, dx, dy = ray
     s = shapes[row]
