@@ -1,4 +1,4 @@
-"""Moving solids, which carry the characters that ride them and push those in their way."""
+"""Moving solids, which carry the characters that ride them and push the characters in front of them."""
 
 import math
 
@@ -45,22 +45,22 @@ from physics.tables.step_state import StepState, stage
 from physics.tables.table import row_of, rows_of
 
 # ---- near ------------------------------------------------------------------------------------------------------------
-# The shapes that may carry, push or stop each character in a step: those near characters whose surroundings moved.
+# The shapes that may carry, push or stop each character in a step: shapes near characters whose surroundings moved.
 
 
 @subkernel
 def motion_of(b):
-    """Return an upper bound of the distance [px] that any point of a body moved in the step."""
+    """Return an upper bound of the distance [px] that any point of a body moved in the step. b: BODY row."""
     turn = abs(b.angle - b.previous_angle) * (b.extent + abs(b.local_center_x) + abs(b.local_center_y))
     return abs(b.x - b.previous_x) + abs(b.y - b.previous_y) + turn
 
 
 @kernel
 def find_stirred(bodies, shapes, characters, pairs, count, stirred_out):
-    """Flag the characters that a step may move: riders, those on conveyors, and those that may touch a moving body.
+    """Flag the characters that a step may move: riders, users of conveyors, and those that may touch a moving body.
 
-    pairs (count, 2): shape rows from the broad phase. stirred_out (characters,): the flags. Return the greatest
-    distance [px] that any point of the bodies concerned moved in the step. O(pairs · log characters).
+    pairs (count, 2): shape rows from the broad phase. stirred_out (characters,): the flags. O(pairs · log characters).
+    Return the greatest distance [px] that any point of these bodies moved in the step.
     """
     most = 0.0
     for me in range(len(characters)):
@@ -89,7 +89,7 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
         if not near:
             state.queries.begin(state)
         row = rows[me]
-        # The reach: as far as anything moved, or as a push-out, and up and down a slope on the way.
+        # The reach: the greatest motion of any body, or of a push-out, and the rise of a slope over this distance.
         reach = 2.0 * motion + abs(float(row["belt"])) * state.dt + 8.0
         climb = reach * float(row["climb"])
         left, top = float(row["left"]), float(row["top"])
@@ -104,14 +104,14 @@ def near_characters(state: StepState) -> tuple[np.ndarray, np.ndarray]:
 
 
 # ---- shift -----------------------------------------------------------------------------------------------------------
-# A character that a solid moves: it is shifted pixel by pixel, as far as it is free.
+# A character that a solid moves is shifted pixel by pixel, until it is blocked.
 
 
 @subkernel
 def shift_aside(me, without, pixels, walk_inout, rows_out):
     """Move a character along x by up to `pixels` (negative: left). Return the number of pixels that were blocked.
 
-    without: body row to ignore, or -1; rows_out: room for the solids near.
+    without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -137,7 +137,7 @@ def shift_aside(me, without, pixels, walk_inout, rows_out):
 def shift_along_y(me, without, pixels, walk_inout, rows_out):
     """Move a character along y by up to `pixels` (negative: up). Return the number of pixels that were blocked.
 
-    without: body row to ignore, or -1; rows_out: room for the solids near.
+    without: body row to ignore, or -1; rows_out: scratch array for the nearby solids.
     """
     c = walk_inout.characters[me]
     reach = 2.0 + abs(pixels)
@@ -153,10 +153,10 @@ def shift_along_y(me, without, pixels, walk_inout, rows_out):
 
 @subkernel
 def shift(me, without, pixels, along_x, walk_inout, rows_out):
-    """Move a character by up to `pixels` along an axis, along x also up and down walkable slopes.
+    """Move a character by up to `pixels` along an axis; along x also up and down walkable slopes.
 
-    Return the number of pixels that were blocked. without: body row to ignore, or -1; rows_out: room for the solids
-    near.
+    without: body row to ignore, or -1; rows_out: scratch array for the nearby solids. Return the number of pixels that
+    were blocked.
     """
     if along_x == 1:
         stopped = shift_aside(me, without, pixels, walk_inout, rows_out)
@@ -168,7 +168,7 @@ def shift(me, without, pixels, along_x, walk_inout, rows_out):
 
 @subkernel
 def carried_by(way, stopped):
-    """Return the pixels, with sign, by which a character was moved: `way` without its `stopped` blocked pixels."""
+    """Return the signed number of pixels that a character was moved: `way`, shortened by `stopped` blocked pixels."""
     return way - stopped if way > 0 else way + stopped
 
 
@@ -194,13 +194,13 @@ def carry_riders(along_x, walk_inout):
 
 
 # ---- ride ------------------------------------------------------------------------------------------------------------
-# Characters on bodies that rotate, are dynamic or are no boxes: the point under the feet carries them, and bodies that
+# Characters on bodies that rotate, are dynamic or are not boxes: the point under the feet carries them, and bodies that
 # moved into them push them out.
 
 
 @subkernel
 def loose_under(walk, me):
-    """Return the row of the loose shape that a character rides, or -1 if it rides none.
+    """Return the row of the loose shape that a character rides; -1: it rides none.
 
     The point under the character's feet moves with such a shape. Loose: see solids.is_loose.
     """
@@ -224,7 +224,7 @@ def note_feet(shapes, characters_inout):
 
 @kernel
 def take_back(characters_inout, bodies_inout):
-    """Move the bodies of characters back to their pixel boxes after the step has moved them. O(characters)."""
+    """Move the bodies of characters back to their pixel boxes after the step has moved the bodies. O(characters)."""
     for me in range(len(characters_inout)):
         c = characters_inout[me]
         if not bodies_inout[c.body_row].quarantined:
@@ -234,7 +234,10 @@ def take_back(characters_inout, bodies_inout):
 
 @subkernel
 def motion_under(c, body):
-    """Return the displacement (x, y) [px] of the ground, a body, in this step at the point under a character's feet."""
+    """Return the displacement (x, y) [px] in this step of the point of a body that is under a character's feet.
+
+    c: CHARACTER row; body: BODY row of the ground.
+    """
     u, v = rotate(
         c.foot_x - body.previous_x,
         c.foot_y - body.previous_y,
@@ -248,14 +251,14 @@ def motion_under(c, body):
 def pixels_carried(me, row, along_x, walk_inout):
     """Return the whole pixels by which the ground and its conveyor carry a character along an axis.
 
-    row: shape row of the ground, or -1 if its motion does not carry.
+    row: shape row of the ground; -1: the motion of the ground does not carry the character.
     """
     c = walk_inout.characters[me]
     way = 0
     if row < 0:
         c.carry_x, c.carry_y = 0.0, 0.0
     else:
-        # x is carried first; the motion of the point is the same for both axes.
+        # The axes are processed one after the other; the motion of the point is the same for both.
         x, y = motion_under(c, walk_inout.bodies[walk_inout.shapes[row].body_row])
         if along_x == 1:
             c.carry_x += x
@@ -275,7 +278,7 @@ def pixels_carried(me, row, along_x, walk_inout):
 
 @subkernel
 def step_down(me, walk_inout):
-    """Move a character down to ground that sank by no more than it may drop over one pixel along x."""
+    """Move a character down to ground that sank by no more than the character may drop over one pixel along x."""
     c = walk_inout.characters[me]
     gather(walk_inout, me, -1, 1.0, 1.0, 3.0 + c.climb, walk_inout.found)
     drop, slope = drop_onto(walk_inout, me, walk_inout.found, c.left, 0.5)
@@ -288,7 +291,7 @@ def step_down(me, walk_inout):
 def ride_bodies(walk_inout):
     """Carry characters by the motion of the ground under their feet, in whole pixels with a remainder.
 
-    Then move them down to ground that rotated or was pushed down. walk_inout: see Walk. O(characters · solids near).
+    Then move them down to ground that rotated or was pushed down. walk_inout: see Walk. O(characters · nearby solids).
     """
     for axis in range(2):
         along_x = 1 - axis
@@ -311,7 +314,7 @@ def ride_bodies(walk_inout):
 
 @subkernel
 def move_out(me, row, walk_inout):
-    """Move a character out of a loose shape, row, as far as it is free, and store the depth that remains."""
+    """Move a character out of a loose shape until it is blocked, and store the depth that remains. row: shape row."""
     c = walk_inout.characters[me]
     depth, nx, ny = depth_in(me, row, walk_inout)
     body_row = walk_inout.shapes[row].body_row
@@ -319,10 +322,10 @@ def move_out(me, row, walk_inout):
     into = nx if along_x == 1 else ny
     speed = walk_inout.bodies[body_row].vx
     if along_x == 1 and depth > 0.5 * walk_inout.settings.slop and speed * into < 0.0:
-        c.push_vx = speed  # a body pressed against it need not stop: it moves along
+        c.push_vx = speed  # a body that presses against the character need not stop, because the character moves along
     too_deep = depth - 1.5 * FEET
     if along_x == 0 and abs(nx) > ny > 0.0:
-        too_deep /= ny  # up a walkable slope steeper than 45 degrees
+        too_deep /= ny  # the way up out of a walkable slope steeper than 45 degrees
     pixels = math.ceil(too_deep)
     if pixels <= 0:
         return
@@ -337,10 +340,10 @@ def move_out(me, row, walk_inout):
 
 @subkernel
 def give_way(walk_inout):
-    """Move characters out of loose bodies that moved into them, and flag those without room as squeezed.
+    """Move characters out of loose bodies that moved into them. Flag characters without space as squeezed.
 
     walk_inout: see Walk. A body that has just fallen onto a character overlaps it until the solver has separated them.
-    So a loose body squeezes a character only if it is as deep in the next step. O(characters · solids near).
+    So a loose body squeezes a character only if it is at least as deep in the next step. O(characters · nearby solids).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]
@@ -358,9 +361,9 @@ def give_way(walk_inout):
 
 
 # ---- carry -----------------------------------------------------------------------------------------------------------
-# Moving solids carry the characters that ride them and push those in their way, one axis after the other.
+# Moving solids carry the characters that ride them and push the characters in front of them, one axis after the other.
 #
-# A character without room is squeezed: it stays overlapped, and its next `move` reports it. Source: Thorson, Celeste
+# A character without space is squeezed: it stays overlapped, and its next `move` reports that. Source: Thorson, Celeste
 # and TowerFall Physics, 2018.
 
 
@@ -368,7 +371,7 @@ def give_way(walk_inout):
 def swept_box(walk, row, along_x):
     """Return (left, top, right, bottom [px], pixels moved) of the area that a box sweeps along one axis in a step.
 
-    All are whole pixels. The box moves along x first, and then along y.
+    All values are whole pixels. The box moves along x first, then along y.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     old_left, old_top, old_right, old_bottom = aabb_at(
@@ -394,7 +397,7 @@ def swept_box(walk, row, along_x):
 
 @subkernel
 def in_swept(me, row, shifted, along_x, box, walk_inout):
-    """Return whether a character, shifted by `shifted` pixels along an axis, overlaps the sweep of a solid.
+    """Return whether a character, shifted by `shifted` pixels along an axis, overlaps the area that a solid sweeps.
 
     box: see swept_box. A tile grid is tested at its pose after the motion along this axis.
     """
@@ -413,7 +416,7 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
     now = b.y
     if along_x == 1:
-        b.y = b.previous_y  # x moves first
+        b.y = b.previous_y  # the motion along x comes first
     what, slope = in_shape(walk_inout, me, row, at_x, at_y, 0, 0, 0.0)
     b.y = now
     return what != FREE
@@ -421,9 +424,9 @@ def in_swept(me, row, shifted, along_x, box, walk_inout):
 
 @subkernel
 def way_clear(me, row, along_x, box, walk_inout):
-    """Return the whole pixels, in the direction of a solid's motion, that move a character out of its sweep.
+    """Return the signed pixels, along a solid's motion, that move a character out of the area that the solid sweeps.
 
-    0 if the character does not overlap the sweep. box: see swept_box.
+    The result is 0 if the character does not overlap this area. box: see swept_box.
     """
     if not in_swept(me, row, 0, along_x, box, walk_inout):
         return 0
@@ -460,17 +463,17 @@ def carry_one(me, row, along_x, box, walk_inout):
         c.push_vy = b.vy
     stopped = shift(me, s.body_row, way, along_x, walk_inout, walk_inout.found)
     c.carried = carried_by(way, stopped)
-    # A stopped rider slides; it is squeezed where the solid now overlaps it.
+    # A stopped rider slides; it is squeezed only if the solid now overlaps it.
     if stopped > 0 and in_swept(me, row, 0, along_x, box, walk_inout):
         c.squeezed = True
 
 
 @subkernel
 def carry_and_push(movers, walk_inout):
-    """Let kinematic solids that moved by whole pixels carry their riders and push characters in their way.
+    """Let kinematic solids that moved by whole pixels carry their riders and push characters in front of them.
 
-    movers: shape rows, in order. Only axis-aligned boxes and tile grids are used; ride_bodies handles other shapes.
-    O(moved solids · characters).
+    movers: shape rows, in ascending order. Only axis-aligned boxes and tile grids are used; ride_bodies handles other
+    shapes. O(moved solids · characters).
     """
     for k in range(len(movers)):
         row = movers[k]
@@ -506,7 +509,7 @@ def carry_all(movers, walk_inout):
     ),
     writes=(
         "characters", "contact_rows",
-        "awake",  # its room for the shapes that moved
+        "awake",  # its array for the shapes that moved
         "pairs", "broadphase", "library", "queries", "work", "workspace",
         *(f"bodies.{name}" for name in ("x", "y", "center_x", "center_y", "force_x", "force_y", "torque")), *PLACED,
     ),
@@ -552,7 +555,7 @@ def carry_characters(state: StepState) -> None:
 def apply_character_weight(state: StepState) -> None:
     """Apply the weight of characters to their ground before a step.
 
-    The ground is woken if a character came, left or walked.
+    The ground is woken if a character arrived on it, left it or walked.
     """
     characters, bodies = state.characters, state.bodies
     if state.effects.sleeping:

@@ -14,8 +14,8 @@ from physics.shapes.kinds import names_of, with_area
 from physics.shapes.shape import Filter, Shape
 from physics.shapes.values import Convex, Polygon
 
-LONGEST = 1e6  # [px] greatest move, which is walked pixel by pixel
-PUSH = 2000.0  # [px/s2] under 9.8 m/s2 it pushes ten times its own mass over ground with friction 0.6
+LONGEST = 1e6  # [px] greatest move along an axis; a move is made pixel by pixel
+PUSH = 2000.0  # [px/s2] under 9.8 m/s2 a character pushes ten times its own mass over ground with friction 0.6
 BODY_DEF = [
     "vx",
     "vy",
@@ -24,17 +24,17 @@ BODY_DEF = [
     "force_y",
     "torque",
 ]  # columns of other bodies that a walk may write
-MAX_SLOPE = 0.8  # [rad] 46 degrees: a slope of one tile per tile is walked
+MAX_SLOPE = 0.8  # [rad] 46 degrees: a character walks on a slope of one tile per tile
 
 
 class Moved(NamedTuple):
-    """The result of a move: pixels moved, and the contacts of the character after it.
+    """The result of a move: pixels moved, and the contacts of the character after the move.
 
-    x, y: pixels moved. grounded: it stands on ground that it can walk on, or that holds it. wall: -1 for a solid at its
-    left, 1 at its right, 0 for none. slope: rise of the ground under its feet per px to the right (1: 45 degrees up to
-    the right), also of ground that it slides down. riding: the kinematic or dynamic body, or pushable character, under
-    its feet; None on static ground and in the air. squeezed: a moving body left it no room; it is True in every move
-    until that body no longer overlaps the character.
+    x, y: pixels moved. grounded: whether the character stands on ground that it can walk on, or that holds it. wall: -1
+    for a solid at its left, 1 at its right, 0 for none. slope: rise of the ground under its feet per px to the right
+    (1: 45 degrees up to the right), also of ground that it slides down. riding: the kinematic or dynamic body, or the
+    pushable character, under its feet; None on static ground and in the air. squeezed: whether a moving body left it no
+    space; True in every move until this body no longer overlaps the character.
     """
 
     x: int
@@ -50,20 +50,21 @@ class Character:
     """A convex shape that the game moves, in whole pixels, and that never overlaps a solid.
 
     shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel. A box without angle
-    is rounded to whole pixels. position [px]: of the shape's origin; the left side and the feet stand on the pixel
-    grid, at the nearest place. max_slope [rad], 0 <= max_slope < pi/2: flatter ground is walked up and down, steeper
-    ground up to 86 degrees is slid down, whatever it is made of. pushable: it is solid for other characters, and they
-    push it.
+    is rounded to whole pixels. position [px]: position of the shape's origin, rounded so that the left side and the
+    feet are on the pixel grid. max_slope [rad], 0 <= max_slope < pi/2: the character walks up and down ground that is
+    at most as steep, and slides down steeper ground up to 86 degrees, whatever kind of shape the ground is. pushable:
+    whether the character is solid for other characters, and they push it.
 
     Its `body` is kinematic, so contacts and sensors see it. It needs the effect response. With the effect stacking,
-    dynamic bodies stop and carry it, too, and it acts on them: mass [density px2], None for that of its shape at
-    density 1, is its weight and its momentum on landing; push [px/s2], None for PUSH, accelerates bodies in its way to
-    the speed of its moves by at most mass * push. Raises TypeError, ValueError.
+    dynamic bodies also stop and carry it, and it acts on them. mass [density px2] is its weight and its momentum on
+    landing; None: the mass of its shape at density 1. push [px/s2], None for PUSH: it accelerates bodies in its way to
+    the speed of its moves with a force of at most mass * push. Raises TypeError for values of other types, ValueError
+    for values out of range and for a world without the needed effects.
     """
 
     def __init__(
         self,
-        world: Any,  # a World, which stands further right in the import order
+        world: Any,  # a World; its module imports this package
         shape: Shape,
         position: Pair,
         filter: Filter = Filter.ALL,
@@ -131,19 +132,20 @@ class Character:
 
     @property
     def surface_speed(self) -> float:
-        """Surface speed [px/s] of the ground under the character's feet at the last move, to the right; 0 in the air.
+        """Surface speed [px/s] to the right of the ground under the character's feet at the last move; 0 in the air.
 
-        A step of a world with the effect conveyor carries the character along.
+        A step of a world with the effect conveyor moves the character at this speed.
         """
         return float(self.world.characters.rows["belt"][self._row])
 
     def move(self, dx: float, dy: float, drop: bool = False) -> Moved:
         """Move the character by (dx, dy) [px], x first. Return the result of the move.
 
-        drop: fall through one-way tiles. On a slope that is too steep it slides down, by the part of dy along the
-        slope. While its body is quarantined, or would be by the next step, it stays and touches nothing. A character
-        that was placed into a static solid is moved out, two pixels a move, if there is a free place within its own
-        size. Raises TypeError, ValueError, RuntimeError.
+        drop: whether it falls through one-way tiles. On a slope that is too steep it slides down, by the component of
+        dy along the slope. While its body is quarantined, or would be by the next step, it does not move and touches
+        nothing. A character that was placed in a static solid is moved out, two pixels per move, if there is free space
+        within its own size. Raises TypeError for values of other types, ValueError for a move that is not finite or too
+        long, RuntimeError during a step.
         """
         world = self.world
         world._unlocked()
@@ -163,7 +165,7 @@ class Character:
             reach = int(max(rows["width"][me], rows["height"][me]))
             lead_out(me, reach, self._walk(me, reach, reach), world.workspace.walked)
         if len(asleep):
-            # A pushed body may be less than a pixel away from the character, where no contact would wake it.
+            # A pushed body may be less than a pixel away from the character; then no contact would wake it.
             disturb(world, world.bodies["id"][asleep[before != world.bodies[asleep][BODY_DEF]]])
         row = rows[me]
         riding = world.body(int(row["riding"])) if row["riding"] >= 0 else None
@@ -178,10 +180,11 @@ class Character:
         )
 
     def blocked(self, dx: float, dy: float) -> bool:
-        """Return whether a move by (dx, dy) [px] would be stopped at once: not one pixel along x or y is free.
+        """Return whether a move by (dx, dy) [px] would not move the character: no pixel along x or y is free.
 
-        Only the signs of dx and dy count. Bodies that walking pushes, and slopes that the character walks or slides
-        down, do not block. The world is unchanged. Raises TypeError, ValueError, RuntimeError.
+        Only the signs of dx and dy count. Bodies that a walk pushes, and slopes that the character walks or slides
+        down, do not block. The world is unchanged. Raises TypeError for values that are not numbers, ValueError for a
+        move that is not finite or too long, RuntimeError during a step.
         """
         self.world._unlocked()
         dx, dy = _checked_move(dx, dy)
@@ -189,12 +192,12 @@ class Character:
         return bool(is_stopped(me, int(np.sign(dx)), int(np.sign(dy)), self._walk(me, 0.0, 0.0)))
 
     def _walk(self, me, dx, dy):
-        """Return the Walk for a move by (dx, dy) [px], with the shapes near the character's way."""
+        """Return the Walk for a move by (dx, dy) [px], with the shapes near the character's path."""
         world = self.world
         rows = world.characters.rows
         find_own_rows(world.bodies, world.shapes, rows)
         row = rows[me]
-        # As far as it may move, slide or rise, and around the characters that it may push.
+        # The distance that it may move, slide or rise, also around the characters that it may push.
         reach = abs(dx) + abs(dy) + 5.0
         climb = STEEPEST_CLIMB + float(row["climb"]) * abs(dx)
         if rows["pushable"].any():
@@ -211,7 +214,11 @@ class Character:
         return walk_for(world, rows, near, spans, world.dt)
 
     def move_to(self, position: Pair) -> None:
-        """Teleport the shape's origin to the place on the pixel grid nearest to a position [px]."""
+        """Teleport the shape's origin to the position on the pixel grid that is nearest to a position [px].
+
+        Raises TypeError for a value that is not a point, ValueError for a point that is not finite or too far away,
+        RuntimeError during a step.
+        """
         self.world._unlocked()
         x, y = checks.position("position", position)
         row = self.world.characters.rows[self._row : self._row + 1]

@@ -1,4 +1,4 @@
-"""Solids in the way of a character: tiles, chains, static and kinematic shapes, characters, bodies."""
+"""Solids that block a character: tiles, chains, static and kinematic shapes, characters, bodies."""
 
 import math
 from typing import NamedTuple
@@ -36,17 +36,17 @@ from physics.tables.step_state import WorldTables
 from physics.tables.table import row_of
 
 # ---- ground ----------------------------------------------------------------------------------------------------------
-# The kind of a place for a character: free, ground that it walks or slides down, or a wall.
-# One rule holds for all grounds: the normal at the place is compared with the steepest ground that the character walks.
+# The kind of a position for a character: free, on ground that it walks on or slides down, or blocked by a wall.
+# One rule holds for all ground: the normal there is compared with the steepest ground that the character walks on.
 
-FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # of several results for a place, the greatest decides
+FREE, STEEP, ON_SLOPE, BLOCKED = 0, 1, 2, 3  # of several results for a position, the greatest is used
 GIVE = 2.0  # [px] depth to which characters may sink into loose bodies (see is_loose), which the solver then moves
-FEET = 0.5  # [px] the feet stand on the whole pixel nearest to a moving surface
+FEET = 0.5  # [px] greatest distance of the feet from a moving surface: they are on the nearest whole pixel
 LEADS_DEEPER = 0.02  # cosine between motion and normal above which the motion leads into a dynamic body
-SHEER = 1e-9  # cosine between a normal and down below which the surface is a wall, not ground
-EVEN = 1e-9  # rounding of a slope
+SHEER = 1e-9  # cosine between a normal and the downward direction; below it the surface is a wall, not ground
+EVEN = 1e-9  # rounding error of a slope
 STEEPEST_CLIMB = (
-    16.0  # [px] rise per px along (86 degrees): steeper ground is never walked, which bounds the tests of a pixel
+    16.0  # [px] rise per px (86 degrees): characters never walk on steeper ground, which bounds the tests of a pixel
 )
 
 
@@ -58,15 +58,15 @@ def pixels_along(slope):
 
 @subkernel
 def is_walkable(c, nx, ny):
-    """Return whether a character, row c, can walk on ground. (nx, ny): unit normal into the ground."""
+    """Return whether a character (row c) can walk on ground. (nx, ny): unit normal into the ground."""
     return ny > SHEER and abs(nx) <= c.climb * ny + EVEN
 
 
 @subkernel
 def verdict(c, nx, ny):
-    """Return the kind of a surface for a character, row c (ON_SLOPE, STEEP or BLOCKED), and its slope.
+    """Return (ON_SLOPE, STEEP or BLOCKED; slope) of a surface for a character (row c).
 
-    (nx, ny): unit normal into it; slope: rise per px to the right.
+    (nx, ny): unit normal into the surface; slope: rise per px to the right.
     """
     if ny <= SHEER:
         return BLOCKED, 0.0
@@ -78,7 +78,7 @@ def verdict(c, nx, ny):
 def allowed_depth(c, loose, nx, ny, give, slop):
     """Return the depth [px] by which a character may overlap a surface without being blocked.
 
-    (nx, ny): unit normal into it; give [px]: depth that is added in a loose shape, see is_loose.
+    (nx, ny): unit normal into the surface; give [px]: depth that is added in a loose shape, see is_loose.
     """
     if not loose:
         return slop
@@ -89,7 +89,7 @@ def allowed_depth(c, loose, nx, ny, give, slop):
 def deepest_of(b, slop, dt):
     """Return the greatest depth [px] by which a character can have entered an outline of body b since it was free.
 
-    It is a pixel plus the motion of the body. A deeper overlap behind an edge of one part belongs to a neighbouring
+    It is a pixel plus the motion of the body. A deeper overlap behind a hull edge of one part belongs to a neighbouring
     part, see hulls.collide_hulls.
     """
     if b.kind == STATIC:
@@ -99,7 +99,7 @@ def deepest_of(b, slop, dt):
 
 @subkernel
 def judge(c, kind, beyond, nx, ny, way_x, way_y):
-    """Return the kind (FREE, ON_SLOPE, STEEP or BLOCKED) and slope of a surface that a character overlaps.
+    """Return (FREE, ON_SLOPE, STEEP or BLOCKED; slope) of a surface that a character (row c) overlaps.
 
     beyond [px]: overlap minus allowed_depth; kind: kind of the surface's body; way_x, way_y: pixels that the character
     just moved. A moving body may have moved into the character, so it blocks only motion that leads deeper.
@@ -119,7 +119,7 @@ def judge(c, kind, beyond, nx, ny, way_x, way_y):
 def place_outline(walk, me, left, top):
     """Write the corners [px] of a character's outline, with its box at pixel (left, top), to scratch.mine.
 
-    Return the number of corners and the rounding radius [px].
+    Return (number of corners, rounding radius [px]).
     """
     c = walk.characters[me]
     if c.is_box:
@@ -131,9 +131,9 @@ def place_outline(walk, me, left, top):
 
 @subkernel
 def manifold_depth(points, manifold):
-    """Return (depth [px], unit normal, middle of the points [px]) of a manifold; all 0 if it has no points.
+    """Return (depth [px], unit normal, middle of the points [px]) of a manifold; all 0 without points.
 
-    points: their number.
+    points: number of points.
     """
     if points == 0:
         return 0.0, 0.0, 0.0, 0.0, 0.0
@@ -147,9 +147,9 @@ def manifold_depth(points, manifold):
 
 @subkernel
 def meet_disc(scratch, count, radius, x, y, other):
-    """Return (depth, normal, contact point) of the character's outline in a disc, as meet does.
+    """Return (depth, normal, contact point) of the character's outline in a disc, as meet.
 
-    x, y, other [px]: centre and radius of the disc; count, radius: see place_outline, which writes the outline.
+    x, y, other [px]: centre and radius of the disc; count, radius: result of place_outline, which writes the outline.
     """
     mine = scratch.mine
     if count == 1:
@@ -161,11 +161,11 @@ def meet_disc(scratch, count, radius, x, y, other):
 
 @subkernel
 def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
-    """Return (depth, normal, contact point) of the character's outline in the hull in scratch.theirs, as meet does.
+    """Return (depth, normal, contact point) of the character's outline in the hull in scratch.theirs, as meet.
 
-    count, radius: see place_outline, which writes the outline; corners, rounded: number of corners and rounding radius
-    [px] of the hull; edges, deepest: see hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP where a neighbouring
-    part reports the contact.
+    count, radius: result of place_outline, which writes the outline; corners, rounded: number of corners and rounding
+    radius [px] of the hull; edges, deepest: see hulls.collide_hulls. scratch.points[0] is COVERED_OVERLAP if a
+    neighbouring part reports the contact.
     """
     mine = scratch.mine
     theirs = Hull(scratch.theirs, corners, rounded, edges)
@@ -185,9 +185,9 @@ def meet_hull(scratch, count, radius, corners, rounded, edges, deepest):
 
 @subkernel
 def meet_link(links, link, scratch, count, radius):
-    """Return (depth, normal, contact point) of the character's outline in a chain link, as meet does.
+    """Return (depth, normal, contact point) of the character's outline in a chain link, as meet.
 
-    From the back of the link the depth is 0. The ends of the link are in scratch.theirs; count, radius: see
+    From the back of the link the depth is 0. The ends of the link are in scratch.theirs; count, radius: result of
     place_outline, which writes the outline.
     """
     if count == 1:
@@ -205,8 +205,8 @@ def meet_link(links, link, scratch, count, radius):
 def meet(walk, row, count, radius):
     """Return (depth [px], unit normal from the character, contact point [px]) of its outline in a hull or a disc.
 
-    row: of the shape; count, radius: see place_outline, which writes the outline. Depth 0: apart, or a neighbouring
-    part of the shape has the nearer surface; then scratch.points[0] is COVERED_OVERLAP.
+    row: row of the shape; count, radius: result of place_outline, which writes the outline. The depth is 0 if they are
+    apart, or if a neighbouring part of the shape has the nearer surface; then scratch.points[0] is COVERED_OVERLAP.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -225,7 +225,7 @@ def meet(walk, row, count, radius):
 
 @subkernel
 def deepest_on(walk, body):
-    """Return the greatest depth [px] to which a character overlaps a chain link that it entered from the front."""
+    """Return the greatest depth [px] of a character in a chain link that it entered from the front."""
     most = 1.0 + 2.0 * walk.settings.slop
     if body.kind == KINEMATIC:
         most += 1.0 + (abs(body.vx) + abs(body.vy) + abs(body.angular_velocity) * body.extent) * walk.settings.dt
@@ -236,8 +236,9 @@ def deepest_on(walk, body):
 def link_depth(walk, row, link, drops, count, radius):
     """Return (depth [px], unit normal from the character) of its outline in a chain link; depth 0 if it may pass.
 
-    A deeper overlap than deepest_on was entered from the back, and passes: the character moves by pixels and starts
-    free. If `drops` is true, it also passes a level link and a one-way surface. count, radius: see place_outline.
+    An overlap deeper than deepest_on was entered from the back, and passes, because the character moves by pixels and
+    starts free. If `drops` is true, it also passes a level link and a one-way surface. count, radius: see
+    place_outline.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -252,17 +253,17 @@ def link_depth(walk, row, link, drops, count, radius):
 
 @subkernel
 def is_across(walk, me, row, left, top):
-    """Return whether a character lies across a one-way surface, and therefore passes it; False for any other chain."""
+    """Return whether a character lies across a one-way surface, and therefore passes it; False for other chains."""
     s = walk.shapes[row]
     if s.role != PART:
         return False
     b = walk.bodies[s.body_row]
     count, radius = place_outline(walk, me, left, top)
-    # In a static shape it was free before it moved: a deeper overlap came from elsewhere, or by a drop.
+    # It was free before it moved into a static shape: a deeper overlap has another cause, such as a drop.
     most = walk.settings.slop
     if b.kind == KINEMATIC:
         most = deepest_on(walk, b)
-        # A link that moves down does not approach the characters on it, and does not lift those that it passes.
+        # A link that moves down does not approach the characters on it, and does not lift characters that it passes.
         most -= max(0.0, b.vy * math.cos(b.angle) - b.vx * math.sin(b.angle)) * walk.settings.dt
     hull = Hull(walk.scratch.mine, count, radius, ALL_EDGES)
     return lies_across(walk.geometry, s.geometry, b.x, b.y, b.angle, hull, most, walk.scratch.theirs)
@@ -270,7 +271,7 @@ def is_across(walk, me, row, left, top):
 
 @subkernel
 def in_chain(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how a chain acts on a character. Arguments: see in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character in a chain. Arguments as in in_shape."""
     c = walk.characters[me]
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -301,7 +302,7 @@ def in_chain(walk, me, row, left, top, way_x, way_y, give):
                 continue
             depth, nx, ny = link_depth(walk, row, k, c.drop, count, radius)
             allowed = allowed_depth(c, b.kind == KINEMATIC, nx, ny, give, walk.settings.slop)
-            # A link is open from its back, so it blocks only motion that leads deeper, like a moving shape.
+            # Characters pass a link from its back, so it blocks only motion that leads deeper, like a moving shape.
             what, rise = judge(c, KINEMATIC, depth - allowed, nx, ny, way_x, way_y)
             if what == BLOCKED:
                 return BLOCKED, 0.0
@@ -330,13 +331,13 @@ def deepest_link(walk, me, row, left, top):
 
 
 # ---- tiles -----------------------------------------------------------------------------------------------------------
-# Characters against tiles. A box meets them on the pixel grid; another outline meets each run of tiles as a polygon.
-# On the pixel grid touching never blocks, and one shared pixel does. The strongest result of all tiles decides.
+# Characters against tiles. A box is tested on the pixel grid; another outline is tested against each run of tiles as a
+# polygon. On the pixel grid touching never blocks, but one shared pixel does. The greatest result of all tiles is used.
 
 
 @subkernel
 def on_pixels(kind, coordinate):
-    """Return a coordinate [px] of a body as characters are tested against it: in whole pixels if it is kinematic."""
+    """Return a coordinate [px] of a body for tests of characters: in whole pixels if the body is kinematic."""
     return float(math.floor(coordinate + 0.5)) if kind == KINEMATIC else coordinate
 
 
@@ -356,7 +357,7 @@ def slope_tile_verdict(c, slope, depth):
 
 @subkernel
 def in_tiles(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how a tile grid acts on a box. Arguments: see in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a box in a tile grid. Arguments as in in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     g = walk.geometry.grids[walk.shapes[row].geometry]
@@ -399,8 +400,8 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
     """Return (depth [px], unit normal from the character) of its outline in the tile in scratch.theirs.
 
-    count, radius: see place_outline, which writes the outline; corners: number of corners of the tile; edges, deepest:
-    see hulls.collide_hulls.
+    count, radius: result of place_outline, which writes the outline; corners: number of corners of the tile; edges,
+    deepest: see hulls.collide_hulls.
     """
     mine = scratch.mine
     tile = Hull(scratch.theirs, corners, 0.0, edges)
@@ -419,9 +420,9 @@ def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
 
 @subkernel
 def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how a tile grid acts on a character that is no box.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character that is not a box in a tile grid.
 
-    The character is tested against the outlines of runs of tiles and of slopes. Arguments: see in_shape.
+    The character is tested against the outlines of runs of tiles and of slopes. Arguments as in in_shape.
     """
     c = walk.characters[me]
     s = walk.shapes[row]
@@ -438,7 +439,7 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
     result = FREE
     slope = 0.0
     for attempt in range(2):
-        # Each tile may leave a deep overlap to its neighbour: then test once more, with all edges.
+        # If each tile left a deep overlap to its neighbour, test once more with all hull edges.
         deepest = 0.5 * g.tile_size if attempt == 0 else math.inf
         met = False
         for line in range(first_row, last_row + 1):
@@ -481,7 +482,7 @@ def in_tile_outlines(walk, me, row, left, top, way_x, way_y):
 
 
 class Scratch(NamedTuple):
-    """Arrays for the test of a character against one shape."""
+    """Scratch arrays for the test of a character against one shape."""
 
     mine: np.ndarray  # (16, 2) corners of the character [px]
     theirs: np.ndarray  # (16, 2) corners of the other shape
@@ -492,7 +493,7 @@ class Settings(NamedTuple):
     """The values of a world on which the motion of characters depends."""
 
     stacking: int  # 1: dynamic bodies stop, carry and squeeze characters
-    rotation: int  # 1: they rotate
+    rotation: int  # 1: dynamic bodies rotate
     conveyor: int  # 1: surface speeds act
     dt: float  # [s] length of a move, or of the step
     slop: float  # [px]
@@ -505,10 +506,10 @@ class Walk(NamedTuple):
     bodies: np.ndarray  # BODY, written: forces, and poses of characters
     shapes: np.ndarray  # SHAPE
     characters: np.ndarray  # CHARACTER, written
-    near: np.ndarray  # shape rows, in order, of one character after the other
-    spans: np.ndarray  # (characters, 2) for each character: its first index in near, and its number of rows
+    near: np.ndarray  # nearby shape rows, character after character, ascending for each
+    spans: np.ndarray  # (characters, 2) first index in near, and number of rows, of each character
     found: np.ndarray  # solids near a character, see solids.gather
-    found_beside: np.ndarray  # the same, for a character that is moved by another
+    found_beside: np.ndarray  # the same for a character that another character moves
     scratch: Scratch
     settings: Settings
 
@@ -542,7 +543,7 @@ def walk_for(tables: WorldTables, characters: np.ndarray, near: np.ndarray, span
 
 @subkernel
 def character_of(characters, body):
-    """Return the row of the character with this body id, or -1. O(log characters)."""
+    """Return the row of the character with this body id; -1: there is none. O(log characters)."""
     low, high = 0, len(characters)
     while low < high:
         middle = (low + high) // 2
@@ -570,7 +571,7 @@ def find_own_rows(bodies, shapes, characters_inout):
 
 @subkernel
 def place_body(c, body_inout):
-    """Move the body of a character, row c, to the place of its pixel box."""
+    """Move the body of a character (row c) to the position of its pixel box."""
     body_inout.x, body_inout.y = c.left + c.offset_x, c.top + c.offset_y
     body_inout.center_x = body_inout.x + body_inout.local_center_x
     body_inout.center_y = body_inout.y + body_inout.local_center_y
@@ -578,17 +579,17 @@ def place_body(c, body_inout):
 
 @subkernel
 def settle(me, walk_inout):
-    """Move the body of a character to the place of its pixel box. me: its CHARACTER row."""
+    """Move the body of a character to the position of its pixel box. me: its CHARACTER row."""
     c = walk_inout.characters[me]
     place_body(c, walk_inout.bodies[c.body_row])
 
 
 # ---- solids ----------------------------------------------------------------------------------------------------------
-# Solids in the way of a character: tiles, static and kinematic shapes, pushable characters, bodies.
-# A character that is a box meets upright boxes and tiles on the pixel grid, as they are drawn: touching never blocks,
-# one shared pixel does. Other shapes are met exactly: a static one blocks an overlap deeper than the slop. A dynamic
-# shape, or a moving one that is no box, is loose: it may have moved into the character by itself, so it blocks only
-# motion that leads deeper, and a moving shape never traps a character.
+# Solids that block a character: tiles, static and kinematic shapes, pushable characters, bodies. A character that is a
+# box is tested against upright boxes and tiles on the pixel grid, as they are drawn: touching never blocks, but one
+# shared pixel does. Tests against other shapes are exact: a static shape blocks an overlap deeper than the slop. A
+# dynamic shape, or a moving shape that is not a box, is loose: it may have moved into the character, so it blocks only
+# motion that leads deeper. So a moving shape never traps a character.
 
 
 @subkernel
@@ -659,7 +660,7 @@ def in_character(walk, me, other, left, top):
 
 @subkernel
 def in_upright_box(walk, me, row, left, top):
-    """Return whether a character's box at pixel (left, top) shares a pixel with an axis-aligned box, rounded."""
+    """Return whether a character's box at pixel (left, top) shares a pixel with an axis-aligned box, both rounded."""
     c = walk.characters[me]
     min_x, min_y, max_x, max_y = aabb_of(walk, row)
     return (
@@ -672,7 +673,7 @@ def in_upright_box(walk, me, row, left, top):
 
 @subkernel
 def in_hull(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how a hull or disc acts on a character. See in_shape."""
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character in a hull or disc. Arguments as in in_shape."""
     c = walk.characters[me]
     b = walk.bodies[walk.shapes[row].body_row]
     count, radius = place_outline(walk, me, left, top)
@@ -690,7 +691,7 @@ def in_hull(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def in_shape(walk, me, row, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope): how one shape acts on a character at a place.
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; slope) of a character at a position, with regard to one shape.
 
     me, row: CHARACTER row and shape row. left, top: pixel of the character's box. way_x, way_y: pixels moved to get
     there. give [px]: depth that is allowed in a loose shape, see allowed_depth.
@@ -716,7 +717,7 @@ def in_shape(walk, me, row, left, top, way_x, way_y, give):
 
 @subkernel
 def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
-    """List the shapes that may block a character, within these distances [px] of its box. O(rows near).
+    """List the shapes that may block a character, within these distances [px] of its box. O(nearby rows).
 
     rows_out: the number of shapes, then their rows; a loose shape is listed as -1 - row. without: body row to leave out
     (the platform that moves the character), or -1.
@@ -748,7 +749,7 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
         if other >= 0 and not walk.characters[other].pushable:
             continue
         min_x, min_y, max_x, max_y = aabb_of(walk, row)
-        # One pixel around: boxes are rounded to the grid.
+        # One pixel is added on each side, because boxes are rounded to the grid.
         if min_x - 1.0 < right and max_x + 1.0 > left and min_y - 1.0 < bottom and max_y + 1.0 > top:
             found += 1
             rows_out[found] = -1 - row if other < 0 and is_loose(walk, row) else row
@@ -757,16 +758,16 @@ def gather(walk, me, without, reach_x, reach_up, reach_down, rows_out):
 
 @subkernel
 def blocked_at(walk, me, rows, left, top, way_x, way_y, give):
-    """Return (FREE, STEEP, ON_SLOPE or BLOCKED of a place; the shape row that decides, or -1; slope).
+    """Return (FREE, STEEP, ON_SLOPE or BLOCKED; shape row with this result, or -1; slope) of a character at a position.
 
-    rows: see gather; other arguments: see in_shape. The strongest result decides, BLOCKED at once. If all parts of a
-    static mask leave the contact to their neighbours, the place is deep inside the mask, and BLOCKED.
+    rows: see gather; other arguments: see in_shape. The greatest result is used; the search ends at BLOCKED. If all
+    parts of a static mask leave the contact to their neighbours, the position is deep inside the mask, and BLOCKED.
     """
     result = FREE
     by = -1
     slope = 0.0
     owner = -1
-    left_by = -1  # a part of this mask that left the contact to its neighbours, while none has reported it
+    left_by = -1  # a part of this mask that left the contact to its neighbours, if none of them has reported it
     told = False
     for k in range(1, rows[0] + 1):
         row = rows[k] if rows[k] >= 0 else -1 - rows[k]

@@ -28,16 +28,16 @@ from physics.tables.shape import CHAIN, TILES
 from physics.tables.table import row_of
 
 # ---- climb -----------------------------------------------------------------------------------------------------------
-# Slopes: how far a character rises onto a slope that it walks into, or drops to one that it walks down.
+# Slopes: the rise of a character that walks onto a slope, and the drop of a character that walks down a slope.
 
 
 @subkernel
 def rise_onto(walk, me, rows, direction, slope):
-    """Return the pixels up by which a character can rise onto walkable ground one pixel to a side; -1 if it cannot.
+    """Return the pixels by which a character can rise onto walkable ground one pixel to a side; -1: it cannot.
 
-    direction: -1 left, 1 right; slope: rise of that ground per px. The rise may exceed the slope by half a pixel, for
-    corners of outlines on steps of pixels. Ground that is too steep to walk does not count, even if it holds the
-    character.
+    direction: -1 left, 1 right; slope: rise of this ground per px. The rise may exceed the slope by half a pixel,
+    because of corners of outlines on steps of pixels. Ground that is too steep to walk on does not count, even if it
+    holds the character.
     """
     c = walk.characters[me]
     most = pixels_along(abs(slope) + 0.5)
@@ -57,9 +57,9 @@ def rise_onto(walk, me, rows, direction, slope):
 
 @subkernel
 def way_aside(walk, me, rows, direction):
-    """Return how a character can move one pixel to a side: (pixels up, or -1; blocking shape row, or -1; slope).
+    """Return (pixels up; blocking shape row, or -1; slope) of a move of a character by one pixel to a side.
 
-    Pixels up: 0 on level ground, -1 if it is blocked. direction: -1 left, 1 right.
+    Pixels up: 0 on level ground, -1 if the move is blocked. direction: -1 left, 1 right.
     """
     c = walk.characters[me]
     what, by, slope = blocked_at(walk, me, rows, c.left + direction, c.top, direction, 0, 0.0)
@@ -72,11 +72,10 @@ def way_aside(walk, me, rows, direction):
 
 @subkernel
 def drop_onto(walk, me, rows, left, onto):
-    """Return (pixels down until a character stands on walkable ground, slope of that ground).
+    """Return (pixels down until a character stands on walkable ground, slope of this ground); 0 without such ground.
 
-    left: pixel column of the character. The pixels are 0 if there is no such ground near. onto: slope of the ground
-    that the character leaves; 0 for flat ground, from which it drops onto slopes only. Flat ground is found down to one
-    pixel plus the rise of `onto`.
+    left: pixel column of the character. onto: slope of the ground that the character leaves; 0 for flat ground, from
+    which it drops only onto slopes. Flat ground is found down to one pixel plus the rise of `onto`.
     """
     c = walk.characters[me]
     for drop in range(pixels_along(c.climb) + 1):
@@ -85,7 +84,7 @@ def drop_onto(walk, me, rows, left, onto):
             continue
         most = max(pixels_along(slope), pixels_along(onto))
         if what == ON_SLOPE and walk.bodies[walk.shapes[by].body_row].kind != STATIC:
-            most += 1  # the feet are on the nearest pixel: up to half a pixel in moving ground before, and above it now
+            most += 1  # the feet, on the nearest pixel, may be half a pixel in moving ground before and above it now
         if what == ON_SLOPE and drop <= most:
             return drop, slope
         if what == BLOCKED and onto != 0.0 and drop <= pixels_along(onto):
@@ -105,9 +104,9 @@ def is_wedged(walk, me, rows, slope):
 
 @subkernel
 def steep_below(walk, me, rows, slope):
-    """Return the slope of steep ground just below a sliding character; 0 if there is none.
+    """Return the slope of steep ground just below a sliding character; 0: there is none.
 
-    Steep ground is too steep to walk. It is looked for within the drop of `slope` over one pixel along x.
+    Steep ground is too steep to walk on. It is searched within the drop of `slope` over one pixel along x.
     """
     c = walk.characters[me]
     for drop in range(1, pixels_along(slope) + 1):
@@ -127,7 +126,7 @@ def slide_of(slope):
 
 @subkernel
 def slide_gently(me, rows, pixels, slope, walk_inout):
-    """Slide down ground that is too steep to walk but flatter than 45 degrees, for a fall of `pixels`.
+    """Slide down ground that is too steep to walk on but flatter than 45 degrees, for a fall of `pixels`.
 
     The character moves pixel by pixel along x. Return whether nothing stopped it.
     """
@@ -157,7 +156,7 @@ def slide_gently(me, rows, pixels, slope, walk_inout):
 
 @subkernel
 def tile_slope(walk, row, x, y):
-    """Return the slope (rise per px to the right) of the slope tile at a point [px] of a tile grid, 0 elsewhere."""
+    """Return the slope (rise per px to the right) of the slope tile at a point [px] of a tile grid; 0 elsewhere."""
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
     g = walk.geometry.grids[s.geometry]
@@ -171,7 +170,7 @@ def tile_slope(walk, row, x, y):
 
 @subkernel
 def slope_under_box(walk, me, row):
-    """Return the slope of the tile under the middle of a box's feet, or else under one of their ends."""
+    """Return the slope of the tile under the middle of a box's feet; if it is 0, the slope under an end of the feet."""
     c = walk.characters[me]
     bottom = c.top + c.height + 0.5
     slope = tile_slope(walk, row, c.left + 0.5 * c.width, bottom)
@@ -186,7 +185,7 @@ def slope_under_box(walk, me, row):
 def speed_under(walk, row, x, y):
     """Return the surface speed [px/s] of a shape at the point (x, y) [px] where a character stands on it.
 
-    It acts along the tangent, and is positive to the right on a floor (Box2D's tangent speed).
+    It is along the tangent, and positive to the right on a floor (Box2D's tangent speed).
     """
     s = walk.shapes[row]
     if s.kind != CHAIN:
@@ -210,7 +209,7 @@ def speed_under(walk, row, x, y):
 
 @subkernel
 def feel_ground(me, walk_inout):
-    """Write whether a character stands, the body that it stands on, and the slope and surface speed of its ground."""
+    """Write whether a character is grounded, its supporting body, and the slope and surface speed of its ground."""
     c = walk_inout.characters[me]
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top + 1, 0, 1, 0.0)
     was_grounded = c.grounded
@@ -219,7 +218,7 @@ def feel_ground(me, walk_inout):
     c.riding_shape = -1
     c.belt = 0.0
     if what == FREE:
-        # A sliding character is above its ground for a moment, by less than its drop on one pixel.
+        # A sliding character may be above its ground, by less than the drop over one pixel.
         sliding = abs(c.slope) >= 1.0 and not was_grounded
         c.slope = steep_below(walk_inout, me, walk_inout.found, c.slope) if sliding else 0.0
         return
@@ -238,7 +237,7 @@ def feel_ground(me, walk_inout):
 
 @subkernel
 def feel(me, walk_inout):
-    """Write the ground and the wall that a character touches. walk_inout.found: the shapes near it."""
+    """Write the ground and the wall that a character touches. walk_inout.found: the nearby shapes."""
     c = walk_inout.characters[me]
     feel_ground(me, walk_inout)
     c.wall = 0
@@ -249,14 +248,14 @@ def feel(me, walk_inout):
 
 
 # ---- crush -----------------------------------------------------------------------------------------------------------
-# Squeezing: a moving solid overlaps a character that had no room. The flag `squeezed` lasts as long as the overlap.
+# Squeezing: a moving solid overlaps a character that had no space. The flag `squeezed` lasts as long as the overlap.
 
 
 @subkernel
 def depth_in(me, row, walk_inout):
     """Return (depth [px], unit normal from the character) of the overlap of a character with a loose shape.
 
-    row: of the shape; loose: see solids.is_loose.
+    row: row of the shape; loose: see solids.is_loose.
     """
     c = walk_inout.characters[me]
     if walk_inout.shapes[row].kind == CHAIN:
@@ -282,9 +281,9 @@ def is_in_drawn(me, row, walk_inout):
 
 @subkernel
 def is_crushed(me, all_kinds, walk_inout):
-    """Return whether a moving solid overlaps a character, by more than GIVE if the solid is loose. O(solids near).
+    """Return whether a moving solid overlaps a character; if it is loose, by more than GIVE. O(nearby solids).
 
-    all_kinds: test also bodies that the solver moves, otherwise only kinematic ones.
+    all_kinds: whether bodies that the solver moves are also tested; otherwise only kinematic bodies are.
     """
     gather(walk_inout, me, -1, 0.0, 0.0, 0.0, walk_inout.found)
     for k in range(1, walk_inout.found[0] + 1):
@@ -304,12 +303,12 @@ def is_crushed(me, all_kinds, walk_inout):
 
 
 # ---- way out ---------------------------------------------------------------------------------------------------------
-# The way out of a static solid that overlaps a character: the character was placed there, or the ground was changed.
+# Moving a character out of a static solid that overlaps it: it was placed there, or the ground was changed.
 #
-# Walking never leads into a solid. The character leaves by the shortest of eight straight ways, PACE pixels in each
-# move, whatever the move is. Moving bodies that overlap a character are handled by "crush" above.
+# Walking never leads into a solid. The character leaves by the shortest of eight straight paths, PACE pixels in each
+# move, independent of dx and dy. Moving bodies that overlap a character are handled by "crush" above.
 
-PACE = 2  # [px] of a way out in one move: about the push-out of overlapping bodies in a step
+PACE = 2  # [px] moved out of a solid in one move: about the push-out of overlapping bodies in a step
 
 
 @subkernel
@@ -326,7 +325,7 @@ def keep_still(walk, rows_inout):
 
 @subkernel
 def is_inside(me, walk_inout):
-    """Return whether a character overlaps a static solid. walk_inout.found: the solids near it. O(solids near)."""
+    """Return whether a character overlaps a static solid. walk_inout.found: the nearby solids. O(nearby solids)."""
     c = walk_inout.characters[me]
     keep_still(walk_inout, walk_inout.found)
     what, by, slope = blocked_at(walk_inout, me, walk_inout.found, c.left, c.top, 0, 0, 0.0)
@@ -335,10 +334,11 @@ def is_inside(me, walk_inout):
 
 @kernel
 def lead_out(me, reach, walk_inout, moved_inout):
-    """Move a character out of a static solid towards the nearest free place.
+    """Move a character out of a static solid towards the nearest free position, by up to PACE pixels.
 
-    Of equally near places, up comes before aside, and aside before down. It moves up to PACE pixels, and stays if there
-    is no free place within `reach` [px]. moved_inout: see walk; the pixels moved are added. O(reach · solids near).
+    Of equally near positions, up comes before sideways, and sideways before down. The character does not move if there
+    is no free position within `reach` [px]. moved_inout: see walk; the pixels moved are added. O(reach · nearby
+    solids).
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -372,14 +372,14 @@ def lead_out(me, reach, walk_inout, moved_inout):
 #
 # A character has a mass but no velocity that a solver could change, because the game moves it. So it acts on bodies by
 # its own impulses, and the solver leaves out the contacts under its feet: there the character acts by its weight, and
-# does not block the body like an immovable ceiling.
+# does not block the body as an immovable ceiling would.
 
 
 @subkernel
 def push_body(me, row, direction, speed, left, walk_inout):
     """Push one body towards a speed [px/s] along x, by an impulse of at most `left`.
 
-    Return the part of `left` that was not used. row: of the shape; direction: -1 left, 1 right.
+    row: row of the shape; direction: -1 left, 1 right. Return the part of `left` that was not used.
     """
     c = walk_inout.characters[me]
     b = walk_inout.bodies[walk_inout.shapes[row].body_row]
@@ -405,12 +405,12 @@ def push_body(me, row, direction, speed, left, walk_inout):
 
 @subkernel
 def shove(me, direction, speed, walk_inout):
-    """Push the bodies beside a character towards the speed [px/s] of its move, as far as its strength allows.
+    """Push the bodies next to a character towards the speed [px/s] of its move, as far as its strength allows.
 
     The push is a force over the coming step, so sufficient friction holds a body in place. direction: -1 left, 1 right.
     """
     c = walk_inout.characters[me]
-    speed += walk_inout.bodies[c.body_row].vx  # of its carrier
+    speed += walk_inout.bodies[c.body_row].vx  # the speed of its carrier
     left = c.mass * c.push * walk_inout.settings.dt
     for k in range(1, walk_inout.found[0] + 1):
         row = -1 - walk_inout.found[k]
@@ -426,7 +426,7 @@ def shove(me, direction, speed, walk_inout):
 
 @subkernel
 def foot_of(c, s):
-    """Return the point (x, y) [px] of the feet of a character, row c, that stands on a shape, row s.
+    """Return the point (x, y) [px] of the feet of a character (row c) that stands on a shape (row s).
 
     It is the middle of the feet, or the point nearest to the middle that is above the shape.
     """
@@ -435,9 +435,9 @@ def foot_of(c, s):
 
 @subkernel
 def knock(me, row, direction, speed, walk_inout):
-    """Apply the impact of a character that lands on a body (direction 1) or hits it with its head (-1), inelastic.
+    """Apply the inelastic impact of a character that lands on a body (direction 1) or hits it with its head (-1).
 
-    row: of the shape; speed [px/s]: of the character along y, positive down.
+    row: row of the shape; speed [px/s]: speed of the character along y, positive down.
     """
     c = walk_inout.characters[me]
     x, y = foot_of(c, walk_inout.shapes[row])
@@ -459,8 +459,8 @@ def knock(me, row, direction, speed, walk_inout):
 def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake dynamic bodies that they stand on. O(characters · log shapes).
 
-    gravity [px/s2]. The bodies of characters get the velocity of their ground, unless it is slower than `slow` [px/s]:
-    such ground is coming to rest, and is not kept awake. The point under their feet [px] is stored.
+    gravity [px/s2]. The bodies of characters get the velocity of their ground, unless it is slower than `slow` [px/s],
+    because such ground is coming to rest, and is not kept awake. The point under the feet [px] is stored.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]
@@ -486,7 +486,7 @@ def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
 
 @subkernel
 def is_between(manifold, first, second):
-    """Return whether a manifold is between two bodies, `first` and `second`, given as ids."""
+    """Return whether a manifold is between the bodies with the ids `first` and `second`."""
     m = manifold
     return (m.body_a == first and m.body_b == second) or (m.body_b == first and m.body_a == second)
 
@@ -516,9 +516,9 @@ def write_weight(characters, weight_rate, manifolds_inout):
 # ---- walk ------------------------------------------------------------------------------------------------------------
 # Motion of one character, pixel by pixel, one axis after the other.
 #
-# Whole pixels with a remainder, as in Celeste and TowerFall: a character never overlaps a solid and never misses one
-# (Thorson, Celeste and TowerFall Physics, 2018). In addition: slopes, pushing, and in worlds that stack the impulses on
-# bodies that it runs into and lands on.
+# Whole pixels with a remainder, as in Celeste and TowerFall: a character never overlaps a solid and never passes
+# through a solid (Thorson, Celeste and TowerFall Physics, 2018). In addition there are slopes, pushing, and in worlds
+# that stack the impulses on bodies that the character runs into and lands on.
 
 
 @subkernel
@@ -529,9 +529,10 @@ def whole_pixels(remainder):
 
 @subkernel
 def way_for_pushed(by, direction, walk_inout):
-    """Return (row of the character that blocks a way, or -1; pixels up by which it can be pushed aside, or -1).
+    """Return (row of the character that blocks a move; pixels up by which it can be pushed one pixel along x).
 
-    by: shape row that blocks the way. The character is pushed one pixel along x; pixels up: -1 if it cannot move.
+    by: shape row that blocks the move. The first value is -1 if `by` is not a character, the second -1 if it cannot
+    move.
     """
     other = character_of(walk_inout.characters, walk_inout.shapes[by].body)
     if other < 0:
@@ -543,15 +544,15 @@ def way_for_pushed(by, direction, walk_inout):
 
 @subkernel
 def step_sideways(me, direction, follow, walk_inout):
-    """Move a character one pixel along x, and a pushable character in its way with it. Return whether it moved.
+    """Move a character one pixel along x, with a pushable character in front of it. Return whether it moved.
 
-    It moves up a slope, and down one if `follow` is 1. direction: -1 left, 1 right.
+    It moves up a slope, and if `follow` is 1 also down a slope. direction: -1 left, 1 right.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
     lift, by, slope = way_aside(walk_inout, me, rows, direction)
     if lift < 0 and by >= 0:
-        # Only from the side: a character on a crate, or under it, does not push it.
+        # Only from the side: a character on or under a crate does not push the crate.
         other, its_lift = way_for_pushed(by, direction, walk_inout)
         if other < 0 or its_lift < 0:
             return False
@@ -576,9 +577,9 @@ def step_sideways(me, direction, follow, walk_inout):
 
 @subkernel
 def walk_along(me, dx, follow, walk_inout, moved_out):
-    """Move a character along x by dx [px], pixel by pixel, and push bodies in its way by impulses.
+    """Move a character along x by dx [px], pixel by pixel, and push bodies in front of it by impulses.
 
-    follow: 1 to follow ground that goes down. moved_out[2] is set to 1 if it was stopped.
+    follow: 1 to follow ground that goes down. moved_out[2] is set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     c.remainder_x += dx
@@ -592,13 +593,16 @@ def walk_along(me, dx, follow, walk_inout, moved_out):
             break
     settings = walk_inout.settings
     if settings.stacking == 1 and settings.dt > 0.0 and dx != 0.0:
-        # Also in moves of less than a pixel, so that a pushed body keeps its speed.
+        # Moves of less than a pixel also push, so that a pushed body keeps its speed.
         shove(me, 1 if dx > 0.0 else -1, dx / settings.dt, walk_inout)
 
 
 @subkernel
 def slide_pixel(me, slope, walk_inout):
-    """Move a character one pixel aside, down a slope that is too steep to walk. Return whether that pixel was free."""
+    """Move a character one pixel sideways, down a slope that is too steep to walk on.
+
+    Return whether the pixel was free.
+    """
     c = walk_inout.characters[me]
     side = -1 if slope > 0.0 else 1
     what, by, rise = blocked_at(walk_inout, me, walk_inout.found, c.left + side, c.top, side, 0, 0.0)
@@ -611,8 +615,8 @@ def slide_pixel(me, slope, walk_inout):
 def fall_or_rise(me, dy, walk_inout, moved_out):
     """Move a character along y by dy [px], pixel by pixel, with impacts on bodies that it hits.
 
-    On ground too steep to walk the character slides down, by the part of dy along the slope. moved_out[3] is set to 1
-    if it was stopped.
+    On ground too steep to walk on the character slides down, by the component of dy along the slope. moved_out[3] is
+    set to 1 if the character was stopped.
     """
     c = walk_inout.characters[me]
     rows = walk_inout.found
@@ -629,7 +633,7 @@ def fall_or_rise(me, dy, walk_inout, moved_out):
     c.remainder_y -= pixels
     direction = 1 if pixels > 0 else -1
     left = abs(pixels)
-    asides = 0  # pixels moved aside since it last moved down
+    asides = 0  # pixels moved sideways since it last moved down
     while left > 0:
         what, by, slope = blocked_at(walk_inout, me, rows, c.left, c.top + direction, 0, direction, 0.0)
         if what == FREE:
@@ -665,7 +669,7 @@ def walk(me, dx, dy, walk_inout, moved_out):
     """Move a character by (dx, dy) [px], x first, and write its contacts. Return whether it overlaps a static solid.
 
     me: its CHARACTER row. walk_inout: see Walk. moved_out (4,): pixels moved along x, along y; 1 if it was stopped
-    along x, along y. If it overlaps a static solid, see lead_out. O(pixels · solids near).
+    along x, along y. If it overlaps a static solid, see lead_out. O(pixels · nearby solids).
     """
     c = walk_inout.characters[me]
     reach = 3.0 + abs(dx) + abs(dy)
@@ -679,7 +683,7 @@ def walk(me, dx, dy, walk_inout, moved_out):
     settle(me, walk_inout)
     feel(me, walk_inout)
     if c.squeezed:
-        # This move reports it; the flag stays as long as the solid overlaps the character.
+        # This move reports the flag, which stays set as long as the solid overlaps the character.
         c.squeezed = is_crushed(me, True, walk_inout)
     moved_out[0] = c.left - start_left
     moved_out[1] = c.top - start_top
@@ -688,7 +692,7 @@ def walk(me, dx, dy, walk_inout, moved_out):
 
 @kernel
 def is_stopped(me, along_x, along_y, walk_inout):
-    """Return whether a character cannot move one pixel along_x, along_y (each -1, 0 or 1). It is not moved.
+    """Return whether a character cannot move by (along_x, along_y) pixels (each -1, 0 or 1). It is not moved.
 
     me: its CHARACTER row.
     """
