@@ -1,14 +1,14 @@
-"""Kernels: plain functions over tables and scalars, compiled or run as they are. Only this folder imports numba, on
-demand.
+"""Kernels: plain functions over tables and scalars, compiled or run as plain Python.
 
-With numba a kernel is compiled at its first call and stored on disk. Without numba the same source runs over views of
-the tables and arrays (plain.py). In a program that opted in to background compilation (tiers.py) a kernel runs as plain
-Python until its compiled form has arrived. Both forms give the same bits.
+Only this folder imports numba, and only when it is needed. With numba a kernel is compiled at its first call and stored
+on disk. Without numba the same source is called with views of the tables and arrays (plain.py). In a program that opted
+in to background compilation (tiers.py) a kernel runs as plain Python until its compiled form is available. Both forms
+give the same bits.
 
-Five decorators: `kernel` for functions that a stage calls with arrays; `generic` for functions that are called with
-arrays of several types; `subkernel` for functions that only kernels call; `inlined` for subkernels that are inlined at
-every call; `noalias` for subkernels whose arrays never overlap. Python can call the compiled form only of `kernel` and
-`generic` functions.
+There are five decorators: `kernel` for functions that a stage calls with arrays; `generic` for functions that are
+called with arrays of several types; `subkernel` for functions that only kernels call; `inlined` for subkernels that are
+inlined at every call; `noalias` for subkernels whose arrays never overlap. Python can call the compiled form only of
+`kernel` and `generic` functions.
 """
 
 from collections.abc import Callable
@@ -24,7 +24,7 @@ __all__ = [
     "registry", "noalias", "subkernel", "word",
 ]  # fmt: skip
 
-DECORATORS = ("generic", "inlined", "kernel", "noalias", "subkernel")  # by name, for what reads sources
+DECORATORS = ("generic", "inlined", "kernel", "noalias", "subkernel")  # their names, for tools that read sources
 
 
 def subkernel(function: Callable) -> Any:
@@ -48,7 +48,7 @@ def kernel(function: Callable) -> Any:
 
 
 def generic(function: Callable) -> Any:
-    """Return a kernel that is called with several types: one compiled form for each, looked up in every call."""
+    """Return a kernel that is called with several types, with one compiled form for each, looked up in every call."""
     return StageKernel(function, is_generic=True) if JIT else _viewing(function)
 
 

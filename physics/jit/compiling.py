@@ -1,6 +1,6 @@
 """Compiled forms of kernels and of the parts that they call: loaded from the store, or compiled and stored.
 
-The module needs numba and imports it.
+This module imports numba.
 """
 
 import hashlib
@@ -28,12 +28,11 @@ from physics.jit.plain import Builtin, compiler, rebound
 from physics.jit.store import store
 
 # ---- parts -----------------------------------------------------------------------------------------------------------
-# Kernels that only kernels call are parts: they are stored as LLVM bitcode, and never become machine code by
-# themselves.
+# Parts are kernels that only kernels call. A part is stored as LLVM bitcode, and no machine code is made of it alone.
 #
-# A caller links their code, and all that they call, into its own and optimises the whole. Numba also optimises and
-# generates machine code for every part, which is never run. Without that the kernels of the platformer compile in 81 s
-# of processor time instead of 141 s (one run).
+# A caller links the code of its parts, and of all that they call, into its own code and optimises the whole. Numba
+# would also optimise and generate machine code for every part, which is never run. Without that the kernels of the
+# platformer compile in 81 s of processor time instead of 141 s (one run).
 #
 # Numba's interfaces for this: a pipeline of the dispatcher (numba.core.compiler.CompilerBase) whose last pass lowers
 # into another library (numba.core.codegen.CodeLibrary).
@@ -42,7 +41,7 @@ from physics.jit.store import store
 class PartLibrary(codegen.JITCodeLibrary):
     """The code of a part (a kernel that only kernels call), to be linked into the code of its callers.
 
-    Its calls are resolved, but it is neither optimised nor executable.
+    Its calls are resolved, but the code is neither optimised nor executable.
     """
 
     def _optimize_final_module(self):
@@ -53,7 +52,7 @@ class PartLibrary(codegen.JITCodeLibrary):
         self._finalized = True
 
     def bitcode(self) -> bytes:
-        """Return the LLVM bitcode, as the store keeps it."""
+        """Return the LLVM bitcode, which the store keeps."""
         return self._get_module_for_linking().as_bitcode()
 
     @classmethod
@@ -72,7 +71,7 @@ class PartLowering(typed_passes.NativeLowering):
     _name = "part_lowering"
 
     def run_pass(self, state: Any) -> bool:
-        """Lower the function as numba does, but generate no machine code, so that it has no address."""
+        """Lower the function as numba does, but without machine code, so that it has no address."""
         state.library = PartLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
         state.flags.no_compile = True
         state.flags.noalias = getattr(state.func_id.func, "noalias", False)
@@ -98,22 +97,23 @@ class PartCompiler(CompilerBase):
 
 
 def entry_of(descriptor: Any, environment: Any, library: PartLibrary) -> Any:
-    """Return the function object by which numba identifies a compiled part. It has no address, because it is never
-    called.
+    """Return the function object by which numba identifies a compiled part.
+
+    The object has no address, because it is never called.
     """
     name = descriptor.qualname.split(".")[-1]
     return _dynfunc.make_function(descriptor.lookup_module(), name, "", 0, environment, (library,))
 
 
 def reduce(result: Any) -> tuple:
-    """Return what the store keeps of a part's CompileResult, as a tuple that can be pickled."""
+    """Return the data of a part's CompileResult that the store keeps, as a tuple that can be pickled."""
     descriptor = result.fndesc
-    descriptor.typemap = descriptor.calltypes = None  # may not be pickled
+    descriptor.typemap = descriptor.calltypes = None  # these cannot always be pickled
     return result.library.name, result.library.bitcode(), descriptor, result.environment, result.signature
 
 
 def rebuild(target_context: Any, kept: tuple) -> Any:
-    """Return a part's CompileResult from the tuple of reduce()."""
+    """Return a part's CompileResult from the result of reduce()."""
     name, code, descriptor, environment, signature = kept
     library = PartLibrary.from_bitcode(target_context.codegen(), name, code)
     return compile_result(
@@ -134,14 +134,14 @@ def rebuild(target_context: Any, kept: tuple) -> Any:
 # Compiled forms of kernels: loaded from the store, or compiled and stored.
 #
 # A kernel of a stage is stored as machine code, and linked into numba's engine when it is loaded, without types and
-# without numba's tables: 1 to 3 ms, against 9 to 53 ms with numba's cache. A part is stored as bitcode. Both, and their
-# symbols, are named by content (content.py): numba's own symbols contain a counter of the process, with which parts of
-# two processes can be linked to the wrong code.
+# without numba's tables: 1 to 3 ms, against 9 to 53 ms with numba's cache. A part is stored as bitcode. The files and
+# their symbols are named by content (content.py): numba's own symbols contain a counter of the process, with which
+# parts of two processes could be linked to the wrong code.
 
-# Of numba's modules in C, which declare no types.
+# Two of numba's modules in C, which declare no types.
 _dynfunc, _nrt_python = map(importlib.import_module, ("numba._dynfunc", "numba.core.runtime._nrt_python"))
-# No kernel allocates an array, so none counts references; and only kernels of stages need an entry from Python. The
-# kernels of the platformer compile in 145 s of processor time instead of 190 s (one busy machine).
+# No kernel allocates an array, so reference counts are not needed; and only kernels of stages need an entry from
+# Python. The kernels of the platformer compile in 145 s of processor time instead of 190 s (one busy machine).
 LEANER = {"_nrt": False, "no_cfunc_wrapper": True}
 READABLE = 48  # characters of a kernel's name in the name of its file
 
@@ -153,12 +153,12 @@ def file_name(kernel: Kernel, types_text: str) -> str:
 
 
 def name_of(kernel: Kernel, keys: Keys) -> str:
-    """Return the name in the store of a stage's kernel, compiled for arguments of these types."""
+    """Return the name in the store of a stage's kernel that is compiled for arguments of these types."""
     return file_name(kernel, ",".join(map(text_of, keys)))
 
 
 def load(kernel: Kernel, keys: Keys) -> Form | None:
-    """Return the compiled form of a kernel from the store; None if the store does not have it."""
+    """Return the compiled form of a kernel from the store; None: the store does not have it."""
     content = store().read(name_of(kernel, keys))
     if content is None:
         return None
@@ -189,7 +189,7 @@ def _compile(kernel, keys):
 
 
 def _kept(result):
-    """Return what the store keeps of a stage's kernel: names, constants of its entry, machine code."""
+    """Return the data of a stage's kernel that the store keeps: names, constants of its entry, machine code."""
     descriptor = result.fndesc
     constants = [
         (each.env_name, each.globals["__name__"], list(each.consts)) for each in result._find_referenced_environments()
@@ -265,7 +265,10 @@ _UNDER_WAY = object()
 
 
 def dispatcher_of(kernel: Kernel) -> Any:
-    """Return numba's dispatcher for a copy of a kernel in which all kernels it calls are replaced by dispatchers."""
+    """Return numba's dispatcher for a copy of a kernel in which all kernels that it calls are replaced by dispatchers.
+
+    Raises TypeError for a kernel that calls itself.
+    """
     if kernel.dispatcher is _UNDER_WAY:
         raise TypeError(f"{kernel.name} calls itself, which kernels do not")
     if kernel.dispatcher is None:
@@ -295,10 +298,10 @@ def _compiled_form_of(value):
 
 
 def _take_literals_as_values(dispatcher):
-    """Make a dispatcher compile one version for all calls of the same types. Numba compiles one for every literal
-    argument.
+    """Make a dispatcher compile one version for all calls of the same types.
 
-    The kernels of the platformer compile in 80 s of processor time instead of 136 s.
+    Numba would compile a version for every literal argument. With this the kernels of the platformer compile in 80 s of
+    processor time instead of 136 s.
     """
     general = dispatcher.get_call_template
 
@@ -310,7 +313,7 @@ def _take_literals_as_values(dispatcher):
     dispatcher.get_call_template = get_call_template
 
 
-_claimed: dict[str, ExitStack] = {}  # file name -> release of the claim, of all parts that are being compiled here
+_claimed: dict[str, ExitStack] = {}  # file name -> release of the claim, for all parts that this process compiles
 
 
 @contextmanager
@@ -336,13 +339,11 @@ class PartCache(caching._Cache):
         return str(store().folder)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return a part from the store. If it is absent, claim it and return None: other processes then wait for this
-        one.
-        """
+        """Return a part from the store; None: it is absent. Then it is claimed, so that other processes wait."""
         name = self._name(sig)
         content = store().read(name)
         if content is None and name not in _claimed:
-            _claimed[name] = ExitStack()  # of callees, never of callers, so that processes do not wait in a circle
+            _claimed[name] = ExitStack()  # only callees are claimed, so that processes do not wait in a circle
             _claimed[name].enter_context(store().claim(name))
             content = store().read(name)
         if content is None:
@@ -364,13 +365,13 @@ class PartCache(caching._Cache):
         return file_name(self.kernel, ",".join(map(_type_text, sig)))
 
     def enable(self) -> None:
-        """Do nothing: the store is always on."""
+        """Do nothing, because the store is always on."""
 
     def disable(self) -> None:
-        """Do nothing: the store is always on."""
+        """Do nothing, because the store is always on."""
 
     def flush(self) -> None:
-        """Do nothing: no file is ever stale, because its name contains a hash of its sources."""
+        """Do nothing, because no file is ever stale: its name contains a hash of its sources."""
 
 
 def _type_text(found: Any) -> str:
@@ -390,7 +391,7 @@ def _tuple_types() -> Any:  # whose members numba does not declare
 
 @contextmanager
 def stable_symbols() -> Iterator[None]:
-    """Let numba name compiled functions by content, not by a counter of the process, while the context is open."""
+    """While the context is open, let numba name compiled functions by content, not by a counter of the process."""
     identity: Any = bytecode.FunctionIdentity
     counted = identity.__dict__["from_function"]
 
@@ -408,7 +409,7 @@ def stable_symbols() -> Iterator[None]:
 
 
 def _symbol(function):
-    """Return a name for a function's symbol that no other function has: the hash of its content, or a random one."""
+    """Return a unique name for a function's symbol: the hash of its content, or if it has none, a random name."""
     content = getattr(function, "content", None)
     if content is not None:
         return content

@@ -1,9 +1,9 @@
-"""Fingerprints of kernels: hashes of everything that their machine code depends on, equal in every process.
+"""Fingerprints of kernels: hashes of all data on which their machine code depends, equal in every process.
 
-They cover the code of the kernel and of all functions that it calls or closes over, at any depth; closed-over values
-and module globals that it reads; flags; the name of its module; the sources of this folder; the versions of Python,
-NumPy, numba and llvmlite; the processor and its features; bounds checks and SVML. Comments of kernels and line numbers
-are left out, docstrings are not.
+They cover the code of the kernel and of all functions that it calls or closes over, at any depth, with docstrings;
+closed-over values and module globals that it reads; flags; the name of its module; the sources of this folder; the
+versions of Python, NumPy, numba and llvmlite; the processor and its features; bounds checks and SVML. They do not cover
+comments of kernels and line numbers.
 """
 
 import hashlib
@@ -21,7 +21,7 @@ from physics.jit.kernels import Kernel
 from physics.jit.plain import Builtin, compiler, globals_of, names_in
 
 DIGEST = 20  # bytes
-OUTSIDE = ("math", "numpy")  # modules that their version identifies
+OUTSIDE = ("math", "numpy")  # modules whose version identifies them
 
 
 _describing = threading.RLock()
@@ -37,12 +37,13 @@ def fingerprint(kernel: Kernel) -> str:
 
 
 def content_of(kernel: Kernel) -> str:
-    """Return the hash of a kernel's code and of all that it refers to. Raises NotHashable, naming a value without a
-    hash.
+    """Return the hash of a kernel's code and of everything that it refers to.
+
+    Raises NotHashable for a value without a hash; the message names it.
     """
     with _describing:
         if kernel.content is None:
-            kernel.content = "recursive"  # a recursive function is described by the place of the call
+            kernel.content = "recursive"  # in a recursive function, the inner call is described by this word
             try:
                 parts = [kernel.flags_text, *_describe_function(kernel.py_func)]
             except NotHashable as error:
@@ -63,8 +64,8 @@ def _digest(*parts):
 def content_of_library(function: FunctionType) -> str:
     """Return the hash of one of numba's own functions that is compiled into kernels: its code and its closure.
 
-    The globals of its module are left out, as numba's version identifies them. Raises NotHashable for a function of
-    another package.
+    The globals of its module are left out, because numba's version identifies them. Raises NotHashable for a function
+    of another package.
     """
     return _digest(*_describe_library(function, ()))
 
@@ -109,7 +110,7 @@ def _describe_code(code):
 
 
 def _describe(value, names=()):
-    """Yield texts that distinguish a value from others. names: if the value is a module, its attributes to describe."""
+    """Yield texts that distinguish a value from other values. names: if it is a module, the attributes to describe."""
     kind = type(value)
     if value is None or kind in (bool, int, float, complex, str, bytes):
         yield f"{kind.__name__} {value!r}"
@@ -168,8 +169,9 @@ def _described_type(value):
 
 @cache
 def environment() -> str:
-    """Return, as text, all that machine code depends on besides the kernel: sources, versions, processor. Imports
-    numba.
+    """Return, as text, all data on which machine code depends in addition to the kernel. Imports numba.
+
+    The data are sources of this folder, versions, processor and numba's settings.
     """
     import llvmlite.binding as llvm
 

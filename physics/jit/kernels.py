@@ -15,19 +15,19 @@ import numpy as np
 from physics.jit.plain import Builtin, plain_math, rebound, view_of
 
 # ---- totals ----------------------------------------------------------------------------------------------------------
-# Compiled and loaded kernels of this process, and the time they took, which belongs to no other measurement.
+# Numbers of compiled and loaded kernels of this process, and the time for this, which other measurements leave out.
 
-compiled = 0  # number of kernels of stages
+compiled = 0  # number of compiled kernels of stages
 loaded = 0
 parts_loaded = 0
-seconds = 0.0  # [s] of compiling
-loading = 0.0  # [s]
+seconds = 0.0  # [s] time of compiling
+loading = 0.0  # [s] time of loading
 _depth = 0
 
 
 @contextmanager
 def compiling() -> Iterator[None]:
-    """Add the time of the context to the seconds of compiling; nested contexts count once."""
+    """Add the time of the context to the seconds of compiling. Nested contexts count once."""
     global compiled, seconds, _depth
     started = perf_counter()
     _depth += 1
@@ -51,17 +51,18 @@ def measured() -> Iterator[Callable[[], float]]:
 # Types of a kernel's arguments, as values that can be compared, written to a file name, and sent to a process.
 #
 # A key names the type of one argument: ("array", dtype, dimensions, layout, writeable), ("scalar", name), ("none",), or
-# ("tuple", class, keys). It is made without numba, which takes 0.6 ms to type a table of fifty columns.
+# ("tuple", class, keys). Keys are made without numba, which takes 0.6 ms to type a table of fifty columns.
 
 Key = tuple[Any, ...]
-# Types are checked in each call: a kernel refuses other types than those of its first call.
+# If True, types are checked in each call: a kernel refuses types other than the types of its first call.
 CHECKING = os.environ.get("HITBOX_CHECK_CALLS", "") == "1"
 SCALARS = {bool: ("scalar", "bool"), int: ("scalar", "int64"), float: ("scalar", "float64")}
 
 
 def key_of(value: Any) -> Key:
-    """Return the key of one argument: a tuple that names its type. Raises TypeError for a type that kernels do not
-    take.
+    """Return the key of one argument: a tuple that names its type.
+
+    Raises TypeError for a type that kernels cannot have as an argument.
     """
     kind = type(value)
     if kind is np.ndarray:
@@ -82,7 +83,7 @@ def key_of(value: Any) -> Key:
 
 
 def text_of(key: Key) -> str:
-    """Return the key as text: equal in every process, and different for different types."""
+    """Return a key as text, which is equal in every process and different for different types."""
     if key[0] == "array":
         _, dtype, dimensions, layout, writeable = key
         return f"array({_dtype_text(dtype)},{dimensions},{layout},{'writeable' if writeable else 'readonly'})"
@@ -100,7 +101,7 @@ def _dtype_text(dtype):
 
 @cache
 def type_of(key: Key) -> Any:
-    """Return numba's type for the key of an argument; imports numba."""
+    """Return numba's type for the key of an argument. Imports numba."""
     from numba import types
     from numba.np.numpy_support import from_dtype
 
@@ -114,7 +115,7 @@ def type_of(key: Key) -> Any:
 
 
 def is_whole(key: Key) -> bool:
-    """Return whether a key names an int or a bool. A float is refused as such an argument."""
+    """Return whether a key names an int or a bool. A kernel refuses a float for such an argument."""
     return key[0] == "scalar" and not key[1].startswith("float")
 
 
@@ -128,8 +129,9 @@ registry: "list[Kernel]" = []  # every kernel, in the order of definition; empty
 
 
 class Kernel:
-    """A function over tables that can be compiled. A call runs its present form `run`: a compiled form, or plain
-    Python.
+    """A function over tables that can be compiled.
+
+    A call executes its present form, `run`: a compiled form, or plain Python.
     """
 
     is_part = False
@@ -147,7 +149,7 @@ class Kernel:
         self.content: str | None = None  # physics.jit.content.content_of
         self.dispatcher: Any = None  # physics.jit.compiling.dispatcher_of
         self.forms: dict[Keys, Form] = {}  # compiled, by the types of the arguments
-        self.seconds = 0.0  # [s] that its plain twin has run since the last take-over
+        self.seconds = 0.0  # [s] time for which its plain twin has run since the last take-over
         self._plain: Form | None = None
         self.reset()
         registry.append(self)
@@ -195,15 +197,16 @@ class Kernel:
 
 
 class Part(Kernel):
-    """A kernel that other kernels call. Only they call its compiled form; Python calls its plain twin, with the same
-    result.
+    """A kernel that other kernels call.
+
+    Only kernels call its compiled form; Python calls its plain twin, with the same result.
     """
 
     is_part = True
 
 
 def plain_form_of(value: Any) -> Any:
-    """Return the replacement of a global or closed-over value in a plain twin: of a kernel, its plain twin."""
+    """Return the replacement of a global or closed-over value in a plain twin; for a kernel, its plain twin."""
     if value is math:
         return plain_math
     return value.plain if isinstance(value, (Kernel, Builtin)) else value

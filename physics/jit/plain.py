@@ -1,6 +1,6 @@
 """Kernels without the compiler: views of tables, 64-bit words, and plain twins (kernels as plain Python functions).
 
-Imports numba only on demand.
+This module imports numba only when it is needed.
 """
 
 import math
@@ -17,20 +17,20 @@ from weakref import ref
 import numpy as np
 
 # ---- compiler --------------------------------------------------------------------------------------------------------
-# The compiler: whether there is one, and the only place that imports it.
+# The compiler: whether it is installed, and the only function that imports it.
 
-# Vector maths from SVML rounds differently from libm; compiled and plain runs must agree to the bit.
+# Vector maths from SVML rounds differently from libm, but compiled and plain runs must agree to the bit.
 if os.environ.get("NUMBA_DISABLE_JIT", "0") in ("", "0"):
     os.environ.setdefault("NUMBA_DISABLE_INTEL_SVML", "1")
     JIT = find_spec("numba") is not None
 else:
     JIT = False
 
-_found: list[Any] = []  # numba, or None where it cannot be imported
+_found: list[Any] = []  # numba, or None if it cannot be imported
 
 
 def compiler() -> Any:
-    """Return numba, imported at the first call; None where it cannot be imported, which is reported once."""
+    """Return numba, imported at the first call; None if it cannot be imported, which is reported once."""
     if not _found:
         try:
             import numba
@@ -43,19 +43,19 @@ def compiler() -> Any:
 
 
 # ---- views -----------------------------------------------------------------------------------------------------------
-# Arrays and tables as plain kernels read them.
+# Views of arrays and tables for plain kernels.
 #
 # Structured arrays are passed as arrays of C structures in the same memory, other arrays as memoryviews: both return
-# Python numbers. Reading a number of a row takes 46 ns, against 146 ns with rows written in Python and more with
+# Python numbers. Reading a number of a row takes 46 ns, against 146 ns with row classes written in Python and more with
 # NumPy's rows. Plain steps of the platformer and the lander are 25 % faster.
 
 _kept: dict[int, tuple[ref, "TableView"]] = {}  # id of an array -> the array, and its view
 
 
 class TableView:
-    """A structured array as plain kernels read it; `view[i].x = 1.0` writes to row i of the array.
+    """View of a structured array for plain kernels; `view[i].x = 1.0` writes to row i of the array.
 
-    Raises TypeError for a row that C cannot hold.
+    Raises TypeError for a row type that C cannot hold.
     """
 
     __slots__ = ("rows",)
@@ -101,7 +101,7 @@ def _row_class(dtype):
 
 
 def view_of(argument: Any) -> Any:
-    """Return an argument as plain kernels read it: table as TableView, other array as memoryview, Python numbers."""
+    """Return the form of an argument for plain kernels: TableView of a table, memoryview of an array, Python number."""
     kind = type(argument)
     if kind is float or kind is int or kind is bool:
         return argument
@@ -124,7 +124,8 @@ WORD_MASK = 0xFFFFFFFFFFFFFFFF
 class Builtin:
     """A function that kernels call and that has separate forms for plain and compiled kernels.
 
-    plain: the Python function. make: returns the form for numba. sources: functions whose code identifies the form.
+    plain: the Python function. make: function that returns the form for numba. sources: functions whose code identifies
+    the form.
     """
 
     def __init__(self, plain: Callable, make: Callable[[], Any], *sources: Callable) -> None:
@@ -168,7 +169,7 @@ def _as_word(value):
 
 
 def _total(function):
-    """Return a function of one number that gives NaN at infinity, as compiled code does where `math` raises errors."""
+    """Return a function of one number that gives NaN at infinity, as compiled code does; `math` raises an error."""
 
     def total(x):
         return function(x) if abs(x) < math.inf else math.nan
@@ -176,7 +177,7 @@ def _total(function):
     return total
 
 
-# The module `math` of plain twins.
+# Replaces the module `math` in plain twins.
 plain_math = SimpleNamespace(**{**vars(math), "cos": _total(math.cos), "sin": _total(math.sin)})
 
 
@@ -187,12 +188,12 @@ def _make_popcount():
 
 
 def put_in(function: Callable) -> Callable[[], Any]:
-    """Return a function that makes numba's form of `function`, inlined at every call: argument `make` of a Builtin."""
+    """Return a function that makes numba's form of `function`, inlined at every call, as `make` of a Builtin."""
     return lambda: compiler().njit(inline="always")(function)
 
 
 # ---- row copies ------------------------------------------------------------------------------------------------------
-# Copies of whole rows of a table, or of their first bytes. A row assigned to a row compiles to a move of each byte.
+# Copies of whole rows of a table, or of their first bytes. An assignment of a row would compile to a move of each byte.
 
 
 def _copy_row(source, row_out):
@@ -204,7 +205,7 @@ def _copy_head(source, row_out, size):
 
 
 def _row_copy(typing_context, source, row_out):
-    """Return type and code generator of the copy of a row to another one, as numba.extending.intrinsic needs them."""
+    """Return type and code generator of the copy of a row to another row, as numba.extending.intrinsic needs them."""
 
     def generate(context, builder, signature, args):
         from numba.core import cgutils
@@ -247,7 +248,8 @@ copy_head: Any = Builtin(_copy_head, _make_head_copy, _head_copy) if JIT else _c
 
 
 # ---- twins -----------------------------------------------------------------------------------------------------------
-# Copies of a function that call other forms of the kernels that it refers to: plain twins, and copies for the compiler.
+# Copies of a function that call other forms of the kernels to which it refers: plain twins, and copies for the
+# compiler.
 #
 # The source of a kernel refers to Kernel objects. Its plain twin refers to their plain twins, so that no call inside a
 # plain kernel goes through a dispatcher. The copy for numba refers to numba's dispatchers.
@@ -274,7 +276,7 @@ def globals_of(function: FunctionType) -> Iterator[tuple[str, Any]]:
 def rebound(function: FunctionType, replace: Replace, made: Callable[[FunctionType], Any] = lambda twin: None) -> Any:
     """Return a copy of a function in which every global and closed-over value is replaced by replace(value).
 
-    made(copy) is called before values are replaced, so that a function that refers to itself finds its own copy.
+    made(copy) is called before the values are replaced, so that a function that refers to itself finds its own copy.
     """
     names = {"__builtins__": __builtins__, "__name__": function.__module__}
     cells = tuple(CellType() for _ in function.__closure__ or ())

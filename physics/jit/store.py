@@ -1,9 +1,8 @@
-"""The store: compiled kernels on disk, in a private folder. Its files are code, so the folder is checked before any is
-loaded.
+"""The store: compiled kernels on disk, in a private folder. The folder is checked before a file is loaded as code.
 
-There is one file per kernel and argument types. Its name contains a hash of everything that its contents depend on, and
-it starts with a checksum. Files are written by atomic replace. A file that was not used for KEPT is removed, and the
-least recently used ones when the folder exceeds LIMIT.
+There is one file per kernel and argument types. Its name contains a hash of all data on which its contents depend, and
+it starts with a checksum. Files are written by atomic replace. A file that was not used for KEPT is removed; if the
+folder exceeds LIMIT, the least recently used files are also removed.
 """
 
 import atexit
@@ -27,12 +26,12 @@ except ImportError:  # Windows
     fcntl = None
 
 LIMIT = 240 << 20  # bytes: two checkouts and a bounds-checked run, at most 80 MB each
-KEPT = 14 * 86_400.0  # [s] after which an unused file is removed
-DAY = 86_400.0  # [s] between two sweeps of a folder, and between two records of the use of a file
-ABANDONED = 3_600.0  # [s] after which an unfinished file counts as abandoned
-PATIENCE = 120.0  # [s] to wait for another process that compiles the same kernel
-POLL = 0.02  # [s]
-CHECKSUM = 16  # bytes
+KEPT = 14 * 86_400.0  # [s] age at which an unused file is removed
+DAY = 86_400.0  # [s] between two records of the use of a file
+ABANDONED = 3_600.0  # [s] age at which an unfinished file counts as abandoned
+PATIENCE = 120.0  # [s] longest wait for another process that compiles the same kernel
+POLL = 0.02  # [s] between two attempts to get a lock
+CHECKSUM = 16  # [bytes]
 SUFFIX, UNFINISHED, CLAIMED = ".kernel", ".part", ".claim"
 
 TEMPORARY = "hitbox-kernels-"  # beginning of the names of folders for one run
@@ -54,11 +53,11 @@ def cache_home() -> Path:
 def make_private(folder: Path) -> str:
     """Make a folder that only this user can read and write. Return "" or, if that fails, the reason.
 
-    An existing folder is unchanged, except that read permission of others is removed if it holds only kernels.
+    An existing folder is not changed, except that read permission of other users is removed if it holds only kernels.
     """
     try:
         for each in (*reversed(folder.parents), folder):
-            if not os.path.lexists(each):  # whatever the umask: other users write to none of them
+            if not os.path.lexists(each):  # the mode does not depend on the umask: other users cannot write
                 with contextlib.suppress(FileExistsError):
                     each.mkdir(mode=0o700)
         if folder.is_symlink():
@@ -75,7 +74,7 @@ def make_private(folder: Path) -> str:
 
 
 def _exposed(folder):
-    """Return a message if another user could read or write code in the folder; "" if no other user can."""
+    """Return a message if another user could read or write code in the folder; "": no other user can."""
     info = folder.stat()
     if info.st_uid != os.getuid():
         return f"{folder} belongs to another user"
@@ -93,10 +92,10 @@ def _exposed(folder):
 
 
 def store() -> "Store":
-    """Return the store of this process: in the user's cache folder, in one beside it, or in a temporary one for this
-    run.
+    """Return the store of this process: in the user's cache folder, in a folder next to it, or in a temporary folder.
 
-    The second and third are used if the first is not private or not writable, and are reported.
+    The second is used if the first is not private or not writable, and the third, for this run only, if the second is
+    not either. The use of the second or third is reported.
     """
     with _opening:
         return _open_store()
@@ -136,9 +135,9 @@ def _remove_at_exit(folder):
 
 
 def _locked(path, wait):
-    """Return a file opened with an exclusive lock, held until the process ends; None if another process holds the lock.
+    """Return a file opened with an exclusive lock, held until the file is closed; None: another process holds the lock.
 
-    On a system without such locks every process gets the file: at worst work is done twice.
+    On a system without such locks every process gets the file; then work may be done twice.
     """
     file = open(path, "ab")  # noqa: SIM115, closed by the owner of the lock
     if fcntl is None:
@@ -162,7 +161,7 @@ class Store:
         self._swept = False
 
     def read(self, name: str) -> bytes | None:
-        """Return the contents of a file, and record its use; None if it is absent or damaged."""
+        """Return the contents of a file, and record its use; None: it is absent or damaged."""
         path = self.folder / (name + SUFFIX)
         try:
             with open(path, "rb", opener=_no_link) as file:
@@ -213,8 +212,9 @@ class Store:
             warnings.warn(line, stacklevel=3)
 
     def sweep(self) -> None:
-        """Remove files unused for KEPT [s], the least recently used beyond LIMIT [bytes], and leftovers of killed
-        processes.
+        """Remove files unused for KEPT [s], the least recently used files beyond LIMIT [bytes], and unfinished files.
+
+        Unfinished files are files and claims that killed processes have left.
         """
         self._swept = True
         now = time.time()
@@ -238,7 +238,7 @@ class Store:
 
     @contextlib.contextmanager
     def claim(self, name: str) -> Iterator[None]:
-        """Hold a lock on a name while the context is open, so that only one process compiles the kernel of that name.
+        """Hold a lock on a name while the context is open, so that only one process compiles the kernel of this name.
 
         Another process waits for the lock on entry, but no longer than PATIENCE [s].
         """
@@ -256,7 +256,7 @@ class Store:
 
 
 def checksum(name: str, content: bytes) -> bytes:
-    """Return the checksum that a stored file begins with: a hash of the name and contents of the file."""
+    """Return the checksum with which a stored file begins: a hash of the name and contents of the file."""
     return hashlib.blake2b(content, digest_size=CHECKSUM, key=hashlib.blake2b(name.encode()).digest()).digest()
 
 
@@ -265,7 +265,7 @@ def _no_link(path, flags):
 
 
 def _sweep_temporary():
-    """Remove the temporary folders of killed runs of this user, whose locks are free."""
+    """Remove the temporary folders that killed runs of this user have left; their locks are free."""
     if fcntl is None:
         return
     for folder in Path(tempfile.gettempdir()).glob(f"{TEMPORARY}*"):
@@ -273,7 +273,7 @@ def _sweep_temporary():
             if folder.is_symlink() or folder.stat().st_uid != os.getuid():
                 continue
             if time.time() - folder.stat().st_mtime < 60.0 and not (folder / "in-use").exists():
-                continue  # made a moment ago
+                continue  # just created
             lock = _locked(folder / "in-use", wait=False)
             if lock is not None:
                 shutil.rmtree(folder, ignore_errors=True)

@@ -14,14 +14,14 @@ from physics.jit.kernels import CHECKING, Form, Kernel, Keys, Part, is_whole, ke
 from physics.jit.plain import compiler, globals_of, view_of
 
 # ---- tiers -----------------------------------------------------------------------------------------------------------
-# Which form of a kernel runs if its compiled form is not at hand: compile now, run plain, or run plain and record it.
+# The form of a kernel that runs if its compiled form is not loaded: compile it, run plain, or run plain and record it.
 #
 # By default a kernel is loaded or compiled at its first call. `collecting()` records the kernels of a run that are not
 # on disk, so that several processes can compile them. `start()` opts in to tiers for the rest of the program: kernels
-# run plain, a thread loads those on disk and has the others compiled by worker processes (workers.py), the largest
-# share of the time per length of code first. take_over() installs compiled forms between two steps.
+# run plain, a thread loads the kernels on disk and has the others compiled by worker processes (workers.py), in the
+# order of their time per length of code. take_over() installs compiled forms between two steps.
 
-background = False  # this program has opted in to tiers
+background = False  # whether this program has opted in to tiers
 wanted: dict[tuple[Kernel, Keys], None] = {}  # kernels that have run plain, in the order of their first calls
 arrived: deque[tuple[Kernel, Keys, Form]] = deque()  # compiled forms to be installed after the step
 asked: Callable[[], object] | None = None  # called when a kernel is wanted
@@ -31,9 +31,7 @@ _recording = False
 
 
 def form_of(kernel: "Kernel", keys: "Keys") -> Form | None:
-    """Return the compiled form of a kernel for a first call with these argument types; None: its plain twin runs
-    instead.
-    """
+    """Return the compiled form of a kernel for a first call with these argument types; None: run its plain twin."""
     if _collected is not None:
         return _note(kernel, keys, _collected)
     if background:
@@ -65,8 +63,8 @@ def _note(kernel, keys, collected):
 def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], None]]:
     """Run kernels that are not on disk as plain Python while the context is open, and compile nothing.
 
-    Yields a dict whose keys are (kernel, types) of those kernels, in the order of their first calls. all_calls: treat
-    kernels on disk in the same way, unless they have been loaded already.
+    Yield a dict whose keys are (kernel, types) of these kernels, in the order of their first calls. all_calls: treat
+    kernels on disk in the same way, unless they are already loaded.
     """
     global _collected, _recording
     before = _collected, _recording
@@ -78,13 +76,13 @@ def collecting(all_calls: bool = False) -> Iterator[dict[tuple[Kernel, Keys], No
 
 
 def start(when_asked: Callable[[], object]) -> None:
-    """Run each kernel without a compiled form as plain Python from now on, and call when_asked() once for it."""
+    """From now on run each kernel without a compiled form as plain Python, and call when_asked() once for each."""
     global background, asked
     background, asked = True, when_asked
 
 
 def stop() -> None:
-    """End the effect of start(): kernels, also those that ran plain, are compiled at their next call."""
+    """End the effect of start(): all kernels, also kernels that ran plain, are compiled at their next call."""
     global background, asked, load
     background, asked, load = False, None, None
     take_over()
@@ -94,7 +92,7 @@ def stop() -> None:
 
 
 def take_over() -> None:
-    """Install the compiled forms that have arrived since the last call. World.step calls it before it begins."""
+    """Install the compiled forms that have arrived since the last call. World.step calls this at its beginning."""
     while arrived:
         kernel, keys, form = arrived.popleft()
         wanted.pop((kernel, keys), None)
@@ -123,25 +121,25 @@ def forget() -> None:
 # Kernels that Python calls, and the form that runs at a call.
 #
 # At its first call a kernel is loaded from disk or compiled. In a program that opted in to tiers it runs as its plain
-# twin and is queued, and its compiled form takes over between two steps. While kernels are collected it runs plain,
-# too, and is recorded if it is not on disk.
+# twin and is queued, and its compiled form takes over between two steps. While kernels are collected, a kernel that is
+# not on disk also runs plain, and is recorded.
 
 
 class StageKernel(Kernel):
-    """A kernel that a stage calls. Once it is compiled, a call goes straight to the compiled form.
+    """A kernel that a stage calls. Once it is compiled, Python calls the compiled form directly.
 
-    The types of the arguments are then not inspected: numba takes 1.07 us for that with six tables, and 0.1 us for the
+    Then the types of the arguments are not inspected: numba takes 1.07 us for that with six tables, and 0.1 us for the
     call; a step of 55 boxes makes 15 calls. Unless it is `generic`, a kernel is called with the same types each time. A
     float for an int raises TypeError, and the compiled form refuses another element size. Other types are refused only
     under HITBOX_CHECK_CALLS=1.
     """
 
     def reset(self) -> None:
-        """Drop the form in use: the next call looks for a compiled form."""
+        """Drop the present form, so that the next call looks for a compiled form."""
         self.run = self._generic_call if self.is_generic else self._first_call
 
     def install(self, keys: Keys, form: Form) -> None:
-        """Store a compiled form: calls with these argument types run it from now on."""
+        """Store a compiled form, which calls with these argument types run from now on."""
         self.forms[keys] = form
         if self.is_generic:
             return
@@ -199,14 +197,14 @@ def _refuse_other_types(kernel, keys, arguments):
 
 
 # ---- specs -----------------------------------------------------------------------------------------------------------
-# References to kernels by which another process finds or makes the same ones: the place of the code, its closure, and
-# the content that must result.
+# References to kernels by which another process finds or makes the same kernels: the module and name of the code, its
+# closure, and the hash of the content that must result.
 
 Spec = tuple[str, str, str, tuple[tuple[bool, Any], ...], dict[str, bool]]
 
 
 def spec_of(kernel: Kernel) -> Spec:
-    """Return a picklable reference by which another process finds or makes a kernel."""
+    """Return a reference, which can be pickled, by which another process finds or makes a kernel."""
     function = kernel.py_func
     closed = tuple(
         (True, spec_of(cell.cell_contents)) if isinstance(cell.cell_contents, Kernel) else (False, cell.cell_contents)
@@ -223,7 +221,7 @@ def spec_of(kernel: Kernel) -> Spec:
 
 
 def kernel_of(spec: Spec) -> Kernel:
-    """Return the kernel that a spec refers to. Raises LookupError if the sources of this process differ."""
+    """Return the kernel to which a spec refers. Raises LookupError if the sources of this process differ."""
     module, qualname, content, closed, flags = spec
     importlib.import_module(module)
     for each in registry:
@@ -246,7 +244,7 @@ def _make(module, code, cells, flags):
 
 
 def _codes_of(module, qualname):
-    """Yield the code objects in a module that have this qualified name, those of outer functions first."""
+    """Yield the code objects in a module that have this qualified name, code of outer functions first."""
     outer: Any = getattr(importlib.import_module(module), qualname.partition(".")[0], None)
     while hasattr(outer, "__wrapped__"):
         outer = outer.__wrapped__
@@ -259,13 +257,13 @@ def _codes_of(module, qualname):
 
 
 def code_of(kernel: Kernel, known: Container[Kernel]) -> int:
-    """Return the bytes of code of a kernel and of all that it calls, without the kernels in `known`."""
+    """Return the bytes of code of a kernel and of all kernels that it calls, without the kernels in `known`."""
     return sum(size for part, size in parts_of(kernel).items() if part not in known)
 
 
 @cache
 def parts_of(kernel: Kernel) -> dict[Kernel, int]:
-    """Return a kernel and all that it calls, at any depth, as {kernel: length of its code in bytes}."""
+    """Return a kernel and all kernels that it calls, at any depth, as {kernel: length of its code in bytes}."""
     found: dict[Any, int] = {}
     todo = [kernel]
     while todo:

@@ -19,7 +19,7 @@ from physics.jit import tiers
 from physics.jit.store import store
 
 # ---- turns -----------------------------------------------------------------------------------------------------------
-# How a background thread shares the interpreter with the program.
+# Sharing of the interpreter between a background thread and the program.
 
 SHARE = 0.2  # share of a thread's time in which it imports while kernels run plain
 TURN = 0.0005  # [s] switch interval of the threads of this process while kernels are loaded
@@ -29,8 +29,8 @@ TURN = 0.0005  # [s] switch interval of the threads of this process while kernel
 def short_turns() -> Iterator[None]:
     """Let the interpreter switch threads after TURN while the context is open.
 
-    The main thread releases the interpreter in every call of NumPy, and would wait 5 ms to get it back. While the
-    compiler is imported, frames of the platformer take 55 ms instead of 80 ms.
+    The main thread releases the interpreter in every call of NumPy, and would wait 5 ms to get it back. With this,
+    frames of the platformer take 55 ms instead of 80 ms while the compiler is imported.
     """
     before = sys.getswitchinterval()
     sys.setswitchinterval(TURN)
@@ -57,10 +57,10 @@ class _Pauses:
 
 @contextmanager
 def unhurried_imports() -> Iterator[None]:
-    """Let imports take only SHARE of this thread's time while the context is open, so that a game with plain kernels
-    goes on.
+    """Limit imports to SHARE of this thread's time while the context is open.
 
-    Importing the compiler takes 0.7 s of processor time; without pauses a game showed 20 frames in that second.
+    So a game with plain kernels continues: importing the compiler takes 0.7 s of processor time, and without pauses a
+    game showed 20 frames in this second.
     """
     pauses: Any = _Pauses()
     sys.meta_path.insert(0, pauses)
@@ -71,7 +71,7 @@ def unhurried_imports() -> Iterator[None]:
 
 
 # ---- processes -------------------------------------------------------------------------------------------------------
-# Worker processes of the program: modules that read orders as lines, and answer with lines.
+# Worker processes of the program: they run a module that reads orders as lines, and answers with lines.
 
 IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the folder from which this package is imported
 
@@ -79,12 +79,12 @@ IMPORTED_FROM = Path(__file__).resolve().parents[__name__.count(".")]  # the fol
 def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
     """Start `python -m module` with pipes for lines, at low priority, ignoring Ctrl-C in the terminal.
 
-    module: full name of the module, as in f"{__package__}.worker". The child imports from the same places as this
+    module: full name of the module, as in f"{__package__}.worker". The child imports from the same folders as this
     program, and not from the current folder, where a `physics.py` or `numpy.py` belongs to the user. environment:
     additional environment variables. Raises OSError, ValueError if no process can be started.
     """
-    # A process group, not a session: Linux weighs sessions against each other whatever the priority of their processes
-    # (autogroups, man 7 sched), so that an own session would take as much time as the program.
+    # A process group, not a session: Linux divides processor time between sessions independent of the priority of their
+    # processes (autogroups, man 7 sched), so a session of its own would take as much time as the program.
     options: dict[str, Any] = {"process_group": 0}
     if sys.platform == "win32":
         options = {"creationflags": subprocess.BELOW_NORMAL_PRIORITY_CLASS | subprocess.CREATE_NEW_PROCESS_GROUP}
@@ -100,12 +100,12 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 
 
 def search_path() -> dict[str, str]:
-    """Return {"PYTHONPATH": …} for a child process that is to import this package from the same folder.
+    """Return {"PYTHONPATH": …} for a child process, so that it imports this package from the same folder.
 
-    The dict is empty if the child does so anyway.
+    The dict is empty if the child does so without it.
     """
     if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
-        return {}  # named again, site-packages would come before the standard library
+        return {}  # if named again, site-packages would come before the standard library
     return {"PYTHONPATH": os.pathsep.join(filter(None, (str(IMPORTED_FROM), os.environ.get("PYTHONPATH"))))}
 
 
@@ -123,15 +123,15 @@ def end_all(processes: Iterable["subprocess.Popen[str]"]) -> None:
 
 
 # ---- workers ---------------------------------------------------------------------------------------------------------
-# Worker processes that compile kernels, and the order in which they do.
+# Worker processes that compile kernels, and the order of their tasks.
 #
-# A worker gets one task at a time, as a line, and answers with a line. It ends with its standard input, so it never
-# outlives the program. A worker that dies or hangs is replaced; a task on which that happens twice fails. If workers
-# die one after the other without an answer, no more are started, and all tasks fail at once.
+# A worker gets one task at a time, as a line, and answers with a line. It ends when its standard input is closed, so it
+# never outlives the program. A worker that dies or hangs is replaced; a task on which this happens twice fails. If
+# workers die one after the other without an answer, no more are started, and all tasks fail immediately.
 
 MOST = 8  # processes: each takes 150 MB
-HUNG = 300.0  # [s] without an answer
-ATTEMPTS = 2
+HUNG = 300.0  # [s] a worker that gives no answer for this time hangs
+ATTEMPTS = 2  # most attempts at a task
 MARK = "hitbox "  # first word of an answer: libraries may print other lines
 DEATHS = 4  # processes that may die one after the other without an answer before no more are started
 
@@ -148,14 +148,15 @@ def encoded(value: Any) -> str:
 
 
 def decoded(line: str) -> Any:
-    """Return the value of a line from encoded(). Only for lines from this program's own processes, because it
-    unpickles.
+    """Return the value of a line from encoded().
+
+    Only for lines from this program's own processes, because it unpickles.
     """
     return pickle.loads(base64.b64decode(line.removeprefix(MARK)))
 
 
 class Task:
-    """An order for a worker process. Tasks with the largest urgency() go first.
+    """An order for a worker process. Tasks with the largest urgency() are started first.
 
     done(answer) is called in the thread of the worker process, with None if the task fails.
     """
@@ -166,7 +167,7 @@ class Task:
 
 
 class Workers:
-    """A pool of worker processes that run one module. `limit`: number of them that may take tasks now."""
+    """A pool of worker processes that run one module. `limit`: number of processes that may start tasks now."""
 
     def __init__(self, module: str, count: int | None = None) -> None:
         self.module = module
@@ -183,7 +184,7 @@ class Workers:
 
     @property
     def limit(self) -> int:
-        """The number of processes that may take tasks now. A process that is busy finishes its task."""
+        """The number of processes that may start tasks now. A busy process finishes its task."""
         return self._limit
 
     @limit.setter
@@ -194,7 +195,7 @@ class Workers:
 
     @property
     def left(self) -> int:
-        """The number of tasks that wait or are under way."""
+        """The number of tasks that wait or are being processed."""
         return len(self._tasks) + self._under_way
 
     @property
@@ -203,7 +204,7 @@ class Workers:
         return self.count > 0 and not self._stopped and self._deaths < DEATHS
 
     def add(self, tasks: list[Task]) -> None:
-        """Add tasks, and start processes for them, up to `count` processes in all."""
+        """Add tasks, and start processes for them, up to `count` processes in total."""
         with self._changed:
             self._tasks += tasks
             while len(self._threads) < min(self.count, len(self._tasks) + self._under_way):
@@ -218,7 +219,7 @@ class Workers:
             return self._changed.wait_for(lambda: not self.left or self._stopped, seconds) and not self.left
 
     def stop(self) -> None:
-        """End all processes. Kernels that they have stored stay."""
+        """End all processes. The kernels that they have stored remain."""
         with self._changed:
             self._stopped = True
             processes = list(self._processes.values())
@@ -227,7 +228,7 @@ class Workers:
         atexit.unregister(self.stop)
 
     def _serve(self, number):
-        """Pass tasks one by one to process `number` until stop(). Runs in a thread for each process."""
+        """Pass tasks one by one to process `number` until stop(). Each process has a thread that runs this."""
         while True:
             with self._changed:
                 self._changed.wait_for(lambda: self._stopped or (self._tasks and number < self._limit))
@@ -248,7 +249,7 @@ class Workers:
                         self._tasks.append(task)
                         self._under_way -= 1
                     continue
-            task.done(answer)  # may add tasks, so it is called before the task counts as done
+            task.done(answer)  # this may add tasks, so it is called before the task counts as done
             with self._changed:
                 self._under_way -= 1
                 self._changed.notify_all()
