@@ -1,4 +1,4 @@
-"""Compilation of kernels in worker processes: while the program runs, or before it needs them."""
+"""Compilation of kernels in worker processes, while the program runs or before it needs the kernels."""
 
 import json
 import threading
@@ -19,11 +19,11 @@ from physics.jit.tiers import code_of, parts_of, spec_of
 from physics.jit.workers import Task, Workers, short_turns, unhurried_imports
 
 WORKER = f"{__package__}.compile_worker"
-FIRST_STEPS = 0.2  # [s] of first steps to wait for: they show which kernels take the most time
-ALONE = 0.8  # [s] after which numba is imported here: no worker has compiled a kernel earlier
-LINK = 500  # bytes of code that cost as much as the fixed cost of compiling a kernel
-FEW = 2  # up to this number, kernels are compiled here: a worker takes about as long to start
-Progress = Callable[[int, int, str], Any]  # done, total, name of what comes next
+FIRST_STEPS = 0.2  # [s] wait before the first orders: the first steps show which kernels take the most time
+ALONE = 0.8  # [s] wait from the first orders to the import of numba: no worker has compiled a kernel earlier
+LINK = 500  # bytes of code whose compilation takes as long as the fixed part of compiling any kernel
+FEW = 2  # up to this number of kernels are compiled in this process: a worker takes about as long to start
+Progress = Callable[[int, int, str], Any]  # (done, total, name of a kernel)
 
 _running: "list[Background]" = []
 
@@ -32,11 +32,13 @@ def compile_in_background(workers: int | None = None) -> "Background":
     """Run kernels as plain Python until worker processes have compiled them.
 
     A kernel changes to its compiled form between two steps. Both forms give the same bits, so only the speed changes.
-    The kernels that take the most time per byte of code are compiled first. workers: number of processes; None: the
-    number of cores less one, but at least one. The processes start when a kernel is first called, as `python -m`, so a
-    script needs no `if __name__ == "__main__"`. A frozen program has no workers and compiles in a thread. Without numba
-    the call has no effect. Call it before the first step; another call returns the same object. Raises ValueError for a
-    negative number of workers.
+    The kernels that take the most time per byte of code are compiled first. workers: number of processes, at most 8;
+    None: one less than the number of cores, but at least one. The processes start when a kernel is first called, as
+    `python -m`, so a script needs no `if __name__ == "__main__"`. A frozen program has no workers and compiles in a
+    thread. Without numba the call has no effect.
+
+    Call it before the first step. Return the Background; another call returns the same object. Raises ValueError if
+    workers is neither None nor a whole number of at least 0.
     """
     if workers is not None and (not isinstance(workers, int) or isinstance(workers, bool) or workers < 0):
         raise ValueError(f"workers must be None or a whole number, at least 0 (got {workers!r})")
@@ -46,18 +48,21 @@ def compile_in_background(workers: int | None = None) -> "Background":
 
 
 class Background:
-    """The background compilation of this program's kernels: its progress and end. Made by compile_in_background()."""
+    """The background compilation of this program's kernels: its progress and its end.
+
+    Made by compile_in_background().
+    """
 
     def __init__(self, workers: int | None = None) -> None:
         self.workers = Workers(WORKER, workers)
         if workers is None:
             self.workers.limit = max(1, self.workers.count - 1)
         self.failed: list[str] = []  # names of kernels that stay plain
-        self._waiting: dict[str, list[tuple[Kernel, Keys]]] = {}  # name of a file -> kernels and types that run from it
+        self._waiting: dict[str, list[tuple[Kernel, Keys]]] = {}  # file name -> kernels and types that run from it
         self._ordered: set[str] = set()
         self._seen: set[tuple[Kernel, Keys]] = set()  # ordered or loaded
-        self._came: deque[tuple[Kernel, Keys]] = deque()  # compiled before the compiler was imported here
-        self._compiled: set[Kernel] = set()  # parts that are compiled: they cost a later kernel nothing
+        self._came: deque[tuple[Kernel, Keys]] = deque()  # compiled by workers before numba was imported here
+        self._compiled: set[Kernel] = set()  # compiled kernels and their parts: they cost later kernels nothing
         self._expected: deque[tuple[int, dict[str, Any]]] = deque()
         self._jobs = 0
         self._wake, self._stopped = threading.Event(), False
@@ -79,7 +84,9 @@ class Background:
     def expect(self, jobs: Iterable[Mapping[str, Any]]) -> None:
         """Announce that the kernels of physics.warmup(**job) will be called, for each job.
 
-        They are compiled, the first job first, whenever no kernel that has already been called waits for compilation.
+        A job holds values that JSON can represent; it must contain `effects` as a list of names (see Effects.names).
+        The kernels of the first job are compiled first, whenever no kernel that has already been called waits for
+        compilation.
         """
         for job in jobs:
             self._expected.append((self._jobs, dict(job)))
@@ -87,7 +94,7 @@ class Background:
         self._wake.set()
 
     def stop(self) -> None:
-        """End the worker processes. Compiled kernels stay; every other kernel is compiled at its next call."""
+        """End the worker processes. Compiled kernels remain; every other kernel is compiled at its next call."""
         self._stopped = True
         self._wake.set()
         self.workers.stop()
@@ -96,8 +103,8 @@ class Background:
             tiers.stop()
 
     def _work(self):
-        """Load called kernels from the store and have workers compile missing ones, until stop(). Runs in a thread."""
-        if store().empty and self.workers.alive:  # an empty store: the compiler is not needed here yet
+        """Load called kernels from the store and let workers compile missing ones, until stop(). Runs in a thread."""
+        if store().empty and self.workers.alive:  # nothing to load yet, so numba is not needed here
             self._wake.wait()
             if tiers.wanted:
                 sleep(FIRST_STEPS)
@@ -138,8 +145,9 @@ class Background:
         return True
 
     def _order_early(self, kernel, keys):
-        """Have a worker compile a kernel before numba is imported here, so that its file name in the store is not known
-        yet.
+        """Let a worker compile a kernel before numba is imported in this process.
+
+        Without numba, the name of the kernel's file in the store is not yet known here.
         """
         each = kernel, keys
         self._seen.add(each)
@@ -164,7 +172,7 @@ class Background:
                 self._load([self._came.popleft()])
 
     def _find(self, kernel, keys):
-        """Load a called kernel from the store, or have a worker compile it."""
+        """Load a called kernel from the store, or let a worker compile it."""
         from physics.jit import compiling
 
         if (kernel, keys) in self._seen:
@@ -173,7 +181,7 @@ class Background:
         name = compiling.name_of(kernel, keys)
         self._waiting.setdefault(name, []).append(
             (kernel, keys)
-        )  # before the store is read: a worker may finish it just now
+        )  # added before the store is read: a worker may finish the kernel during the read
         form = compiling.load(kernel, keys)
         if form is None and self.workers.alive:
             self._order(name, spec_of(kernel), keys, 0)
@@ -183,10 +191,10 @@ class Background:
                 self._take(*each, form)
 
     def _order(self, name, spec, keys, index):
-        """Have a worker compile a kernel: called kernels first, then the announced ones in the order of their jobs.
+        """Let a worker compile a kernel: called kernels first, then announced kernels in the order of their jobs.
 
-        Of the called kernels, the one with the most run time per byte of code to compile goes first (Smith's rule,
-        which minimises the sum of the waiting times: Smith 1956). index: number of the job.
+        Among the called kernels, the kernel with the most run time per byte of code to compile comes first (Smith's
+        rule, which minimises the sum of the waiting times: Smith 1956). index: number of the job.
         """
         if name in self._ordered:
             return
@@ -201,15 +209,16 @@ class Background:
                 self._arrive(name)
             elif self.workers.alive:
                 self._fail(name, self._waiting.pop(name, []))
-            else:  # no workers are left: the thread compiles it
+            else:  # no workers are left: the thread compiles the kernel
                 self._seen.difference_update(self._waiting.pop(name, []))
                 self._wake.set()
 
         self.workers.add([Task(("compile", spec, keys), urgency, done)])
 
     def _urgency(self, waiting):
-        """Return the priority of kernels that share one file: 1 + (seconds as plain Python) / (bytes of code still to
-        be compiled).
+        """Return the priority of the kernels that share one file.
+
+        It is 1 + (seconds as plain Python) / (bytes of code that are not yet compiled).
         """
         code = LINK + code_of(waiting[0][0], self._compiled)
         return 1.0 + sum(kernel.seconds for kernel, _ in waiting) / code
@@ -237,7 +246,7 @@ class Background:
         tiers.arrived.append((kernel, keys, form))
 
     def _list(self, index, job):
-        """Have the kernels of a job compiled, unless an earlier start of the program found all of them compiled."""
+        """Compile the kernels of a job with workers, unless an earlier start of the program compiled all of them."""
         mark = _mark(json.dumps(job, sort_keys=True))
         if store().has(mark) or not self.workers.alive:
             return
@@ -252,9 +261,7 @@ class Background:
 
 
 def _mark(job):
-    """Return the name of a file in the store: its presence says that all kernels of a job are compiled from these
-    sources.
-    """
+    """Return the name of a file in the store. It exists if all kernels of a job are compiled from these sources."""
     from physics.jit.content import environment
 
     digest = blake2b(f"{_sources()}{environment()}{job}".encode(), digest_size=20).hexdigest()
@@ -272,7 +279,7 @@ def _sources():
 def compile_ahead(found: Iterable[tuple[Kernel, Keys]], progress: Progress | None = None) -> None:
     """Compile kernels in worker processes on all cores, and load them.
 
-    found: pairs (kernel, types of its arguments), as tiers.collecting() gives them. progress(done, total, name) is
+    found: pairs (kernel, types of its arguments) as tiers.collecting() yields them. progress(done, total, name) is
     called once for each kernel, with the number of kernels done before it. A kernel that no worker can compile is
     compiled in this process.
     """
@@ -309,9 +316,10 @@ def compile_jobs(
 ) -> None:
     """Compile the kernels of physics.warmup(**job) for many jobs into the store, without loading them.
 
-    progress(done, total, name) counts kernels; `total` grows as workers find the kernels of each job. A job whose
-    kernels an earlier call compiled is skipped. processes: number of workers; None: one for each core. Raises
-    RuntimeError naming the kernels that could not be compiled.
+    jobs: see Background.expect. progress(done, total, name) is called after each compiled kernel and each job, and
+    counts kernels; `total` grows as workers find the kernels of each job. A job is skipped if an earlier call compiled
+    all of its kernels. processes: number of workers; None: one for each core. Raises RuntimeError naming kernels that
+    could not be compiled.
     """
     if not JIT or compiler() is None:
         return
@@ -359,10 +367,10 @@ def compile_jobs(
 
 
 def _spread(found):
-    """Return kernels in an order in which each adds the most code that no kernel before it contains.
+    """Return the kernels in an order in which each kernel adds the most code that no earlier kernel contains.
 
-    Workers that take kernels in this order compile different parts of the physics and seldom wait for one another: for
-    1 % of their time, against 14 % with the longest code first (the platformer, two cores).
+    Workers that take kernels in this order compile different parts of the physics and seldom wait for each other: 1 %
+    of their time, compared with 14 % if the kernel with the most code comes first (the platformer, two cores).
     """
     left, order, covered = list(found), [], set()
     while left:

@@ -1,4 +1,7 @@
-"""Body: a handle on one row of `world.bodies`. It holds an id and no state; a removed body's handle raises."""
+"""Body: a handle on one row of `world.bodies`. It holds an id and no state.
+
+Reading or changing a removed body raises KeyError.
+"""
 
 import math
 from typing import Any
@@ -23,14 +26,15 @@ from physics.world_state import Handle
 class Body(Handle):
     """A handle on one body of a world. Positions in px, angles in rad clockwise on the screen, velocities per second.
 
-    A setter raises TypeError or ValueError naming the argument, KeyError for a removed body, RuntimeError during a
-    step. The world is then unchanged.
+    A setter raises TypeError or ValueError, naming the argument, for a value that is not allowed. A setter or method
+    raises KeyError for a removed body and, if it changes the simulation, RuntimeError during a step. A setter that
+    raises leaves the world unchanged.
     """
 
     __slots__ = ()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Set an attribute. Raises AttributeError for an unknown one, naming the nearest."""
+        """Set an attribute. Raises AttributeError for an unknown name; the message suggests the most similar name."""
         try:
             object.__setattr__(self, name, value)
         except AttributeError:
@@ -42,7 +46,7 @@ class Body(Handle):
 
     @property
     def position(self) -> Vec2:
-        """The origin of the body [px]. Setting it teleports the body, as move_to does."""
+        """The origin of the body [px]. Setting it teleports the body in the same way as move_to."""
         return self._pair("x", "y")
 
     @position.setter
@@ -51,7 +55,7 @@ class Body(Handle):
 
     @property
     def angle(self) -> float:
-        """The angle of the body [rad]. Setting it rotates the body about its origin, as move_to does."""
+        """The angle of the body [rad]. Setting it rotates the body about its origin, in the same way as move_to."""
         return self._value("angle")
 
     @angle.setter
@@ -78,14 +82,17 @@ class Body(Handle):
         return Vec2(row["x"].item() + u, row["y"].item() + v)
 
     def to_local(self, point: Pair) -> Vec2:
-        """Return the point in body space [px] of a world point."""
+        """Return the point in body space [px] of a world point [px]."""
         row = self._row
         x, y = checks.vector("point", point)
         angle = row["angle"].item()
         return Vec2(*rotate(x - row["x"].item(), y - row["y"].item(), math.cos(angle), -math.sin(angle)))
 
     def move_to(self, position: Pair, angle: float | None = None) -> None:
-        """Teleport the body to a position [px] and an angle [rad]; nothing in between is swept."""
+        """Teleport the body to a position [px] and an angle [rad]. The path to the new pose is not swept.
+
+        angle: None leaves the angle unchanged.
+        """
         teleport.move_to(
             self.world,
             self.id,
@@ -96,9 +103,10 @@ class Body(Handle):
     def set_target(self, position: Pair, angle: float | None = None) -> None:
         """Move a kinematic body to a position [px] and an angle [rad] (None: unchanged) by the end of the next step.
 
-        The velocity follows from the length of that step; riders come along, and bodies in the way are pushed.
-        Afterwards the body stands still until a new target is set. Setting a velocity, or a teleport, before that step
-        cancels the target.
+        The velocity follows from the length of the next step. The body carries its riders and pushes other bodies on
+        its path. Afterwards the body stands still until a new target is set. Setting a velocity or teleporting the body
+        before the next step cancels the target. Raises ValueError for a body that is not kinematic, for a position too
+        far for the speed limit, and for a new angle without the effect rotation.
         """
         step.set_target(self.world, self.id, position, angle)
 
@@ -114,7 +122,10 @@ class Body(Handle):
 
     @property
     def velocity(self) -> Vec2:
-        """Velocity of the centre of mass [px/s]. Raises ValueError when set on a static body to other than 0."""
+        """Velocity of the centre of mass [px/s].
+
+        Setting it to a value other than 0 raises ValueError for a static body.
+        """
         return self._pair("vx", "vy")
 
     @velocity.setter
@@ -133,8 +144,8 @@ class Body(Handle):
     def angular_velocity(self) -> float:
         """Angular velocity [rad/s].
 
-        Raises ValueError when set to other than 0 without the rotation effect, on a static body, or on a body with a
-        TileGrid.
+        Setting it to a value other than 0 raises ValueError without the effect rotation, for a static body, and for a
+        body with a TileGrid.
         """
         return self._value("angular_velocity")
 
@@ -158,7 +169,7 @@ class Body(Handle):
 
     @property
     def mass(self) -> float:
-        """Mass; 0 for a body without mass."""
+        """Mass [density px²]. It is 0 if no mass was given and no shape has an area."""
         return self._value("mass")
 
     @property
@@ -184,7 +195,11 @@ class Body(Handle):
         )
 
     def apply_force(self, force: Pair, point: Pair | None = None) -> None:
-        """Add a force for the coming step, at the centre of mass or at a world point [px]."""
+        """Add a force for the next step, at the centre of mass or at a world point [px].
+
+        Raises ValueError for a body that is not dynamic, and in a world without the effects response, gravity, drag and
+        wind.
+        """
         self.world._unstepped()
         force = checks.vector("force", force)
         self.world._needs_velocities("apply_force")
@@ -200,7 +215,11 @@ class Body(Handle):
             ) * force[0]
 
     def apply_impulse(self, impulse: Pair, point: Pair | None = None) -> None:
-        """Change the velocity by impulse / mass, at a point [px] off the centre the angular velocity, too."""
+        """Add an impulse at the centre of mass or at a world point [px]: the velocity changes by impulse / mass.
+
+        With the effect rotation, an impulse at a point also changes the angular velocity. Raises ValueError for a body
+        that is not dynamic.
+        """
         self.world._unstepped()
         impulse = checks.vector("impulse", impulse)
         point = None if point is None else checks.vector("point", point)
@@ -218,7 +237,10 @@ class Body(Handle):
             )
 
     def apply_torque(self, torque: float) -> None:
-        """Add a torque for the coming step. Raises ValueError without the rotation effect."""
+        """Add a torque for the next step.
+
+        Raises ValueError without the effect rotation, and for a body that is not dynamic.
+        """
         self.world._unstepped()
         torque = checks.number("torque", torque)
         self.world._needs("rotation", "apply_torque", True)
@@ -227,7 +249,7 @@ class Body(Handle):
         columns["torque"][row] += torque
 
     def _dynamic(self, what) -> tuple[int, dict[str, Any]]:
-        """Return the row number and the columns of a dynamic body. Raises ValueError."""
+        """Return the row number and the columns of a dynamic body. Raises ValueError for a body of another kind."""
         row, columns = self._world._row_at(self._id), self._world._bodies.columns
         if columns["kind"][row] != DYNAMIC:
             raise ValueError(f"{what} needs a dynamic body; body {self.id} is {self.kind}")
@@ -237,7 +259,10 @@ class Body(Handle):
 
     @property
     def contacts(self) -> np.ndarray:
-        """A copy of the CONTACT_POINT rows that name this body, of the last step or asleep, in order of shape ids."""
+        """A copy of the CONTACT_POINT rows that name this body, in the order of shape ids.
+
+        It contains the contacts of the last step and the contacts of sleeping bodies.
+        """
         world, row = self.world, self._row
         told = world.contacts
         told = told[(told["body_a"] == self.id) | (told["body_b"] == self.id)]
@@ -246,16 +271,17 @@ class Body(Handle):
         return both[np.lexsort((both["shape_b"], both["shape_a"]))]
 
     def carve(self, shape: Shape, pose: Pose, crumb: int = 4) -> Carved:
-        """Remove the pixels of the body's masks whose centres lie inside a shape at a world pose, its boundary
-        included.
+        """Remove the pixels of the body's masks whose centres lie inside a shape at a world pose, or on its boundary.
 
-        shape: a Circle, Capsule, Polygon or PixelMask. pose: (x, y) or (x, y, angle). Pieces are 8-connected. A dynamic
-        body keeps the largest piece, and of equal pieces the one with the first pixel. Of a body of another kind,
-        pieces that were apart before stay, and of a piece that splits the largest part stays. The other pieces become
-        dynamic bodies with the velocity that their pixels had. Pieces of fewer than `crumb` pixels are removed. A body
-        that loses all its mass is removed. Bodies that touch carved places wake.
+        shape: a Circle, Capsule, Polygon or PixelMask. pose: (x, y) or (x, y, angle). Pieces are 8-connected. In a
+        dynamic body, each carved mask keeps only its largest piece. In a body of another kind, pieces that were
+        separate before the cut stay, and a piece that splits keeps its largest part. On ties, the piece with the first
+        pixel stays. The other pieces become dynamic bodies; their pixels keep their velocities. Separated pieces of
+        fewer than `crumb` pixels are removed. The body is removed if no shape is left, or if it is dynamic and no mass
+        is left. Bodies that touch carved pixels wake.
 
-        Raises TypeError, ValueError (also without the effect carving), RuntimeError during a step.
+        Raises TypeError for an argument of another type, ValueError without the effect carving or for a body without a
+        PixelMask, and RuntimeError during a step.
         """
         self._must_exist()
         found = carving.carve(self.world, self.id, shape, pose, crumb)
@@ -268,13 +294,15 @@ class Body(Handle):
         sleep.disturb(self.world, [self.id])
 
     def set_kind(self, kind: str) -> None:
-        """Set the kind: static, kinematic or dynamic. A body that becomes static stops. Raises ValueError for a
-        character, which stays kinematic.
+        """Set the kind: static, kinematic or dynamic. A body that becomes static stops.
+
+        Raises ValueError for another kind, for shapes that a body of this kind cannot have, and for the body of a
+        character, which must stay kinematic.
         """
         edit.set_kind(self.world, self.id, checks.choice("kind", kind, KINDS))
 
     def restore(self) -> None:
-        """Return a quarantined body to the simulation, at its last finite pose and at rest."""
+        """Put a quarantined body back into the simulation, at rest at its last finite pose."""
         edit.restore(self.world, self.id)
 
     def remove(self) -> None:
@@ -290,7 +318,7 @@ class Body(Handle):
 
     @property
     def user(self) -> Any:
-        """A value of the game. It is not part of snapshots and digests."""
+        """A value that belongs to the game. Snapshots and digests do not contain it."""
         self._must_exist()
         return self._world._users.get(self._id)
 
@@ -299,11 +327,11 @@ class Body(Handle):
         self._must_exist()
         self.world._users[self.id] = value
 
-    # --- own values of its shapes -------------------------------------------------------------------------------
+    # --- default values of its shapes ----------------------------------------------------------------------------
 
     @property
     def material(self) -> Material:
-        """The material of the shapes that have none of their own. Setting it recomputes the mass."""
+        """The material of the shapes without a material of their own. Setting it recomputes the mass."""
         return edit.material_of(self.world, self.id)
 
     @material.setter
@@ -312,7 +340,7 @@ class Body(Handle):
 
     @property
     def filter(self) -> Filter:
-        """The filter of the shapes that have none of their own."""
+        """The filter of the shapes without a filter of their own."""
         return edit.filter_of(self.world, self.id)
 
     @filter.setter
@@ -321,7 +349,10 @@ class Body(Handle):
 
     @property
     def sensor(self) -> bool:
-        """Whether the shapes without an own value are sensors, which do not respond. They count in the mass."""
+        """Whether the shapes without a sensor value of their own are sensors: they report overlaps and do not push.
+
+        The mass of sensors counts. Setting True raises ValueError without the effect sensors.
+        """
         return self._definitions["sensor"].item()
 
     @sensor.setter
@@ -344,7 +375,7 @@ class Body(Handle):
 
     @property
     def allow_sleep(self) -> bool:
-        """Whether its island may sleep. A dynamic body with False wakes its island, and keeps it awake."""
+        """Whether the body's island may sleep. A dynamic body with False wakes its island and keeps it awake."""
         return self._value("allow_sleep")
 
     @allow_sleep.setter
@@ -357,7 +388,9 @@ class Body(Handle):
 
     @property
     def bullet(self) -> bool:
-        """Whether the body is swept against moving bodies, too. Raises ValueError for True without the effect
+        """Whether the body is also swept against other dynamic bodies.
+
+        A solver that does not stack sweeps all of these pairs. Setting True raises ValueError without the effect
         continuous.
         """
         return self._value("bullet")
@@ -370,7 +403,10 @@ class Body(Handle):
 
     @property
     def continuous(self) -> str:
-        """Continuous collision of the body: off, ray, swept, toi or auto."""
+        """Continuous collision of the body: off, ray, swept, toi or auto.
+
+        Setting ray, swept or toi raises ValueError without the effect continuous.
+        """
         return CONTINUOUS[self._value("continuous")]
 
     @continuous.setter
@@ -390,43 +426,44 @@ class Body(Handle):
 
     @property
     def shapes(self) -> tuple[Shape, ...]:
-        """The shapes as they were given; with a tier, the shapes that replace them."""
+        """The shapes that were given; with a tier, the shapes that replace them."""
         self._must_exist()
         return self.world._shapes_of[self.id]
 
     @property
     def shape_ids(self) -> tuple[int, ...]:
-        """Ids of the shapes, in the order of `shapes`."""
+        """The ids of the shapes, in the order of `shapes`."""
         return edit.shape_ids(self.world, self.id)
 
     def set_shapes(self, *shapes: Shape) -> None:
-        """Replace the shapes; the body's own values stay.
+        """Replace the shapes. The body keeps its own values, such as its material; a tier ends.
 
-        The new shapes get new ids, except masks that replace as many masks: their contacts continue.
+        The new shapes get new ids. But if the old shapes and as many new shapes are all masks, the ids stay. Contacts
+        on unchanged surface keep their impulses.
         """
         edit.set_shapes(self.world, self.id, shapes)
 
     def set_cells(self, cells: ArrayLike, solid: ArrayLike) -> None:
         """Make cells of the body's TileGrid solid or empty.
 
-        cells (n, 2) int (column, row); solid: a bool, or one for each cell. The shape keeps its id. Only bodies that
-        touch a changed cell wake, and no event begins or ends for the others. A one-way cell or a slope becomes solid
-        or empty, too. Raises TypeError, and ValueError for a cell outside of the grid, or for a body without a
-        TileGrid or with several.
+        cells (n, 2) int (column, row); solid: a bool, or one bool for each cell. A one-way cell or a slope also becomes
+        solid or empty. The shape keeps its id. Only bodies that touch a changed cell wake; for all other bodies, no
+        event begins or ends. Raises TypeError for values of other types, and ValueError for a cell outside the grid or
+        for a body that does not have exactly one TileGrid.
         """
         edit.exchange_cells(self.world, self.id, cells, solid)
 
     def add_shape(self, shape: Shape) -> int:
-        """Append a shape, recompute the mass, and return the id of the shape. A tier ends."""
+        """Append a shape, recompute the mass, and end a tier. Return the id of the shape."""
         return edit.add_shape(self.world, self.id, shape)
 
     def remove_shape(self, shape_id: int) -> None:
-        """Remove a shape and recompute the mass. A tier ends. Raises KeyError for an id that is not of this body."""
+        """Remove a shape, recompute the mass, and end a tier. Raises KeyError for an id of another body's shape."""
         edit.remove_shape(self.world, self.id, shape_id)
 
     @property
     def tier(self) -> str | None:
-        """The accuracy of its sprite: one of TIERS, or None for the shapes as given."""
+        """The accuracy of the shapes that replace the body's PixelMask: one of TIERS; None for the given shapes."""
         self._must_exist()
         return self.world._tiers.get(self.id)
 
@@ -441,7 +478,10 @@ class Body(Handle):
         return self.world._body_row(self.id)
 
     def _value(self, name: str) -> Any:
-        """Return a value of the row as a Python number, read from the column (a tenth of the time of the row)."""
+        """Return a value of the body's row as a Python number.
+
+        The value is read from its column, in a tenth of the time that reading the row takes.
+        """
         world = self._world
         return world._bodies.columns[name][world._row_at(self._id)]
 
@@ -452,7 +492,7 @@ class Body(Handle):
 
     @property
     def _definitions(self) -> np.void:
-        """The GIVEN row."""
+        """The body's BODY_DEF row."""
         return self.world._definitions.rows[self.world._row_number(self.id)]
 
     def _must_exist(self) -> None:
@@ -460,7 +500,7 @@ class Body(Handle):
         self._world._row_at(self._id)
 
     def _stir(self, row: int) -> int:
-        """Wake the body of a row number, start its sleep time anew, and return its row number."""
+        """Wake the body of a row number and set its sleep time to 0. Return its row number, which may have changed."""
         columns = self._world._bodies.columns
         if not columns["awake"][row]:
             row = sleep.disturb_one(self._world, self._id, row)

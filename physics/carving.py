@@ -1,4 +1,4 @@
-"""Carving: pixels of a body's masks are removed, and pieces that come loose become bodies."""
+"""Carving: pixels of a body's masks are removed, and pieces that are separated from the rest become bodies."""
 
 import math
 from typing import NamedTuple
@@ -21,16 +21,16 @@ from physics.world_state import WorldState
 class Carved(NamedTuple):
     """The result of Body.carve."""
 
-    removed: int  # pixels that the shape removed
-    fragments: tuple  # Bodies of the pieces that came loose, in the order of their first pixels
-    crumbs: int  # pixels of pieces that were too small and were removed
+    removed: int  # pixels that lay in the shape and were removed
+    fragments: tuple  # Bodies of the separated pieces, by mask, and for each mask by their first pixels
+    crumbs: int  # pixels of separated pieces that were too small and were removed
 
 
 def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: object) -> Carved:
-    """Remove the pixels of a body's masks whose centres lie inside a shape at a world pose, or on the boundary of the
-    shape.
+    """Remove the pixels of a body's masks whose centres lie inside a shape at a world pose, or on its boundary.
 
-    identity: id of the body. See Body.carve for the other arguments. Raises TypeError, ValueError.
+    identity: id of the body. The other arguments, the errors and the result are as in Body.carve, except that
+    `fragments` holds ids instead of Bodies.
     """
     world._unlocked()
     world._needs("carving", "carve", True)
@@ -66,10 +66,9 @@ def carve(world: WorldState, identity: int, shape: object, pose: object, crumb: 
 
 
 def _tool_in(mask, frame, shape, pose):
-    """Return (function that finds the pixels of a mask tile inside a shape, AABB of the shape [px] in the mask's
-    raster).
+    """Return (function that finds the pixels of a mask tile inside a shape, AABB of the shape [px]).
 
-    frame: pose of the mask's body. pose: pose of the shape.
+    The AABB is in the raster of the mask. frame: pose of the mask's body. pose: pose of the shape.
     """
     corners = shape.points if shape._is_convex else rectangle(*(shape.bounds or (0.0, 0.0, 0.0, 0.0)))
     radius = shape.radius if shape._is_convex else 0.0
@@ -85,18 +84,19 @@ def _tool_in(mask, frame, shape, pose):
 
 
 def _in_raster(mask, frame, x, y):
-    """Return a world point in pixels of a mask's raster. frame: pose of the mask's body."""
+    """Return the position of a world point in the raster of a mask [px]. frame: pose of the mask's body."""
     u, v = rotate(x - frame[0], y - frame[1], math.cos(frame[2]), -math.sin(frame[2]))
     return u + mask.origin[0], v + mask.origin[1]
 
 
 def _mask_tool(mask, frame, shape, pose) -> Tool:
-    """Return the function that finds the pixels of `mask` whose centres lie in solid pixels of the mask `shape` at a
-    pose.
+    """Return a function that finds the pixels of `mask` whose centres lie in solid pixels of the mask `shape`.
+
+    frame: pose of the body of `mask`. pose: pose of `shape`.
     """
     turn = frame[2] - pose[2]
     cosine, sine = math.cos(turn), math.sin(turn)
-    # The mask's raster corner in the world, and from there in the tool's raster.
+    # The corner of the mask's raster, first in the world, then in the tool's raster.
     u, v = rotate(-mask.origin[0], -mask.origin[1], math.cos(frame[2]), math.sin(frame[2]))
     x, y = _in_raster(shape, pose, frame[0] + u, frame[1] + v)
 
@@ -130,7 +130,7 @@ def _shrink(world: WorldState, identity: int, cuts: dict[int, Cut], given: "_Giv
     if given.share:
         left = weigh(world._shapes_of[identity], given.density, 0.0).mass
         edit.set_mass_of(world, identity, given.share * left)
-    # The remainder keeps its motion, about its new centre of mass.
+    # The motion of the remaining pixels is unchanged; its velocity refers to the new centre of mass.
     row = world._body_row(identity)
     row["vx"] -= given.spin * (row["center_y"].item() - given.center[1])
     row["vy"] += given.spin * (row["center_x"].item() - given.center[0])
@@ -142,7 +142,7 @@ class _Given(NamedTuple):
     center: tuple[float, float]
     velocity: tuple[float, float]
     spin: float
-    share: float  # ratio of a given mass to the mass by densities; 0 without a given mass
+    share: float  # given mass / mass from the densities; 0 if no mass was given
     density: float
 
 
@@ -156,7 +156,7 @@ def _motion_and_weight(world, identity) -> _Given:
 
 
 def _values_of(world, identity) -> edit.BodyDef:
-    """Return the definition of a fragment's body with all that it inherits from the carved body, except its mass."""
+    """Return the BodyDef of a fragment: all values that it inherits from the carved body, except the mass."""
     row, given = world._body_row(identity), world._definitions.rows[world._row_number(identity)]
     return edit.BodyDef(
         angular_velocity=row["angular_velocity"].item(),
@@ -172,8 +172,9 @@ def _values_of(world, identity) -> edit.BodyDef:
 
 
 def _add_fragment(world, mask: PixelMask, loose: Loose, frame, given: _Given, wanted: edit.BodyDef) -> int:
-    """Add a body for a loose piece of a mask, whose pixels keep their places and velocity. Return the body's id."""
-    # The origin lies on the mask's grid, near the middle of the piece: its pixels stay on whole pixels.
+    """Add a body for a loose piece of a mask. Its pixels keep their positions and velocities. Return the body's id."""
+    # The origin of the fragment is a corner of the mask's pixel grid near the middle of the piece, so that its pixels
+    # stay on whole pixels.
     height, width = loose.solid.shape
     shift_x = loose.left + width // 2 - math.floor(mask.origin[0])
     shift_y = loose.top + height // 2 - math.floor(mask.origin[1])

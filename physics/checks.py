@@ -1,4 +1,4 @@
-"""Checks of arguments. Every message names the argument, its value and the values that are allowed."""
+"""Checks of arguments. Each message names the argument, its value and the allowed values."""
 
 import difflib
 import math
@@ -16,8 +16,8 @@ Pair = Sequence[float] | np.ndarray  # (x, y)
 Pose = Sequence[float] | np.ndarray  # (x, y, angle), or (x, y) at angle 0
 Points = Sequence[Pair] | np.ndarray  # (n, 2)
 
-PLAIN_PAIRS, PLAIN = (tuple, Vec2, list), (float, int)  # types that need no closer look
-EXACT = 2**53  # whole numbers below it are floats, too
+PLAIN_PAIRS, PLAIN = (tuple, Vec2, list), (float, int)  # types that need no further checks
+EXACT = 2**53  # all whole numbers below it have an exact float
 
 NEAR_NAME = 0.7  # difflib similarity from which a name counts as a misspelling of another
 LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
@@ -26,9 +26,10 @@ LONGEST_SHOWN = 200  # [characters] of a wrong value in a message
 def number(
     name: str, value: Any, low: float | None = None, above: float | None = None, high: float | None = None
 ) -> float:
-    """Return a value as a finite float that is >= low, > above and <= high, as far as these limits are given.
+    """Return a value as a finite float that is >= low, > above and <= high. None: no such limit.
 
-    name: name of the argument, for messages. Raises TypeError or ValueError.
+    name: the argument's name for messages. Raises TypeError for a value that is not a real number or is a bool, and
+    ValueError for a number outside the limits.
     """
     if type(value) is float and value - value == 0.0 and low is above is high is None:
         return value
@@ -56,7 +57,7 @@ def number(
 
 
 def known_attribute(thing: Any, name: str, strict: bool) -> None:
-    """Raise AttributeError for a missing attribute if its name resembles an existing one, which the message names.
+    """Raise AttributeError if the name of a missing attribute resembles an existing name, which the message suggests.
 
     strict: raise the error also if no existing name is similar.
     """
@@ -68,20 +69,23 @@ def known_attribute(thing: Any, name: str, strict: bool) -> None:
 
 
 class NoSuchId(KeyError, ValueError):
-    """Error for an id that no body or shape has; both a KeyError and a ValueError."""
+    """Error for an id that no body or shape has. It is both a KeyError and a ValueError."""
 
     def __str__(self) -> str:
-        return str(self.args[0])  # a KeyError would show the quotes of its message
+        return str(self.args[0])  # str() of a KeyError puts its message in quotes
 
 
 def shown(value: Any) -> str:
-    """Return a value as text for an error message: whole if it is short, otherwise its beginning and its length."""
+    """Return a value as text for an error message. A long text is cut, and its length is added."""
     text = repr(value)
     return text if len(text) <= LONGEST_SHOWN else f"{text[:LONGEST_SHOWN]}… ({len(text)} characters)"
 
 
 def vector(name: str, value: Any) -> Vec2:
-    """Return a pair of numbers as a Vec2 of finite floats. Raises TypeError or ValueError."""
+    """Return a pair of numbers as a Vec2 of finite floats.
+
+    Raises TypeError for a value that is not a pair of numbers, and ValueError for a number that is not finite.
+    """
     if type(value) in PLAIN_PAIRS and len(value) == 2:
         x, y = value
         if type(x) is type(y) is float or (type(x) in PLAIN and type(y) in PLAIN and max(abs(x), abs(y)) < EXACT):
@@ -100,10 +104,10 @@ def vector(name: str, value: Any) -> Vec2:
 
 
 def position(name: str, value: Any) -> Vec2:
-    """Return a pair of numbers as a Vec2 whose coordinates are within POSITION_LIMIT: a double still resolves a pixel
-    there.
+    """Return a pair of numbers as a Vec2 whose coordinates are within POSITION_LIMIT.
 
-    Raises TypeError or ValueError.
+    A double still resolves a pixel there. Raises TypeError for a value that is not a pair of numbers, and ValueError
+    for a coordinate at or beyond the limit.
     """
     found = vector(name, value)
     if max(abs(found[0]), abs(found[1])) >= POSITION_LIMIT:
@@ -112,8 +116,9 @@ def position(name: str, value: Any) -> Vec2:
 
 
 def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
-    """Return ids as a flat int64 array. Raises TypeError or ValueError, also for a repeated id unless `repeats` is
-    True.
+    """Return ids as a flat int64 array.
+
+    Raises TypeError for values that are not whole numbers, and ValueError for a repeated id unless `repeats` is True.
     """
     array = np.asarray(value)
     if array.size and array.dtype.kind not in "iu":
@@ -125,7 +130,11 @@ def ids(name: str, value: Any, repeats: bool = False) -> np.ndarray:
 
 
 def whole(name: str, value: Any, low: int, high: int) -> int:
-    """Return a value as an int from low to high, both allowed. Raises TypeError or ValueError."""
+    """Return a value as an int from low to high, inclusive.
+
+    Raises TypeError for a value that is not a whole number or is a bool, and ValueError for a number outside the
+    limits.
+    """
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
         raise TypeError(f"{name} must be a whole number (got {shown(value)})")
     value = int(value)
@@ -142,8 +151,9 @@ def flag(name: str, value: Any) -> bool:
 
 
 def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
-    """Return the value if it is one of the allowed strings. Raises ValueError, and TypeError for a value that is no
-    string.
+    """Return the value if it is one of the allowed strings.
+
+    Raises TypeError for a value that is not a string, and ValueError for another string.
     """
     if not isinstance(value, str):
         raise TypeError(f"{name} must be one of {', '.join(allowed)} (got {shown(value)})")
@@ -153,9 +163,10 @@ def choice(name: str, value: Any, allowed: Sequence[str]) -> str:
 
 
 def columns(name: str, value: Any, count: int | None = None, width: int = 2, like: str = "positions") -> np.ndarray:
-    """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All must be finite.
+    """Return numbers as a C-ordered float64 copy of shape (n, width), or (n,) for width 1. All numbers must be finite.
 
-    count: required n, the number of rows of the argument `like`; None: any. Raises TypeError or ValueError.
+    count: required n, which is the number of rows of the argument named `like`; None: any n. Raises TypeError for a
+    value that is not an array of numbers, and ValueError for another shape or a number that is not finite.
     """
     try:
         array = np.array(value)
@@ -179,7 +190,11 @@ def columns(name: str, value: Any, count: int | None = None, width: int = 2, lik
 
 
 def pose(name: str, value: Any) -> tuple[float, float, float]:
-    """Return (x, y, angle) as floats; an omitted angle is 0. Raises TypeError or ValueError."""
+    """Return (x, y, angle) as floats. An omitted angle is 0.
+
+    Raises TypeError for a value that is not a pose, and ValueError for a number that is not finite or a position beyond
+    POSITION_LIMIT.
+    """
     try:
         x, y, angle = value if len(value) == 3 else (*value, 0.0)
     except (TypeError, ValueError):

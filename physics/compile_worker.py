@@ -1,9 +1,10 @@
 """Worker process `python -m physics.compile_worker`: compiles kernels for another process.
 
-Each line on standard input is an order, each line on standard output the answer to one. ("compile", spec, keys)
-compiles one kernel and stores it (physics/jit/store.py); the answer is its name in the store. ("list", arguments of
-physics.warmup) runs that warm-up as plain Python; the answer is (name, spec, keys) of each kernel it called that is not
-in the store. The answer is None if an order fails. The process ends when its standard input ends.
+Each line on standard input is an order; each line on standard output is the answer to one order. The order ("compile",
+spec, keys) compiles one kernel and stores it (physics/jit/store.py); the answer is the kernel's name in the store. The
+order ("list", arguments of physics.warmup) runs this warm-up as plain Python; the answer is a list of (name, spec,
+keys) for the kernels that the warm-up calls and that are not in the store. The answer to an order that fails is None.
+The process ends when its standard input ends.
 """
 
 import contextlib
@@ -14,11 +15,11 @@ import threading
 import traceback
 from typing import Any
 
-NICE = 10  # of the system's 0 to 19: the program goes first
+NICE = 10  # niceness from 0 to 19: the program has priority over this process
 
 
 def answer(order: tuple) -> Any:
-    """Run one order and return its answer, as the module describes."""
+    """Run one order and return its answer. The docstring of the module describes both."""
     from physics.effects import Effects
     from physics.jit import compiling, tiers
     from physics.warmup import run_warmup
@@ -33,7 +34,7 @@ def answer(order: tuple) -> Any:
 
 
 def main() -> None:
-    """Answer orders until standard input ends, then exit at once."""
+    """Answer orders until standard input ends, then end the process immediately, even during an order."""
     from physics.jit.workers import decoded, encoded
 
     with contextlib.suppress(OSError, AttributeError):
@@ -51,7 +52,7 @@ def main() -> None:
         order = decoded(orders.get())
         try:
             found = answer(order)
-        except Exception:  # answered by None: the program runs this kernel plain, and the next order may succeed
+        except Exception:  # the answer is None: the program runs this kernel plain, and the next order may succeed
             traceback.print_exc()
             found = None
         answers.write(encoded(found) + "\n")

@@ -1,4 +1,7 @@
-"""The inner state of a World as arrays in world pixels, for debug drawing. Functions only read."""
+"""The inner state of a World as arrays in world pixels, for debug drawing.
+
+The functions do not change the simulation.
+"""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -32,24 +35,24 @@ class Structure(NamedTuple):
     """The data structure of a broad phase, for drawing: boxes of grid cells or tree nodes, or intervals on two axes."""
 
     kind: str  # brute, sweep, hash, tree
-    rects: np.ndarray  # (m, 4) min_x min_y max_x max_y
+    rects: np.ndarray  # (m, 4) min_x, min_y, max_x, max_y [px]
     depth: np.ndarray  # (m,) level of a grid cell, or depth of a tree node
     intervals: np.ndarray  # (k, 4) axis, low, high, shape id
 
 
 EDGE = np.dtype(
     [
-        ("row", np.int64),  # of the part in world.shapes
-        ("ax", np.float64),  # [px] from here to b, clockwise; a rounded part's real edge lies radius outside
+        ("row", np.int64),  # row of the part in world.shapes
+        ("ax", np.float64),  # [px] start of the edge, clockwise to b; a rounded surface lies `radius` outside
         ("ay", np.float64),
         ("bx", np.float64),
         ("by", np.float64),
         ("radius", np.float64),
-        ("inner", np.bool_),  # lies inside the outline: nothing is pushed out through it
+        ("inner", np.bool_),  # lies inside the outline: no body is pushed out through this edge
         ("covered", np.bool_),  # its start is a corner that lies inside the outline
     ]
 )
-CORNERS = 16  # bits of SHAPE's inner: edges below, corners from here on
+CORNERS = 16  # bits of `inner` in SHAPE: edges below bit 16, corners from bit 16 on
 
 
 def bounds(world: World) -> np.ndarray:
@@ -59,7 +62,10 @@ def bounds(world: World) -> np.ndarray:
 
 
 def shape_rows(world: World) -> np.ndarray:
-    """Return one ROW per shape, in the order of shape ids: shape id, body id, kind of body, filter, sensor, awake."""
+    """Return one ROW per shape, in the order of shape ids.
+
+    A ROW holds shape id, body id, kind of the body, filter, sensor, awake.
+    """
     shapes = world.shapes
     rows = np.zeros(len(shapes), ROW)
     rows["shape"], rows["body"] = shapes["id"], shapes["body"]
@@ -69,14 +75,14 @@ def shape_rows(world: World) -> np.ndarray:
 
 
 def motion(world: World) -> np.ndarray:
-    """Return the swept AABBs (n, 4) of the last step, for shapes of bodies that are not static."""
+    """Return the swept AABBs (n, 4) of the last step, for the shapes of bodies that are not static."""
     proxies = world.pairs.proxies
     rows = proxies[(proxies["row"] >= 0) & ~proxies["still"]]
     return np.stack([rows[name] for name in ("lower_x", "lower_y", "upper_x", "upper_y")], axis=1)
 
 
 def structure(world: World) -> Structure:
-    """Return the data structure that the broad phase keeps from step to step."""
+    """Return the data structure that the broad phase keeps between steps."""
     strategy = world.broadphase
     rects, depth, intervals = np.zeros((0, 4)), np.zeros(0, int), np.zeros((0, 4))
     if isinstance(strategy, SpatialHashGrid):
@@ -84,9 +90,9 @@ def structure(world: World) -> Structure:
     elif isinstance(strategy, DynamicTree):
         rects, depth = strategy.boxes()
     elif isinstance(strategy, SweepAndPrune):
-        # One axis is sorted; along the other the same boxes are tested: both are shown.
+        # Intervals on both axes: the boxes are sorted along one axis and tested along the other axis.
         axis = strategy.sorted[0]
-        # By slot: the rows that proxies know are those of the last step.
+        # Find shapes by slot: the shape rows in proxies are rows of the last step.
         owner = np.full(len(world.pairs.proxies), -1)
         active = world.shapes["proxy"] >= 0
         owner[world.shapes["proxy"][active]] = world.shapes["id"][active]
@@ -103,7 +109,10 @@ def structure(world: World) -> Structure:
 
 
 def pairs(world: World) -> np.ndarray:
-    """Return (m, 5) x0 y0 x1 y1 hit of every candidate pair: the centres of both AABBs; hit is 1 for a contact or 0."""
+    """Return one row (x0, y0, x1, y1, hit) for each candidate pair, (m, 5).
+
+    x0, y0, x1, y1 [px]: the centres of the two AABBs. hit: 1 if the pair has a contact, otherwise 0.
+    """
     boxes = bounds(world)
     rows = _candidate_rows(world)
     centers = (boxes[:, :2] + boxes[:, 2:]) / 2.0
@@ -115,7 +124,7 @@ def pairs(world: World) -> np.ndarray:
 
 
 def _candidate_rows(world):
-    """Return the shape rows (m, 2) of the last step's candidate pairs, without pairs of which a shape was removed."""
+    """Return the shape rows (m, 2) of the last step's candidate pairs. Pairs with a removed shape are omitted."""
     ids = world.pairs.ids(world.shapes)
     known = np.ascontiguousarray(world.shapes["id"])
     if not len(ids) or not len(known):
@@ -125,11 +134,11 @@ def _candidate_rows(world):
 
 
 def outlines(world: World, rows: Sequence[int] | np.ndarray | None = None) -> list:
-    """Return one tuple for each shape that describes its outline in world pixels. rows: shape rows, None: all shapes.
+    """Return one tuple for each shape that describes its outline in world pixels.
 
-    By kind, with corners as arrays: ("circle", x, y, r), ("polygon", (k, 2)), ("rounded", (k, 2), r), ("capsule", ax,
-    ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)) whose last corner repeats the first in a loop, ("mask", shape
-    id) or ("tiles", shape id).
+    rows: rows of world.shapes, None: all shapes. The tuple by kind, with corners as arrays: ("circle", x, y, r),
+    ("polygon", (k, 2)), ("rounded", (k, 2), r), ("capsule", ax, ay, bx, by, r), ("segment", (2, 2)), ("chain", (k, 2)),
+    ("mask", shape id) or ("tiles", shape id). The last corner of a closed chain repeats its first corner.
     """
     shapes = world.shapes if rows is None else world.shapes[rows]
     bodies, boxes = world.bodies[shapes["body_row"]], bounds(world)[slice(None) if rows is None else rows]
@@ -171,9 +180,10 @@ def _line(shape, kind, points):
 
 
 def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
-    """Return EDGE rows: the edges of the polygons that the outlines of masks consist of.
+    """Return the edges of the convex polygons in the outlines of masks, as EDGE rows.
 
-    rows: rows of world.shapes, None: all. Parts of outlines that are circles or capsules have no edges; see outlines().
+    rows: rows of world.shapes, None: all shapes. Parts of outlines that are circles or capsules have no edges; see
+    outlines().
     """
     shapes = world.shapes
     if rows is None:
@@ -201,16 +211,16 @@ def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:
 
 
 class Drawn(NamedTuple):
-    """Masks as they are drawn, at their poses. Masks with equal pixels share one array."""
+    """Masks rasterised at their poses. Masks with equal pixels share one array."""
 
-    solids: list  # of bool arrays [row, col]
-    which: np.ndarray  # (n,) index of each mask's pixels in solids
+    solids: list  # bool arrays [row, column]
+    which: np.ndarray  # (n,) index in solids of the pixels of each mask
     left: np.ndarray  # (n,) [px]
     top: np.ndarray  # (n,) [px]
 
 
 def masks(world: World) -> list:
-    """Return (shape id, left, top, solid[row, col]) of every mask as it is drawn."""
+    """Return (shape id, left, top, solid[row, column]) of each mask, rasterised at its present pose."""
     ids = world.shapes["id"][world.shapes["kind"] == MASK].tolist()
     found = drawn_masks(world)
     return [
@@ -220,13 +230,19 @@ def masks(world: World) -> list:
 
 
 def drawn_masks(world: World) -> Drawn:
-    """Return all masks as they are drawn, as arrays instead of a list. The cost hardly grows with their number."""
+    """Return all masks, rasterised at their present poses, in arrays.
+
+    The cost grows little with the number of masks.
+    """
     world.queries.refresh(world)
     return _drawn(world, np.flatnonzero(world.shapes["kind"] == MASK))
 
 
 def _drawn(world, rows):
-    """Return the masks in these shape rows as they are drawn. Rasters that a step does not need are drawn first."""
+    """Return the masks of these shape rows, rasterised at their present poses.
+
+    Rasters that no step needs are drawn first.
+    """
     draw_pictures(world.library, rows, world.bodies, world.shapes)
     shapes, library = world.shapes[rows], world.library
     raster_of = library.raster_of[: len(library.masks)].ravel()
@@ -241,8 +257,9 @@ def _drawn(world, rows):
 
 
 def mask_hits(world: World) -> list:
-    """Return (left, top, shared[row, col]) for every candidate pair of masks that overlap now. shared: the common
-    pixels.
+    """Return (left, top, shared[row, column]) for each candidate pair of masks that overlap now.
+
+    shared: bool, the pixels that both masks contain. left, top [px]: position of `shared` in the world.
     """
     found = []
     rows = _candidate_rows(world)
@@ -276,10 +293,10 @@ SPECULATIVE, NEW, PERSISTED, SENSOR, ASLEEP = range(5)
 
 
 def contact_points(world: World) -> np.ndarray:
-    """Return POINT rows of all contacts of the last step, speculative and sleeping ones included.
+    """Return the POINT rows of all contacts of the last step, also of speculative and sleeping contacts.
 
-    state: SPECULATIVE NEW PERSISTED SENSOR ASLEEP. color: colour of the contact in the solver's graph colouring, -1:
-    none.
+    state: SPECULATIVE, NEW, PERSISTED, SENSOR or ASLEEP. color: the contact's colour in the solver's graph colouring;
+    -1: no colour.
     """
     found, sensed = world.contact_rows, world.sensed
     if sensed is None:
@@ -293,7 +310,7 @@ def contact_points(world: World) -> np.ndarray:
 
 
 def _points(world, contacts, state):
-    """Return POINT rows of CONTACT rows. state: state of all the points; None: find it for each point."""
+    """Return the POINT rows of CONTACT rows. state: state of all points; None: find the state of each point."""
     reported = contacts_of(contacts)
     points = np.zeros(len(reported), POINT)
     for name in set(reported.dtype.fields or ()) & set(POINT.fields or ()):
@@ -302,7 +319,7 @@ def _points(world, contacts, state):
     if state is not None:
         points["state"] = state
         return points
-    of = np.repeat(np.arange(len(contacts)), contacts["count"])  # the contact of each point
+    of = np.repeat(np.arange(len(contacts)), contacts["count"])  # index of each point's contact
     second = np.concatenate([[False], of[1:] == of[:-1]]) if len(of) else np.zeros(0, bool)
     if world.stacks:
         points["color"] = contacts["color"][of]
@@ -310,7 +327,7 @@ def _points(world, contacts, state):
     persisted = np.where(second, contacts["persisted_2"][of], contacts["persisted_1"][of])
     points["state"] = np.where(persisted, PERSISTED, np.where(acting, NEW, SPECULATIVE))
     points["state"][~acting & (points["separation"] > world.tolerances.slop)] = SPECULATIVE
-    if not world.stacks:  # contacts do not know the step before, but the begin events tell which pairs are new
+    if not world.stacks:  # contacts have no data of the previous step, but the begin events show which pairs are new
         begun = world.events.begin
         old = ~np.isin(points["shape_a"] << 32 | points["shape_b"], begun["shape_a"] << 32 | begun["shape_b"])
         points["state"][old & (points["state"] == NEW)] = PERSISTED
@@ -318,7 +335,7 @@ def _points(world, contacts, state):
 
 
 def islands(world: World) -> np.ndarray:
-    """Return for every body (n,) the lowest body id of its island, which names the island; -1 without an island."""
+    """Return (n,) for each body the lowest body id in its island, which names the island; -1 without an island."""
     bodies = world.bodies
     return np.where(
         (bodies["kind"] == DYNAMIC) & ~bodies["quarantined"] & (bodies["island"] >= 0), bodies["island"], -1
@@ -331,9 +348,9 @@ GHOST = np.dtype(
 
 
 def impact_ghosts(world: World) -> np.ndarray:
-    """Return GHOST rows of the bodies that continuous collision stopped in the last step.
+    """Return the GHOST rows of the bodies that continuous collision stopped in the last step.
 
-    A row holds the pose that the body would have reached, and the fraction of its motion at which it was stopped.
+    A row holds the pose that the body would have reached and the fraction of its motion at which it was stopped.
     """
     rows = world.ghosts
     if rows is None or not len(rows):

@@ -1,4 +1,4 @@
-"""Effects: the features of the physics that a scene declares. A step runs only the stages that they need."""
+"""Effects: the features of the physics that a scene declares. A step runs only the stages that these effects need."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass, fields, replace
@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields, replace
 from physics import checks
 
 NEEDS_RESPONSE = ("friction", "restitution", "stacking", "one_way", "conveyor", "joints")
-NEEDS = {name: ("response",) for name in NEEDS_RESPONSE}  # foundations
+NEEDS = {name: ("response",) for name in NEEDS_RESPONSE}  # needed effects
 NEEDS |= {name: ("response", "stacking") for name in ("sleeping", "joints")}
 
 
@@ -14,8 +14,8 @@ NEEDS |= {name: ("response", "stacking") for name in ("sleeping", "joints")}
 class Effects:
     """The features of the physics that a scene declares. All are off by default except `narrowphase`.
 
-    Without `narrowphase` the collision test stops at AABBs. Raises TypeError for a value that is not a bool, ValueError
-    for an effect that is on while an effect that it needs is off.
+    Without `narrowphase` the collision test stops at AABBs. Raises TypeError for a value that is not a bool, and
+    ValueError if an effect is on and an effect that it needs is off.
     """
 
     narrowphase: bool = True
@@ -51,7 +51,7 @@ class Effects:
 
     @classmethod
     def detection(cls) -> "Effects":
-        """Return the effects of pure detection: contacts are found and reported, nothing is pushed."""
+        """Return the effects of pure detection: contacts are found and reported, and no body is pushed."""
         return cls()
 
     @classmethod
@@ -71,15 +71,19 @@ class Effects:
 
     @classmethod
     def named(cls, names: Iterable[str]) -> "Effects":
-        """Return the Effects in which exactly the named effects are on. It reverses names(): an unnamed narrowphase is
-        off.
+        """Return the Effects in which exactly the named effects are on; also `narrowphase` must be named to be on.
 
-        Raises TypeError for an unknown effect, ValueError for an effect without the effect that it needs.
+        This reverses names(). Raises TypeError for an unknown effect, and ValueError for an effect without an effect
+        that it needs.
         """
         return cls(narrowphase=False).with_(**dict.fromkeys(names, True))
 
     def with_(self, **changes: bool) -> "Effects":
-        """Return a copy with the given effects changed: with_(gravity=True). Raises TypeError for an unknown effect."""
+        """Return a copy with the given effects changed: with_(gravity=True).
+
+        Raises TypeError for an unknown effect or a value that is not a bool, and ValueError if an effect is then on
+        without an effect that it needs.
+        """
         unknown = set(changes) - {field.name for field in fields(self)}
         if unknown:
             raise TypeError(
@@ -88,13 +92,17 @@ class Effects:
         return replace(self, **changes)
 
     def without(self, name: str) -> "Effects":
-        """Return a copy with an effect off, and with it all effects that need it. Raises TypeError for an unknown
-        effect.
+        """Return a copy in which an effect and all effects that need it are off.
+
+        Raises TypeError for an unknown effect.
         """
         return self.with_(**{name: False}, **{each: False for each in self.names() if name in NEEDS.get(each, ())})
 
     def and_needed(self, name: str) -> "Effects":
-        """Return a copy in which all effects that the named one needs are on. The named effect itself is unchanged."""
+        """Return a copy in which all effects that the named effect needs are on.
+
+        The named effect itself is unchanged.
+        """
         return self.with_(**dict.fromkeys(NEEDS.get(name, ()), True))
 
     def names(self) -> list[str]:

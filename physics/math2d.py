@@ -1,4 +1,4 @@
-"""Scalar vector maths of kernels, and Vec2, a point or vector of the API."""
+"""Scalar vector maths for kernels, and Vec2, a point or vector of the API."""
 
 import math
 import numbers
@@ -10,17 +10,17 @@ import numpy as np
 from physics.jit import inlined, subkernel
 
 # ---- math2d ----------------------------------------------------------------------------------------------------------
-# Scalar vector maths used by kernels. Scalars in, tuples out: a two-element array would allocate.
+# Scalar vector maths for kernels. Arguments are scalars and results are tuples, because arrays would be allocated.
 
-RIGHT = 2.0 * 2.0**-52  # relative error of an angle: of the number nearest to a quarter turn, or of a sum of two
+RIGHT = 2.0 * 2.0**-52  # relative error of an angle: a rounded quarter turn, or a sum of two
 
-SMALL = 2.0**-6  # [rad] the next term is 2 ** -66 of the sum there
+SMALL = 2.0**-6  # [rad] limit of the power series: there the first omitted term is 2 ** -66 of the sum
 
 
 @subkernel
 def unit(x, y, fallback_x, fallback_y):
-    """Return the vector at length one, or the fallback for the zero vector."""
-    # Scaled first, so that neither tiny nor huge vectors under- or overflow when squared.
+    """Return the vector scaled to length 1, or the fallback vector for the zero vector."""
+    # Scaled first: the squares of tiny vectors would underflow, and the squares of huge vectors overflow.
     largest = max(abs(x), abs(y))
     if largest == 0.0:
         return fallback_x, fallback_y
@@ -53,10 +53,10 @@ def rotate(x, y, cosine, sine):
 
 @inlined
 def rotation_of(angle):
-    """Return cosine and sine of an angle [rad].
+    """Return the cosine and the sine of an angle [rad].
 
-    A small angle, such as the rotation of one substep, takes as many terms of the series as determine the last digit: 6
-    % faster than the library's (all substeps of 1,035 boxes).
+    A small angle, such as the rotation of one substep, uses the terms of the power series that determine the last
+    digit: 6 % faster than the library functions (all substeps of 1,035 boxes).
     """
     if abs(angle) < SMALL:
         square = angle * angle
@@ -68,9 +68,10 @@ def rotation_of(angle):
 
 @subkernel
 def cosine_and_sine(angle, greatest):
-    """Return cosine and sine of an angle [rad], exactly 0 and 1 or -1 at the numbers nearest to quarter turns.
+    """Return the cosine and the sine of an angle [rad].
 
-    greatest [rad]: the greatest of the angles from which it was subtracted, which sets its precision.
+    Near a multiple of a quarter turn they are exactly 0 and 1 or -1. Near means within the rounding error of the angle.
+    greatest [rad]: the largest of the angles whose difference `angle` is; it determines this error.
     """
     cosine, sine = math.cos(angle), math.sin(angle)
     off = RIGHT * max(1.0, abs(greatest))
@@ -82,16 +83,17 @@ def cosine_and_sine(angle, greatest):
 
 
 # ---- vec2 ------------------------------------------------------------------------------------------------------------
-# Vec2: a point or a vector of the API, a plain pair in all but its arithmetic.
+# Vec2: a point or a vector of the API. It is a plain pair except in its arithmetic.
 
-NO_PAIRS = (str, bytes, bytearray, set, frozenset, dict)  # a pair by length, but not of numbers
+NO_PAIRS = (str, bytes, bytearray, set, frozenset, dict)  # these may have the length 2, but are not pairs of numbers
 
 
 class Vec2(NamedTuple):
-    """A pair (x, y) [px, or px/s], y down. It equals a plain pair, and a plain pair is accepted wherever a Vec2 is.
+    """A pair (x, y) [px or px/s], y down.
 
-    + − * / work element by element with a pair, or with a number, from either side; an array of other than two numbers
-    gives an array. A wrong type raises TypeError, a division by zero ZeroDivisionError.
+    It equals a plain pair, and every function that takes a Vec2 also takes a plain pair. + − * / work element by
+    element with a pair or a number on either side. An array of a shape other than (2,) gives an array. Another type
+    raises TypeError, and a division by zero ZeroDivisionError.
     """
 
     x: float
@@ -113,12 +115,18 @@ class Vec2(NamedTuple):
         return self[0] * x + self[1] * y
 
     def cross(self, v: "Vec2 | Sequence[float]") -> float:
-        """Return x · v.y − y · v.x: positive where v lies clockwise on the screen. Raises TypeError."""
+        """Return x · v.y − y · v.x: positive if v points clockwise from this vector on the screen.
+
+        Raises TypeError for a value that is not a pair of numbers.
+        """
         x, y = _named_pair("v", v)
         return self[0] * y - self[1] * x
 
     def rotated(self, angle: float) -> "Vec2":
-        """Return the vector rotated clockwise on the screen by a finite angle [rad]. Raises TypeError, ValueError."""
+        """Return the vector rotated clockwise on the screen by an angle [rad].
+
+        Raises TypeError for a value that is not a number, and ValueError for an angle that is not finite.
+        """
         if not _is_number(angle):
             raise TypeError(f"angle must be a number (got {angle!r})")
         if not math.isfinite(angle):
@@ -127,11 +135,11 @@ class Vec2(NamedTuple):
         return Vec2(cosine * self[0] - sine * self[1], sine * self[0] + cosine * self[1])
 
     def normalized(self) -> "Vec2":
-        """Return the vector of the same direction and length 1. Raises ValueError for a zero or non-finite one."""
+        """Return the vector with the same direction and length 1. Raises ValueError for a zero or non-finite vector."""
         largest = max(abs(self[0]), abs(self[1]))
         if largest == 0.0 or not (math.isfinite(self[0]) and math.isfinite(self[1])):
             raise ValueError(f"a vector must be finite and longer than 0 to be normalized (got {tuple(self)})")
-        # Scaled first: neither tiny nor huge vectors lose digits when squared.
+        # Scaled first: the squares of tiny vectors would underflow, and the squares of huge vectors overflow.
         x, y = self[0] / largest, self[1] / largest
         length = math.hypot(x, y)
         return Vec2(x / length, y / length)
@@ -142,7 +150,7 @@ class Vec2(NamedTuple):
     def __pos__(self) -> "Vec2":
         return self
 
-    # + and * of a tuple concatenate and repeat; a vector adds and scales.
+    # For a tuple, + and * concatenate and repeat; for a Vec2 they add and multiply.
     def __add__(self, other: Any) -> "Vec2":  # pyright: ignore[reportIncompatibleMethodOverride]
         return _each(other, lambda x, y: Vec2(self[0] + x, self[1] + y), lambda array: np.add(self, array))
 
@@ -167,7 +175,7 @@ class Vec2(NamedTuple):
 
     @property
     def __array_priority__(self) -> float:
-        """Leave the arithmetic of NumPy numbers and arrays on the left to the vector."""
+        """A value that makes NumPy numbers and arrays on the left leave the operation to the Vec2."""
         return 1.0
 
 
@@ -183,7 +191,11 @@ def _named_pair(name, value) -> tuple[float, float]:
 
 
 def _each(other, combine, combine_array) -> Vec2:
-    """Return combine(x, y) with a number or a pair of numbers. Raises TypeError for anything else."""
+    """Return combine(x, y) for the pair `other`, or for a number as both x and y.
+
+    An array of a shape other than (2,) gives combine_array(other), and a value of another type NotImplemented. Raises
+    TypeError for a pair of values that are not numbers.
+    """
     if _is_number(other):
         return combine(float(other), float(other))
     if isinstance(other, np.ndarray) and other.shape != (2,):

@@ -46,12 +46,12 @@ def warmup(
     progress: Callable[[int, int, str], Any] | None = None,
     pieces: Iterable[str] | None = None,
 ) -> None:
-    """Compile, or load from the cache, the kernels of a world with these effects, with all cores.
+    """Compile the kernels of a world with these effects on all cores, or load them from the cache.
 
-    The kernels are found by running small worlds with the pieces: shapes and queries, by their names in PIECES. pieces:
-    those that the world will use, None: all; kernels of other pieces compile at their first call. broadphase: brute,
-    sweep, hash, tree or "all". progress(done, total, name) is called before each piece, with each compiled kernel, and
-    at the end; `total` grows when the number of kernels is known. Without numba the small worlds run all the same.
+    The kernels are found by running small worlds. pieces: names in PIECES of the shapes and queries that the world will
+    use; None: all pieces. The kernels of other pieces are compiled at their first call. broadphase: brute, sweep, hash,
+    tree or "all". progress(done, total, name) is called before each small world, for each kernel, and at the end;
+    `total` grows when the number of kernels is known. Without numba the small worlds run, but nothing is compiled.
     Raises KeyError for an unknown broad phase or piece.
     """
     runs = _runs(effects, broadphase, solver, pieces)
@@ -75,7 +75,7 @@ def run_warmup(
     solver: str | None = None,
     pieces: Iterable[str] | None = None,
 ) -> None:
-    """Run small worlds that call all kernels of a world with these effects. Arguments and errors as of warmup()."""
+    """Run small worlds that call all kernels of a world with these effects. Arguments and errors as in warmup()."""
     for _, run in _runs(effects, broadphase, solver, pieces):
         run()
 
@@ -140,7 +140,7 @@ def _runs(effects, broadphase, solver, pieces):
 
 
 def _kind_of(shape):
-    """Return the kind of body for a shape: kinematic if it cannot be dynamic, otherwise dynamic."""
+    """Return the kind of body for a shape: kinematic if the shape cannot be dynamic, otherwise dynamic."""
     return "kinematic" if shape._is_ground or shape is OPEN else "dynamic"
 
 
@@ -159,9 +159,9 @@ def _small_world(effects, solver, strategy, pair):
     first = world.add_body(pair[0], kind=_kind_of(pair[0]), position=(0, 0))
     second = world.add_body(pair[1], position=(3, 2), velocity=(-900.0, 0.0))
     world.step()
-    world.query_aabb((0, 0), (1, 1))  # runs the query of the broad phase
+    world.query_aabb((0, 0), (1, 1))  # calls the query kernel of the broad phase
     for table in (world.bodies, world.shapes):
-        rows_of(table, table["id"])  # World.rows comes here once bodies were removed
+        rows_of(table, table["id"])  # World.rows calls rows_of once bodies were removed
     world.reported_rows()
     contacts_of(world.contact_rows)
     second.move_to((3, 2))
@@ -173,7 +173,7 @@ def _small_world(effects, solver, strategy, pair):
 
 
 def _together(effects, solver, pairs):
-    """Run a step in which pairs of several kinds collide, so that their contacts are sorted into one order."""
+    """Run a step in which pairs of several kinds collide. This calls the sort of their contacts into one order."""
     world = World(effects, solver=solver)
     for number, pair in enumerate(pairs):
         for shape in pair:
@@ -191,11 +191,12 @@ def _ground(effects, solver, tiles):
 
 
 def _rest(effects, solver):
-    """Run touching circles, so that contacts are kept, added, put to sleep and woken, with adaptive and with fixed
-    substeps.
+    """Run touching circles whose contacts are kept, added, put to sleep and woken.
+
+    The last step has fixed substeps, all others adaptive substeps.
     """
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
-    for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3), (-7.95, 0.0)):  # as near as is found; nearer
+    for place in ((0.0, 0.0), (8.3, 0.0), (0.0, 8.3), (-7.95, 0.0)):  # gaps found as contacts; an overlap
         world.add_body(Circle(4), position=place)
         for _ in range(3):
             world.step()
@@ -210,7 +211,7 @@ def _rest(effects, solver):
 
 
 def _carve(effects, solver):
-    """Carve a large and a small mask, each with a body on top, by a circle, a polygon and a mask."""
+    """Carve a large and a small mask, each with a body on top, with a circle, a polygon and a mask."""
     world = World(effects, solver=solver)
     solid = np.ones((20, LARGE_MASK + MASK_TILE), bool)
     solid[0, 0] = False
@@ -224,7 +225,7 @@ def _carve(effects, solver):
 
 
 def _sensor(effects, solver):
-    """Run a sensor while a body overlaps it, and after the body has left it."""
+    """Run a sensor during a body's overlap with it and after the body has left."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     body = world.add_body(BOX, position=(1, 0))
@@ -253,27 +254,28 @@ def _impacts(effects, solver):
 
 
 def _amid(effects, solver):
-    """Run a box in the middle of a cross-shaped mask, where no single part of the outline can push it out, and one
-    beside it.
+    """Run a box in the middle of a cross-shaped mask and a box above the mask.
+
+    No single part of the mask's outline can push the first box out.
     """
     arm = abs(np.arange(12) - 5.5) < 2.0
     world = World(effects, solver=solver, gravity=(0.0, 0.0) if effects.gravity else None)
     world.add_body(PixelMask(arm[:, None] | arm), kind="static")
     world.add_body(Polygon.box(2, 2), position=(0.5, 0.3))
-    world.add_body(Polygon.box(2, 2), position=(0.0, -7.3))  # as near as contacts are found
+    world.add_body(Polygon.box(2, 2), position=(0.0, -7.3))  # the gap is found as a contact
     for _ in range(3):
         world.step()
 
 
 def _fit():
-    """Fit the outline of a mask with a hole and a notch, which is not among the outlines shipped as a file."""
+    """Fit the outline of a mask with a hole and a notch. The file of outlines in the package does not contain it."""
     solid = np.ones((23, 29), bool)
     solid[8:13, 9:17] = solid[:5, 20:] = False
     outline_of(PixelMask(solid))
 
 
 def _zone(effects, solver):
-    """Run masks that overlap a sensor, one of them at high speed, in a world whose bodies respond by outlines."""
+    """Run masks that overlap a sensor, one of them at high speed. With response, masks collide by their outlines."""
     world = World(effects, solver=solver)
     world.add_body(BOX, kind="static", sensor=True)
     world.add_body(MASK, position=(1, 0))
@@ -282,7 +284,7 @@ def _zone(effects, solver):
 
 
 def _queries(effects):
-    """Run queries with circles and boxes, whose kernels a world without narrow phase calls only in queries."""
+    """Run queries with circles and boxes. A world without narrow phase calls their kernels only in queries."""
     world = World(effects)
     world.add_body(Circle(4), kind="static")
     world.ray_cast((-20, 0), (40, 0))
@@ -301,7 +303,7 @@ def _pixels(effects):
 
 
 def _casts_at_pixels(effects):
-    """Run casts against the outlines of a solid mask and of a ring, which consists of several convex parts."""
+    """Run casts against the outlines of a solid mask and of a ring, whose outline has several convex parts."""
     world = World(effects)
     ring = np.ones((12, 12), bool)
     ring[4:8, 4:8] = False

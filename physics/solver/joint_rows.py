@@ -485,8 +485,8 @@ def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
     """Raise the substep estimates of bodies to what the loads of their joints need. O(rows).
 
     rate: see contact_lanes.estimate_rate; dt [s] of the step; accuracy [px]. The spring of a joint in the passes is
-    twice as stiff as that of a contact. In either tier an anchor that turns by an angle a in a substep leaves the joint by
-    a² / 2 of its arm.
+    twice as stiff as that of a contact. In either tier an anchor that turns by an angle a in a substep leaves the joint
+    by a² / 2 of its arm.
     """
     for k in range(len(rows)):
         j = joints[rows[k]]
