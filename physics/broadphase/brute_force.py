@@ -14,7 +14,7 @@ from physics.tables.step_state import PAIRS_TESTED
 
 @kernel
 def find_all(proxies, changed, pairs_out, work_inout):
-    """List the pairs of overlapping proxies of which at least one changed. Return their number. O(changed · n).
+    """List the overlapping pairs that contain a changed proxy. Return their number. O(changed · n).
 
     proxies: PROXY rows, where a free slot has row -1; changed: slots of the changed proxies.
     """

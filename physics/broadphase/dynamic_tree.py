@@ -253,9 +253,10 @@ def remove_leaf(leaf, nodes_inout, state_inout, work_inout):
 
 @subkernel
 def select_median(along, first, last, middle, leaves_inout):
-    """Reorder leaves first..last so that `middle` holds the leaf of this rank by `along`, with lower ones before it.
+    """Reorder leaves first..last so that position `middle` holds the leaf that a sort by `along` would put there.
 
-    along: coordinate of each leaf. Source: quickselect, Hoare 1961.
+    Leaves before this position have smaller or equal coordinates. along: coordinate of each leaf. Source: quickselect,
+    Hoare 1961.
     """
     low, high = first, last
     while low < high:
@@ -377,7 +378,7 @@ def rebuild(leaf_of, still, leaves_out, spans_out, twice_x_out, twice_y_out, nod
 
 @kernel
 def find_pairs_in_trees(proxies, changed, nodes, state, stack_inout, pairs_out, work_inout):
-    """List the pairs of overlapping proxies of which at least one changed. Return their number.
+    """List the overlapping pairs that contain a changed proxy. Return their number.
 
     Both trees are searched with the box of each changed proxy. changed: slots of the changed proxies; stack_inout:
     scratch. O(changed · log n + pairs).
@@ -505,8 +506,9 @@ def place_changed(proxies, changed, margins, loose, leaf_of_inout, nodes_inout, 
 class DynamicTree:
     """Broad phase with two dynamic bounding volume trees.
 
-    width: boxes in a node, 2; None for 2. margin [px]: the greatest margin of a moving leaf; None: the setting at 32 px
-    per metre. Raises TypeError or ValueError for another width, and for a margin that is not a number >= 0.
+    width: number of children of an inner node; 2 and None (for 2) are allowed. margin [px]: the greatest margin of a
+    moving leaf; None: the setting at 32 px per metre. Raises TypeError or ValueError for another width, and for a
+    margin that is not a number >= 0.
     """
 
     name = "tree"

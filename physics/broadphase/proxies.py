@@ -420,7 +420,7 @@ def list_outside(rows, bodies, shapes, proxies, rows_out):
 
 
 def cover_final_poses(state: StepState, rows: np.ndarray) -> None:
-    """Write new swept AABBs for the shapes that left theirs, and find the pairs of these shapes.
+    """Write new swept AABBs for the shapes that left their swept AABBs, and find the pairs of these shapes.
 
     rows: indices of SHAPE rows. The candidates then contain all overlaps at the final poses, and are valid for the next
     step.
@@ -680,7 +680,7 @@ class PairList:
         self.everything = True
 
     def update(self, strategy: Strategy, shapes: np.ndarray, changed_count: int, work: np.ndarray) -> None:
-        """Update the candidates after changes to freed slots and to `changed_count` slots, listed in `self.changed`."""
+        """Update the candidates for freed slots and for the first `changed_count` slots in `self.changed`."""
         news = changed_count or self.freed or self.can_recycle or self.everything or self.moved or self.resting
         if news or not strategy.incremental:
             self._take_in(strategy, shapes, changed_count, work)

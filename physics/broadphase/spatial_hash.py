@@ -251,7 +251,7 @@ def follow(entries, p, level, count, chains_inout, near_out):
 
 @kernel
 def find_in_cells(proxies, changed, base, cells, chains_out, near_out, pairs_out, work_inout):
-    """List the pairs of overlapping proxies of which at least one changed. Return their number. O(cells + candidates).
+    """List the overlapping pairs that contain a changed proxy. Return their number. O(cells + candidates).
 
     On each level, the candidates of a box are the proxies in the cells that the box touches. If these are too many
     cells, the candidates are all proxies of the level. So the number of cells is at most proportional to the perimeter

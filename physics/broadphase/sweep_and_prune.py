@@ -84,7 +84,7 @@ def sort_boxes(proxies, order, count, axis, boxes_out, next_changed_out):
 
 @kernel
 def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout):
-    """List the overlapping pairs of which at least one proxy changed, by a sweep along the axis. Return their number.
+    """List the overlapping pairs that contain a changed proxy, by a sweep along the axis. Return their number.
 
     order: slots; boxes, next_changed: see sort_boxes. An unchanged proxy is tested only against changed proxies, so a
     few moving bodies among many cost few tests. The boxes are read sequentially, which makes a test cheap.
@@ -129,7 +129,7 @@ def sweep_one(proxies, order, count, boxes, next_changed, pairs_out, work_inout)
 
 @kernel
 def sweep_intervals(proxies, order, count, boxes, next_changed, keys_out, work_inout):
-    """Write the interval overlaps along one axis of which at least one proxy changed. Return their number.
+    """Write the interval overlaps along one axis that involve a changed proxy. Return their number.
 
     keys_out: lower slot << 32 | higher slot. Other arguments: see sweep_one. Overlaps that do not fit in keys_out are
     only counted.

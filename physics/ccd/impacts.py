@@ -204,7 +204,7 @@ def find_impacts(dt, only_straight, sweep_inout, scratch, impacts_out):
 
 @kernel
 def stop_at_impacts(shapes, candidates, impacts, bodies_inout):
-    """Limit the fraction of the step that each dynamic body moves to its first stopping impact. O(impacts).
+    """Stop each dynamic body at its first stopping impact by writing its `fraction` of the step. O(impacts).
 
     Impacts with sensors are ignored. impacts (n, 8): see find_impacts.
     """
@@ -462,8 +462,9 @@ def write_impacts(bodies, shapes, candidates, impacts, dt, response, manifolds_o
     """Write a CONTACT row for each impact that its bodies reached before they stopped. Return the number of rows.
 
     impacts (n, 8): candidate, fraction, normal from A to B, stops, feature, point x and y [px]. An unknown point (nan)
-    is estimated by impact_point, for a ray if there is one, else for the shape with the smaller AABB. response: 1 if
-    the separation [px] is computed at the final poses, from the motion after the impact; otherwise the separation is 0.
+    is estimated by impact_point: for the shape that is swept as a ray or, without a ray, for the shape with the smaller
+    AABB. response: 1 if the separation [px] is computed at the final poses, from the motion after the impact; otherwise
+    the separation is 0.
     """
     found = 0
     for i in range(len(impacts)):

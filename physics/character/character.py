@@ -51,15 +51,17 @@ class Character:
 
     shape: Polygon, Circle, Capsule, or Bounds of one of them or of a sprite, of at least one pixel. A box without angle
     is rounded to whole pixels. position [px]: position of the shape's origin, rounded so that the left side and the
-    feet are on the pixel grid. max_slope [rad], 0 <= max_slope < pi/2: the character walks up and down ground that is
-    at most as steep, and slides down steeper ground up to 86 degrees, whatever kind of shape the ground is. pushable:
-    whether the character is solid for other characters, and they push it.
+    feet are on the pixel grid. max_slope [rad], 0 <= max_slope < pi/2: the character walks up and down ground of at
+    most this angle, and slides down steeper ground up to 86 degrees; the kind of shape of the ground does not matter.
+    pushable: whether the character is solid for other characters, and they push it.
 
-    Its `body` is kinematic, so contacts and sensors see it. It needs the effect response. With the effect stacking,
-    dynamic bodies also stop and carry it, and it acts on them. mass [density px2] is its weight and its momentum on
-    landing; None: the mass of its shape at density 1. push [px/s2], None for PUSH: it accelerates bodies in its way to
-    the speed of its moves with a force of at most mass * push. Raises TypeError for values of other types, ValueError
-    for values out of range and for a world without the needed effects.
+    Its `body` is kinematic, so contacts and sensors see the character. A Character needs the effect response. With the
+    effect stacking, dynamic bodies also stop and carry the character, and it acts on them. mass [density px2]: sets the
+    weight and the momentum on landing; None: the mass of the shape at density 1. push [px/s2]: the character
+    accelerates bodies in its way to the speed of its moves, with a force of at most mass * push; None for PUSH.
+
+    Raises TypeError for values of other types, ValueError for values out of range and for a world without the needed
+    effects.
     """
 
     def __init__(

@@ -205,8 +205,9 @@ def meet_link(links, link, scratch, count, radius):
 def meet(walk, row, count, radius):
     """Return (depth [px], unit normal from the character, contact point [px]) of its outline in a hull or a disc.
 
-    row: row of the shape; count, radius: result of place_outline, which writes the outline. The depth is 0 if they are
-    apart, or if a neighbouring part of the shape has the nearer surface; then scratch.points[0] is COVERED_OVERLAP.
+    row: row of the shape; count, radius: result of place_outline, which writes the outline. The depth is 0 if the shape
+    and the character are apart, or if a neighbouring part of the shape has the nearer surface; then scratch.points[0]
+    is COVERED_OVERLAP.
     """
     s = walk.shapes[row]
     b = walk.bodies[s.body_row]
@@ -234,11 +235,11 @@ def deepest_on(walk, body):
 
 @subkernel
 def link_depth(walk, row, link, drops, count, radius):
-    """Return (depth [px], unit normal from the character) of its outline in a chain link; depth 0 if it may pass.
+    """Return (depth [px], unit normal from the character) of a character's outline in a chain link.
 
-    An overlap deeper than deepest_on was entered from the back, and passes, because the character moves by pixels and
-    starts free. If `drops` is true, it also passes a level link and a one-way surface. count, radius: see
-    place_outline.
+    The depth is 0 if the character may pass. An overlap deeper than deepest_on was entered from the back, and passes,
+    because the character moves by pixels and starts free. If `drops` is true, the character also passes a level link
+    and a one-way surface. count, radius: see place_outline.
     """
     b = walk.bodies[walk.shapes[row].body_row]
     scratch = walk.scratch
@@ -253,7 +254,10 @@ def link_depth(walk, row, link, drops, count, radius):
 
 @subkernel
 def is_across(walk, me, row, left, top):
-    """Return whether a character lies across a one-way surface, and therefore passes it; False for other chains."""
+    """Return whether a character lies across a one-way surface, and therefore passes it.
+
+    False for a chain that is not the surface of a one-way mask.
+    """
     s = walk.shapes[row]
     if s.role != PART:
         return False
@@ -398,7 +402,7 @@ def in_tiles(walk, me, row, left, top, way_x, way_y):
 
 @subkernel
 def meet_tile(scratch, count, radius, corners, edges, deepest, is_slope):
-    """Return (depth [px], unit normal from the character) of its outline in the tile in scratch.theirs.
+    """Return (depth [px], unit normal from the character) of a character's outline in the tile in scratch.theirs.
 
     count, radius: result of place_outline, which writes the outline; corners: number of corners of the tile; edges,
     deepest: see hulls.collide_hulls.

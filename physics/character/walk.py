@@ -459,8 +459,8 @@ def knock(me, row, direction, speed, walk_inout):
 def press(shapes, gravity_x, gravity_y, slow, characters_inout, bodies_inout):
     """Apply the weight of characters to the awake dynamic bodies that they stand on. O(characters · log shapes).
 
-    gravity [px/s2]. The bodies of characters get the velocity of their ground, unless it is slower than `slow` [px/s],
-    because such ground is coming to rest, and is not kept awake. The point under the feet [px] is stored.
+    gravity [px/s2]. The body of a character gets the velocity of its ground, except if the ground is slower than `slow`
+    [px/s]: such ground is coming to rest, and must not be kept awake. The point under the feet [px] is stored.
     """
     for me in range(len(characters_inout)):
         c = characters_inout[me]

@@ -221,7 +221,7 @@ def classify_normal(link, points, towards_end, nx, ny):
 
 @subkernel
 def neighbour_separates(points, nx, ny, hull, x, y, face):
-    """Return whether a neighbouring link faces a Hull and the Hull is less deep behind it than behind this link.
+    """Return whether a neighbouring link faces a Hull that is less deep behind the neighbour than behind this link.
 
     The neighbour is at the end in the direction (nx, ny). x, y: centre of the Hull; face [px]: separation of the Hull
     from this link's face.

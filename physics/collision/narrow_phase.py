@@ -412,7 +412,7 @@ class NarrowPhase:
             self.kinds = np.zeros(2 * count + 1, np.int64)
 
     def _deep_for(self, count) -> np.ndarray:
-        """Return an array of at least `count` flags."""
+        """Return an array of flags for at least `count` manifolds: the scratch array of drop_opposed."""
         if len(self.deep) < count:
             self.deep = np.zeros(2 * count, bool)
         return self.deep

@@ -339,7 +339,10 @@ class PartCache(caching._Cache):
         return str(store().folder)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return a part from the store; None: it is absent. Then it is claimed, so that other processes wait."""
+        """Return a part from the store; None: the store does not have it.
+
+        In this case the part is claimed, so that other processes wait until it is stored.
+        """
         name = self._name(sig)
         content = store().read(name)
         if content is None and name not in _claimed:

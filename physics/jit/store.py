@@ -94,8 +94,8 @@ def _exposed(folder):
 def store() -> "Store":
     """Return the store of this process: in the user's cache folder, in a folder next to it, or in a temporary folder.
 
-    The second is used if the first is not private or not writable, and the third, for this run only, if the second is
-    not either. The use of the second or third is reported.
+    The first of these folders that is private and writable is used. The temporary folder lasts for this run only. The
+    use of the second or third folder is reported.
     """
     with _opening:
         return _open_store()

@@ -102,7 +102,7 @@ def start_module(module: str, **environment: str) -> "subprocess.Popen[str]":
 def search_path() -> dict[str, str]:
     """Return {"PYTHONPATH": …} for a child process, so that it imports this package from the same folder.
 
-    The dict is empty if the child does so without it.
+    The dict is empty if the child imports the package from this folder without it.
     """
     if IMPORTED_FROM in {Path(each).resolve() for each in (*site.getsitepackages(), site.getusersitepackages())}:
         return {}  # if named again, site-packages would come before the standard library

@@ -261,7 +261,7 @@ def fit_at(row, half, middles, fitted_out):
 
 @subkernel
 def fit_curve(curve, path, workspace):
-    """Write the fitted point and direction (FITTED) at each pixel edge of a curve, from the one before its start on."""
+    """Write the fitted point and direction (FITTED) at each pixel edge of a curve and at the edge before its start."""
     first = math.floor(curve.start - 0.5)
     for crack in range(first, math.floor(curve.end - 0.5) + 2):
         half = math.floor(min(float(curve.half), crack + 0.5 - curve.low, curve.high - crack - 0.5))

@@ -105,7 +105,7 @@ def mask_parts(solid: np.ndarray, smooth: float = 0.5) -> list[Part]:
 
     A round piece becomes one part with a radius (rounding.py). Any other piece is decomposed into parts of radius 0
     (few_parts), each listed from its topmost, then leftmost corner on. A full rectangle is one part. smooth [px] as in
-    contour.outline; the union of the parts is as near to the pixels' edges as the outline returned there.
+    contour.outline; the union of the parts is as near to the pixels' edges as the result of contour.outline.
     """
     parts = fitted("mask_parts", solid, smooth, lambda: _joined(_fit(solid, smooth)))
     ends = np.cumsum(parts.counts)[:-1]

@@ -642,7 +642,7 @@ def tile_parts(window: np.ndarray, smooth: float, at: tuple[int, int] = (0, 0)) 
 
     window[row, col] bool: the square tile with a margin of HALO pixels on each side, clear outside the mask; at [px]:
     top left corner of the tile in the mask. smooth [px] as in contour.outline; the parts of all tiles together are as
-    near to the pixels' edges as the outline returned there. An empty tile has no parts. A solid tile with only solid
+    near to the pixels' edges as the result of contour.outline. An empty tile has no parts. A solid tile with only solid
     pixels around it is one square of inner sides. Raises ValueError for a window that is not square, or with a tile not
     larger than HALO.
     """

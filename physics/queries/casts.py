@@ -218,9 +218,9 @@ def cast_hull_at_rows(geometry, bodies, shapes, rows, hull, workspace, hits_out,
 def nearest_hull(geometry, bodies, shapes, rows, point, workspace, nearest_out, work_inout):
     """Write (distance, x, y) [px] of the point nearest to a given point on the listed hulls.
 
-    rows: indices of SHAPE rows in ascending order; tiles, masks and chains are left out. If the given point lies in a
-    hull, the distance is 0 and the nearest point is the given point. workspace: AdvanceWorkspace. Return -1 if no hull
-    is listed. Return the row of this hull.
+    Return -1 if no hull is listed. rows: indices of SHAPE rows in ascending order; tiles, masks and chains are left
+    out. If the given point lies in a hull, the distance is 0 and the nearest point is the given point. workspace:
+    AdvanceWorkspace. Return the row of this hull.
     """
     x, y = point
     own, corners = workspace.local_a, workspace.local_b

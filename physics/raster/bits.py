@@ -144,7 +144,7 @@ def shifts_to(columns):
 
 @subkernel
 def moved(value, up, down, kept):
-    """Return a word shifted up and then down by numbers of bits, and masked with `kept`; see shifts_to."""
+    """Return a word shifted up by `up` bits, then down by `down` bits, and masked with `kept`; see shifts_to."""
     return word(word(word(value << up) >> down) & kept)
 
 
@@ -466,7 +466,7 @@ def _as_many(centered, coverage, wanted):
     """Return the solid pixels of a rotated mask, `wanted` in number if possible.
 
     They are the pixels whose centres are solid. If these are too few, the most covered other pixels are added. If they
-    are too many, the least covered ones whose removal disconnects nothing are removed.
+    are too many, the least covered pixels are removed, except pixels whose removal would disconnect others.
     """
     kept = centered.copy()
     missing = wanted - int(kept.sum())

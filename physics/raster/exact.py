@@ -234,10 +234,10 @@ def squares_way_out(pair, nx, ny, most):
 
 @subkernel
 def line_share(px, py, qx, qy, width, height):
-    """Return the share (area, moment of x, moment of y) of a straight line of a region's outline, from p to q [px].
+    """Return what a straight line adds to (area, moment of x, moment of y) of the part of a region inside a box.
 
-    The sides of the box 0..width x 0..height cut the line into up to three pieces; along each piece the clamped x is
-    linear.
+    The line from p to q [px] belongs to the region's outline; the box is 0..width x 0..height. The sides of the box cut
+    the line into up to three pieces; along each piece the clamped x is linear.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0
@@ -308,9 +308,10 @@ def next_cut(x, y, radius, width, height, after, until):
 
 @subkernel
 def arc_share(x, y, radius, start, end, width, height):
-    """Return the share (area, moment of x, moment of y) of an arc of a region's outline.
+    """Return what an arc adds to (area, moment of x, moment of y) of the part of a region inside a box.
 
-    x, y [px]: centre of the arc; start, end [rad]: its angles, start < end; the box is 0..width x 0..height.
+    The arc belongs to the region's outline; x, y [px]: its centre; start, end [rad]: its angles, start < end. The box
+    is 0..width x 0..height.
     """
     area = 0.0
     moment_x, moment_y = 0.0, 0.0

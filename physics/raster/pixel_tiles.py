@@ -128,9 +128,10 @@ def find_nodes(words, tile, left, top, runs_out, parents_out, nodes_out):
 
 @kernel
 def pick_node(words, first, runs_out, parents_out, picked_out):
-    """Write the pixels of one node: those that are 8-connected, inside the tile, to pixel `first` (row * 64 + column).
+    """Write the pixels of one node: all pixels of a tile that are 8-connected to pixel `first` inside the tile.
 
-    words, picked_out (64,) uint64; runs_out, parents_out: scratch arrays as in find_nodes. O(runs).
+    first: row * 64 + column; words, picked_out (64,) uint64; runs_out, parents_out: scratch arrays as in find_nodes.
+    O(runs).
     """
     count = trace_runs(words, runs_out, parents_out)
     wanted = -1
@@ -395,7 +396,7 @@ class PixelTiles:
         return unpacked(words[y : y + size])[:, x : x + size]
 
     def differences(self, other: "PixelTiles", tiles: Iterable[int]) -> list[tuple[int, int, int, int]]:
-        """Return for each of some tiles that differs from another raster a box around the differing pixels.
+        """Return a box around the differing pixels for each compared tile that differs from another raster.
 
         A box is (left, top, right, bottom) [px]; right and bottom are exclusive. other: a raster of the same size;
         tiles: numbers of the compared tiles.
@@ -436,7 +437,7 @@ class PixelTiles:
 
     @property
     def bounds(self) -> tuple[int, int, int, int] | None:
-        """Box (left, top, right, bottom) of the solid pixels, right and bottom exclusive; None if there are none."""
+        """Box (left, top, right, bottom) of the solid pixels, right and bottom exclusive; None without solid pixels."""
         if not len(self.nodes):
             return None
         left, top, right, bottom = self._totals[4:]
@@ -477,12 +478,11 @@ class Cut(NamedTuple):
 
 
 def cut(tiles: PixelTiles, tool: Tool, box: Box, one_piece: bool, crumb: int) -> Cut:
-    """Remove the pixels that a tool finds, and the pieces that this separates from the rest.
+    """Remove the pixels that a tool finds, and the pieces that this separates from the rest. Return a Cut.
 
-    box [px]: bounds of the tool in the raster. one_piece: of all pieces only the largest stays; else the largest part
-    of each piece before the cut stays. Of parts of equal size, the part with the first pixel stays. The result lists
-    the separated pieces, except those of less than `crumb` pixels. O(tiles + runs of changed tiles). Return the result
-    as a Cut.
+    box [px]: bounds of the tool in the raster. one_piece: whether only the largest of all pieces stays; else each piece
+    that existed before the cut keeps its largest part. Of parts of equal size, the part with the first pixel stays. The
+    result lists the separated pieces, except pieces of fewer than `crumb` pixels. O(tiles + runs of changed tiles).
     """
     changed, removed = _taken(tiles, tool, box)
     if not removed:

@@ -114,7 +114,10 @@ class PixelMask(Shape):
         return pair[wanted]
 
     def with_values_of(self, other: Shape) -> "PixelMask":
-        """Return this mask with the own material, filter and sensor of another shape, and with a mask's one_way."""
+        """Return this mask with the own material, filter and sensor of another shape.
+
+        If the other shape is a mask, its one_way is also copied.
+        """
         one_way = other.one_way if isinstance(other, PixelMask) else None
         return self.with_(other.material, other.filter, other.sensor, one_way)
 

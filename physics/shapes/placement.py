@@ -150,7 +150,7 @@ def is_drawn_when_asked(shape):
 
 @subkernel
 def drawn_beyond(body, shape):
-    """Return the distance [px] by which the drawn pixels of a mask may exceed the AABB in its SHAPE row; 0: none."""
+    """Return the distance [px] by which drawn pixels of a mask may exceed the AABB in its SHAPE row; 0: they do not."""
     return DRAWN + BUCKET_TURN * body.extent if is_drawn_when_asked(shape) else 0.0
 
 
