@@ -134,6 +134,8 @@ def _check_effects(world, kind, given):
     """Check that a world has the effects that a kind with these columns needs. Raises ValueError."""
     name = type(kind).__name__
     world._needs("joints", name, True)
+    if not world.stacks:
+        raise ValueError(f"{name} needs one of the solvers soft_step, sequential_impulse (got {world.solver!r})")
     asked = given["motor_max"] if "motor_max" in given else 0.0
     asked = asked or given.get("spring_hertz") or max(given["lower"], -given["upper"]) > -math.inf
     world._needs("rotation", f"{name} with limits, motor or spring", given.get("coordinate") == ANGLE and bool(asked))

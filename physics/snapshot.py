@@ -455,7 +455,7 @@ def digest(world: WorldState) -> str:
     speed = world.tolerances.restitution_speed
     if speed != tolerances(world.tolerances.pixels_per_meter).restitution_speed:
         found.update(b"restitution_speed" + np.float64(speed + 0.0).tobytes())
-    if world.effects.joints:
+    if world.effects.joints and len(world.joints):
         found.update(world.joint_solver.encode())
         for name, kind in STATE_OF_JOINTS:
             found.update((world.joints[name] + 0.0 if kind is np.float64 else world.joints[name]).tobytes())

@@ -106,10 +106,10 @@ class World(WorldState):
         self._needs_fields(drag=self._drag, wind=self._wind)
         self._set_restitution_speed(restitution_speed)
         self._substeps, self._accuracy = checked_substeps(substeps), checked_accuracy(accuracy)
-        self._solver = self._checked_solver(own_solver(effects) if solver is None else solver)
         self._bodies, self._definitions, self._shapes, self.characters = map(Table, (BODY, BODY_DEF, SHAPE, CHARACTER))
         self._runs, self.library, self._joints = Table(RUN), Library(), Table(JOINT, 0)
         self._joint_users, self._lost_joints, self._next_joint, self._joint_solver = {}, [], 0, "auto"
+        self._solver = self._checked_solver(own_solver(effects) if solver is None else solver)
         self._stepping = False
         self._next_body = self._next_shape = self._carved_pixels = 0
         self._templates, self._removed = {}, {}
@@ -410,7 +410,7 @@ class World(WorldState):
     def _checked_solver(self, name):
         name = checks.choice("solver", name, SOLVERS)
         self._needs("stacking", f"solver {name!r}", name in STACKING)
-        if self._effects.joints and name not in STACKING:
+        if self._joints.count and name not in STACKING:
             raise ValueError(f"solver must be one of {', '.join(STACKING)}, which solve joints (got {name!r})")
         return name
 
@@ -433,7 +433,7 @@ class World(WorldState):
             raise ValueError("effects must have response: this world has Characters, which need it")
         before, self._effects = self._effects, effects
         sleep.wake_all(self)
-        if before.stacking != effects.stacking or (effects.joints and not self.stacks):
+        if before.stacking != effects.stacking or (effects.joints and self._joints.count and not self.stacks):
             self._solver = own_solver(effects)
         self._plan()
         if before.response != effects.response:

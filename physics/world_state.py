@@ -1,6 +1,6 @@
 """WorldState: the tables and settings that a world keeps between steps, and the times of its stages."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -150,6 +150,7 @@ class WorldState:
     _runs: Table  # RUN, beside the bodies
     _contact_rows: np.ndarray
     _joints: Table
+    _drop_joints_of: Callable[[np.ndarray], None]  # a method of World
     _joint_users: dict[int, Any]
     _lost_joints: list[tuple]  # BROKEN rows of joints whose bodies were removed since the last step
     _next_joint: int
@@ -414,10 +415,6 @@ class WorldState:
         self._bodies.columns["inverse_mass"][at] = 0.0  # the loads of other bodies do not pass it any more
         self._forget_values(identity)
         self._removed[identity] = None
-
-    def _drop_joints_of(self, ids: np.ndarray) -> None:
-        """Remove the joints of bodies that are about to be removed."""
-        raise NotImplementedError
 
     def _refresh_joint_rows(self) -> None:
         """Write the present body rows of all joints."""

@@ -120,6 +120,9 @@ ABOVE_ZERO = {
     "1.0 + drag_rate * dt",
     "1.0 + drag_rate * h",
     "1.0 + stiffness * spring.grip",
+    "1.0 + grip",
+    "1.0 + context.joint.grip",
+    "accuracy",
     "PART",
     "path.count",  # an outline's path has runs and cracks
     "path.cracks",

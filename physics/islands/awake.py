@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from physics.islands.graph import JOINT_EDGE, NO_NODE, write_pair
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotation_of
 from physics.tables.body import DYNAMIC, KINEMATIC
@@ -362,6 +363,36 @@ def join_groups(bodies, contacts, friction, groups_inout):
             g.anchored[c.body_row_a] = True
         elif b:
             g.anchored[c.body_row_b] = True
+
+
+@kernel
+def list_joint_edges(bodies, joints, count, edges_out):
+    """List the joints that link bodies, or that keep one awake, after `count` edges of contacts. Return the number.
+
+    Joints link awake dynamic bodies. A body that is joined to a moving kinematic one stays awake, and so does one with
+    a motor that runs. O(joints).
+    """
+    found = count
+    for i in range(len(joints)):
+        j = joints[i]
+        if not j.awake:
+            continue
+        a, b = NO_NODE, NO_NODE
+        carried = j.motor_max > 0.0 and j.motor_speed != 0.0
+        if j.body_row_a >= 0:
+            body = bodies[j.body_row_a]
+            a = j.body_row_a if is_free(body) else NO_NODE
+            carried = carried or (body.kind != DYNAMIC and is_active(body))
+        if j.body_row_b >= 0:
+            body = bodies[j.body_row_b]
+            b = j.body_row_b if is_free(body) else NO_NODE
+            carried = carried or (body.kind != DYNAMIC and is_active(body))
+        if a < 0 and b < 0:
+            continue
+        write_pair(found, JOINT_EDGE, i, a if a >= 0 else b, b if a >= 0 else NO_NODE, edges_out)
+        edges_out.keeps_awake[found] = carried
+        found += 1
+    return found
 
 
 @subkernel

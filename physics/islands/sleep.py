@@ -12,10 +12,11 @@ from physics.islands.awake import (
     is_free,
     keep_awake_what_moves_freely,
     list_active,
+    list_joint_edges,
     new_groups,
     wakes,
 )
-from physics.islands.graph import CONTACT_EDGE, JOINT_EDGE, MOST_NODES, NO_NODE, join, new_edges, write_pair
+from physics.islands.graph import CONTACT_EDGE, MOST_NODES, NO_NODE, join, new_edges, write_pair
 from physics.jit import inlined, kernel
 from physics.math2d import norm
 from physics.settings import SLEEP_TIME
@@ -511,36 +512,6 @@ def list_contact_edges(
             write_pair(found, CONTACT_EDGE, i, c.body_row_b, NO_NODE, edges_out)
             edges_out.keeps_awake[found] = True
             found += 1
-    return found
-
-
-@kernel
-def list_joint_edges(bodies, joints, count, edges_out):
-    """List the joints that link bodies, or that keep one awake, after `count` edges of contacts. Return the number.
-
-    Joints link awake dynamic bodies. A body that is joined to a moving kinematic one stays awake, and so does one with
-    a motor that runs. O(joints).
-    """
-    found = count
-    for i in range(len(joints)):
-        j = joints[i]
-        if not j.awake:
-            continue
-        a, b = NO_NODE, NO_NODE
-        carried = j.motor_max > 0.0 and j.motor_speed != 0.0
-        if j.body_row_a >= 0:
-            body = bodies[j.body_row_a]
-            a = j.body_row_a if is_free(body) else NO_NODE
-            carried = carried or (body.kind != DYNAMIC and is_active(body))
-        if j.body_row_b >= 0:
-            body = bodies[j.body_row_b]
-            b = j.body_row_b if is_free(body) else NO_NODE
-            carried = carried or (body.kind != DYNAMIC and is_active(body))
-        if a < 0 and b < 0:
-            continue
-        write_pair(found, JOINT_EDGE, i, a if a >= 0 else b, b if a >= 0 else NO_NODE, edges_out)
-        edges_out.keeps_awake[found] = carried
-        found += 1
     return found
 
 

@@ -25,7 +25,7 @@ from physics.tables.table import joined
 
 # Effects that it ignores: contacts do not rotate, rub, bounce or carry bodies, and are not cached. A body still rotates
 # by its own angular velocity.
-IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conveyor")
+IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conveyor", "joints")
 
 
 @kernel

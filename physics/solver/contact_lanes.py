@@ -325,7 +325,7 @@ def are_mixed(motions, degrees, classes):
 
 
 @subkernel
-def list_and_color(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out):
+def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
     """List the constraints to solve as edges, and colour those of contacts. O(constraints + motions).
 
     Return the number of contacts and the number of all edges. Also find islands that are squeezed between faces, see
@@ -367,19 +367,19 @@ def order_joints(joints, classes, starts_out, rows_out):
 
 
 @kernel
-def order_in_one_group(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out):
+def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
     """List the constraints to solve in one group, sorted by colour. O(contacts + motions).
 
     Return the number of contacts to solve, and the number of those without a colour.
     """
-    count, _ = list_and_color(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out)
+    count, _ = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
     starts = plan_out.starts[: COLORS + 2]
     order_edges(plan_out.edges, count, plan_out.colors, plan_out.classes[:0], starts, plan_out.cursors, plan_out.places)
     return count, starts[1] - starts[0]
 
 
 @kernel
-def order_by_load(contacts, bodies, motions_inout, islands, dt, limits, lists_inout, plan_out):
+def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_inout, plan_out):
     """List the constraints to solve, sorted by the number of substeps of their islands and then by colour.
 
     Return the number of contacts to solve. islands: see Islands; dt [s]; limits: see settings.Limits. O(contacts +
@@ -388,7 +388,7 @@ def order_by_load(contacts, bodies, motions_inout, islands, dt, limits, lists_in
     plan, motions = plan_out, motions_inout
     nodes = len(motions)
     classes = plan.classes[:nodes]
-    count, edges = list_and_color(contacts, bodies, motions, dt, limits, lists_inout, plan)
+    count, edges = list_and_color(contacts, bodies, dt, limits, motions, lists_inout, plan)
     choices, by_load = islands.choices, islands.by_load
     unknown = class_motions(motions, plan.degrees, islands, classes)
     expect_impacts(plan.edges, count, motions, islands.rate, choices[: by_load + 1], classes)
@@ -426,12 +426,12 @@ class Selection:
         else:
             plan.joint_count[0] = 0
         if substeps:
-            count, uncolored = order_in_one_group(contacts, state.bodies, rows, state.dt, limits, motions.lists, plan)
+            count, uncolored = order_in_one_group(contacts, state.bodies, state.dt, limits, rows, motions.lists, plan)
             starts, own = plan.starts[: COLORS + 2], plan.joints[: plan.joint_count.item(0), 0].copy()
             return [Group(substeps, count, count, uncolored, motions.island_bodies, starts, own)]
         jointed = BY_LOAD if state.joint_solver == "iterative" else 0
         islands = Islands(motions.island_bodies, estimate_rate(state), CHOICES, BY_LOAD, jointed)
-        edges = order_by_load(contacts, state.bodies, rows, islands, state.dt, limits, motions.lists, plan)
+        edges = order_by_load(contacts, state.bodies, islands, state.dt, limits, rows, motions.lists, plan)
         colors, firsts, starts, joint_starts = COLORS + 1, plan.firsts.tolist(), plan.starts, plan.joint_starts.tolist()
         groups = [
             Group(

@@ -220,7 +220,8 @@ def add_inertia(rows, order, joints, h, motions_inout):
         j = joints[rows[order[k]]]
         for side in range(2):
             m = motions_inout[j.motion_a if side == 0 else j.motion_b]
-            m.inverse_inertia = m.own_inverse_inertia / max(1.0, m.own_inverse_inertia * m.tension)
+            growth = m.own_inverse_inertia * m.tension
+            m.inverse_inertia = m.own_inverse_inertia / growth if growth > 1.0 else m.own_inverse_inertia
 
 
 @subkernel

@@ -202,7 +202,7 @@ def softness_of(hertz, damping, h):
     rate = 2.0 * damping + h * omega
     grip = h * omega * rate
     give = 1.0 / (1.0 + grip)
-    return omega / rate, grip * give, give
+    return omega / rate if rate > 0.0 else 0.0, grip * give, give
 
 
 @inlined

@@ -174,7 +174,7 @@ class PushSet:
 # It differs from `blocking` in that a body slides along an obstacle instead of staying where it was. Contacts are not
 # cached, so stacks are soft. Cost: PROJECTION_PASSES passes over the contacts; none without contacts.
 
-IGNORED = ("stacking", "sleeping")  # effects that it ignores, because contacts are not cached
+IGNORED = ("stacking", "sleeping", "joints")  # effects that it ignores, because impulses are not cached
 
 
 @subkernel

@@ -422,6 +422,10 @@ def test_a_joint_needs_its_effect_and_a_stacking_solver():
     for solver in ("projection", "blocking"):
         with pytest.raises(ValueError, match="soft_step.*sequential_impulse|sequential_impulse.*soft_step"):
             jointed.solver = solver
+        other = World(EFFECTS, solver=solver)
+        box = other.add_body(BOX)
+        with pytest.raises(ValueError, match="soft_step, sequential_impulse"):
+            other.add_joint(Revolute(None, box, at=(0, 0)))
     with pytest.raises(ValueError, match="joint_solver must be one of iterative, direct, auto"):
         jointed.joint_solver = "exact"
 

@@ -112,9 +112,9 @@ def test_characters_need_response():
 
 
 def test_an_effect_goes_with_what_needs_it_and_comes_with_what_it_needs():
-    assert ALL.without("stacking") == ALL.with_(stacking=False, sleeping=False)
+    assert ALL.without("stacking") == ALL.with_(stacking=False, sleeping=False, joints=False)
     kept = [name for name in EFFECTS if name not in ("response", "friction", "restitution", "stacking", "one_way")]
-    assert ALL.without("response").names() == [name for name in kept if name not in ("conveyor", "sleeping")]
+    assert ALL.without("response").names() == [name for name in kept if name not in ("conveyor", "joints", "sleeping")]
     assert Effects().without("drag") == Effects() and ALL.without("drag") == ALL.with_(drag=False)
     assert Effects().and_needed("sleeping").names() == ["narrowphase", "response", "stacking"]
     assert Effects().and_needed("wind") == Effects()

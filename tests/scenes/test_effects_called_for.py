@@ -48,6 +48,7 @@ LEDGER = {
         "persist": NEUTRAL,
         "one_way": NEUTRAL,
         "conveyor": NEUTRAL,
+        "joints": DIFFERS,  # with the stacking that it needs
     },
     "platformer": {
         "narrowphase": DIFFERS,
@@ -68,6 +69,7 @@ LEDGER = {
         "wind": NEUTRAL,
         "restitution": NEUTRAL,
         "persist": NEUTRAL,
+        "joints": NEUTRAL,
     },
     "lander": {
         "narrowphase": DIFFERS,
@@ -87,6 +89,7 @@ LEDGER = {
         "persist": NEUTRAL,
         "one_way": NEUTRAL,
         "conveyor": NEUTRAL,
+        "joints": NEUTRAL,
     },
 }
 
