@@ -18,7 +18,7 @@ from physics.shapes.shape import Filter, Material, Shape
 from physics.tables.body import DYNAMIC, STATIC
 from physics.world_state import WorldState
 
-MOST = 256  # templates of a world: a program that never adds an equal body twice shall not fill the memory
+MOST = 64  # templates of a world: a program that never adds an equal body twice shall not fill the memory
 MOST_SHAPES = 2**30  # ids beyond are left to add_rows, which counts what is left
 NUMBERS = (float, int, type(None))
 PROXY_VALUES = ("membership", "mask", "plane", "avoids")

@@ -181,7 +181,7 @@ def disturb_one(world: Any, identity: int, row: int) -> int:
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
         return row
-    if len(world.joints):
+    if world._joints.count:
         disturb(world, [identity])
         return world._row_number(identity)
     if len(sleeping_set.touching_pairs) or len(sleeping_set.sensing_pairs):

@@ -160,14 +160,14 @@ def write_rows(joint, h, a, b, first, rows_out):
 
 
 @subkernel
-def draw(error, hertz, damping, impulse, rate, context, row_inout):
-    """Write the wanted velocity of a row, from its error of position and its impulse so far in this substep.
+def draw(error, hertz, damping, impulse, rate, most, h, row_inout):
+    """Write the wanted velocity of a row, from its error of position and its impulse so far in this substep of h [s].
 
-    hertz: 0 for a rigid row, whose error is removed at `rate` [1/s], by at most the speed of push-out.
+    hertz: 0 for a rigid row, whose error is removed at `rate` [1/s], by a speed of at most `most`.
     """
-    row_inout.rhs = -bounded(rate * error, context.push_speed)
+    row_inout.rhs = -bounded(rate * error, most)
     if hertz > 0.0:
-        spring_rate, _, _ = softness_of(hertz, damping, context.h)
+        spring_rate, _, _ = softness_of(hertz, damping, h)
         row_inout.rhs = -spring_rate * error - row_inout.compliance * impulse
 
 
@@ -179,23 +179,25 @@ def write_targets(joint, rate, context, first, rows_inout):
     """
     j = joint
     at = first
+    h, most = context.h, context.push_speed
     if holds_point(j) and j.hold == PINNED:
         fast = rate * norm(j.apart_x, j.apart_y)
         slow = rate * context.push_speed / fast if fast > context.push_speed else rate
-        draw(j.apart_x, j.point_hertz, j.point_damping, j.point_x, slow, context, rows_inout[at])
-        draw(j.apart_y, j.point_hertz, j.point_damping, j.point_y, slow, context, rows_inout[at + 1])
+        draw(j.apart_x, j.point_hertz, j.point_damping, j.point_x, slow, most, h, rows_inout[at])
+        draw(j.apart_y, j.point_hertz, j.point_damping, j.point_y, slow, most, h, rows_inout[at + 1])
         at += 2
     elif holds_point(j):
-        draw(j.apart_y * j.nx - j.apart_x * j.ny, 0.0, 0.0, 0.0, rate, context, rows_inout[at])
+        draw(j.apart_y * j.nx - j.apart_x * j.ny, 0.0, 0.0, 0.0, rate, most, h, rows_inout[at])
         at += 1
     if holds_angle(j):
-        draw(j.turn, j.angle_hertz, j.angle_damping, j.hold_impulse, rate, context, rows_inout[at])
+        draw(j.turn, j.angle_hertz, j.angle_damping, j.hold_impulse, rate, context.push_turn, h, rows_inout[at])
         at += 1
     if holds_coordinate(j):
         held = j.lower == j.upper
         error = coordinate_of(j) - (j.lower if held else j.spring_target)
         hertz = 0.0 if held else j.spring_hertz
-        draw(error, hertz, j.spring_damping, j.spring, rate, context, rows_inout[at])
+        most = context.push_turn if j.coordinate == ANGLE else most
+        draw(error, hertz, j.spring_damping, j.spring, rate, most, h, rows_inout[at])
 
 
 @subkernel

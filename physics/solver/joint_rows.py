@@ -12,6 +12,8 @@ from physics.math2d import norm, rotation_of
 from physics.tables.joint import ANGLE, FREE, LENGTH, NO_COORDINATE, ON_AXIS, PINNED, TRANSLATION
 from physics.tables.step_state import JOINTS_SOLVED, StepState, stage
 
+LIMIT_SHARE = 0.25  # share of an error of a limit beside a tree that a substep removes
+
 # ---- selection -------------------------------------------------------------------------------------------------------
 
 
@@ -263,16 +265,17 @@ def solve_motor(context, joint_inout, a_inout, b_inout):
 
 
 @subkernel
-def limit_change(gap, speed, old, mass, soft, context):
+def limit_change(gap, speed, old, mass, soft, most, inverse_h):
     """Return the change of the impulse of a limit that keeps gap >= 0, where speed is the rate of the gap.
 
-    soft: see softness_of; the impulse stays at least 0. A limit that is not reached lets the gap close in a substep.
+    soft: see softness_of; most: greatest speed of a correction. The impulse stays at least 0. A limit that is not
+    reached lets the gap close in a substep.
     """
     bias_rate, mass_share, give = soft
     if gap > 0.0:
-        change = -mass * (speed + gap * context.inverse_h)
+        change = -mass * (speed + gap * inverse_h)
     else:
-        change = -mass * mass_share * (speed + max(bias_rate * gap, -context.push_speed)) - give * old
+        change = -mass * mass_share * (speed + max(bias_rate * gap, -most)) - give * old
     return max(old + change, 0.0) - old
 
 
@@ -295,21 +298,24 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
     if j.motor_max > 0.0 and not j.turns_motor:
         solve_motor(context, j, a, b)
     soft = rigid_softness(biased, context)
+    most = context.push_turn if j.coordinate == ANGLE else context.push_speed
+    if j.direct and biased:
+        soft = (LIMIT_SHARE * context.inverse_h, 1.0, 0.0)  # beside trees, which are rigid, a spring would give way
     if j.lower == j.upper:
         if j.direct:
             return
         rate, mass_share, give = soft
-        bias = bounded(rate * (now - j.lower), context.push_speed)
+        bias = bounded(rate * (now - j.lower), most)
         change = -mass * mass_share * (coordinate_speed(j, a, b) + bias) - give * j.low
         j.low += change
         push_coordinate(j, change, a, b)
         return
     if j.lower > -math.inf:
-        change = limit_change(now - j.lower, coordinate_speed(j, a, b), j.low, mass, soft, context)
+        change = limit_change(now - j.lower, coordinate_speed(j, a, b), j.low, mass, soft, most, context.inverse_h)
         j.low += change
         push_coordinate(j, change, a, b)
     if j.upper < math.inf:
-        change = limit_change(j.upper - now, -coordinate_speed(j, a, b), j.high, mass, soft, context)
+        change = limit_change(j.upper - now, -coordinate_speed(j, a, b), j.high, mass, soft, most, context.inverse_h)
         j.high += change
         push_coordinate(j, -change, a, b)
 

@@ -17,6 +17,7 @@ from physics.settings import (
     JOINT_DAMPING,
     JOINT_STIFFNESS,
     PUSH_SHARE,
+    PUSH_SPEED,
     STILL_STIFFNESS,
     Limits,
     Tolerances,
@@ -50,6 +51,7 @@ class StepContext(NamedTuple):
     restitution_speed: float  # [px/s] slower impacts do not bounce
     sleep_speed: float  # [px/s]
     push_speed: float  # [px/s]
+    push_turn: float  # [rad/s] the same for angles
     push_rate: float  # [1/s] separation speed of an unloaded contact per overlap beyond half of …
     slop: float  # [px] … the overlap that may stay
     deep_rate: float  # [1/s] greatest separation speed of a loaded contact per overlap, 0: no limit; it is not below …
@@ -100,6 +102,7 @@ def context_of(
         restitution_speed=tolerances.restitution_speed,
         sleep_speed=tolerances.sleep_speed,
         push_speed=tolerances.push_speed,
+        push_turn=PUSH_SPEED,
         # More substeps do not separate faster.
         push_rate=PUSH_SHARE * min(substeps, AUTO_SUBSTEPS[0]) / span,
         slop=tolerances.slop,

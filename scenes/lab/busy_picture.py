@@ -10,7 +10,7 @@ from game.overlays.layer_bounds import draw_boxes
 from game.overlays.outlines import draw_outline
 from physics import debug
 from physics.tables.shape import PART
-from scenes.lab.busy_yard import BELT, CRATE, FLOOR, LEFT, PLANK, RIGHT, ROCK, TARGET, TILE, ZONE
+from scenes.lab.busy_yard import BELT, BOB, CRATE, FLOOR, HOOK, LEFT, PLANK, RIGHT, ROCK, TARGET, TILE, ZONE
 from scenes.lab.looks import mask_picture
 from scenes.lab.pieces import turning
 from scenes.lab.yard import Yard
@@ -47,6 +47,7 @@ class BusyPicture:
         poses = dict(zip(bodies["id"].tolist(), zip(*columns, strict=True), strict=True))
         asleep = dict(zip(bodies["id"].tolist(), (~bodies["awake"]).tolist(), strict=True))
         surface.set_clip((LEFT, 0, RIGHT - LEFT, surface.get_height()))
+        self._draw_rods(surface, yard, poses)
         for number, identity in yard.ids.items():
             self._picture(yard.kinds[number], asleep[identity]).draw(surface, *poses[identity])
         surface.set_clip(None)
@@ -54,8 +55,20 @@ class BusyPicture:
     def _picture(self, kind, asleep):
         if kind == "star":
             return self.star
-        shape, ramp = (CRATE, "wood") if kind == "crate" else (kind.shape, kind.ramp)
+        placed = {"crate": (CRATE, "wood"), "bob": (BOB, "gold")}
+        shape, ramp = placed[kind] if kind in placed else (kind.shape, kind.ramp)
         return turning(shape, "steel" if asleep else ramp)
+
+    def _draw_rods(self, surface, yard, poses):
+        """Draw the rods of the pendulum: without the effect joints there are none."""
+        if yard.world.effects.joints:
+            at = HOOK
+            for number, kind in yard.kinds.items():
+                if kind == "bob":
+                    bob = poses[yard.ids[number]][:2]
+                    pygame.draw.line(surface, PAPER, at, bob)
+                    at = bob
+            pygame.draw.circle(surface, PAPER, HOOK, 2)
 
     def _draw_belt(self, surface, way):
         (left, y), (right, _), radius = BELT

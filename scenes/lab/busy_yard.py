@@ -6,7 +6,7 @@ from math import sqrt
 import numpy as np
 
 from game.drawing.sprites import load_atlas
-from physics import Capsule, Circle, Material, PixelMask, Polygon, TileGrid
+from physics import Capsule, Circle, Distance, Material, PixelMask, Polygon, TileGrid
 
 LEFT, RIGHT, FLOOR = 196.0, 480.0, 254.0  # [px] the inner sides of the walls, the floor
 DRAG, WIND = 0.35, (46.0, 0.0)  # [1/s], [px/s]
@@ -50,6 +50,7 @@ KINDS = (
 )
 STACKS = ((214.0, 5), (234.0, 4), (254.0, 3))  # x of a stack, number of its crates
 STAR = (430.0, 206.0)
+HOOK, BOB, BOBS = (446.0, 96.0), Circle(5), ((468.0, 96.0), (468.0, 118.0))  # of a double pendulum, on two rods
 ROOM = 34.0  # [px] over the rock, for the star
 PLACED = 1000000  # first number of things that are there from the start; the star is the first
 
@@ -87,6 +88,13 @@ class BusyYard:
         for x, count in STACKS:
             for row in range(count):
                 self._place("crate", world.add_body(CRATE, position=(x, FLOOR - 7 - 14 * row), material=GRIP))
+        above, at = None, HOOK
+        for place in BOBS:
+            bob = world.add_body(BOB, position=place, material=GRIP)
+            self._place("bob", bob)
+            if world.effects.joints:
+                world.add_joint(Distance(above, bob, at_a=at, at_b=place))
+            above, at = bob, place
 
     def _place(self, name, body):
         number = PLACED + len(self.ids)

@@ -1,4 +1,4 @@
-"""Sixteen effects in one busy yard, each to be switched off while it runs: what would be missed, and what does it cost?
+"""Seventeen effects in one busy yard, each switched off while it runs: what would be missed, and what does it cost?
 
 What to see: choose an effect. From then on the yard runs twice, gold with it and blue without, and things that differ
 in place are outlined in both. Switch it off: the solid picture is now the blue one, and the stage that only this effect
@@ -61,7 +61,7 @@ class EffectsLab(Scene):
     name = "lab/effects"
     keeps = {"substeps": "by load, as a World has them by itself: the cost of each effect is that in such a world"}
     title = "Effects"
-    about = "A busy yard, with and without each of sixteen effects: what would be missed, and what does it cost?"
+    about = "A busy yard, with and without each of seventeen effects: what would be missed, and what does it cost?"
     effects = ALL
     other_effects = tuple(ALL.without(name) for name in NAMES)
     pieces = ("masks", "boxes", "circles", "capsules", "tiles")

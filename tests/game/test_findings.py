@@ -36,7 +36,7 @@ COUNTED_AT_ONCE = {"lab/ladder"}  # when the sprite is taken
 # What these measure comes out alike after any time: of these it is shown that other figures make another finding.
 OF_FIGURES = {"lab/masks", "lab/pyramid", "lab/broadphases"}
 OTHERWISE = {"lab/dominoes": "spacing", "lab/mask_stack": "high"}  # and of these, that another slider does
-LOOKED_AT_TWO = {"lab/effects"}  # of sixteen effects: test_lab_effects goes through all of them
+LOOKED_AT_TWO = {"lab/effects"}  # of seventeen effects: test_lab_effects goes through all of them
 needs_speed = pytest.mark.skipif(
     not physics.JIT, reason="hundreds of frames; nothing here depends on who runs the kernels"
 )

@@ -20,10 +20,11 @@ rng = np.random.default_rng(5)
 effects = Effects(response=True, gravity=True, drag=True, rotation=True, friction=True, restitution=True,
                   continuous=True, sensors=True, one_way=True) if kind != "detection" else Effects(rotation=True)
 strategy = {"hash": SpatialHashGrid, "tree": DynamicTree, "sweep": SweepAndPrune}.get(sys.argv[3], BruteForce)
-world = World(effects, strategy(), "blocking" if kind == "blocking" else None, drag=0.2)
+world = World(effects, strategy(), "blocking" if kind == "blocking" else None,
+              drag=0.2 if effects.drag else 0.0)
 slopes = np.zeros((2, 16, 2)); slopes[0, 4] = (0, 1); slopes[0, 5] = (1, .5); slopes[0, 6] = (.5, 0)
 solid = np.zeros((2, 16), bool); solid[1] = True
-one_way = np.zeros((2, 16), bool); one_way[0, 10:12] = True
+one_way = np.zeros((2, 16), bool); one_way[0, 10:12] = effects.one_way
 world.add_body(TileGrid(solid, 16, one_way=one_way, slopes=slopes), position=(0, 90), kind="static")
 masks = [PixelMask(rng.random((h, w)) < 0.7) for w, h in ((9, 7), (33, 5), (12, 12))]
 for k in range(21):

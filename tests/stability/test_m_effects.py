@@ -31,7 +31,7 @@ def crowd(effects, steps):
     rng, smooth = generator(3), Material(friction=0.0, restitution=0.0)
     for shape, count in ((Circle(6.0), 25), (PixelMask(np.ones((6, 5), bool)), 8), (Polygon.box(7, 9), 8)):
         places, speeds = rng.uniform(0, 90, (count, 2)), rng.uniform(-40, 40, (count, 2))
-        world.add_bodies(shape, places, speeds, material=smooth, fixed_rotation=True)
+        world.add_bodies(shape, places, speeds, material=smooth, fixed_rotation=True, continuous="off")
     world.add_body(TileGrid(np.ones((1, 6), bool), 16), position=(0, 95), kind="static", material=smooth)
     digests = []
     for _ in range(steps):
@@ -110,7 +110,7 @@ def test_m3_a_shooter_needs_no_solver(measured):
             for i in range(j)
             if math.dist(bodies[i][1][:2], bodies[j][1][:2]) < 20.0 and len(collide(*bodies[i], *bodies[j]))
         }
-        told = quick.contacts
+        told = quick.contacts[quick.contacts["separation"] <= 0.0]  # a pair ends only beyond the slop
         differ += len(right ^ set(zip(told["shape_a"].tolist(), told["shape_b"].tolist(), strict=True)))
         met += len(right)
     assert met > (100 if JIT else 5)

@@ -23,7 +23,7 @@ GROUND = Section(
             (
                 at_most("error of the place", 1e-3, "m"),
                 at_most("error of the velocity", 2e-3, "m/s"),
-                at_most("relative speed lost over tiles and links", 1e-9),
+                at_most("relative speed lost over tiles and links", 3e-7),
                 at_most("relative speed lost over separate boxes", 1e-6),
                 at_least("relative speed lost at a step of half a pixel", 0.01),
             ),
