@@ -16,11 +16,12 @@ from physics.queries.index import visited
 from physics.settings import MASK_ANGLE_BUCKETS
 from physics.shapes.library import draw_pictures
 from physics.tables.body import DYNAMIC
+from physics.tables.joint import ANGLE, LENGTH, WORLD
 from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PART, POLYGON, SEGMENT
 from physics.world import World
 
 __all__ = [
-    "bounds", "contact_points", "drawn_masks", "impact_ghosts", "islands", "mask_hits", "masks", "motion", "outlines",
+    "bounds", "contact_points", "drawn_masks", "impact_ghosts", "islands", "joints", "mask_hits", "masks", "motion", "outlines",
     "pairs", "part_edges", "shape_rows", "structure", "visited",
 ]  # fmt: skip
 
@@ -53,6 +54,30 @@ EDGE = np.dtype(
     ]
 )
 CORNERS = 16  # bits of `inner` in SHAPE: edges below bit 16, corners from bit 16 on
+
+
+DRAWN_JOINT = np.dtype(
+    [
+        ("joint", np.int64),  # ids; -1: the world
+        ("body_a", np.int64),
+        ("body_b", np.int64),
+        ("kind", np.int64),  # index in physics.joints.kinds.KINDS
+        ("coordinate", np.int64),  # NO_COORDINATE ANGLE TRANSLATION LENGTH of tables/joint.py
+        ("ax", np.float64),  # [px] anchors in the world
+        ("ay", np.float64),
+        ("bx", np.float64),
+        ("by", np.float64),
+        ("axis_x", np.float64),  # unit: the axis of a slider or wheel, along a length, for an angle the direction of 0
+        ("axis_y", np.float64),
+        ("value", np.float64),  # the coordinate [px or rad], and its limits
+        ("lower", np.float64),
+        ("upper", np.float64),
+        ("force_x", np.float64),  # on B in the last step
+        ("force_y", np.float64),
+        ("torque", np.float64),
+        ("awake", np.bool_),
+    ]
+)
 
 
 def bounds(world: World) -> np.ndarray:
@@ -177,6 +202,39 @@ def _line(shape, kind, points):
     if kind == POLYGON and shape.radius > 0.0:
         return "rounded", points, shape.radius
     return "segment" if kind == SEGMENT else "polygon", points
+
+
+def joints(world: World) -> np.ndarray:
+    """Return a DRAWN_JOINT row per joint, in the order of ids: anchors, axis, limits and forces at the present poses."""
+    rows, bodies = world.joints, world.bodies
+    found = np.zeros(len(rows), DRAWN_JOINT)
+    found["joint"] = rows["id"]
+    for name in ("body_a", "body_b", "kind", "coordinate", "lower", "upper", "force_x", "force_y", "torque", "awake"):
+        found[name] = rows[name]
+    turned = np.zeros(len(rows))  # angle of A
+    for side in ("a", "b"):
+        x, y = rows[f"local_{side}x"].copy(), rows[f"local_{side}y"].copy()
+        there = rows[f"body_{side}"] != WORLD
+        body = bodies[world.rows(rows[f"body_{side}"][there])]
+        cosine, sine = np.cos(body["angle"]), np.sin(body["angle"])
+        x[there], y[there] = (
+            body["x"] + cosine * x[there] - sine * y[there],
+            body["y"] + sine * x[there] + cosine * y[there],
+        )
+        found[side + "x"], found[side + "y"] = x, y
+        if side == "a":
+            turned[there] = body["angle"]
+    of_angle, of_length = rows["coordinate"] == ANGLE, rows["coordinate"] == LENGTH
+    along_x, along_y = np.where(of_angle, 1.0, rows["axis_x"]), np.where(of_angle, 0.0, rows["axis_y"])
+    turned[of_angle] += rows["reference"][of_angle]
+    found["axis_x"] = np.cos(turned) * along_x - np.sin(turned) * along_y
+    found["axis_y"] = np.sin(turned) * along_x + np.cos(turned) * along_y
+    apart = np.stack([found["bx"] - found["ax"], found["by"] - found["ay"]])
+    length = np.sqrt((apart * apart).sum(axis=0))
+    known = of_length & (length > 0.0)
+    found["axis_x"][known], found["axis_y"][known] = apart[:, known] / length[known]
+    found["value"] = np.where(of_angle, rows["angle"], rows["translation"])
+    return found
 
 
 def part_edges(world: World, rows: np.ndarray | None = None) -> np.ndarray:

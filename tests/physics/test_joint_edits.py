@@ -30,6 +30,7 @@ from physics import (
     Weld,
     Wheel,
     World,
+    debug,
 )
 
 EFFECTS = Effects.rigid_bodies().with_(joints=True)
@@ -154,6 +155,24 @@ def test_columns_can_be_written_between_steps():
     world.joints["motor_speed"][:] = -3.0
     run(world, 2)
     assert joint.speed == pytest.approx(-3.0) and a.angular_velocity == pytest.approx(-3.0)
+
+
+def test_debug_tells_anchors_axes_limits_and_forces():
+    world, a, b = two()
+    world.add_joint(Revolute(None, a, at=(5, 5), limits=(-0.5, 0.5)))
+    world.add_joint(Prismatic(a, b, at=(15, 0), axis=(3, 4), limits=(-2, 8)))
+    world.add_joint(Distance(None, b, at_a=(60, -80), at_b=(30, 0)))
+    run(world, 90)
+    drawn = debug.joints(world)
+    for row, joint in zip(drawn, (world.joint(k) for k in range(3)), strict=True):
+        assert (row["ax"], row["ay"]) == pytest.approx(joint.anchor_a) and row["joint"] == joint.id
+        assert (row["bx"], row["by"]) == pytest.approx(joint.anchor_b)
+        assert math.hypot(row["axis_x"], row["axis_y"]) == pytest.approx(1.0)
+        assert math.hypot(row["force_x"], row["force_y"]) == pytest.approx(joint.force)
+    angle = math.atan2(0.8, 0.6) + a.angle
+    assert (drawn["axis_x"][1], drawn["axis_y"][1]) == pytest.approx((math.cos(angle), math.sin(angle)))
+    assert drawn["value"].tolist() == pytest.approx([a.angle, world.joint(1).translation, world.joint(2).translation])
+    assert drawn["lower"][:2].tolist() == [-0.5, -2.0] and len(debug.joints(World(EFFECTS))) == 0
 
 
 # --- what happens to joints -----------------------------------------------------------------------------------------

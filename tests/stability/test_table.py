@@ -75,6 +75,13 @@ def test_limits_worst_values_and_margins():
     assert most.met(2.0) and not most.met(2.1) and not most.met(math.nan) and most.worse(1.0, 1.5) == 1.5
     assert least.met(0.5) and not least.met(0.4) and least.worse(0.9, 0.6) == 0.6
     assert one.met(3) and not one.met(4) and one.worse(3, 1) == 1 and math.isnan(most.worse(1.0, math.nan))
+    assert [most.near(0.5).value, most.near(1.5).value, most.near(0.0).value, most.near(1e-9).value] == [
+        1.0,
+        2.0,
+        2.0,
+        2e-3,
+    ]
+    assert [least.near(1.6).value, least.near(0.9).value, one.near(3).value] == [0.8, 0.5, 3]
     assert [most.margin(0.5), most.margin(0.0), most.margin(3.0)] == ["4×", "> 1000×", "outside"]
     assert [least.margin(1.0), one.margin(3), one.margin(2)] == ["2×", "exact", "outside"]
 

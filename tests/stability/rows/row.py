@@ -2,9 +2,11 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 SENSES = ("<=", ">=", "==")
+TWICE = 2.0  # greatest factor between a value and the one on record
+NOTHING = 1e-3  # share of a limit below which a value counts as none
 
 
 @dataclass(frozen=True)
@@ -29,6 +31,17 @@ class Limit:
         if self.sense == "==":
             return max(one, two, key=lambda each: abs(each - self.value))
         return max(one, two) if self.sense == "<=" else min(one, two)
+
+    def near(self, recorded):
+        """Return the limit within twice a recorded value, or this one where it is nearer.
+
+        Values of up to a thousandth of the limit do not count: most of them are rounding.
+        """
+        if not recorded > 0.0 or self.sense == "==":
+            return self
+        if self.sense == "<=":
+            return replace(self, value=min(self.value, max(TWICE * recorded, NOTHING * self.value)))
+        return replace(self, value=max(self.value, recorded / TWICE))
 
     def margin(self, measured):
         """Return the factor by which the value could grow before the limit; None if only one value is right."""
