@@ -21,8 +21,8 @@ from physics.tables.shape import BOUNDS, CAPSULE, CHAIN, CIRCLE, MASK, PART, POL
 from physics.world import World
 
 __all__ = [
-    "bounds", "contact_points", "drawn_masks", "impact_ghosts", "islands", "joints", "mask_hits", "masks", "motion", "outlines",
-    "pairs", "part_edges", "shape_rows", "structure", "visited",
+    "bounds", "contact_points", "drawn_masks", "impact_ghosts", "islands", "joints", "mask_hits", "masks", "motion",
+    "outlines", "pairs", "part_edges", "shape_rows", "structure", "visited",
 ]  # fmt: skip
 
 ROW = np.dtype(
@@ -205,7 +205,7 @@ def _line(shape, kind, points):
 
 
 def joints(world: World) -> np.ndarray:
-    """Return a DRAWN_JOINT row per joint, in the order of ids: anchors, axis, limits and forces at the present poses."""
+    """Return a DRAWN_JOINT row per joint, in the order of ids: anchors, axis, limits and forces."""
     rows, bodies = world.joints, world.bodies
     found = np.zeros(len(rows), DRAWN_JOINT)
     found["joint"] = rows["id"]
