@@ -10,7 +10,7 @@ import numpy as np
 from physics import checks
 from physics.checks import Pair
 from physics.islands import sleep
-from physics.joints.kinds import KINDS, Drive, Kind, Spring, checked_breaks, checked_limits, motor_fields
+from physics.joints.kinds import KINDS, Drive, Kind, Spring, Weld, checked_breaks, checked_limits, motor_fields
 from physics.math2d import Vec2, rotate
 from physics.solver.joint_rows import report_joints
 from physics.tables.body import DYNAMIC
@@ -139,6 +139,9 @@ def _check_effects(world, kind, given):
     asked = given["motor_max"] if "motor_max" in given else 0.0
     asked = asked or given.get("spring_hertz") or max(given["lower"], -given["upper"]) > -math.inf
     world._needs("rotation", f"{name} with limits, motor or spring", given.get("coordinate") == ANGLE and bool(asked))
+    world._needs("rotation", f"{name} with a motor", bool(given.get("turns_motor") and given.get("motor_max")))
+    world._needs("rotation", f"{name} with angular_velocity", bool(given.get("target_spin")))
+    world._needs("rotation", f"{name} with angular_spring", type(kind) is Weld and bool(given.get("angle_hertz")))
 
 
 def add_one(world: WorldState, kind: Any) -> "Joint":
@@ -147,13 +150,16 @@ def add_one(world: WorldState, kind: Any) -> "Joint":
     if not isinstance(kind, Kind) or type(kind) not in KINDS:
         raise TypeError(f"joint must be one of {_names()} (got {checks.shown(kind)})")
     a, b = kind.sides()
-    bodies_a, bodies_b = _body_ids(world, "a", [a]), _body_ids(world, "b", [b])
+    name = "b" if "b" in vars(kind) else "body"
+    bodies_a, bodies_b = _body_ids(world, "a", [a]), _body_ids(world, name, [b])
     given, columns = vars(kind), {}
     for name in kind.POINTS:
         point = given[name]
         if point is None:
+            name_of_default = "at" if name == "point" else name
             point = _default_point(world, kind, name, bodies_b.item(0))
-        columns[name] = np.array([checks.vector(name, point)])
+            point = checks.position(name_of_default, point)
+        columns[name] = np.array([checks.position(name, point)])
     if kind.AXIS:
         columns["axis"] = np.array([checks.vector("axis", given["axis"])])
     return Joint(world, int(add(world, kind, bodies_a, bodies_b, columns)[0]))
@@ -191,6 +197,9 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
     known = {field.name for field in fields(kind)}.difference(sides)
     for name in sorted(settings.keys() - known):
         raise TypeError(f"add_joints() got an unexpected keyword argument {name!r} for {kind.__name__}")
+    for name, each in (("bodies_a", bodies_a), ("bodies_b", bodies_b)):
+        if each is not None and not isinstance(each, Iterable):
+            raise TypeError(f"{name} must be Bodies or ids, or None (got {checks.shown(each)})")
     first, second = (None if each is None else [*each] for each in (bodies_a, bodies_b))
     n = len(first or second or ())
     first, second = (
@@ -308,6 +317,11 @@ def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
     if (rows < 0).any():
         raise checks.NoSuchId(f"no joint {np.unique(numbers)[rows < 0][0]} in this world")
     return rows
+
+
+def row_of(world: WorldState, joint: Any) -> int:
+    """Return the row of one Joint or id. Raises KeyError for an unknown one, TypeError for anything else."""
+    return int(joint_rows(world, [_identity(world, joint)])[0])
 
 
 def _identity(world, value):
@@ -503,12 +517,14 @@ class Joint:
     @limits.setter
     def limits(self, value: Any) -> None:
         self._takes("limits", value is not None)
-        lower, upper = checked_limits(value)
+        lower, upper = checked_limits(value, low=0.0 if self._row["coordinate"] == LENGTH else None)
         self._set(lower=lower, upper=upper)
 
     def _takes(self, name, asked):
-        if asked and (self._row["coordinate"] == NO_COORDINATE):
+        if asked and self._row["coordinate"] == NO_COORDINATE:
             raise ValueError(f"{name} needs a joint with a coordinate; {self.kind} has none")
+        turns = self._row["coordinate"] == ANGLE or (name == "motor" and self._row["turns_motor"])
+        self._world._needs("rotation", f"{name} of a {self.kind}", bool(asked and turns))
 
     @property
     def breaks(self) -> tuple[float, float]:

@@ -307,7 +307,7 @@ class World(WorldState):
 
     def joint(self, identity: Joint | int) -> Joint:
         """Return the Joint of an id, or of a Joint. Raises KeyError for an unknown joint, TypeError, ValueError."""
-        return Joint(self, self.joints["id"].item(int(joint.joint_rows(self, identity)[0])))
+        return Joint(self, self.joints["id"].item(joint.row_of(self, identity)))
 
     def remove_joints(self, ids: Any) -> None:
         """Remove joints, given as Joints or ids. A joint may be named more than once. Their bodies wake.

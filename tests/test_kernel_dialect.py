@@ -123,6 +123,9 @@ ABOVE_ZERO = {
     "1.0 + grip",
     "1.0 + context.joint.grip",
     "accuracy",
+    "FADING",
+    "SLACK",
+    "SLOW",
     "PART",
     "path.count",  # an outline's path has runs and cracks
     "path.cracks",

@@ -543,8 +543,8 @@ def carry_characters(state: StepState) -> None:
 @stage(
     "weigh",
     reads=(
-        "effects", "tolerances", "gravity", "bodies", "shapes", "characters", "contact_rows", "awake", "sleeping_set",
-        "pairs", "touching_pairs", "sensing_pairs",
+        "effects", "tolerances", "gravity", "bodies", "shapes", "characters", "contact_rows", "joints", "awake",
+        "sleeping_set", "pairs", "touching_pairs", "sensing_pairs",
     ),
     writes=(
         "characters", "contact_rows", "awake", "sleeping_set", "pairs", "touching_pairs", "sensing_pairs",

@@ -437,6 +437,8 @@ def join_jointed_groups(bodies, joints, groups_inout):
         hold = hold_of(j)
         if hold == HELD:
             g.anchored[row] = True
+        elif hold == PIVOT and j.hold == PINNED and bodies[row].inverse_inertia == 0.0:
+            g.anchored[row] = True  # it cannot turn
         elif hold == PIVOT:
             g.pivots[row] += 1
             still = j.body_row_b if a else j.body_row_a
@@ -490,17 +492,20 @@ def way_of_hung(root, body, groups, fall):
     """
     g = groups
     ax, ay = g.ax[root], g.ay[root]
+    spin = abs(body.angular_velocity) * body.extent * fall.velocity_reach
     if g.pivots[root] == 0:
         x, y = g.hold_x[root], g.hold_y[root]
-        way = abs(ax * x + ay * y) * fall.acceleration_reach
+        way = abs(ax * x + ay * y) * fall.acceleration_reach + spin
         return way + abs(body.vx * x + body.vy * y) * fall.velocity_reach
     x, y = g.center_x[root] - g.hold_x[root], g.center_y[root] - g.hold_y[root]
-    size = norm(ax, ay)
-    if size * fall.acceleration_reach <= fall.slop:
-        return norm(body.vx, body.vy) * fall.velocity_reach
+    size, length = norm(ax, ay), norm(x, y)
+    if size * fall.acceleration_reach <= fall.slop or length * SWING <= fall.slop:
+        return norm(body.vx, body.vy) * fall.velocity_reach + spin
     if x * ax + y * ay < 0.0:
         return math.inf
-    return abs(x * ay - y * ax) / size * SWING
+    # The amplitude, from the displacement and the speed of a pendulum of this length.
+    aside = abs(x * ay - y * ax) / size
+    return SWING * math.sqrt(aside * aside + (body.vx * body.vx + body.vy * body.vy) * length / size)
 
 
 @kernel
@@ -621,11 +626,14 @@ def keep_sprung_awake(bodies, joints, slop, islands, least_out):
     """
     for i in range(len(joints)):
         j = joints[i]
-        hertz = j.spring_hertz
-        for other in range(2):
-            soft = j.point_hertz if other == 0 else j.angle_hertz
-            hertz = soft if soft > 0.0 and (hertz == 0.0 or soft < hertz) else hertz
-        if not j.awake or hertz == 0.0:
+        hertz = math.inf
+        for part in range(3):
+            soft = j.spring_hertz if part == 0 else (j.point_hertz if part == 1 else j.angle_hertz)
+            damping = j.spring_damping if part == 0 else (j.point_damping if part == 1 else j.angle_damping)
+            # An overdamped spring creeps back at the slower of its two rates.
+            soft = soft / (2.0 * damping) if damping > 1.0 else soft
+            hertz = soft if soft > 0.0 and soft < hertz else hertz
+        if not j.awake or hertz == math.inf:
             continue
         for side in range(2):
             row = j.body_row_a if side == 0 else j.body_row_b

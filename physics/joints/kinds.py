@@ -306,7 +306,7 @@ class Motor(Kind):
     was when the joint was made, in place of a velocity.
     """
 
-    PARTS = {"hold": PINNED, "locks_angle": True}
+    PARTS = {"hold": PINNED, "locks_angle": True, "axis_x": 1.0}
     COORDINATE = ()
 
     a: Any

@@ -189,6 +189,7 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
         e = balance_inout[i]
         e.excess = 0.0
         e.now = 0.0
+        e.suspect = False
         if m.inverse_mass == 0.0:
             continue
         work = (m.acceleration_x * m.dx + m.acceleration_y * m.dy) / m.inverse_mass
@@ -197,10 +198,11 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
         e.now = kinetic_energy(m)
         e.excess = e.now - e.before - work
         e.before += abs(work)
-        e.reserve *= keep
+        e.reserve *= 1.0 if m.jointed else keep
         load = lift * norm(m.acceleration_x, m.acceleration_y)
         allowed = min(e.reserve * m.inverse_mass, max(SHARE_BACK * e.before * m.inverse_mass, load))
-        suspect = suspect or (degrees[i] > 0 and e.excess * m.inverse_mass > max(floor, allowed))
+        e.suspect = m.jointed or (degrees[i] > 0 and e.excess * m.inverse_mass > max(floor, allowed))
+        suspect = suspect or e.suspect
     return suspect
 
 
@@ -219,15 +221,20 @@ def reset_balance(balance_out):
     e.in_all = False
     e.anchored = False
     e.jointed = False
+    e.driven = False
 
 
 @subkernel
-def join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout):
+def join_touching(blocks, count, group, joints, links_islands, motions, parents_out, balance_inout):
     """Join the bodies of a group that exchanged impulses in this step into sets, by union-find.
 
-    Only such bodies can have exchanged energy. count: number of blocks; parents_out (motions) int32: the root of each
-    body, which is the body that represents its set. Also record in which directions contacts act on each body.
+    Only such bodies can have exchanged energy. joints: the joints of all groups, see joint_rows.list_joints. count:
+    number of blocks; parents_out (motions) int32: the root of each body, which is the body that represents its set.
+    Also record in which directions contacts act on each body.
     """
+    for k in range(len(joints)):  # also of the other groups, whose bodies are reset before their turn
+        parents_out[joints[k, 1]] = joints[k, 1]
+        parents_out[joints[k, 2]] = joints[k, 2]
     for k in range(len(group.members)):
         i = group.members[k]
         parents_out[i] = i
@@ -244,8 +251,22 @@ def join_touching(blocks, count, group, links_islands, motions, parents_out, bal
             note_direction(c[at.NX + lane], c[at.NY + lane], rubs, motions[row_b], balance_inout[row_b])
             if links_islands[row_a] and links_islands[row_b]:
                 join_trees(row_a, row_b, parents_out)
+    for k in range(len(joints)):
+        row_a, row_b = joints[k, 1], joints[k, 2]
+        balance_inout[row_a].in_all = True
+        balance_inout[row_b].in_all = True
+        if links_islands[row_a] and links_islands[row_b]:
+            join_trees(row_a, row_b, parents_out)
     for k in range(len(group.members)):
         parents_out[group.members[k]] = root_of(group.members[k], parents_out)
+    for k in range(len(joints)):
+        row = joints[k, 1] if links_islands[joints[k, 1]] else joints[k, 2]
+        if not (links_islands[joints[k, 1]] and links_islands[joints[k, 2]]):
+            balance_inout[parents_out[row]].anchored = True
+    for k in range(len(group.members)):
+        # With joints, only sets with a gain are looked at: none may depend on the joints of another island.
+        e, root = balance_inout[group.members[k]], balance_inout[parents_out[group.members[k]]]
+        root.suspect = root.suspect or e.suspect or len(joints) == 0
 
 
 @inlined
@@ -313,11 +334,12 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
             root.anchored = root.anchored or c[at.IM_A + lane] == 0.0 or c[at.IM_B + lane] == 0.0
     for k in range(len(group.members)):
         i = group.members[k]
-        if motions[i].inverse_mass == 0.0:
+        if motions[i].inverse_mass == 0.0 or not balance_inout[parents[i]].suspect:
             continue
         e = balance_inout[i]
         root = balance_inout[parents[i]]
         root.jointed = root.jointed or motions[i].jointed
+        root.driven = root.driven or motions[i].driven
         e.along = energy_along(motions[i], e)
         root.load += norm(motions[i].acceleration_x, motions[i].acceleration_y) / motions[i].inverse_mass
         add_momentum(motions[i], e, root)
@@ -336,13 +358,16 @@ def draw_on_reserve(slop, balance_inout):
 
     Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row with their sums. Errors of the integrator
     alternate, so bodies may take back what they lost before: slowly, or as far as their load rises by a slop [px]. Work
-    of surfaces that did not speed up a body is not added to the reserve. Bodies with joints keep what they gained: a
-    joint may hand them the energy of bodies that they do not touch.
+    of surfaces that did not speed up a body is not added to the reserve. With joints they may take back all of it in a
+    step, and do not forget it: light links under tension exchange much of their energy with the error of the
+    integrator. Bodies with motors, springs or joints to kinematic bodies keep what they gained.
     """
     e = balance_inout
-    allowed = min(e.reserve, max(SHARE_BACK * e.before, min(e.lift, slop * e.load)))
+    allowed = e.reserve
+    if not e.jointed:
+        allowed = min(allowed, max(SHARE_BACK * e.before, min(e.lift, slop * e.load)))
     gained = e.excess - e.surfaces
-    beyond = 0.0 if e.jointed else gained - allowed
+    beyond = 0.0 if e.driven else gained - allowed
     e.along_scale = 1.0
     if e.anchored:
         e.along_scale = scale_without(beyond, e.along)
@@ -375,17 +400,21 @@ def limit_squeezed(most, before, motion_inout):
 def remove_gains(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that contacts have added. Return the number of sets of touching bodies that had gained any."""
     plan, motions, parents_out = plan_inout, motions_inout, plan_inout.touching
-    join_touching(blocks, count, group, links_islands, motions, parents_out, balance_inout)
+    joints = plan.joints[: plan.joint_count[0]]
+    join_touching(blocks, count, group, joints, links_islands, motions, parents_out, balance_inout)
     sum_balances(blocks, count, group, links_islands, parents_out, context, motions, balance_inout)
     found = 0
     for k in range(len(group.members)):
         i = group.members[k]
-        if parents_out[i] == i:
+        if parents_out[i] == i and balance_inout[i].suspect:
             found += draw_on_reserve(context.slop, balance_inout[i])
     for k in range(len(group.members)):
         i = group.members[k]
         e = balance_inout[i]
         root = balance_inout[parents_out[i]]
+        if not root.suspect:
+            e.reserve = max(e.reserve - e.excess, 0.0)
+            continue
         if motions[i].inverse_mass > 0.0:
             scale_motion(root, e, motions[i])
             limit_speed(root, context.push_speed, motions[i])
@@ -395,7 +424,7 @@ def remove_gains(blocks, count, group, links_islands, context, plan_inout, balan
                 e.reserve = root.reserve / (motions[i].inverse_mass * root.mass)
     for k in range(len(group.members)):
         i = group.members[k]
-        if parents_out[i] == i and motions[i].inverse_mass > 0.0:
+        if parents_out[i] == i and motions[i].inverse_mass > 0.0 and balance_inout[i].suspect:
             balance_inout[i].reserve *= 1.0 / (motions[i].inverse_mass * balance_inout[i].mass)
     return found
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from physics.jit import kernel, subkernel
+from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm
 from physics.solver.joint_rows import (
     bounded,
@@ -18,6 +18,7 @@ from physics.solver.joint_rows import (
     holds_angle,
     holds_coordinate,
     holds_point,
+    impulse_of,
     inverse_mass_along,
     place_joint,
     softness_of,
@@ -100,6 +101,11 @@ def mark_direct(rows, taken, joints_inout):
         joints_inout[rows[k]].direct = taken[k]
 
 
+FADING = 0.25  # [s] for which a tension counts
+SLACK = 0.05  # growth of an inertia by tension, from which on bend() is nothing
+
+SLOW = 0.01  # [rad²] square of a turn in a substep, from which on bend() is nothing
+
 # ---- rows ------------------------------------------------------------------------------------------------------------
 
 
@@ -171,20 +177,39 @@ def draw(error, hertz, damping, impulse, rate, most, h, row_inout):
         row_inout.rhs = -spring_rate * error - row_inout.compliance * impulse
 
 
+@inlined
+def bend(joint, a, b, h):
+    """Return (x, y) of the velocity that makes up for the turning of arms: on straight ways anchors would part.
+
+    In a substep of h [s] an arm r that turns with w ends w² h² r / 2 nearer to its centre than its velocity leads.
+    Under tension, and in fast turns, that would feed back on the oscillation of light links, see add_inertia: there it
+    is left to the next substep.
+    """
+    j = joint
+    growth = max(a.tension * a.own_inverse_inertia, b.tension * b.own_inverse_inertia)
+    of_a, of_b = a.angular_velocity * a.angular_velocity, b.angular_velocity * b.angular_velocity
+    h *= max(1.0 - growth / SLACK - max(of_a, of_b) * h * h / SLOW, 0.0)
+    return 0.5 * h * (of_b * j.bx - of_a * j.ax), 0.5 * h * (of_b * j.by - of_a * j.ay)
+
+
 @subkernel
-def write_targets(joint, rate, context, first, rows_inout):
-    """Write the wanted velocities of the rows of a joint. first: index of its rows.
+def write_targets(joint, rate, context, a, b, first, rows_inout):
+    """Write the wanted velocities of the rows of a joint. a, b: MOTION rows; first: index of the rows of the joint.
 
     rate [1/s]: at which errors of position are removed; 0 in the solve at the end of a substep.
     """
     j = joint
     at = first
     h, most = context.h, context.push_speed
+    bend_x, bend_y = bend(j, a, b, h) if rate > 0.0 else (0.0, 0.0)
     if holds_point(j) and j.hold == PINNED:
         fast = rate * norm(j.apart_x, j.apart_y)
         slow = rate * context.push_speed / fast if fast > context.push_speed else rate
         draw(j.apart_x, j.point_hertz, j.point_damping, j.point_x, slow, most, h, rows_inout[at])
         draw(j.apart_y, j.point_hertz, j.point_damping, j.point_y, slow, most, h, rows_inout[at + 1])
+        if j.point_hertz == 0.0:
+            rows_inout[at].rhs += bend_x
+            rows_inout[at + 1].rhs += bend_y
         at += 2
     elif holds_point(j):
         draw(j.apart_y * j.nx - j.apart_x * j.ny, 0.0, 0.0, 0.0, rate, most, h, rows_inout[at])
@@ -201,25 +226,28 @@ def write_targets(joint, rate, context, first, rows_inout):
 
 
 @subkernel
-def add_inertia(rows, order, joints, h, motions_inout):
-    """Raise the inertia of bodies in trees by what tension adds to it. O(order).
+def add_inertia(rows, order, h, joints_inout, motions_inout):
+    """Raise the inertia of light bodies in trees under tension, so that substeps of h [s] can follow them. O(order).
 
-    A light link between heavy bodies oscillates like a string under tension, faster than substeps of h [s] can follow.
-    With the inertia h Σ r · P added where it is positive, it does not; P are the impulses on the link in the last
-    substep, at the arms r (geometric stiffness: Andrews, Teichmann and Kövecses, 2017).
+    A light link between heavy bodies oscillates like a string. A tension F at an arm r turns it back by F r per angle:
+    with an inertia of at least h² Σ F r it advances by no more than one radian of an oscillation in a substep
+    (geometric stiffness: Andrews, Teichmann and Kövecses, 2017). F is the greatest force of the last quarter of a
+    second, because a chain that jerks is slack in between.
     """
+    fade = max(1.0 - h / FADING, 0.0)
     for k in range(len(order)):
-        j = joints[rows[order[k]]]
+        j = joints_inout[rows[order[k]]]
         motions_inout[j.motion_a].tension = 0.0
         motions_inout[j.motion_b].tension = 0.0
     for k in range(len(order)):
-        j = joints[rows[order[k]]]
-        if j.direct and j.hold == PINNED:
-            size = h * norm(j.point_x, j.point_y)
-            motions_inout[j.motion_a].tension += size * norm(j.ax, j.ay)
-            motions_inout[j.motion_b].tension += size * norm(j.bx, j.by)
+        j = joints_inout[rows[order[k]]]
+        if j.direct and h > 0.0:
+            x, y, _ = impulse_of(j)
+            j.strain = max(norm(x, y) / h, fade * j.strain)
+            motions_inout[j.motion_a].tension += h * h * j.strain * norm(j.ax, j.ay)
+            motions_inout[j.motion_b].tension += h * h * j.strain * norm(j.bx, j.by)
     for k in range(len(order)):
-        j = joints[rows[order[k]]]
+        j = joints_inout[rows[order[k]]]
         for side in range(2):
             m = motions_inout[j.motion_a if side == 0 else j.motion_b]
             growth = m.own_inverse_inertia * m.tension
@@ -238,12 +266,13 @@ def place_trees(rows, order, h, motions, joints_inout, tree_rows_out):
 
 
 @subkernel
-def aim_trees(rows, order, rate, context, joints, tree_rows_out):
+def aim_trees(rows, order, rate, context, joints, motions, tree_rows_out):
     """Write the wanted velocities of the rows of trees. rate: see write_targets. O(order)."""
     for k in range(len(order)):
         j = joints[rows[order[k]]]
         if j.direct:
-            write_targets(j, rate, context, MOST_ROWS * order[k], tree_rows_out)
+            a, b = motions[j.motion_a], motions[j.motion_b]
+            write_targets(j, rate, context, a, b, MOST_ROWS * order[k], tree_rows_out)
 
 
 @subkernel
@@ -292,7 +321,7 @@ def begin_trees(context, joints_inout, motions_inout):
     s = joints_inout
     if len(s.order) == 0:
         return 0
-    add_inertia(s.rows, s.order, s.table, context.h, motions_inout)
+    add_inertia(s.rows, s.order, context.h, s.table, motions_inout)
     place_trees(s.rows, s.order, context.h, motions_inout, s.table, s.tree_rows)
     return factor_trees(s.tree_rows, s.counts, motions_inout, s.forest)
 
@@ -302,7 +331,7 @@ def solve_all_trees(biased, context, joints_inout, motions_inout):
     """Solve the trees exactly. biased: whether errors of position are removed, as far as a substep can."""
     s = joints_inout
     if len(s.order) > 0:
-        aim_trees(s.rows, s.order, context.inverse_h if biased else 0.0, context, s.table, s.tree_rows)
+        aim_trees(s.rows, s.order, context.inverse_h if biased else 0.0, context, s.table, motions_inout, s.tree_rows)
         solve_trees(s.forest, s.tree_rows, motions_inout)
         collect_trees(s.rows, s.order, s.tree_rows, s.table)
 

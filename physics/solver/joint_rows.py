@@ -49,6 +49,10 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
         rigid = j.spring_hertz == 0.0 and j.point_hertz == 0.0 and j.angle_hertz == 0.0
         a.halves = rigid and (a.halves or not a.jointed)
         b.halves = rigid and (b.halves or not b.jointed)
+        drives = not rigid or j.motor_max > 0.0 or not j.follows_point
+        drives = drives or (a.moves and not a.is_dynamic) or (b.moves and not b.is_dynamic)  # a kinematic body
+        a.driven = a.driven or drives
+        b.driven = b.driven or drives
         a.jointed = a.is_dynamic
         b.jointed = b.is_dynamic
         links_out[found, 0] = i
@@ -375,8 +379,8 @@ def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
         bias_x, bias_y = bias_x * context.push_speed / fast, bias_y * context.push_speed / fast
     if not j.follows_point:
         mass_share, give = 1.0, 0.0
-        bias_x = a.sine * j.target_vy - a.cosine * j.target_vx
-        bias_y = -a.sine * j.target_vx - a.cosine * j.target_vy
+        bias_x = j.ny * j.target_vy - j.nx * j.target_vx  # nx, ny: the x axis of A
+        bias_y = -j.ny * j.target_vx - j.nx * j.target_vy
     x = b.vx - a.vx - b.angular_velocity * j.by + a.angular_velocity * j.ay + bias_x
     y = b.vy - a.vy + b.angular_velocity * j.bx - a.angular_velocity * j.ax + bias_y
     before_x, before_y = j.point_x, j.point_y

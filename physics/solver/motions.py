@@ -48,6 +48,7 @@ def reset_motion(motion_out):
     m.is_character = False
     m.jointed = False
     m.halves = False
+    m.driven = False
     m.estimate = 0.0
     m.branching = False
     m.capped = False

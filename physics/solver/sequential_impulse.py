@@ -18,6 +18,7 @@ from physics.math2d import rotation_of
 from physics.settings import AUTO_SUBSTEPS, BAUMGARTE, ITERATIONS_PER_SUBSTEP, PUSH_PASSES, PUSH_SHARE
 from physics.solver import lanes as at
 from physics.solver.contact_lanes import ContactLanes, estimate_substeps
+from physics.solver.energy import limit_energy
 from physics.solver.joint_direct import begin_trees, finish_joints, solve_once, start_joints
 from physics.solver.joint_rows import store_joints
 from physics.solver.lanes import (
@@ -412,6 +413,10 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
         contacts.store(state, motions, count, context)
         if len(group.joints):
             store_joints(group.joints, context, state.joints)
+            lists = motions.lists
+            limit_energy(
+                blocks, count, group, lists.links_islands, context, contacts.selection.plan, lists.balance, motions.used
+            )
     return dt
 
 

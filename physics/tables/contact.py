@@ -163,6 +163,7 @@ MOTION = in_lines(
         ("in_contact", np.bool_),  # a contact acts on it in this substep, or supports it: it is not in free flight
         ("is_character", np.bool_),  # the ground supports it, and it does not hold the ground down
         ("jointed", np.bool_),  # a joint acts on it …
+        ("driven", np.bool_),  # a joint with a motor, a spring or a kinematic body acts on it
         ("halves", np.bool_),  # … that is rigid, and no contact: half of its acceleration acts after it has moved
         ("inverse_mass", np.float64),
         ("inverse_inertia", np.float64),  # 0: infinite in this step
@@ -215,7 +216,9 @@ BALANCE = in_lines(
         ("normal_y", np.float64),
         ("in_all", np.bool_),  # … or they act in all
         ("anchored", np.bool_),  # a contact acts on a body of infinite mass
-        ("jointed", np.bool_),  # joints act on these bodies, and may give them energy of other ones
+        ("suspect", np.bool_),  # its energy is compared with that of the bodies that it exchanged impulses with
+        ("jointed", np.bool_),  # joints act on these bodies, …
+        ("driven", np.bool_),  # … with motors, springs or kinematic bodies, which may give them energy
         ("face_x", np.float64),  # the first normal; …
         ("face_y", np.float64),
         ("oblique", np.bool_),  # … others are neither parallel nor perpendicular to it, or bounce

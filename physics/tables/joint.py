@@ -62,6 +62,7 @@ STATE = (  # what the next step depends on
     ("force_x", np.float64),  # on B at its anchor: impulse of the step per second
     ("force_y", np.float64),
     ("torque", np.float64),  # on B, beside that force
+    ("strain", np.float64),  # greatest force of late that held the anchors, see joint_direct.add_inertia
     # Impulses per second with which the next step starts.
     ("point_force_x", np.float64),
     ("point_force_y", np.float64),  # along the axis of an ON_AXIS joint: across

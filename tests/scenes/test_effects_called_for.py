@@ -48,7 +48,7 @@ LEDGER = {
         "persist": NEUTRAL,
         "one_way": NEUTRAL,
         "conveyor": NEUTRAL,
-        "joints": DIFFERS,  # with the stacking that it needs
+        "joints": NEUTRAL,
     },
     "platformer": {
         "narrowphase": DIFFERS,
