@@ -1,8 +1,8 @@
 """Blocking: a body that would overlap another keeps its old pose, as in the movement loop of simple arcade games.
 
-It differs from `projection` in that only kinematic bodies push. A body that would overlap keeps its old pose and loses
-its velocity towards the obstacle. A body that stays may block others, so the test is repeated until no further body has
-to stay: at most once per body, two or three rounds in practice.
+Unlike `projection`, only kinematic bodies push. A body that would overlap keeps its old pose and loses its velocity
+towards the obstacle. Such a body may block other bodies, so the test is repeated until no further body overlaps: at
+most once per body, two or three rounds in practice.
 """
 
 import math
@@ -23,17 +23,17 @@ from physics.tables.body import DYNAMIC, KINEMATIC
 from physics.tables.step_state import SOLVER_ROWS, StepState, stage
 from physics.tables.table import joined
 
-# Effects that it ignores: contacts do not rotate, rub, bounce or carry bodies, and are not cached. A body still rotates
-# by its own angular velocity.
+# Effects that this solver ignores: contacts do not rotate, rub, bounce or carry bodies, and are not cached. A body
+# still rotates by its own angular velocity.
 IGNORED = ("rotation", "friction", "restitution", "stacking", "sleeping", "conveyor", "joints")
 
 
 @kernel
 def stay_behind(bodies_inout, manifolds_inout, work_inout):
-    """Move overlapping dynamic bodies that moved in this step back to their old poses. O(manifolds).
+    """Move overlapping dynamic bodies back to their old poses if they moved in this step. O(manifolds).
 
-    Return the number of bodies moved back. Manifolds that stopped a body are marked as `swept`. Touching (separation 0)
-    stops no body.
+    Return the number of bodies that were moved back. Manifolds that stopped a body are marked as `swept`. A separation
+    of 0 stops no body.
     """
     put_back = 0
     for i in range(len(manifolds_inout)):
@@ -62,7 +62,7 @@ def stay_behind(bodies_inout, manifolds_inout, work_inout):
 
 @subkernel
 def stop_at_point(x, y, nx, ny, a_inout, b_inout):
-    """Remove the approach speed of two bodies at a point, by an impulse without restitution. Return the impulse."""
+    """Remove the approach speed of two BODY rows at a point [px]. Return the impulse, which rotates no body."""
     inverse_masses = a_inout.inverse_mass + b_inout.inverse_mass
     if inverse_masses == 0.0:
         return 0.0
@@ -76,7 +76,7 @@ def stop_at_point(x, y, nx, ny, a_inout, b_inout):
 
 @kernel
 def stop_approach(bodies_inout, manifolds_inout):
-    """Remove the approach speed at the points of the manifolds that stopped a body. O(manifolds)."""
+    """Remove the approach speed at all points of manifolds marked as `swept`, except sensors. O(manifolds)."""
     for i in range(len(manifolds_inout)):
         m = manifolds_inout[i]
         if not m.swept or m.sensor:
@@ -88,7 +88,7 @@ def stop_approach(bodies_inout, manifolds_inout):
 
 
 def _make_way(state, stayed):
-    """Let kinematic bodies push the dynamic bodies that overlap, or that were moved back to their old poses.
+    """Let kinematic bodies push the dynamic bodies that overlap or that were moved back to their old poses.
 
     stayed: CONTACT rows that stopped a body.
     """
@@ -110,9 +110,9 @@ def _make_way(state, stayed):
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Move overlapping bodies back to their old poses until no further body has to move. Return the step [s].
+    """Move overlapping bodies back to their old poses until no body that moved overlaps. Return the step length [s].
 
-    contacts: unused; the solver works on the contact rows of the state.
+    contacts: unused; the solver works on state.contact_rows.
     """
     bodies, stopped = state.bodies, []
     while True:
@@ -146,5 +146,5 @@ def solve(state: StepState, contacts: PushSet) -> float:
     ),
 )  # fmt: skip
 def blocking(state: StepState) -> None:
-    """Keep each body that would overlap at its old pose."""
+    """Move bodies that overlap after their motion back to their old poses."""
     solve(state, state.workspace.contacts)

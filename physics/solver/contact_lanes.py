@@ -1,4 +1,4 @@
-"""The contacts of a step as constraints: their edges, substeps, order and groups, and the way from lanes to their rows.
+"""The contacts of a step as constraints: graph edges, substeps, order, groups, and storing of lanes in CONTACT rows.
 
 A lane holds one contact for the SIMD passes, see lanes.py. Islands with the same number of substeps form a group, which
 advances by the whole step before the next group begins. Groups may differ in their substeps because islands do not
@@ -57,31 +57,35 @@ BY_LOAD = AUTO_SUBSTEPS.index(LOAD_SUBSTEPS)  # index of the most substeps that 
 
 
 class Plan(NamedTuple):
-    """The constraints to solve and their order; each array is long enough for all edges, or for all MOTION rows."""
+    """The constraints to solve and their order.
 
-    edges: Edges  # one for each contact to solve, then one for each joint; nodes are rows of MOTION
-    colors: np.ndarray  # (edges) int32 of each edge
-    places: np.ndarray  # (edges) int32 place of each among the constraints, by group and colour
-    taken: np.ndarray  # (motions) int64 bits of the colours of the edges of each body
-    degrees: np.ndarray  # (motions) int64 number of edges of each body
+    The lengths (edges), (motions) and (joints) are capacities: at least the numbers of constraints, MOTION rows and
+    JOINT rows. A node is a MOTION row, an edge a constraint.
+    """
+
+    edges: Edges  # one edge for each contact to solve, then one for each joint
+    colors: np.ndarray  # (edges) int32 colour of each contact
+    places: np.ndarray  # (edges) int32 index of each contact in the order by group and colour
+    taken: np.ndarray  # (motions) int64 bits of the colours of the contacts of each body
+    degrees: np.ndarray  # (motions) int64 number of contacts of each body
     classes: np.ndarray  # (motions) int32 index in CHOICES of the number of substeps of each body
-    parents: np.ndarray  # (motions) int32 root of the island of each, if …
-    joined: np.ndarray  # (1) bool … it was computed
-    touching: np.ndarray  # (motions) int32 root of the bodies with which each exchanged impulses, see energy.py
-    squeezed: np.ndarray  # (1) bool an island has no room, …
-    squeeze: np.ndarray  # SQUEEZE (motions) … and impulses in it are bounded
+    parents: np.ndarray  # (motions) int32 root of the island of each body, valid if …
+    joined: np.ndarray  # (1) bool … the islands were computed
+    touching: np.ndarray  # (motions) int32 root of the set of bodies that exchanged impulses, see energy.py
+    squeezed: np.ndarray  # (1) bool at least one island has no room, …
+    squeeze: np.ndarray  # SQUEEZE (motions) … and the bounds of the impulses in such islands
     members: np.ndarray  # (motions) int32 island bodies, by group
-    starts: np.ndarray  # int64 first constraint of each colour of each group, those without a colour first
-    firsts: np.ndarray  # int64 first body of each group
-    cursors: np.ndarray  # scratch, as long as starts
+    starts: np.ndarray  # (slots) int64 first contact of each colour of each group; contacts without a colour first
+    firsts: np.ndarray  # (classes + 1) int64 first entry of each group in `members`
+    cursors: np.ndarray  # (slots) int64 scratch
     joints: np.ndarray  # (joints, 3) int32 the joints to solve, see list_joints, …
-    joint_count: np.ndarray  # (1) int64 … how many there are, …
-    joint_rows: np.ndarray  # (joints) int32 … and their rows of JOINT by group, …
-    joint_starts: np.ndarray  # int64 … with the index of the first joint of each group
+    joint_count: np.ndarray  # (1) int64 … their number, …
+    joint_rows: np.ndarray  # (joints) int32 … their JOINT rows by group, …
+    joint_starts: np.ndarray  # (classes + 1) int64 … and the first entry of each group in `joint_rows`
 
 
 def new_plan(edges: int, motions: int, joints: int) -> Plan:
-    """Return a Plan with arrays for `edges` edges between `motions` motions, `joints` of them joints."""
+    """Return a Plan with capacities for contacts and joints together (edges), MOTION rows and joints."""
     slots = len(AUTO_SUBSTEPS) * (COLORS + 1) + 1
     return Plan(
         edges=new_edges(edges),
@@ -111,31 +115,31 @@ class Islands(NamedTuple):
 
     members: np.ndarray  # int32 rows of MOTION
     rate: float  # see estimate_rate
-    choices: np.ndarray  # int64 numbers of substeps
-    by_load: int  # index of the greatest choice that a load alone may need, …
-    jointed: int  # … and of that of a new body with joints and no contact
+    choices: np.ndarray  # int64 numbers of substeps, ascending
+    by_load: int  # index in `choices` of the greatest number of substeps for a load alone
+    jointed: int  # index in `choices` for a new body with joints and without contacts
 
 
 class Group(NamedTuple):
-    """The islands that take the same number of substeps, and the range of their constraints."""
+    """The islands that take the same number of substeps, and the range of their contacts."""
 
     substeps: int
-    edges: int  # number of contacts of all groups
-    count: int  # number of constraints of the group …
-    uncolored: int  # … and of those without a colour
-    members: np.ndarray  # int32 rows of MOTION
-    starts: np.ndarray  # int64 first constraint of each colour, those without a colour first, and the end of the last
-    joints: np.ndarray  # int32 rows of JOINT
+    edges: int  # number of contacts of all groups together
+    count: int  # number of contacts of the group …
+    uncolored: int  # … and number of these without a colour
+    members: np.ndarray  # int32 MOTION rows of the island bodies
+    starts: np.ndarray  # int64 first contact of each colour, contacts without a colour first; then the end of the group
+    joints: np.ndarray  # int32 JOINT rows
 
 
-# ---- edges of contacts -----------------------------------------------------------------------------------------------
+# ---- graph edges -----------------------------------------------------------------------------------------------------
 
 
 @subkernel
 def credit_overlap(overlap, motion, balance_inout):
-    """Add the energy that lifts a body by an overlap [px] to its reserve, which contacts may give it.
+    """Add the energy that lifts a body by an overlap [px] to the energy reserve of the body.
 
-    balance_inout: BALANCE row of the body.
+    motion: MOTION row; balance_inout: BALANCE row of the body.
     """
     m = motion
     if m.inverse_mass > 0.0:
@@ -144,10 +148,10 @@ def credit_overlap(overlap, motion, balance_inout):
 
 @subkernel
 def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges_out):
-    """List the contacts to solve as edges between rows of MOTION. O(contacts).
+    """List the contacts to solve as graph edges between MOTION rows. O(contacts).
 
-    Return the number of edges, the number of overlaps with bodies of infinite mass, and the greatest overlap [px].
-    Sensors, pairs without a dynamic body, and contacts under a character's feet are left out.
+    Return (number of edges, number of overlaps with bodies of infinite mass, greatest overlap [px]). Sensors, pairs
+    without a body of finite mass, and contacts under a character's feet are left out.
     """
     motion_of = lists_inout.motion_of
     found = 0
@@ -177,7 +181,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
         edges_out.faces[found, 1] = 0.0
         for side in range(2):
             o = a if side == 0 else b
-            # A character that is pushed gives way, unless it is wedged.
+            # A character yields to bodies that push it, unless it is wedged.
             if overlap > 0.0 and o.inverse_mass == 0.0 and not o.is_character:
                 sign = 1.0 if side == 0 else -1.0
                 edges_out.faces[found, 0] = sign * c.normal_x
@@ -188,7 +192,7 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
                 edges_out.face_speeds[found] = speed if o.moves else 0.0
                 faces += 1
         if overlap > 0.0 and c.of_new_pair:
-            # A body that was created inside another one may be lifted out of it.
+            # A body that was created inside another body may be lifted out.
             credit_overlap(overlap, a, lists_inout.balance[row_a])
             credit_overlap(overlap, b, lists_inout.balance[row_b])
         found += 1
@@ -197,9 +201,9 @@ def list_contact_edges(contacts, bodies, motions, dt, limits, lists_inout, edges
 
 @subkernel
 def list_joint_edges(joints, count, edges_out):
-    """List the joints to solve as edges after the `count` edges of contacts. Return the number of all edges. O(joints).
+    """List the joints to solve as graph edges after the edges of contacts. Return the number of all edges. O(joints).
 
-    joints: see list_joints.
+    joints: see list_joints; count: number of edges of contacts.
     """
     for k in range(len(joints)):
         edge = count + k
@@ -215,10 +219,10 @@ def list_joint_edges(joints, count, edges_out):
 
 
 def estimate_rate(state: StepState) -> float:
-    """Return n² per speed [s/px], for the number n of substeps that keeps the sag of a contact within the accuracy.
+    """Return n² / v [s/px], where n substeps keep the sag of a contact within the accuracy.
 
-    The speed is the change of speed that the contact's impulses of a step give to its effective mass m. A contact sags
-    under a force F by F / (m ω²), with ω by HERTZ_SHARE.
+    v [px/s] is the impulse of the contact in the step divided by its effective mass m. A contact sags under a force F
+    by F / (m ω²), where HERTZ_SHARE gives ω as a fraction of the substeps per second.
     """
     return state.dt / ((math.tau * HERTZ_SHARE) ** 2 * state.accuracy)
 
@@ -227,7 +231,7 @@ def estimate_rate(state: StepState) -> float:
 def class_for(choices, square, least):
     """Return the index of the first number of substeps, from index `least` on, whose square is at least `square`.
 
-    choices: numbers of substeps, rising. Return the index of the last one if none is large enough.
+    choices: numbers of substeps, ascending. If none is large enough, the result is the last index.
     """
     place = least
     while place < len(choices) - 1 and choices[place] * choices[place] < square:
@@ -237,10 +241,10 @@ def class_for(choices, square, least):
 
 @subkernel
 def class_motions(motions, degrees, islands, classes_out):
-    """Write for each MOTION row the class: the index of its number of substeps in islands.choices. O(motions).
+    """Write the class of each MOTION row: the index of its number of substeps in islands.choices. O(motions).
 
-    A body without constraints takes the fewest substeps, a new body as many as a load may need. degrees: number of
-    contacts of each body. Return whether there are new bodies with contacts.
+    Return whether there are new bodies with contacts. A body without constraints takes the fewest substeps. A new body
+    with contacts takes islands.by_load, with joints alone islands.jointed. degrees: number of contacts of each body.
     """
     unknown = False
     choices, by_load = islands.choices, islands.by_load
@@ -258,10 +262,10 @@ def class_motions(motions, degrees, islands, classes_out):
 
 @subkernel
 def expect_impacts(edges, count, motions, rate, choices, classes_inout):
-    """Raise the class of bodies that meet in this step to the number of substeps that the impact needs. O(count).
+    """Raise the class of bodies that collide in this step to the number of substeps that the impact needs. O(count).
 
-    count: number of edges; rate: see estimate_rate; classes: see class_motions. Substeps rise with the ratio of the
-    masses: a light body has to transmit the momentum of a heavy one.
+    count: number of contacts; rate: see estimate_rate; choices: numbers of substeps; classes_inout: see class_motions.
+    The number rises with the ratio of the masses: a light body has to transmit the momentum of a heavy body.
     """
     for i in range(count):
         speed = edges.impact_speeds[i]
@@ -288,10 +292,10 @@ def expect_impacts(edges, count, motions, rate, choices, classes_inout):
 
 @subkernel
 def expect_columns(edges, count, motions, degrees, most, classes_inout):
-    """Give new stacks, whose bodies have at most two contacts, the most substeps. O(count).
+    """Give new columns, whose bodies have at most two contacts, the most substeps. O(count).
 
-    most: index of that number of substeps in the choices; count: number of edges. How a column leans is unknown until
-    the load has reached its foot, and a lean does not stop by itself.
+    count: number of contacts; most: index of the greatest number of substeps in the choices. The lean of a column is
+    unknown until the load has reached its foot, and a lean does not stop by itself.
     """
     for i in range(count):
         if not edges.resting[i]:
@@ -310,7 +314,7 @@ def expect_columns(edges, count, motions, degrees, most, classes_inout):
 
 @subkernel
 def are_mixed(motions, degrees, classes):
-    """Return whether the bodies with constraints have different numbers of substeps (classes). O(motions)."""
+    """Return whether the bodies with constraints have different substep classes. O(motions)."""
     first = -1
     for i in range(len(classes)):
         if motions[i].is_dynamic and (degrees[i] > 0 or motions[i].jointed):
@@ -326,10 +330,10 @@ def are_mixed(motions, degrees, classes):
 
 @subkernel
 def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
-    """List the constraints to solve as edges, and colour those of contacts. O(constraints + motions).
+    """List the constraints to solve as graph edges, and colour the edges of contacts. O(constraints + motions).
 
-    Return the number of contacts and the number of all edges. Also find islands that are squeezed between faces, see
-    energy.find_squeezed, and mark jointed bodies without contacts. lists_inout: see MotionLists.
+    Return (number of contacts, number of all edges). Also find islands that are squeezed between faces, see
+    energy.find_squeezed, and clear MOTION.halves of bodies with contacts. lists_inout: see MotionLists.
     """
     nodes = len(motions_inout)
     count, faces, deepest = list_contact_edges(contacts, bodies, motions_inout, dt, limits, lists_inout, plan_out.edges)
@@ -351,10 +355,10 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
 
 @subkernel
 def order_joints(joints, classes, starts_out, rows_out):
-    """Sort joints by the class of their islands, and keep their order within a class. O(classes · joints).
+    """Write the JOINT rows sorted by the class of their islands (stable). O(classes · joints).
 
     joints: see list_joints; classes (motions,): int32; starts_out: index of the first joint of each class, then the
-    number of joints; rows_out: their rows of JOINT.
+    number of joints; rows_out: the sorted JOINT rows.
     """
     found = 0
     for group in range(len(starts_out) - 1):
@@ -368,9 +372,9 @@ def order_joints(joints, classes, starts_out, rows_out):
 
 @kernel
 def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
-    """List the constraints to solve in one group, sorted by colour. O(contacts + motions).
+    """List the constraints to solve as one group, with contacts sorted by colour. O(constraints + motions).
 
-    Return the number of contacts to solve, and the number of those without a colour.
+    Return (number of contacts to solve, number of these without a colour).
     """
     count, _ = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
     starts = plan_out.starts[: COLORS + 2]
@@ -380,10 +384,9 @@ def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout,
 
 @kernel
 def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_inout, plan_out):
-    """List the constraints to solve, sorted by the number of substeps of their islands and then by colour.
+    """List the constraints to solve, sorted by the number of substeps of their islands, then contacts by colour.
 
-    Return the number of contacts to solve. islands: see Islands; dt [s]; limits: see settings.Limits. O(contacts +
-    motions).
+    Return the number of contacts to solve. islands: see Islands; limits: see settings.Limits. O(constraints + motions).
     """
     plan, motions = plan_out, motions_inout
     nodes = len(motions)
@@ -406,13 +409,13 @@ def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_in
 
 
 class Selection:
-    """The constraints of one world in the order in which they are solved; its arrays grow and are reused."""
+    """The constraints of one world in the order in which they are solved. The arrays grow and are reused."""
 
     def __init__(self) -> None:
         self.plan = new_plan(16, 16, 0)
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Select, colour and order the constraints, and return their groups.
+        """Select, colour and order the constraints. Return the groups in ascending order of substeps.
 
         substeps: number of substeps of all islands; 0: each island takes as many as it needs.
         """
@@ -446,7 +449,7 @@ class Selection:
             for k, number in enumerate(AUTO_SUBSTEPS)
             if firsts[k] < firsts[k + 1]
         ]
-        # Kinematic bodies move even if no dynamic body does.
+        # Without dynamic bodies one empty group is returned, so that kinematic bodies move.
         none = plan.joint_rows[:0]
         return groups or [Group(AUTO_SUBSTEPS[0], 0, 0, 0, motions.island_bodies, plan.starts[: colors + 1], none)]
 
@@ -454,35 +457,36 @@ class Selection:
 # ---- estimate --------------------------------------------------------------------------------------------------------
 # Substep estimate of an island: the number of substeps that keeps the sag of its contacts within the accuracy.
 #
-# A contact is a spring whose frequency is a share of the substeps per second: under a force F it sags by F / (m ω²), a
-# quarter of that with twice the substeps. The loads of the last step give the number for the next one. It rises at
-# once. It is halved after half of it has been enough for the whole island for a while, with the sag within half of the
-# accuracy, so that islands do not alternate. Loads alone, and heaps, take no more than LOAD_SUBSTEPS. A leaning column
-# takes more, because its lean would increase and not stop. Source of the spring: Catto, Soft Constraints, GDC 2011.
+# A contact is a spring whose frequency is a fixed fraction of the substeps per second: under a force F it sags by
+# F / (m ω²), and with twice the substeps by a quarter. The loads of the last step give the number for the next step.
+# The number rises immediately. It is halved after half the number has been enough for the whole island for a while,
+# with a sag of at most half the accuracy, so that islands do not alternate. Loads alone, and heaps, take at most
+# LOAD_SUBSTEPS. A leaning column takes more, because its lean would increase and not stop. Source of the spring: Catto,
+# Soft Constraints, GDC 2011.
 
 
 class LoadRules(NamedTuple):
     """Constants that determine the number of substeps of an island from its loads."""
 
-    rate: float  # see estimate_rate; between dynamic bodies …
-    rate_static: float  # … and against static ones, both without the factor on the stiffness (see StepContext)
+    rate: float  # see estimate_rate; for contacts between dynamic bodies …
+    rate_static: float  # … and with static bodies, both without the factor STIFFNESS of lanes.py
     least: int  # fewest substeps
-    most_by_load: int  # most substeps of a load …
-    most: int  # … and of a leaning stack
+    most_by_load: int  # greatest number of substeps for a load …
+    most: int  # … and for a leaning stack
     dt: float  # [s]
-    patience: float  # [s] for which fewer must have been enough
+    patience: float  # [s] time for which fewer substeps must have been enough
 
 
 @subkernel
 def add_estimates(blocks, count, substeps, rules, motions_inout):
-    """Raise the substep estimates of bodies to the square of the number of substeps that their contacts need.
+    """Raise MOTION.estimate to the square of the number of substeps that the contacts of a body need. O(contacts).
 
-    Also write whether a load needs more than the present `substeps` and more than most_by_load. count: number of
-    blocks. O(constraints).
+    Also set MOTION.capped if a load needs more than the present `substeps` and more than most_by_load. count: number of
+    blocks; rules: see LoadRules.
     """
     reach = max(substeps, rules.most_by_load)
     reach_squared = float(reach * reach)
-    # Half of the square keeps an island at most_by_load, and lets one that took twice as many come down to it.
+    # An estimate of half the square keeps an island at most_by_load, and lets an island with twice as many come down.
     by_load = 0.5 * float(rules.most_by_load * rules.most_by_load)
     for block in range(count):
         c = blocks.lines[block * at.SIZE : (block + 1) * at.SIZE]
@@ -498,7 +502,7 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
                 least = min(estimate, other)
                 estimate = max(estimate, other)
                 if c[at.STIFFNESS + lane] < 0.0 and least > 0.0:
-                    # A body on a sole support leans if its two points carry different loads.
+                    # A body on a sole support leans if the two points of the support carry different loads.
                     lean = min(estimate / least, LEAN)
             capped = estimate > reach_squared
             estimate = min(lean * min(estimate, by_load), float(rules.most * rules.most))
@@ -514,7 +518,8 @@ def add_estimates(blocks, count, substeps, rules, motions_inout):
 def choose_substeps(members, degrees, substeps, rules, motions_inout):
     """Write the number of substeps that each island body needs in the next step. O(members).
 
-    substeps: number of substeps in this step. Return whether all bodies need the same number again.
+    Return whether all bodies need the present number again, so that islands need not be determined. members: MOTION
+    rows; degrees: number of contacts of each body; substeps: number of substeps in this step; rules: see LoadRules.
     """
     content = True
     for k in range(len(members)):
@@ -545,11 +550,11 @@ def choose_substeps(members, degrees, substeps, rules, motions_inout):
 
 @subkernel
 def share_substeps(members, parents, substeps, most_by_load, motions_inout):
-    """Give each body the most substeps that a body of its island needs. O(members).
+    """Give each body the greatest number of substeps that a body of its island needs. O(members).
 
-    An island in which a body has more than two contacts is a heap, and takes at most most_by_load, because in a heap
-    there is always a leaning body. substeps: number of substeps in this step; parents (motions) int32: the lowest row
-    of the island of each body. Return the number of islands that are reported as capped.
+    Return the number of islands that are reported as capped. An island in which a body has more than two contacts is a
+    heap, and takes at most most_by_load substeps, because some body of a heap always leans. members: MOTION rows;
+    parents (motions) int32: the lowest row of the island of each body; substeps: number of substeps in this step.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]
@@ -573,9 +578,9 @@ def share_substeps(members, parents, substeps, most_by_load, motions_inout):
 def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motions_inout):
     """Write the number of substeps that each island of a group takes in the next step. O(members + constraints).
 
-    count: number of blocks; links_islands: see find_roots. Islands are determined only if their bodies need different
-    numbers. Return the number of islands that needed more than they may take for `patience` [s], so that a short impact
-    does not count.
+    Return the number of islands that needed more substeps than allowed for rules.patience [s]; a short impact does not
+    count. count: number of blocks; links_islands: see find_roots; rules: see LoadRules. Islands are determined only if
+    a body needs another number than in this step.
     """
     plan = plan_inout
     substeps = group.substeps
@@ -590,7 +595,7 @@ def choose_by_load(blocks, count, group, links_islands, rules, plan_inout, motio
 
 
 def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Group, blocks: Blocks, count: int) -> None:
-    """Estimate the substeps of the next step from the loads of the contacts of a group. count: number of blocks."""
+    """Estimate the substeps of the next step from the loads of a group. count: number of blocks."""
     rate = estimate_rate(state)
     rules = LoadRules(
         rate, rate / STILL_STIFFNESS**2, AUTO_SUBSTEPS[0], LOAD_SUBSTEPS, AUTO_SUBSTEPS[-1], state.dt, EASE_TIME
@@ -602,12 +607,12 @@ def estimate_substeps(state: StepState, motions: Motions, plan: Plan, group: Gro
 
 
 # ---- store -----------------------------------------------------------------------------------------------------------
-# From lanes to contacts: restitution, the limit of friction, and the impulses.
+# After the substeps: restitution, the limit of friction, and storing of impulses in CONTACT rows.
 
 
 @subkernel
 def limit_friction(count, motions_inout, blocks_inout):
-    """Reduce friction impulses of the step to their limit, friction times the final normal impulse. O(lanes).
+    """Limit the friction impulses of the step to the friction coefficient times the final normal impulse. O(lanes).
 
     count: number of blocks.
     """
@@ -629,10 +634,11 @@ def limit_friction(count, motions_inout, blocks_inout):
 
 @subkernel
 def store_lanes(blocks, count, inverse_h, share, contacts_inout):
-    """Write the impulses of the step, and the cached forces for the next one, back to the contacts. O(lanes).
+    """Write the impulses of the step, and the cached forces for the next step, to the contacts. O(lanes).
 
-    count: number of blocks; share: weight of this step in the cached forces. A very short step says little about
-    forces: an impulse in it that stops a small motion would count as a large force in a step of usual length.
+    count: number of blocks; inverse_h [1/s]: inverse of a substep; share: weight of this step in the cached forces. A
+    very short step has a small weight: an impulse that stops a small motion in it would count as a large force in a
+    step of usual length.
     """
     rest = 1.0 - share
     for block in range(count):
@@ -653,7 +659,7 @@ def store_lanes(blocks, count, inverse_h, share, contacts_inout):
 
 
 def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
-    """Return the function that ends a step after its last substep, with or without restitution and friction."""
+    """Return the kernel that ends a step after its last substep, with or without restitution and friction."""
 
     @kernel
     def finish_lanes(count, context, impacts_inout, motions_inout, blocks_inout, contacts_inout, work_inout):
@@ -662,7 +668,7 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
         count: number of blocks; impacts_inout: scratch, as long as the contacts.
         """
         if restitution:
-            # The speeds of impacts are those at the start of the step, and so are normals and arms.
+            # Impact speeds are measured at the start of the step, so its normals and moment arms are used.
             for block in range(count):
                 if blocks_inout.turns[block]:
                     c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -682,11 +688,11 @@ def make_finish_lanes(restitution: bool, friction: bool) -> Callable:
 FINISH = {(e, f): make_finish_lanes(restitution=e, friction=f) for e in BOTH for f in BOTH}
 
 # ---- constraint set --------------------------------------------------------------------------------------------------
-# The contacts of a world as the stacking solvers see them.
+# The contacts of a world as constraints, for the stacking solvers.
 
 
 class ContactLanes:
-    """The contacts of one world as constraints in SIMD lanes; its arrays grow and are reused."""
+    """The contacts of one world as constraints in SIMD lanes. The arrays grow and are reused."""
 
     def __init__(self) -> None:
         self.selection = Selection()
@@ -695,11 +701,11 @@ class ContactLanes:
         self.trees = Trees()
 
     def choose(self, state: StepState, motions: Motions, substeps: int) -> list[Group]:
-        """Group the islands by their number of substeps. substeps: number for all; 0: as many as each needs."""
+        """Return the groups of islands with the same number of substeps, see Selection.choose."""
         return self.selection.choose(state, motions, substeps)
 
     def prepare(self, state: StepState, motions: Motions, group: Group, context: StepContext) -> tuple[Blocks, int]:
-        """Write the contacts of a group into blocks of SIMD lanes. Return the blocks, and the number in use."""
+        """Write the contacts of a group into blocks of SIMD lanes. Return (blocks, number of blocks in use)."""
         needed = blocks_needed(group.count, group.uncolored)
         if len(self.blocks.contact) < needed:
             self.blocks = make_blocks(2 * needed)
@@ -708,7 +714,7 @@ class ContactLanes:
         return blocks, prepare(state.bodies, motions.used, plan, group, context, contacts, blocks, state.work)
 
     def joints(self, state: StepState, motions: Motions, group: Group, h: float) -> JointSet:
-        """Begin the step of the joints of a group, whose substeps are h [s] long, and find their trees."""
+        """Begin the step of a group's joints with substeps of h [s], and find their trees. Return the JointSet."""
         if len(group.joints):
             begin_joints(group.joints, state.bodies, h, state.joints)
         return self.trees.build(group.joints, state.joints, motions.used, state.joint_solver)

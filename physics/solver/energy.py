@@ -1,11 +1,11 @@
-"""The bound of energy: contacts of an island add none, beyond the work of kinematic and moving surfaces.
+"""Energy bound: contacts add no energy to an island, except the work of kinematic bodies and moving surfaces.
 
 Contacts that separate overlaps, springs that ring, normals that are a step old on curved ground, and moment arms that
 are fixed for a substep may add energy. After a step, the kinetic energy of bodies that exchanged impulses is compared
-with their energy before the step plus the work of gravity, forces and moving surfaces during the step. A gain beyond
-that may come from the reserve of the bodies, which is energy that they lost in earlier steps. The rest of the gain is
-removed by scaling their velocities. Bodies in flight that hit only each other keep their momentum and angular momentum:
-only their velocities relative to the common motion, that of one rigid body, are scaled.
+with their energy before the step plus the work of gravity, forces and moving surfaces during the step. A further gain
+may come from the reserve of the bodies, which is energy lost in earlier steps. The rest of the gain is removed by
+scaling the velocities. Bodies in flight that hit only each other keep their momentum and angular momentum: only their
+velocities relative to their common motion as one rigid body are scaled.
 """
 
 import math
@@ -18,18 +18,21 @@ from physics.solver.lanes import SIZE, lanes_of
 from physics.solver.motions import kinetic_energy
 from physics.tables.table import join_trees, root_of
 
-PARALLEL = 1e-9  # sine between normals that count as one direction
-FACES = 0.05  # sine between normals of faces that count as parallel
-FORGETTING = 0.1  # [1/s] rate at which an island forgets the energy that it has lost
-QUICK_LIFT = 0.02  # [slops] lift of a body by its contacts whose energy is allowed without a check of the whole island
-SHARE_BACK = 1e-3  # share of its energy that an island may take back in a step
+PARALLEL = 1e-9  # sine of the angle between normals up to which they count as one direction
+FACES = 0.05  # sine of the angle between normals up to which faces count as parallel or perpendicular
+FORGETTING = 0.1  # [1/s] rate at which the reserve of a body decays
+QUICK_LIFT = 0.02  # [slops] a gain of the energy of this lift needs no check of the whole island
+SHARE_BACK = 1e-3  # fraction of its energy that a set of bodies may take back from the reserve in a step
 
 # ---- work ------------------------------------------------------------------------------------------------------------
 
 
 @inlined
 def work_of_surfaces(c, lane, a, b):
-    """Return the work of a contact's impulses by moving surfaces: those of kinematic bodies and conveyors."""
+    """Return the work that conveyors and moving kinematic bodies did through the impulses of a contact.
+
+    c: the fields of a block; a, b: MOTION rows.
+    """
     nx, ny = c[at.NX + lane], c[at.NY + lane]
     work = abs(c[at.SURFACE + lane] * (c[at.TANGENT_TOTAL_1 + lane] + c[at.TANGENT_TOTAL_2 + lane]))
     for side in range(2):
@@ -53,9 +56,9 @@ def work_of_surfaces(c, lane, a, b):
 
 @inlined
 def work_of_lift(c, lane, a, b, context):
-    """Return the work that the impulses of a contact do as its points separate, each by up to a slop.
+    """Return the work of the impulses of a contact while its points separate, each by at most a slop.
 
-    Contact springs that sagged give this energy back.
+    A contact spring that sagged under a load gives this energy back. a, b: MOTION rows; context: see StepContext.
     """
     along = (b.dx - a.dx) * c[at.NX + lane] + (b.dy - a.dy) * c[at.NY + lane]
     first = along + b.turn * c[at.B_1 + lane] - a.turn * c[at.A_1 + lane]
@@ -65,16 +68,16 @@ def work_of_lift(c, lane, a, b, context):
 
 
 # ---- direction -------------------------------------------------------------------------------------------------------
-# Contacts without friction do not change the velocity along their tangent: it is scaled only if the energy along the
-# normal is not enough.
+# Contacts without friction do not change the velocity along their tangent. So the tangential velocity is scaled only if
+# the energy along the normal is less than the gain.
 
 
 @inlined
 def note_direction(nx, ny, rubs, motion, balance_inout):
-    """Record the directions in which contacts act on a body: the first normal, or `in_all` for all directions.
+    """Record the directions in which contacts act on a body: one normal, or all directions (`in_all`).
 
-    rubs: whether friction acted. With friction, or with a normal that is not parallel to the first one, `in_all` is
-    set.
+    `in_all` is set by friction, or by a normal that is not parallel to the first normal. nx, ny: normal of a contact;
+    rubs: whether friction acted; motion: MOTION row; balance_inout: BALANCE row.
     """
     e = balance_inout
     if motion.inverse_mass == 0.0:
@@ -86,7 +89,7 @@ def note_direction(nx, ny, rubs, motion, balance_inout):
 
 @inlined
 def energy_along(motion, balance):
-    """Return the kinetic energy of a body along the only normal of its contacts; 0 if they act in all directions."""
+    """Return the kinetic energy of a body along the only normal of its contacts; 0 if `in_all` is set."""
     if balance.in_all or motion.inverse_mass == 0.0:
         return 0.0
     along = motion.vx * balance.normal_x + motion.vy * balance.normal_y
@@ -95,9 +98,9 @@ def energy_along(motion, balance):
 
 @subkernel
 def scale_without(energy, whole):
-    """Return the factor on velocities that removes `energy` from their kinetic energy `whole`.
+    """Return the factor on velocities that reduces their kinetic energy `whole` by `energy`.
 
-    It is 0 if the velocities have less energy than that.
+    The result is 0 if `whole` is not greater than `energy`.
     """
     if energy <= 0.0:
         return 1.0
@@ -108,9 +111,10 @@ def scale_without(energy, whole):
 def scale_motion(root, balance, motion_inout):
     """Scale the velocities of a body, to remove energy that contacts added.
 
-    root: BALANCE row with the factors for the set of touching bodies. If no body of the set touches a body of infinite
-    mass, only the velocity relative to the common motion of the set is scaled. Otherwise `along_scale` applies to the
-    velocity along the only normal of the body's contacts, and `scale` to the whole velocity.
+    root: BALANCE row with the factors for the set of touching bodies; balance: BALANCE row of the body. If no body of
+    the set touches a body of infinite mass, only the velocity relative to the common motion of the set is scaled.
+    Otherwise `along_scale` is applied to the velocity along the only normal of the body's contacts, and then `scale` to
+    the whole velocity.
     """
     m = motion_inout
     if not root.anchored:
@@ -130,17 +134,17 @@ def scale_motion(root, balance, motion_inout):
 
 
 # ---- parallel faces --------------------------------------------------------------------------------------------------
-# Between parallel faces, without restitution, no body becomes faster than the fastest face, or than the fastest body
-# before the step. Without this limit, impact impulses that are cached from substep to substep may overshoot. Where
-# normals differ there is no limit, because levers and wedges may accelerate a body.
+# Between parallel faces, without restitution, no body becomes faster than the fastest face or the fastest body before
+# the step. Without this limit, impact impulses that are cached from substep to substep may overshoot. If normals are
+# not parallel or perpendicular there is no limit, because levers and wedges may accelerate a body.
 
 
 @inlined
 def note_face(c, lane, a, b, root_inout):
-    """Record the normal of a contact, and the speed of its kinematic body, in the BALANCE row of touching bodies.
+    """Record the normal of a contact, and the speed of its kinematic body, in the BALANCE row of the set's root.
 
-    `oblique` is set if the normal is neither parallel nor perpendicular to the first normal recorded, if the contact
-    has restitution, or if the kinematic body rotates.
+    `oblique` is set if the normal is neither parallel nor perpendicular to the first recorded normal, if the contact
+    has restitution, or if the kinematic body rotates. a, b: MOTION rows.
     """
     e = root_inout
     nx, ny = c[at.NX + lane], c[at.NY + lane]
@@ -160,8 +164,8 @@ def note_face(c, lane, a, b, root_inout):
 def limit_speed(root, push_speed, motion_inout):
     """Limit the speed of a body between parallel faces, one of which moves.
 
-    The limit is the greatest speed of a face, or of a body before the step, plus push_speed [px/s], the speed that the
-    separation of overlaps may add. root: BALANCE row with these speeds.
+    The limit is the greatest speed of the faces and of the bodies before the step, plus push_speed [px/s], which the
+    separation of overlaps may add. root: BALANCE row of the set's root.
     """
     m = motion_inout
     speed = norm(m.vx, m.vy)
@@ -178,9 +182,9 @@ def limit_speed(root, push_speed, motion_inout):
 def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
     """Write the energy that each body of a group gained. Return whether a body in contact gained more than allowed.
 
-    The allowed gain per mass [px2/s2] is `floor`, or a greater one from the reserve of the body. From the reserve it
-    may take up to SHARE_BACK of its energy, or the energy that lifts its load by `lift` [px]. keep: share of the
-    reserve that remains after this step.
+    The allowed gain per mass [px2/s2] is `floor`, or a greater gain from the reserve of the body. A body may take from
+    its reserve SHARE_BACK of its energy, or the energy of a lift by `lift` [px] against its acceleration. degrees:
+    number of contacts of each body; keep: fraction of the reserve that remains after this step.
     """
     suspect = False
     for k in range(len(group.members)):
@@ -208,7 +212,7 @@ def balance_bodies(group, degrees, floor, lift, keep, motions, balance_inout):
 
 @inlined
 def reset_balance(balance_out):
-    """Clear the fields of a BALANCE row that hold sums over touching bodies or normals of their contacts."""
+    """Clear the fields of a BALANCE row for sums over a set of touching bodies and for the normals of contacts."""
     e = balance_out
     e.lift, e.surfaces = 0.0, 0.0
     e.face_x, e.face_y, e.fastest = 0.0, 0.0, 0.0
@@ -273,7 +277,7 @@ def join_touching(blocks, count, group, joints, links_islands, motions, parents_
 def add_momentum(motion, balance, root_inout):
     """Add the mass, momentum and angular momentum of a body to the sums of its set of touching bodies.
 
-    root_inout: BALANCE row with the sums. The origin of these sums is the place of the root before the step.
+    root_inout: BALANCE row of the set's root, with the sums. Their origin is the root's centre of mass before the step.
     """
     m = motion
     e = root_inout
@@ -293,9 +297,9 @@ def add_momentum(motion, balance, root_inout):
 
 @subkernel
 def energy_in_common(balance_inout):
-    """Turn the sums of add_momentum into the common motion of touching bodies: that of one rigid body.
+    """Replace the sums of add_momentum by the common motion of the set as one rigid body. Return its kinetic energy.
 
-    Return the kinetic energy of the common motion.
+    balance_inout: BALANCE row of the set's root.
     """
     e = balance_inout
     if e.mass == 0.0:
@@ -316,8 +320,8 @@ def energy_in_common(balance_inout):
 def sum_balances(blocks, count, group, links_islands, parents, context, motions, balance_inout):
     """Sum the energy balances of each set of touching bodies, and the work of moving surfaces on the set.
 
-    The sums are in the BALANCE row of the root. count: number of blocks; parents (motions) int32: the root of each
-    body.
+    The BALANCE row of each root receives the sums. count: number of blocks; links_islands: see MotionLists; parents
+    (motions) int32: the root of each body.
     """
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -354,7 +358,7 @@ def sum_balances(blocks, count, group, links_islands, parents, context, motions,
 
 @subkernel
 def draw_on_reserve(slop, balance_inout):
-    """Write the factors on velocities that remove the energy which touching bodies gained beyond their reserve.
+    """Write the factors on velocities that remove the gain of energy of a set of touching bodies beyond its reserve.
 
     Return 1 if there was such a gain, otherwise 0. balance_inout: BALANCE row with their sums. Errors of the integrator
     alternate, so bodies may take back what they lost before: slowly, or as far as their load rises by a slop [px]. Work
@@ -382,7 +386,8 @@ def draw_on_reserve(slop, balance_inout):
 def limit_squeezed(most, before, motion_inout):
     """Limit the speed of a body squeezed between faces to `most` [px/s], or to its speed before the step if greater.
 
-    most: 0 for no limit; before: kinetic energy of the body before the step.
+    most: 0 for no limit; before: kinetic energy of the body before the step, plus the work done. Both limit the kinetic
+    energy, which includes rotation.
     """
     m = motion_inout
     if most == 0.0 or m.inverse_mass == 0.0:
@@ -398,7 +403,10 @@ def limit_squeezed(most, before, motion_inout):
 
 @subkernel
 def remove_gains(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
-    """Remove the energy that contacts have added. Return the number of sets of touching bodies that had gained any."""
+    """Remove the energy that contacts have added. Return the number of sets of touching bodies with such a gain.
+
+    count: number of blocks; links_islands: see MotionLists.
+    """
     plan, motions, parents_out = plan_inout, motions_inout, plan_inout.touching
     joints = plan.joints[: plan.joint_count[0]]
     join_touching(blocks, count, group, joints, links_islands, motions, parents_out, balance_inout)
@@ -433,9 +441,9 @@ def remove_gains(blocks, count, group, links_islands, context, plan_inout, balan
 def limit_energy(blocks, count, group, links_islands, context, plan_inout, balance_inout, motions_inout):
     """Remove the energy that the contacts of a group have added. O(members + lanes).
 
-    Return the number of sets of touching bodies that had gained any. In islands without room, which are squeezed
-    between faces, the limit for a body is the speed of the faces plus push-out, or its speed before the step if that
-    was greater. balance_inout: BALANCE rows, one for each MOTION row.
+    Return the number of sets of touching bodies with such a gain. In islands squeezed between faces, the speed of a
+    body is limited to the speed of the faces plus push-out, or to its speed before the step if that was greater. count:
+    number of blocks; links_islands: see MotionLists; balance_inout: BALANCE rows, one for each MOTION row.
     """
     plan = plan_inout
     floor = 0.5 * context.limits.calm_speed * context.limits.calm_speed
@@ -451,21 +459,21 @@ def limit_energy(blocks, count, group, links_islands, context, plan_inout, balan
 
 
 # ---- squeeze ---------------------------------------------------------------------------------------------------------
-# Islands without room: faces of bodies of infinite mass oppose one another, so the impulses in them are bounded.
+# Islands without room: bodies squeezed between opposing faces of bodies of infinite mass. Their impulses are bounded.
 #
-# Two sides that cannot give way would press a body with ever greater impulses, and would throw it when it escapes. With
-# the bound, the bodies stay overlapped, and leave at no more than the speed of the faces plus that of push-out.
+# Two faces that cannot yield would press a body with ever greater impulses, and would throw the body when it escapes.
+# With the bound, the bodies stay overlapped. They escape at most at the speed of the faces plus the push-out speed.
 
-FACING = 0.5  # cosine between normals of two faces below which a body between them has no room
-OPPOSITE = -0.5  # … below which they oppose each other
+FACING = 0.5  # cosine between normals of two faces below which a body between the faces has no room
+OPPOSITE = -0.5  # cosine between normals of two faces below which the faces oppose each other
 
 
 @subkernel
 def note_faces(edges, count, lists, slop, parents, squeeze_out):
-    """Write the greatest overlaps of each island, and whether faces of bodies of infinite mass oppose each other in it.
+    """Write the greatest overlaps of each island, and whether faces of bodies of infinite mass oppose each other there.
 
-    count: number of edges; parents (motions) int32: the root of the island of each body; slop [px]: smaller overlaps
-    with a face do not count.
+    edges: constraints as graph edges; count: number of edges; lists: MotionLists; slop [px]: smaller overlaps with a
+    face do not count; parents (motions) int32: the root of the island of each body; squeeze_out: SQUEEZE rows of roots.
     """
     for turn in range(2):
         for i in range(count):
@@ -496,9 +504,9 @@ def note_faces(edges, count, lists, slop, parents, squeeze_out):
 def find_squeezed(edges, count, lists, motions, limits, parents_out, squeeze_out):
     """Find the islands without room, and write the bounds of their impulses as SQUEEZE rows. O(count + motions).
 
-    Return whether there are any. An island has no room if its overlaps are deep, and if either overlapping faces point
-    in different directions, or one face moves towards an opposite one. count: number of edges; limits: see
-    settings.Limits.
+    Return whether there are any. An island has no room if it is deeply overlapped and, in addition, overlapping faces
+    point in different directions or a moving face is opposite to another face. edges: constraints as graph edges;
+    count: number of edges; lists: MotionLists; limits: see settings.Limits.
     """
     for i in range(len(motions)):
         s = squeeze_out[i]

@@ -1,9 +1,10 @@
 """The direct tier of joints: the rigid and the soft parts of joints as rows of trees, which joint_trees.py solves.
 
-A joint in a tree has its holds, a coordinate that is held and a spring on it solved exactly, all of a tree together.
-Motors, limits, bounded holds, loops and second joints of a pair are solved by the passes of joint_rows.py, before the
-trees. Rigid parts have no spring: an error of position is removed within the next substep, by a velocity that the solve
-at the end of that substep takes away again. A user's spring enters as compliance (Catto, Soft Constraints, GDC 2011).
+For a joint in a tree, the holds and either a held coordinate or the spring on the coordinate are solved exactly,
+together with all other joints of the tree. Motors, limits, bounded holds, joints that close a loop, and further joints
+between the same two bodies are solved by the passes of joint_rows.py, before the trees. Rigid parts have no spring: an
+error of position is removed within the next substep by a velocity. The solve at the end of that substep removes this
+velocity again. A user's spring enters as compliance (Catto, Soft Constraints, GDC 2011).
 """
 
 from typing import NamedTuple
@@ -42,10 +43,10 @@ from physics.tables.table import root_of
 
 @kernel
 def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b_out):
-    """List the joints with parts that a tree can solve, and the number of their rows. Return their number. O(rows).
+    """List the joints of a group with parts that a tree can solve. Return the number of these joints. O(rows).
 
-    rows: of the joints of a group, in the order of ids. order_out: their places in `rows`; the other arrays are written
-    at these places.
+    rows: JOINT rows of the group, in the order of ids; order_out: indices into `rows` of the listed joints; counts_out:
+    number of tree rows of each joint of `rows`, 0 to 3; motion_a_out, motion_b_out: MOTION rows of its bodies.
     """
     found = 0
     for k in range(len(rows)):
@@ -68,12 +69,13 @@ def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b
 
 @kernel
 def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order_inout):
-    """Drop the joints of meshes, in which loops outnumber a quarter of the tree, from the joints for trees.
+    """Remove the joints of meshes from the list of joints for trees. Return the number of remaining joints.
 
-    In a mesh the passes converge better alone: the trees between their loops would undo them. order, order_inout: the
-    same list; the other arguments as of joint_trees.build_forest, after it; parents_inout: its union-find over MOTION
-    rows; sums_out (motions, 2) int32: joints in trees and others, at the root of each component. Return the number of
-    joints that are left. O(joints + motions).
+    A mesh is a component in which the joints outside the tree are more than a quarter of the joints in the tree. In a
+    mesh the passes converge better without trees, which would undo the work of the passes on the loops. O(joints +
+    motions). order, motion_a, motion_b, taken: see joint_trees.build_forest, after its call; order_inout: the same
+    array as order; parents_inout: Forest.parents; sums_out (motions, 2) int32: numbers of joints in the tree and
+    outside, at the root of each component.
     """
     for i in range(len(sums_out)):
         sums_out[i, 0] = 0
@@ -86,7 +88,7 @@ def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order
     left = 0
     for k in range(len(order)):
         joint = order[k]
-        # Row 0 and kinematic bodies are components of their own, which count for nothing.
+        # Row 0 and each kinematic body are separate components. The component of the other body counts.
         root = max(root_of(motion_a[joint], parents_inout), root_of(motion_b[joint], parents_inout))
         if 4 * sums_out[root, 1] <= sums_out[root, 0]:
             order_inout[left] = joint
@@ -96,7 +98,7 @@ def drop_meshes(order, motion_a, motion_b, taken, parents_inout, sums_out, order
 
 @kernel
 def mark_direct(rows, taken, joints_inout):
-    """Write which joints of a group are in a tree. O(rows)."""
+    """Write JOINT.direct: which joints of a group, JOINT rows, are in a tree (`taken`, by index in rows). O(rows)."""
     for k in range(len(rows)):
         joints_inout[rows[k]].direct = taken[k]
 
@@ -111,7 +113,7 @@ SLOW = 0.01  # [rad²] square of a turn in a substep, from which on bend() is no
 
 @subkernel
 def write_line(joint, nx, ny, row_out):
-    """Write the Jacobian of the speed of B's anchor relative to A's along a unit vector."""
+    """Write the Jacobian of the speed of B's anchor relative to A's anchor along a unit vector (nx, ny)."""
     j, r = joint, row_out
     r.ax, r.ay, r.aw = -nx, -ny, j.ay * nx - j.ax * ny
     r.bx, r.by, r.bw = nx, ny, j.bx * ny - j.by * nx
@@ -127,7 +129,11 @@ def write_turn(row_out):
 
 @subkernel
 def soften(hertz, damping, h, inverse_mass, row_out):
-    """Write the compliance of a row, 0 for a rigid row of hertz 0. inverse_mass: of the row without its neighbours."""
+    """Write the compliance of a row: 0 for hertz 0, a rigid row.
+
+    hertz [1/s], damping: frequency and damping ratio of the spring; h [s]: length of a substep; inverse_mass: inverse
+    effective mass of the row without other joints.
+    """
     row_out.compliance = 0.0
     if hertz > 0.0:
         _, mass_share, give = softness_of(hertz, damping, h)
@@ -136,7 +142,10 @@ def soften(hertz, damping, h, inverse_mass, row_out):
 
 @subkernel
 def write_rows(joint, h, a, b, first, rows_out):
-    """Write Jacobians and compliances of the rows of a joint at its present arms. first: index of its rows."""
+    """Write the Jacobians and compliances of the rows of a joint at its present arms.
+
+    h [s]: length of a substep; a, b: MOTION rows; first: index of the first row of the joint in rows_out.
+    """
     j = joint
     at = first
     turning = a.inverse_inertia + b.inverse_inertia
@@ -167,9 +176,10 @@ def write_rows(joint, h, a, b, first, rows_out):
 
 @subkernel
 def draw(error, hertz, damping, impulse, rate, most, h, row_inout):
-    """Write the wanted velocity of a row, from its error of position and its impulse so far in this substep of h [s].
+    """Write the wanted velocity of a row, from its error of position.
 
-    hertz: 0 for a rigid row, whose error is removed at `rate` [1/s], by a speed of at most `most`.
+    A rigid row (hertz 0) removes the error at `rate` [1/s], with a speed of at most `most`. A spring also uses
+    `impulse`, the accumulated impulse of the row in this substep of h [s].
     """
     row_inout.rhs = -bounded(rate * error, most)
     if hertz > 0.0:
@@ -196,7 +206,8 @@ def bend(joint, a, b, h):
 def write_targets(joint, rate, context, a, b, first, rows_inout):
     """Write the wanted velocities of the rows of a joint. a, b: MOTION rows; first: index of the rows of the joint.
 
-    rate [1/s]: at which errors of position are removed; 0 in the solve at the end of a substep.
+    rate [1/s]: fraction of the errors of position that is removed per second; 0 in the solve at the end of a substep.
+    first: index of the first row of the joint in rows_inout.
     """
     j = joint
     at = first
@@ -256,7 +267,10 @@ def add_inertia(rows, order, h, joints_inout, motions_inout):
 
 @subkernel
 def place_trees(rows, order, h, motions, joints_inout, tree_rows_out):
-    """Place the joints of trees at the present poses, and write their Jacobians and compliances. O(order)."""
+    """Place the joints of trees at the present poses, and write their Jacobians and compliances. O(order).
+
+    rows, order: see JointSet; h [s]: length of a substep; tree_rows_out: JOINT_ROW rows.
+    """
     for k in range(len(order)):
         j = joints_inout[rows[order[k]]]
         if j.direct:
@@ -277,7 +291,7 @@ def aim_trees(rows, order, rate, context, joints, motions, tree_rows_out):
 
 @subkernel
 def collect_trees(rows, order, tree_rows, joints_inout):
-    """Add the impulses of the rows of trees to those of their joints. O(order)."""
+    """Add the impulses of the rows of trees to the impulses of the joints. rows, order: see JointSet. O(order)."""
     for k in range(len(order)):
         j = joints_inout[rows[order[k]]]
         if not j.direct:
@@ -305,13 +319,13 @@ def collect_trees(rows, order, tree_rows, joints_inout):
 
 
 class JointSet(NamedTuple):
-    """The joints of a group, as the substeps of a solver take them."""
+    """The joints of a group, as an argument of the substeps of a solver."""
 
-    table: np.ndarray  # JOINT
-    rows: np.ndarray  # int32 rows of the joints, in the order of ids
-    order: np.ndarray  # int32 places in `rows` of the joints with parts for a tree
-    counts: np.ndarray  # int32 by place: number of rows of a tree
-    tree_rows: np.ndarray  # JOINT_ROW, MOST_ROWS for each place
+    table: np.ndarray  # all JOINT rows
+    rows: np.ndarray  # int32 JOINT rows of the group, in the order of ids
+    order: np.ndarray  # int64 indices into `rows` of the joints with parts for a tree
+    counts: np.ndarray  # int32 number of tree rows of each joint of `rows`
+    tree_rows: np.ndarray  # JOINT_ROW, MOST_ROWS for each joint of `rows`
     forest: Forest
 
 
@@ -328,7 +342,7 @@ def begin_trees(context, joints_inout, motions_inout):
 
 @subkernel
 def solve_all_trees(biased, context, joints_inout, motions_inout):
-    """Solve the trees exactly. biased: whether errors of position are removed, as far as a substep can."""
+    """Solve the trees exactly. biased: True to also remove errors of position, up to the greatest push-out speed."""
     s = joints_inout
     if len(s.order) > 0:
         aim_trees(s.rows, s.order, context.inverse_h if biased else 0.0, context, s.table, motions_inout, s.tree_rows)
@@ -338,7 +352,7 @@ def solve_all_trees(biased, context, joints_inout, motions_inout):
 
 @subkernel
 def solve_once(biased, context, joints_inout, motions_inout):
-    """Solve the joints once; the trees last, so that their joints are exact. biased: see solve_joints."""
+    """Solve all joints once. The trees are last, so that their joints are exact. biased: see solve_joints."""
     s = joints_inout
     solve_joints(s.rows, biased, context, s.table, motions_inout)
     solve_all_trees(biased, context, s, motions_inout)
@@ -346,7 +360,7 @@ def solve_once(biased, context, joints_inout, motions_inout):
 
 @subkernel
 def start_joints(context, joints_inout, motions_inout):
-    """Start the joints of a substep with the impulses of the last one, and solve them. context: see StepContext."""
+    """Warm start the joints with the impulses of the last substep, and solve them. context: see StepContext."""
     s = joints_inout
     warm_joints(s.rows, s.table, motions_inout)
     solve_once(True, context, s, motions_inout)
@@ -354,7 +368,7 @@ def start_joints(context, joints_inout, motions_inout):
 
 @subkernel
 def finish_joints(context, joints_inout, motions_inout):
-    """Solve the velocities of the joints at the poses at the end of a substep, and sum up their impulses."""
+    """Solve the velocities of the joints at the end poses of a substep, and add the impulses to the totals."""
     s = joints_inout
     begin_trees(context, s, motions_inout)
     solve_once(False, context, s, motions_inout)
@@ -362,7 +376,7 @@ def finish_joints(context, joints_inout, motions_inout):
 
 
 class Trees:
-    """The joint trees of the groups of one world, one group after the other; its arrays grow and are reused."""
+    """The joint trees of one group of islands after another. The arrays grow and are reused."""
 
     def __init__(self) -> None:
         self.forest: Forest = new_forest(0, 0)
@@ -376,9 +390,10 @@ class Trees:
         self.sums = np.zeros((0, 2), np.int32)
 
     def build(self, rows: np.ndarray, joints: np.ndarray, motions: np.ndarray, tier: str) -> JointSet:
-        """Find the trees among the joints of a group, by row of JOINT in the order of ids.
+        """Find the trees among the joints of a group, and return the JointSet.
 
-        tier: "iterative" leaves all joints to the passes, "auto" those of meshes.
+        rows: JOINT rows of the group, in the order of ids; tier: "iterative": no trees; "direct": all trees; "auto":
+        trees except in meshes, see drop_meshes.
         """
         n = len(rows)
         if len(self.taken) < n:

@@ -1,7 +1,7 @@
 """Joints in the passes of the stacking solvers: soft, warm started, one joint after the other (the iterative tier).
 
-A joint is solved by parts, whatever its kind: a hold of its anchors, a hold of its angle, and on its coordinate a
-spring, a motor and two limits. Moment arms, axes and effective masses are taken anew in each substep. Sources: Catto,
+A joint of any kind consists of parts: a hold of its anchors, a hold of its angle, and on its coordinate a spring, a
+motor and two limits. Moment arms, axes and effective masses are recomputed in each substep. Sources: Catto,
 Soft Constraints, GDC 2011, and Solver2D, 2024 (soft joints with a relaxing pass); Catto, Box2D v3, joint.c (the parts).
 """
 
@@ -12,14 +12,14 @@ from physics.math2d import norm, rotation_of
 from physics.tables.joint import ANGLE, FREE, LENGTH, NO_COORDINATE, ON_AXIS, PINNED, TRANSLATION
 from physics.tables.step_state import JOINTS_SOLVED, StepState, stage
 
-LIMIT_SHARE = 0.25  # share of an error of a limit beside a tree that a substep removes
+LIMIT_SHARE = 0.25  # fraction of the error of a limit that a substep removes, for a joint that a tree solves
 
 # ---- selection -------------------------------------------------------------------------------------------------------
 
 
 @subkernel
 def is_idle(joint):
-    """Return whether a joint acts on nothing: it is disabled, or only forbids contacts."""
+    """Return whether a joint has no part to solve: it is disabled, or only forbids contacts."""
     j = joint
     if not j.enabled:
         return True
@@ -30,8 +30,8 @@ def is_idle(joint):
 def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
     """List the joints to solve in this step, in the order of ids. Return their number. O(joints).
 
-    motion_of (bodies): MOTION row of each body, 0 for a body that does not move. The bodies of the joints are marked as
-    jointed. links_out (joints, 3) int32: row of each joint, and MOTION rows of its bodies.
+    motion_of (bodies): MOTION row of each body, 0 for a body that does not move. MOTION.jointed of the bodies is set.
+    links_out (joints, 3) int32: JOINT row, MOTION row of A, MOTION row of B of each listed joint.
     """
     found = 0
     for i in range(len(joints_inout)):
@@ -45,7 +45,7 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
         if a.inverse_mass + a.inverse_inertia + b.inverse_mass + b.inverse_inertia == 0.0:
             continue
         j.awake = True
-        # Springs balance a load within each substep: it has to act on them as a whole.
+        # A spring balances a load within each substep, so the load must not be divided into halves.
         rigid = j.spring_hertz == 0.0 and j.point_hertz == 0.0 and j.angle_hertz == 0.0
         a.halves = rigid and (a.halves or not a.jointed)
         b.halves = rigid and (b.halves or not b.jointed)
@@ -68,7 +68,10 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
 
 @subkernel
 def begin_joint(bodies, h, joint_inout):
-    """Write the anchors, axis and angle of a joint at the start of a step, and its impulses for a substep of h [s]."""
+    """Write the anchors, axis and angle of a joint at the start of a step, and its cached impulses for a substep.
+
+    bodies: BODY rows; h [s]: length of the substep.
+    """
     j = joint_inout
     angle_a, angle_b = 0.0, 0.0
     ax, ay, bx, by = j.local_ax, j.local_ay, j.local_bx, j.local_by
@@ -101,7 +104,7 @@ def begin_joint(bodies, h, joint_inout):
 def begin_joints(rows, bodies, h, joints_inout):
     """Write the anchors, axes and angles of joints at the start of a step. O(rows).
 
-    rows: of joints to solve; h [s]: a substep.
+    rows: JOINT rows; h [s]: length of a substep.
     """
     for k in range(len(rows)):
         begin_joint(bodies, h, joints_inout[rows[k]])
@@ -109,7 +112,7 @@ def begin_joints(rows, bodies, h, joints_inout):
 
 @subkernel
 def place_joint(a, b, joint_inout):
-    """Write moment arms, axis, distance of the anchors and angle of a joint at the present poses. a, b: MOTION rows."""
+    """Write moment arms, axis, offset of the anchors and angle of a joint at the present poses. a, b: MOTION rows."""
     j = joint_inout
     ax, ay = a.cosine * j.arm_ax - a.sine * j.arm_ay, a.sine * j.arm_ax + a.cosine * j.arm_ay
     bx, by = b.cosine * j.arm_bx - b.sine * j.arm_by, b.sine * j.arm_bx + b.cosine * j.arm_by
@@ -124,7 +127,7 @@ def place_joint(a, b, joint_inout):
         j.nx = a.cosine * j.start_nx - a.sine * j.start_ny
         j.ny = a.sine * j.start_nx + a.cosine * j.start_ny
     if j.hold == ON_AXIS or j.coordinate == TRANSLATION:
-        # The axis turns with A, so A is pushed where B is.
+        # The axis rotates with A, so the impulse on A also acts at B's anchor.
         ax += j.apart_x
         ay += j.apart_y
     j.ax, j.ay, j.bx, j.by = ax, ay, bx, by
@@ -135,10 +138,10 @@ def place_joint(a, b, joint_inout):
 
 @subkernel
 def push(joint, x, y, torque, a_inout, b_inout):
-    """Apply an impulse and an angular impulse to B at its anchor, and the opposite ones to A.
+    """Apply an impulse (x, y) at B's anchor and an angular impulse `torque` to B, and the opposite impulses to A.
 
-    They also change the velocity before contacts acted, so that the next substep does not apply them again: it warm
-    starts joints at their new arms.
+    free_vx, free_vy and free_w change by the same amounts. So the warm start of contacts does not apply the impulses
+    again: joints are warm started separately, at their new arms. a_inout, b_inout: MOTION rows.
     """
     j = joint
     a, b = a_inout, b_inout
@@ -162,7 +165,7 @@ def push(joint, x, y, torque, a_inout, b_inout):
 
 @subkernel
 def push_coordinate(joint, impulse, a_inout, b_inout):
-    """Apply an impulse that raises the coordinate of a joint: along its axis, or about its anchor."""
+    """Apply an impulse that increases the coordinate of a joint: along its axis, or as an angular impulse."""
     j = joint
     if j.coordinate == ANGLE:
         push(j, 0.0, 0.0, impulse, a_inout, b_inout)
@@ -172,7 +175,7 @@ def push_coordinate(joint, impulse, a_inout, b_inout):
 
 @subkernel
 def speed_across(joint, nx, ny, a, b):
-    """Return the speed [px/s] of B's anchor relative to A's along a unit vector. a, b: MOTION rows."""
+    """Return the speed [px/s] of B's anchor relative to A's anchor along (nx, ny). a, b: MOTION rows."""
     j = joint
     speed = (b.vx - a.vx) * nx + (b.vy - a.vy) * ny
     speed += b.angular_velocity * (j.bx * ny - j.by * nx)
@@ -181,7 +184,7 @@ def speed_across(joint, nx, ny, a, b):
 
 @subkernel
 def inverse_mass_along(joint, nx, ny, a, b):
-    """Return the inverse effective mass of a joint along a unit vector."""
+    """Return the inverse effective mass of a joint along a unit vector (nx, ny). a, b: MOTION rows."""
     j = joint
     on_a, on_b = j.ax * ny - j.ay * nx, j.bx * ny - j.by * nx
     return a.inverse_mass + b.inverse_mass + a.inverse_inertia * on_a * on_a + b.inverse_inertia * on_b * on_b
@@ -203,7 +206,10 @@ def coordinate_speed(joint, a, b):
 
 @inlined
 def softness_of(hertz, damping, h):
-    """Return (bias rate [1/s], share of the effective mass, share of the impulse given back) of an implicit spring."""
+    """Return (bias rate [1/s], factor on the effective mass, fraction of the impulse given up) of an implicit spring.
+
+    hertz [1/s]: frequency; damping: damping ratio; h [s]: length of a substep. The two factors add up to 1.
+    """
     omega = math.tau * hertz
     rate = 2.0 * damping + h * omega
     grip = h * omega * rate
@@ -213,7 +219,10 @@ def softness_of(hertz, damping, h):
 
 @inlined
 def rigid_softness(biased, context):
-    """Return the softness of a hard part of a joint, see softness_of: rigid and without bias in the relaxing pass."""
+    """Return the softness of a rigid part of a joint as softness_of does: without bias in the relaxing pass.
+
+    biased: False in the relaxing pass, which has neither bias nor softness; context: see StepContext.
+    """
     if not biased:
         return 0.0, 1.0, 0.0
     give = 1.0 / (1.0 + context.joint.grip)
@@ -222,25 +231,25 @@ def rigid_softness(biased, context):
 
 @inlined
 def bounded(value, most):
-    """Return a value limited to -most … most."""
+    """Return a value clamped to the range from -most to most."""
     return min(max(value, -most), most)
 
 
 @inlined
 def holds_point(joint):
-    """Return whether the hold of the anchors of a joint is part of a tree: it is not bounded."""
+    """Return whether a tree can solve the hold of the anchors of a joint: it holds positions, with unbounded force."""
     return joint.hold != FREE and joint.follows_point and joint.point_max == math.inf
 
 
 @inlined
 def holds_angle(joint):
-    """Return whether the hold of the angle of a joint is part of a tree: it is not bounded."""
+    """Return whether a tree can solve the hold of the angle of a joint: it holds the angle, with unbounded torque."""
     return joint.locks_angle and joint.follows_angle and joint.angle_max == math.inf
 
 
 @inlined
 def holds_coordinate(joint):
-    """Return whether the coordinate of a joint is part of a tree: it is held, or has a spring."""
+    """Return whether a tree can solve the coordinate of a joint: it has equal limits, or a spring."""
     return joint.coordinate != NO_COORDINATE and (joint.lower == joint.upper or joint.spring_hertz > 0.0)
 
 
@@ -249,7 +258,7 @@ def holds_coordinate(joint):
 
 @subkernel
 def solve_motor(context, joint_inout, a_inout, b_inout):
-    """Solve the motor of a joint: it drives the coordinate, or the angle, at motor_speed with a bounded force."""
+    """Solve the motor of a joint, which drives the coordinate, or the angle, at motor_speed with a bounded force."""
     j, a, b = joint_inout, a_inout, b_inout
     of_angle = j.turns_motor or j.coordinate == ANGLE
     if of_angle:
@@ -270,10 +279,10 @@ def solve_motor(context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def limit_change(gap, speed, old, mass, soft, most, inverse_h):
-    """Return the change of the impulse of a limit that keeps gap >= 0, where speed is the rate of the gap.
+    """Return the change of the impulse of a limit that keeps gap >= 0. The accumulated impulse stays at least 0.
 
-    soft: see softness_of; most: greatest speed of a correction. The impulse stays at least 0. A limit that is not
-    reached lets the gap close in a substep.
+    speed: rate of change of the gap; old: accumulated impulse; mass: effective mass; soft: see softness_of; most:
+    greatest speed of a correction. A positive gap may close completely in a substep.
     """
     bias_rate, mass_share, give = soft
     if gap > 0.0:
@@ -285,7 +294,7 @@ def limit_change(gap, speed, old, mass, soft, most, inverse_h):
 
 @subkernel
 def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
-    """Solve spring, motor and limits of a joint on its coordinate."""
+    """Solve the spring, the motor and the limits on the coordinate of a joint. biased: see solve_joints."""
     j, a, b = joint_inout, a_inout, b_inout
     inverse = a.inverse_inertia + b.inverse_inertia
     if j.coordinate != ANGLE:
@@ -304,7 +313,7 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
     soft = rigid_softness(biased, context)
     most = context.push_turn if j.coordinate == ANGLE else context.push_speed
     if j.direct and biased:
-        soft = (LIMIT_SHARE * context.inverse_h, 1.0, 0.0)  # beside trees, which are rigid, a spring would give way
+        soft = (LIMIT_SHARE * context.inverse_h, 1.0, 0.0)  # a soft limit would yield to the rigid parts of the tree
     if j.lower == j.upper:
         if j.direct:
             return
@@ -326,7 +335,7 @@ def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of the angle of a joint: rigid, soft, or of the angular velocity alone, with a bounded torque."""
+    """Solve the hold of the angle of a joint: rigid, soft, or only of the angular velocity; with a bounded torque."""
     j, a, b = joint_inout, a_inout, b_inout
     inverse = a.inverse_inertia + b.inverse_inertia
     if inverse <= 0.0:
@@ -344,7 +353,7 @@ def solve_hold_of_angle(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of B's anchor on the axis of A: no motion across the axis."""
+    """Solve the hold of B's anchor on the axis of A: prevent motion across the axis."""
     j, a, b = joint_inout, a_inout, b_inout
     inverse = inverse_mass_along(j, -j.ny, j.nx, a, b)
     if inverse <= 0.0:
@@ -359,9 +368,9 @@ def solve_hold_across(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
-    """Solve the hold of two anchors: rigid, soft, or of their relative velocity alone, with a bounded force.
+    """Solve the hold of two anchors: rigid, soft, or only of their relative velocity; with a bounded force.
 
-    Both directions are solved together.
+    Both directions are solved together. biased: see solve_joints.
     """
     j, a, b = joint_inout, a_inout, b_inout
     k_11 = a.inverse_mass + b.inverse_mass + a.inverse_inertia * j.ay * j.ay + b.inverse_inertia * j.by * j.by
@@ -399,7 +408,7 @@ def solve_hold_of_point(biased, context, joint_inout, a_inout, b_inout):
 
 @subkernel
 def impulse_of(joint):
-    """Return (x, y, angular) of the impulse of a joint on B in the present substep."""
+    """Return (x, y, angular impulse) of a joint on B in the present substep."""
     j = joint
     x, y, torque = 0.0, 0.0, j.hold_impulse
     if j.hold == PINNED:
@@ -421,7 +430,10 @@ def impulse_of(joint):
 
 @subkernel
 def warm_joints(rows, joints_inout, motions_inout):
-    """Place joints at the present poses, and apply the impulses with which they start a substep. O(rows)."""
+    """Place joints at the present poses, and apply the impulses of the last substep (warm start). O(rows).
+
+    rows: JOINT rows.
+    """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         a, b = motions_inout[j.motion_a], motions_inout[j.motion_b]
@@ -436,8 +448,8 @@ def warm_joints(rows, joints_inout, motions_inout):
 def solve_joints(rows, biased, context, joints_inout, motions_inout):
     """Solve every joint once. O(rows).
 
-    biased: whether errors of position are removed; otherwise velocities alone are solved. Parts that trees solve are
-    left out.
+    rows: JOINT rows; biased: True to also remove errors of position, False to solve only velocities, at the present
+    poses. Parts that trees solve are left out.
     """
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
@@ -460,7 +472,7 @@ def solve_joints(rows, biased, context, joints_inout, motions_inout):
 
 @subkernel
 def sum_joints(rows, joints_inout):
-    """Add the impulses of a substep to those of the step. O(rows)."""
+    """Add the impulses of a substep to the totals of the step. rows: JOINT rows. O(rows)."""
     for k in range(len(rows)):
         j = joints_inout[rows[k]]
         x, y, torque = impulse_of(j)
@@ -474,7 +486,10 @@ def sum_joints(rows, joints_inout):
 
 @kernel
 def store_joints(rows, context, joints_inout):
-    """Write the forces of the step, and those with which the next step starts, to the joints. O(rows)."""
+    """Write the forces of the step, and the cached forces for the next step, to the joints. O(rows).
+
+    rows: JOINT rows; context: see StepContext.
+    """
     rest = 1.0 - context.share
     rate = context.share * context.inverse_h
     for k in range(len(rows)):
@@ -492,11 +507,11 @@ def store_joints(rows, context, joints_inout):
 
 @kernel
 def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
-    """Raise the substep estimates of bodies to what the loads of their joints need. O(rows).
+    """Raise MOTION.estimate to the square of the number of substeps that the joints of a body need. O(rows).
 
-    rate: see contact_lanes.estimate_rate; dt [s] of the step; accuracy [px]. The spring of a joint in the passes is
-    twice as stiff as that of a contact. In either tier an anchor that turns by an angle a in a substep leaves the joint
-    by a² / 2 of its arm.
+    rows: JOINT rows; rate: see contact_lanes.estimate_rate; dt [s]: step length; accuracy [px]. In the iterative tier
+    the spring of a joint has twice the frequency of the spring of a contact, so it sags by a quarter. In either tier an
+    anchor on an arm r that rotates by an angle φ in a substep leaves the joint by r φ² / 2.
     """
     for k in range(len(rows)):
         j = joints[rows[k]]
@@ -526,21 +541,21 @@ def estimate_joints(rows, joints, rate, dt, accuracy, motions_inout):
 
 @subkernel
 def place_anchor(body, x, y):
-    """Return (x, y) [px] in the world of a point of a body."""
+    """Return the world position (x, y) [px] of a point (x, y) [px] in the space of a BODY row."""
     c, s = rotation_of(body.angle)
     return body.x + c * x - s * y, body.y + s * x + c * y
 
 
 @subkernel
 def velocity_at(body, x, y):
-    """Return the velocity (x, y) [px/s] of a body at a point [px] of the world."""
+    """Return the velocity (x, y) [px/s] of a BODY row at a point (x, y) [px] of the world."""
     w = body.angular_velocity
     return body.vx - w * (y - body.center_y), body.vy + w * (x - body.center_x)
 
 
 @kernel
 def report_joints(bodies, joints_inout):
-    """Write angle, translation, speed, separation and whether a joint broke, at the present poses. O(joints)."""
+    """Write angle, translation, speed, separation and `broken` of all joints at the present poses. O(joints)."""
     for k in range(len(joints_inout)):
         j = joints_inout[k]
         ax, ay, bx, by = j.local_ax, j.local_ay, j.local_bx, j.local_by
@@ -583,5 +598,5 @@ def report_joints(bodies, joints_inout):
 
 @stage("joints", reads=("bodies", "joints"), writes=("joints",))
 def measure_joints(state: StepState) -> None:
-    """Measure the joints at the final poses of the step, and find those that broke."""
+    """Measure all joints at the final poses of the step, and mark the joints that broke."""
     report_joints(state.bodies, state.joints)

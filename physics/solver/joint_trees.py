@@ -1,18 +1,19 @@
 """Direct solver for trees of joints: exact impulses in linear time, for any ratio of masses.
 
-Joints and the bodies of finite mass that they link form a graph. Joints that close a loop in it are left to an
-iterative solver; the others are a forest. Bodies of infinite mass cut the graph, so a bridge between two walls is a
-tree. A tree is eliminated from its leaves to its root, and solved back from the root to its leaves (Baraff,
+Bodies of finite mass and the joints between them form a graph. Joints that close a loop are left to an iterative
+solver; the other joints form a forest. Bodies of infinite mass cut the graph, so a bridge between two walls is a tree.
+A tree is eliminated from its leaves to its root, and solved back from the root to its leaves (Baraff,
 Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Featherstone, Rigid Body Dynamics Algorithms, 2008,
 chapter 7).
 
-The elimination works on articulated inverse inertias: W of a body, 3×3, is its response to an impulse while its
-subtree hangs on it. A joint to a child with the inverse inertia Wc acts on its parent like a measurement of the
-parent's velocity by a Kalman filter, with the covariance S = Γ + Jc Wc Jcᵀ. S = 0, a rigid joint to a body of infinite
-mass, is no exception, while its inverse would be. W is kept as U D Uᵀ, with U unit upper triangular and D diagonal, and
-S is diagonalised row by row without being formed. So no digits are lost where a light body carries a heavy one
-(Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapters 5 and 6). Impulses follow from the
-innovations of the filter (the smoother of Bryson and Frazier, 1963), the velocity of a child from that of its parent.
+The elimination computes articulated inverse inertias: the 3×3 matrix W of a body is the response of its velocity to an
+impulse, with its subtree attached. A joint to a child with the inverse inertia Wc acts on the parent like a measurement
+of the parent's velocity in a Kalman filter, with the covariance S = Γ + Jc Wc Jcᵀ. The case S = 0, a rigid joint to a
+body of infinite mass, needs no special treatment, because S is never inverted. W is stored as U D Uᵀ, with U unit upper
+triangular and D diagonal, and S is diagonalised row by row without being formed. So no digits are lost if a light body
+carries a heavy body (Bierman, Factorization Methods for Discrete Sequential Estimation, 1977, chapters 5 and 6).
+Impulses follow from the innovations of the filter (the smoother of Bryson and Frazier, 1963), the velocity of a child
+from the velocity of its parent.
 """
 
 from typing import NamedTuple
@@ -23,19 +24,20 @@ from physics.jit import inlined, kernel, subkernel
 from physics.tables.table import in_lines, join_trees, root_of, zeros_in_lines
 
 MOST_ROWS = 3  # rows of a joint: row r of joint j is JOINT_ROW 3 j + r
-NO_SLOT = -1  # in place of a slot, joint or half-edge: none
-# Pivots relative to what they are before the elimination. A pivot falls with the mass that hangs on a joint, to 1e-12
-# for 1e6 times the mass of a link at the end of 200 welded links. Of redundant rows rounding errors leave 1e-28.
-SINGULAR = 1e-16  # at or below it a row is redundant
-IMMOVABLE = 1e-20  # at or below it the child of a row does not respond
-NEGLIGIBLE = 1e-30  # at or below it a part of a pivot is a rounding error
+NO_SLOT = -1  # value for no slot, joint or half-edge
+# Thresholds of a pivot, relative to the pivot without other joints. The pivot decreases with the mass that hangs on a
+# joint: to 1e-12 for 1e6 times the mass of a link at the end of 200 welded links. Rounding errors give a redundant row
+# a relative pivot of 1e-28.
+SINGULAR = 1e-16  # up to this value a row is redundant
+IMMOVABLE = 1e-20  # up to this value of the child's part, the child does not respond to the row
+NEGLIGIBLE = 1e-30  # up to this value a part of a pivot is a rounding error
 AT_REST = 1e-250  # slower velocities count as 0: the rounding errors of bodies at rest become denormal, and slow
 
 # ---- tables ----------------------------------------------------------------------------------------------------------
 
-# A scalar row of a joint: the impulse for which  ax·vx + ay·vy + aw·w of A + bx·vx + by·vy + bw·w of B + compliance ·
-# impulse = rhs  after the solve. Impulses change the velocities of A by its inverse mass and inertia times
-# (ax, ay, aw), and those of B alike.
+# A scalar row of a joint. After the solve, with the velocities (vx, vy, w) of A and of B:
+# ax·vxA + ay·vyA + aw·wA + bx·vxB + by·vyB + bw·wB + compliance · impulse = rhs.
+# The impulse changes the velocity of A by impulse · (ax, ay, aw) times its inverse mass and inertia, likewise of B.
 JOINT_ROW = np.dtype(
     [
         ("ax", np.float64),  # Jacobian of body A …
@@ -51,14 +53,14 @@ JOINT_ROW = np.dtype(
     align=True,
 )
 
-# A body of a tree, in the order of the elimination: parents before their children. A joint to a body of infinite mass
-# has a row for that body, too.
+# A body of a tree. Rows (slots) are in breadth-first order, parents before their children. Each joint to a body of
+# infinite mass has a separate row for that body.
 TREE_BODY = in_lines(
     [
-        ("motion", np.int32),  # its row in MOTION
-        ("parent", np.int32),  # slot of its parent, NO_SLOT: the root of a tree
-        ("joint", np.int32),  # joint to its parent
-        ("count", np.int32),  # number of rows of that joint
+        ("motion", np.int32),  # MOTION row of the body
+        ("parent", np.int32),  # slot of the parent, NO_SLOT for the root of a tree
+        ("joint", np.int32),  # joint to the parent
+        ("count", np.int32),  # number of rows of the joint to the parent
         ("parent_is_a", np.bool_),
         ("is_fixed", np.bool_),  # infinite mass
         ("inverse_inertia", np.float64),  # with the added inertia
@@ -68,16 +70,17 @@ TREE_BODY = in_lines(
         ("u_xy", np.float64),  # … and U
         ("u_xw", np.float64),
         ("u_yw", np.float64),
-        ("vx", np.float64),  # velocity, with the impulses of its subtree; at the end with all of them
+        ("vx", np.float64),  # velocity with the impulses of the subtree; after the solve with all impulses
         ("vy", np.float64),
         ("w", np.float64),
-        ("fx", np.float64),  # impulse on it and its subtree from outside of the subtree
+        ("fx", np.float64),  # impulse on the body by the joint to its parent, then also by solved joints to children
         ("fy", np.float64),
         ("fw", np.float64),
     ]
 )
 
-# A factored row of a joint: a combination of its rows, whose response by the child is independent of the other rows.
+# A factored row of a joint: a linear combination of the joint's rows, uncorrelated with its other factored rows in the
+# response of the child.
 TREE_ROW = in_lines(
     [
         ("px", np.float64),  # Jacobian of the parent
@@ -86,10 +89,10 @@ TREE_ROW = in_lines(
         ("cx", np.float64),  # Jacobian of the child
         ("cy", np.float64),
         ("cw", np.float64),
-        ("gx", np.float64),  # gain of the child: its velocity per violation that the parent leaves
+        ("gx", np.float64),  # gain of the child: its change of velocity per violation at the parent's final velocity
         ("gy", np.float64),
         ("gw", np.float64),
-        ("kx", np.float64),  # gain of the parent: its velocity per violation, without impulses from outside
+        ("kx", np.float64),  # gain of the parent: its change of velocity per violation, without impulses from outside
         ("ky", np.float64),
         ("kw", np.float64),
         ("inverse_pivot", np.float64),  # impulse per violation of the row
@@ -101,19 +104,23 @@ TREE_ROW = in_lines(
 
 
 class Forest(NamedTuple):
-    """Trees of joints: their bodies and factors, and the arrays from which they are built. All are reused."""
+    """Trees of joints: their bodies and factors, and scratch arrays for building them. The arrays are reused.
 
-    bodies: np.ndarray  # (2 joints) TREE_BODY in slots: first the roots, parents before their children
-    rows: np.ndarray  # (2 MOST_ROWS joints) TREE_ROW of the joint to the parent of each slot
-    violations: np.ndarray  # (2 MOST_ROWS joints) of each TREE_ROW while its parent is at rest
+    (joints), (motions): capacities for joints and MOTION rows. A half-edge is one side of a joint: 2 · joint for body
+    A, 2 · joint + 1 for body B.
+    """
+
+    bodies: np.ndarray  # (2 joints) TREE_BODY in slots: roots first, parents before their children
+    rows: np.ndarray  # (2 MOST_ROWS joints) TREE_ROW: rows of the joint to the parent of each slot
+    violations: np.ndarray  # (2 MOST_ROWS joints) violation of each TREE_ROW if its parent is at rest
     sizes: np.ndarray  # (1) int64 number of slots in use
     parents: np.ndarray  # (motions) int32 union-find over MOTION rows
-    heads: np.ndarray  # (motions) int32 first half-edge of each MOTION row: twice the joint, plus 1 for its body B
-    nexts: np.ndarray  # (2 joints) int32 the next half-edge of the same body
+    heads: np.ndarray  # (motions) int32 first half-edge of each MOTION row, NO_SLOT: none
+    nexts: np.ndarray  # (2 joints) int32 next half-edge of the same body, NO_SLOT: none
 
 
 def new_forest(joints: int, motions: int) -> Forest:
-    """Return an empty forest with room for a number of joints and of MOTION rows."""
+    """Return an empty forest with capacities for joints and MOTION rows."""
     return Forest(
         bodies=zeros_in_lines(2 * joints, TREE_BODY),
         rows=zeros_in_lines(2 * MOST_ROWS * joints, TREE_ROW),
@@ -126,7 +133,10 @@ def new_forest(joints: int, motions: int) -> Forest:
 
 
 def with_room(forest: Forest, joints: int, motions: int) -> Forest:
-    """Return the forest if it has room for so many joints and MOTION rows, otherwise an empty one of twice the room."""
+    """Return the forest if its capacities suffice, otherwise an empty forest with greater capacities.
+
+    joints, motions: required capacities; a capacity that is too small is at least doubled.
+    """
     has_joints, has_motions = len(forest.nexts) // 2, len(forest.parents)
     if joints <= has_joints and motions <= has_motions:
         return forest
@@ -141,13 +151,16 @@ def with_room(forest: Forest, joints: int, motions: int) -> Forest:
 
 @inlined
 def has_infinite_mass(motion):
-    """Return whether no impulse moves or turns the body of a MOTION row."""
+    """Return whether both inverse mass and inverse inertia of a MOTION row are 0."""
     return not (motion.inverse_mass > 0.0 or motion.inverse_inertia > 0.0)
 
 
 @subkernel
 def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
-    """Choose the joints of the forest and link them to their bodies. Return their number. Arguments of build_forest."""
+    """Choose the joints of the forest and link their half-edges by body. Return the number of chosen joints.
+
+    Arguments: see build_forest.
+    """
     f = forest_inout
     for i in range(len(motions)):
         f.parents[i] = i
@@ -177,7 +190,7 @@ def take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out):
 
 @inlined
 def write_body(motion, parent, joint, parent_is_a, is_fixed, body_out):
-    """Write the place of a body in its tree into its TREE_BODY row."""
+    """Write the links of a TREE_BODY row: motion (MOTION row), parent (slot), joint to the parent, and flags."""
     body_out.motion = motion
     body_out.parent = parent
     body_out.joint = joint
@@ -188,10 +201,10 @@ def write_body(motion, parent, joint, parent_is_a, is_fixed, body_out):
 
 @subkernel
 def order_bodies(motion_a, motion_b, motions, forest_inout):
-    """Write the bodies of all trees, breadth-first from the roots. O(MOTION rows + joints). Arguments of build_forest.
+    """Write the bodies of all trees, breadth-first from the roots. O(MOTION rows + joints).
 
-    The rows that are written are the queue of the search. All roots come first, so that joints of several trees follow
-    one another and the processor works on them at the same time.
+    Arguments: see build_forest. The written rows are also the queue of the search. All roots are first, so that
+    adjacent rows belong to different trees, and the processor can work on several joints at the same time.
     """
     f = forest_inout
     count = 0
@@ -226,13 +239,13 @@ def build_forest(
     forest_inout,
     taken_out,
 ):
-    """Choose the joints of the forest and order their elimination. Return the number of joints taken.
+    """Choose the joints of the forest and order their elimination. Return the number of chosen joints.
 
-    A joint is not taken if its bodies are linked by joints before it, or if both have infinite mass. The root of a
-    tree is its lowest MOTION row. The result depends only on the order of the joints and on the MOTION rows. O(MOTION
-    rows + joints). order: int64, the joints that may be taken, in the order of their ids; motion_a, motion_b (joints,):
-    int32 MOTION rows of their bodies; forest_inout: a Forest with room for them; taken_out (joints,): bool, written for
-    the joints in `order`.
+    A joint is not chosen if earlier joints connect its bodies, or if both bodies have infinite mass. The root of a tree is
+    its lowest MOTION row. The result depends only on the order of the joints and on the MOTION rows. O(MOTION
+    rows + joints). order: int64 joints that may be chosen, in the order of ids; motion_a, motion_b (joints,): int32
+    MOTION rows of the bodies of each joint; forest_inout: a Forest with sufficient capacities; taken_out (joints,):
+    bool, whether each joint of `order` was chosen.
     """
     count = take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out)
     order_bodies(motion_a, motion_b, motions, forest_inout)
@@ -240,17 +253,17 @@ def build_forest(
 
 
 # ---- factor ----------------------------------------------------------------------------------------------------------
-# A row that is factored is a tuple: the Jacobians of parent and child, the latter times U of the child, the part of the
-# pivot from child and compliance, the pivot without other joints (its scale), the compliance, its multiple of the first
-# row, and its number in the joint. Tuples stay in registers: 59 ns a joint in place of 74 with rows of a table (a chain
-# of 760 pins).
+# While a row is factored it is a tuple: Jacobian of the parent (0..2), Jacobian of the child (3..5), Jacobian of the
+# child times U of the child (6..8), part of the pivot from child and compliance (9), pivot without other joints, the
+# scale (10), compliance (11), subtracted multiple of the first row (12), number of the row in the joint (13). Tuples
+# stay in registers: 59 ns per joint instead of 74 ns with rows of a table (a chain of 760 pins).
 
 
 @inlined
 def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
     """Return a row of a joint as a tuple.
 
-    parent_mass, child_mass: inverse mass and inertia; inertia: the factors D and U of the child; number: 0..2.
+    parent_mass, child_mass: (inverse mass, inverse inertia); inertia: factors D and U of the child; number: 0..2.
     """
     j = joint_row
     px, py, pw = (j.ax, j.ay, j.aw) if parent_is_a else (j.bx, j.by, j.bw)
@@ -260,22 +273,23 @@ def load_row(joint_row, parent_is_a, parent_mass, child_mass, inertia, number):
     child = j.compliance + (cx * cx * d_x + gy * gy * d_y + gw * gw * d_w)
     scale = j.compliance + (px * px + py * py) * parent_mass[0] + pw * pw * parent_mass[1]
     scale += (cx * cx + cy * cy) * child_mass[0] + cw * cw * child_mass[1]
-    scale = scale if scale > 0.0 else 0.0  # pivots above a share of it are positive, with wrong masses too
+    scale = scale if scale > 0.0 else 0.0  # so that accepted pivots are positive, even with invalid masses
     return px, py, pw, cx, cy, cw, cx, gy, gw, child, scale, j.compliance, 0.0, number
 
 
 @inlined
 def moves_more(row, other):
-    """Return whether the child has a greater share in the pivot of a row than in that of another one."""
+    """Return whether the child's part of the pivot, relative to its scale, is greater for `row` than for `other`."""
     return row[9] * other[10] > other[9] * row[10]
 
 
 @inlined
 def independent(row, lead, inertia, common, is_second):
-    """Return a row without its correlation with an earlier row `lead`, and the multiple of `lead` that was subtracted.
+    """Return (`row` made uncorrelated with an earlier row `lead`, subtracted multiple of `lead`).
 
-    inertia: D and U of the child, whose response correlates them; common: compliance of the first row, which both have
-    if `lead` is the second row. Nothing is subtracted if the child does not respond to `lead`.
+    The response of the child correlates the rows; inertia: factors D and U of the child. Nothing is subtracted if the
+    child does not respond to `lead`. common: compliance of the first row; is_second: whether `lead` is the second row,
+    so that both rows may contain multiples of the first row.
     """
     d_x, d_y, d_w, _, _, _ = inertia
     px, py, pw, cx, cy, cw, gx, gy, gw, child, scale, compliance, of_first, number = row
@@ -301,8 +315,8 @@ def independent(row, lead, inertia, common, is_second):
 def apply_row(row, inertia):
     """Apply a row to the articulated inverse inertia of its parent (Bierman's update).
 
-    inertia: the factors D and U of the parent. Return the new ones, the gain, the inverse pivot, the inverse of the
-    part of the child, and 1 if the row is redundant, else 0. A redundant row is given its scale as compliance.
+    Return (new D and U of the parent, gain of the parent, inverse pivot, inverse of the child's part of the pivot, 1 if
+    the row is redundant, else 0). A redundant row gets its scale as compliance. inertia: factors D and U of the parent.
     """
     d_x, d_y, d_w, u_xy, u_xw, u_yw = inertia
     x, y, w = row[0], row[0] * u_xy + row[1], row[0] * u_xw + row[1] * u_yw + row[2]
@@ -338,9 +352,9 @@ def apply_row(row, inertia):
 
 @inlined
 def finish_row(row, of_second, inertia, child_inertia, row_out):
-    """Apply a row to its parent and write it as a TREE_ROW. Return the new D and U of the parent, and apply_row's flag.
+    """Apply a row to its parent and write it as a TREE_ROW. Return (new D and U of the parent, 1 if redundant, else 0).
 
-    of_second: its multiple of the second row; inertia, child_inertia: D and U of parent and child.
+    of_second: subtracted multiple of the second row; inertia, child_inertia: factors D and U of parent and child.
     """
     inertia, gain, inverse_pivot, inverse_child, singular = apply_row(row, inertia)
     d_x, d_y, d_w, u_xy, u_xw, u_yw = child_inertia
@@ -358,11 +372,12 @@ def finish_row(row, of_second, inertia, child_inertia, row_out):
 
 @subkernel
 def factor_joint(joint_rows, motions, body, at, rows_out, parent_inout):
-    """Factor the joint of a body to its parent, and add what hangs on it to the inertia of the parent.
+    """Factor the joint of a body to its parent, and update the articulated inverse inertia of the parent.
 
-    The rows are made independent in the response of the child, S = L D Lᵀ, by modified Gram-Schmidt. The row in whose
-    pivot the child has the greatest share comes first, so that multiples stay small where a child can hardly move.
-    body: TREE_BODY row; at: index of the first of its rows in rows_out, TREE_ROW. Return the number of redundant rows.
+    Return the number of redundant rows. The rows are made uncorrelated in the response of the child, S = L D Lᵀ, by
+    modified Gram-Schmidt. The row with the greatest relative part of the child in its pivot comes first, so that the
+    multiples stay small if the child can hardly move. body, parent_inout: TREE_BODY rows; at: index of the first row of
+    the joint in rows_out, TREE_ROW rows.
     """
     p = parent_inout
     count, is_a, j = body.count, body.parent_is_a, MOST_ROWS * body.joint
@@ -408,12 +423,12 @@ def factor_trees(
     # write
     forest_inout,
 ):
-    """Factor the equations of all trees, from the leaves to the roots. Return the number of redundant rows.
+    """Factor the equations of all trees, from the leaves to the roots. Return the number of redundant rows. O(joints).
 
-    A row is redundant if the other rows leave it no pivot, or if no body responds to it. It is given its pivot without
-    other joints as compliance, so that its impulse is finite. O(joints). joint_rows (MOST_ROWS joints,): JOINT_ROW, of
-    which Jacobians and compliances are read; row_counts (joints,): int32, 0..3; motions: MOTION rows, of which inverse
-    masses and inertias are read; forest_inout: from build_forest, receives the factors.
+    A row is redundant if its pivot is 0 after the elimination of other rows, or if no body responds to it. Such a row
+    gets its pivot without other joints as compliance, so that its impulse is finite. joint_rows (MOST_ROWS joints,):
+    JOINT_ROW with Jacobians and compliances; row_counts (joints,): int32, 0..3; motions: MOTION rows with inverse
+    masses and inertias; forest_inout: from build_forest, receives the factors.
     """
     f = forest_inout
     singular = 0
@@ -439,11 +454,11 @@ def factor_trees(
 
 @subkernel
 def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violations_out):
-    """Apply the rows of a joint to the velocity of its parent, with the velocity of its child as its subtree leaves it.
+    """Update the velocity of a parent by the joint to a child whose subtree has been processed.
 
-    child, parent_inout: TREE_BODY rows; first: index of the rows of the joint; rows: TREE_ROW. The field `impulse` of
-    the JOINT_ROW rows receives the impulses of the independent rows without impulses from outside of the parent's
-    subtree, and violations_out their violations while the parent is at rest.
+    child, parent_inout: TREE_BODY rows; first: index of the first row of the joint; rows: TREE_ROW. violations_out
+    receives the violations of the rows for a parent at rest. JOINT_ROW.impulse receives the impulses of the factored
+    rows, without the effect of the other impulses on the parent that are found later.
     """
     c, p = child, parent_inout
     rhs_1, rhs_2 = 0.0, 0.0
@@ -466,10 +481,10 @@ def gather_violations(child, first, rows, joint_rows_inout, parent_inout, violat
 
 @inlined
 def follow_parent(parent, first, rows, violations, body_inout):
-    """Give a child its velocity for the velocity of its parent in the solved tree.
+    """Write the final velocity of a child, from the final velocity of its parent.
 
-    It is found from the violations that the parent leaves, not from the impulses. So joints hold to the last digit,
-    also where impulses with long arms nearly cancel. parent, body_inout: TREE_BODY rows; first: index of the rows of
+    It is computed from the remaining violations of the rows, not from the impulses. So joints hold to the last digit,
+    even if impulses with long arms nearly cancel. parent, body_inout: TREE_BODY rows; first: index of the first row of
     the joint.
     """
     p, c = parent, body_inout
@@ -483,10 +498,10 @@ def follow_parent(parent, first, rows, violations, body_inout):
 
 @subkernel
 def spread_impulses(first, rows, joint_rows_inout, parent_inout, body_inout):
-    """Write the impulses of a joint, given the impulse on its parent from outside.
+    """Write the final impulses of the rows of a joint, given the impulse fx, fy, fw on its parent.
 
-    first: index of the rows of the joint; rows: TREE_ROW. Impulses are added to those on the parent, so that the next
-    of its joints can be solved, and on the child.
+    The impulses are added to the impulse on the parent, for the next joint of the parent, and to the impulse on the
+    child. parent_inout, body_inout: TREE_BODY rows; first: index of the first row of the joint; rows: TREE_ROW.
     """
     p, c = parent_inout, body_inout
     impulse_1, impulse_2 = 0.0, 0.0
@@ -511,7 +526,7 @@ def spread_impulses(first, rows, joint_rows_inout, parent_inout, body_inout):
 
 @inlined
 def move_body(body, motion_inout):
-    """Give a body its velocity in the solved tree; its velocity before contacts changes by as much."""
+    """Copy the velocity of a TREE_BODY row to its MOTION row. The free velocity changes by the same amount."""
     m = motion_inout
     m.free_vx += body.vx - m.vx
     m.free_vy += body.vy - m.vy
@@ -521,7 +536,7 @@ def move_body(body, motion_inout):
 
 @inlined
 def place_body(motion, body_out):
-    """Begin with the velocity of a body in the MOTION row, and without impulses."""
+    """Copy the velocity of a MOTION row to its TREE_BODY row, and clear the impulse of the row."""
     b, m = body_out, motion
     b.vx = 0.0 if abs(m.vx) < AT_REST else m.vx
     b.vy = 0.0 if abs(m.vy) < AT_REST else m.vy
@@ -531,7 +546,7 @@ def place_body(motion, body_out):
 
 @subkernel
 def sweep_trees(count, forest_inout, joint_rows_inout):
-    """Solve all trees for the velocities in their `count` slots, from the leaves to the roots and back. O(joints)."""
+    """Solve all trees for the velocities in the first `count` slots, from leaves to roots and back. O(joints)."""
     f = forest_inout
     for slot in range(count - 1, -1, -1):
         body = f.bodies[slot]
@@ -555,9 +570,9 @@ def solve_trees(
 ):
     """Solve the joints of all trees for the velocities of their bodies, and apply the impulses.
 
-    O(joints). forest_inout: factored by factor_trees; joint_rows_inout (MOST_ROWS joints,): JOINT_ROW, of which `rhs`
-    is read and `impulse` is written, for the joints of the forest; motions_inout: MOTION rows, of which vx, vy,
-    angular_velocity, free_vx, free_vy and free_w change.
+    O(joints). forest_inout: factored by factor_trees; joint_rows_inout (MOST_ROWS joints,): JOINT_ROW, `rhs` is read
+    and `impulse` is written for the joints of the forest; motions_inout: MOTION rows, whose velocities and free
+    velocities change by the same amounts.
     """
     f = forest_inout
     for slot in range(f.sizes[0]):

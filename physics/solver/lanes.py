@@ -18,21 +18,20 @@ from physics.tables.table import zeros_in_lines
 # ---- lanes -----------------------------------------------------------------------------------------------------------
 # Contacts of a group in lanes: contacts of one colour side by side, each field contiguous.
 #
-# No two contacts of a colour share a dynamic body, so all of them can be solved at once. The compiler vectorises a loop
-# over the lanes of a block that has no branches. Unused lanes hold a contact between no bodies. The results equal those
-# of one contact after the other, to the bit. Source: Catto, SIMD Matters, 2024.
+# No two contacts of a colour share a dynamic body, so all of them can be solved at the same time. The compiler
+# vectorises a loop over the lanes of a block if the loop has no branches. Unused lanes hold zeros, a contact without
+# masses. The results are equal, to the bit, to solving one contact after another. Source: Catto, SIMD Matters, 2024.
 
-# Plain Python solves one contact after the other. Wide blocks are as fast in heaps, and slower with few boxes
-# (measured with 16).
+# Plain Python solves one contact after another. Blocks of 16 lanes are as fast in heaps, and slower with few boxes.
 LANES = 8 if JIT else 1
 
-# Offsets of the fields of a block. They are ordered by readers: the pass with bias alone, both passes, the relaxing
-# pass, and the passes before and after the substeps.
+# Offsets of the fields of a block, in the order of their readers: only the pass with bias, both passes, only the
+# relaxing pass, the passes before and after the substeps.
 (
-    PUSH_OUT_SHARE,  # share of the push-out speed; negative: not approaching before the step
+    PUSH_OUT_SHARE,  # factor on the push-out speed; negative: the sides did not approach before the step
     RESTING,  # 1: touching before the step, too slow to bounce; 0: not
     BIAS_RATE,  # [1/s] see Softness
-    IMPULSE_SCALE,  # share of the accumulated impulse that a soft contact gives up
+    IMPULSE_SCALE,  # fraction of the accumulated impulse that a soft contact gives up in a substep
     STRIKE_LIMIT,  # impulse above which the contact counts as struck
     NX,  # unit normal
     NY,
@@ -40,7 +39,7 @@ LANES = 8 if JIT else 1
     B_1,
     A_2,
     B_2,
-    MASS_1,  # effective masses along the normal; of one point alone, the second is 0
+    MASS_1,  # effective masses along the normal; MASS_2 is 0 for a contact with one point
     MASS_2,
     OFF_DIAGONAL_1,  # off-diagonal terms of the block solver, and its factor: see restitution.py
     OFF_DIAGONAL_2,
@@ -63,9 +62,9 @@ LANES = 8 if JIT else 1
     AY_2,
     BX_2,
     BY_2,
-    BASE_1,  # [px] separation minus the distance of the points along the normal and minus the radii
+    BASE_1,  # [px] separation minus the distance of both points along the normal, minus both radii
     BASE_2,
-    RADIUS_A,  # [px] of the rounding: distance of the surface from the core of the shape
+    RADIUS_A,  # [px] distance of the surface from the core of the shape
     RADIUS_B,
     ROLLING_LIMIT,  # [px] torque per normal impulse
     ROLLING_MASS,
@@ -95,7 +94,7 @@ LANES = 8 if JIT else 1
     START_NY,
     LAST_NX,  # unit normal at the start of the substep, …
     LAST_NY,
-    LAST_NORMAL,  # … and the sums of the impulses of both points before they are relaxed along the present one
+    LAST_NORMAL,  # … and the sums of the impulses of both points before the relaxing pass along the present normal
     LAST_TANGENT,
     MOST,  # greatest normal impulse of a substep at one point
     SIZE,
@@ -105,18 +104,18 @@ ARMS = 1.0  # moment arms turn with the bodies
 NORMAL_OF_A = 2.0  # … and the normal is that of a face of A on the core of B …
 NORMAL_OF_B = 3.0  # … or of a face of B on the core of A …
 NORMAL_OF_CORES = 4.0  # … or points from core to core
-# Offsets of the values that a pass gathers from the motions of each block. They have an array of their own: among the
-# others they were a quarter of the memory traffic of a pass.
+# Offsets of the values that a pass gathers from the motions of each block. They are in a separate array of one block:
+# as fields of each block they made up a quarter of the memory traffic of a pass.
 (VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (
     line * LANES for line in range(16)
 )
-# Pseudo-velocities, in the place of poses: no pass gathers both.
+# Pseudo-velocities use the offsets of the poses, because no pass gathers both.
 PUSH_VX_A, PUSH_VY_A, PUSH_W_A, PUSH_VX_B, PUSH_VY_B, PUSH_W_B = DX_A, DY_A, COS_A, DX_B, DY_B, COS_B
-IN_CONTACT, UNLOADED = 1.0, 2.0  # OUTCOME of a contact: it has an impulse or rests; it is pushed out of its overlap
+IN_CONTACT, UNLOADED = 1.0, 2.0  # summed in OUTCOME: the contact has an impulse or rests; it needs push-out
 
 
 def _lanes_in_use(contacts, block):
-    """Return the number of lanes in use of a block, which are the first ones. Plain Python skips the empty ones."""
+    """Return the number of lanes in use in a block. They are the first lanes; plain Python skips the others."""
     count = 0
     while count < LANES and contacts[block, count] >= 0:
         count += 1
@@ -131,7 +130,7 @@ def _make_all_lanes(count):
 
 
 ALL_LANES = _make_all_lanes(LANES)
-# The compiled pass also solves empty lanes, whose results are 0: a fixed count vectorises.
+# The compiled pass also solves empty lanes, whose results are 0: a loop with a fixed count vectorises.
 lanes_of: Any = Builtin(_lanes_in_use, put_in(ALL_LANES), ALL_LANES) if JIT else _lanes_in_use
 
 
@@ -144,8 +143,8 @@ class Blocks(NamedTuple):
     turns: np.ndarray  # (blocks) bool the block has a round contact whose moment arms turn in this step
     lines: np.ndarray  # SIZE numbers for each block
     gathered: np.ndarray  # GATHERED numbers of the current block of a pass
-    block_of: np.ndarray  # (colours + 1) int64 block and …
-    lane_of: np.ndarray  # … lane of the next contact without a colour, then of each colour
+    block_of: np.ndarray  # (colours + 1) int64 block of the next contact: without a colour, then for each colour
+    lane_of: np.ndarray  # (colours + 1) int64 lane of that contact
 
 
 def make_blocks(count: int) -> Blocks:
@@ -164,7 +163,7 @@ def make_blocks(count: int) -> Blocks:
 
 
 def blocks_needed(contacts: int, uncolored: int) -> int:
-    """Return the greatest number of blocks that `contacts` contacts need, of which `uncolored` have no colour."""
+    """Return the greatest number of blocks that contacts need. uncolored: number of contacts without a colour."""
     return contacts // LANES + COLORS + 1 + uncolored  # the last block of a colour may be partly empty
 
 
@@ -172,8 +171,8 @@ def blocks_needed(contacts: int, uncolored: int) -> int:
 def lay_out(starts, blocks_out):
     """Assign blocks to the contacts of each colour, and clear the unused lanes. Return the number of blocks. O(blocks).
 
-    starts (colours + 2) int64: index of the first contact of each slot, and the end of the last. Slot 0 holds the
-    contacts without a colour, each of which gets a block of its own; slot k + 1 holds colour k.
+    starts (colours + 2) int64: index of the first contact of each slot, then the number of contacts. Slot 0 holds the
+    contacts without a colour, and each of these gets a separate block. Slot k + 1 holds colour k.
     """
     found = 0
     for slot in range(len(starts) - 1):
@@ -196,7 +195,7 @@ def lay_out(starts, blocks_out):
 
 @inlined
 def next_lane(slot, blocks_inout):
-    """Return the free block and lane for the next contact of a colour, and reserve them. slot: see lay_out."""
+    """Return (block, lane) for the next contact of a slot, and advance to the lane after it. slot: see lay_out."""
     block = blocks_inout.block_of[slot]
     lane = blocks_inout.lane_of[slot]
     last = slot == 0 or lane == LANES - 1
@@ -209,17 +208,17 @@ def next_lane(slot, blocks_inout):
 # Block solver for two contact points: the linear complementarity problem of two variables, by trying its four cases.
 #
 # Solving one point after the other lets a body rock from corner to corner. The problem is written in impulses and in
-# ratios that last for the step, so that there is no division. Source: Catto, Modeling and Solving Constraints, GDC 2007
-# (block solver).
+# ratios that are constant in a step, so the solver does not divide. Source: Catto, Modeling and Solving Constraints,
+# GDC 2007 (block solver).
 
-FLAT = 1e-3  # share of k_11 · k_22 below which the two points count as one
+FLAT = 1e-3  # determinant relative to k_11 · k_22 below which the two points count as one
 
 
 @inlined
 def block_factor(off_diagonal_1, off_diagonal_2):
     """Return 1 / (1 - off_diagonal_1 · off_diagonal_2), the factor of solve_two for the case that both points press.
 
-    It is 0 where the points nearly coincide.
+    The result is 0 if the points nearly coincide.
     """
     apart = 1.0 - off_diagonal_1 * off_diagonal_2
     return 1.0 / apart if apart > FLAT else 0.0
@@ -227,12 +226,12 @@ def block_factor(off_diagonal_1, off_diagonal_2):
 
 @inlined
 def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1, old_2):
-    """Return the impulses x >= 0 of two points such that each gets the velocity change it needs, or separates.
+    """Return the accumulated impulses >= 0 of two points, such that each point gets its velocity change or separates.
 
-    change: change of each impulse if the point were alone. off_diagonal: k_12 / k_11 and k_12 / k_22. factor: see
-    block_factor. old: accumulated impulses. Where the points nearly coincide, or rounding leaves none of the four
-    cases, they are solved in sequence. All cases are computed side by side, so that the loop has no branch and
-    vectorises.
+    change_1, change_2: change of the impulse of each point if the other point did not exist. off_diagonal_1,
+    off_diagonal_2: k_12 / k_11 and k_12 / k_22. factor: see block_factor. old_1, old_2: accumulated impulses before. If
+    the points nearly coincide, or rounding excludes all four cases, the points are solved in sequence. All cases are
+    computed and one is selected, so that the loop has no branch and vectorises.
     """
     only_1 = old_1 + change_1 + off_diagonal_1 * old_2
     only_2 = old_2 + change_2 + off_diagonal_2 * old_1
@@ -259,7 +258,7 @@ def solve_two(change_1, change_2, off_diagonal_1, off_diagonal_2, factor, old_1,
 
 @inlined
 def gather_velocities(a, b, lane, s_out):
-    """Copy the velocities of a contact's bodies, MOTION rows a and b, to its lane in the arrays of a SIMD pass."""
+    """Copy the velocities of MOTION rows a and b to a lane of the gathered values s_out, see GATHERED."""
     s_out[VX_A + lane] = a.vx
     s_out[VY_A + lane] = a.vy
     s_out[W_A + lane] = a.angular_velocity
@@ -270,9 +269,9 @@ def gather_velocities(a, b, lane, s_out):
 
 @inlined
 def gather_poses(a, b, lane, s_out):
-    """Copy the motion of a contact's bodies, MOTION rows a and b, to its lane in the arrays of a SIMD pass.
+    """Copy the displacements and rotations of MOTION rows a and b since the start of the step to a lane of s_out.
 
-    The motion is the displacement and rotation since the start of the step.
+    s_out: gathered values, see GATHERED.
     """
     s_out[DX_A + lane] = a.dx
     s_out[DY_A + lane] = a.dy
@@ -286,7 +285,7 @@ def gather_poses(a, b, lane, s_out):
 
 @inlined
 def scatter_velocities(s, lane, a_out, b_out):
-    """Write the velocities in the lane of a contact back to its bodies a, b, MOTION rows."""
+    """Write the velocities in a lane of the gathered values s back to the MOTION rows a and b."""
     a_out.vx, a_out.vy = s[VX_A + lane], s[VY_A + lane]
     a_out.angular_velocity = s[W_A + lane]
     b_out.vx, b_out.vy = s[VX_B + lane], s[VY_B + lane]
@@ -297,8 +296,8 @@ def scatter_velocities(s, lane, a_out, b_out):
 def measure_gaps(lane, s, c_inout):
     """Write the separations [px] at both points of a contact at the present poses.
 
-    Both points rotate with their bodies. On a round shape only the core, the shape without its radius, rotates: the
-    distance from the core to the surface stays the same.
+    Both points rotate with their bodies. On a rounded shape the point on the core (the shape without its radius)
+    rotates, and the distance from the core to the surface is constant.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -322,10 +321,11 @@ def measure_gaps(lane, s, c_inout):
 
 @inlined
 def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
-    """Return the moment arms [px] of impulses along the normal and along the tangent at a point of a rotated body.
+    """Return (moment arm of an impulse along the normal, along the tangent) [px] at a point of a rotated body.
 
-    x, y [px]: the point from the centre of mass before the rotation (cosine, sine). radius [px]: distance of the point
-    from the core of the shape along the normal, which was (start_nx, start_ny) and is now (nx, ny).
+    x, y [px]: the point relative to the centre of mass before the rotation (cosine, sine). radius [px]: distance of the
+    point from the core of the shape, in the direction of the normal. (start_nx, start_ny), (nx, ny): normal before and
+    after the rotation.
     """
     x -= radius * start_nx
     y -= radius * start_ny
@@ -338,8 +338,8 @@ def arms_of(x, y, radius, cosine, sine, start_nx, start_ny, nx, ny):
 def write_arms(lane, cos_a, sin_a, cos_b, sin_b, c_inout):
     """Write the moment arms of both points of a contact, for bodies rotated since the start of the step.
 
-    cos_a, sin_a, cos_b, sin_b: their rotations. A point keeps its place on the core of a shape; the radius from the
-    core to the surface points along the normal.
+    cos_a, sin_a, cos_b, sin_b: the rotations. The point on the core of a shape rotates with the body; the radius from
+    the core to the surface is along the normal.
     """
     c = c_inout
     nx = c[NX + lane]
@@ -389,7 +389,7 @@ def clamp(impulse, limit):
 def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
     """Return the function that applies friction at one point of a contact, in a world with or without rotation.
 
-    second: the second point; sums: the step has several substeps, so the impulses are summed.
+    second: True for the second point; sums: True to add each impulse to the total of the step (several substeps).
     """
     a_line, b_line = (TANGENT_A_2, TANGENT_B_2) if second else (TANGENT_A_1, TANGENT_B_1)
     mass_line, impulse_line = (TANGENT_MASS_2, TANGENT_2) if second else (TANGENT_MASS_1, TANGENT_1)
@@ -397,9 +397,9 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
 
     @inlined
     def apply_friction(lane, vx, vy, wa, wb, normal_impulse, c_inout):
-        """Apply friction under a normal impulse. Return the impulse x, y on B, and the new angular velocities.
+        """Apply friction under a normal impulse. Return (x, y of the change of impulse on B, new wa, new wb).
 
-        vx, vy [px/s]: velocity of B's centre relative to A's. wa, wb [1/s]: angular velocities.
+        vx, vy [px/s]: velocity of B's centre relative to A's centre. wa, wb [1/s]: angular velocities of A and B.
         """
         c = c_inout
         nx, ny = c[NX + lane], c[NY + lane]
@@ -421,7 +421,7 @@ def make_friction(second: bool, rotation: bool, sums: bool) -> Any:
 
 @inlined
 def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
-    """Apply rolling resistance under a normal impulse. Return the new angular velocities [1/s] of A and B."""
+    """Apply rolling resistance under a normal impulse. Return the new angular velocities (wa, wb) [1/s] of A and B."""
     c = c_inout
     old = c[ROLLING + lane]
     impulse = clamp(old - c[ROLLING_MASS + lane] * (wb - wa), c[ROLLING_LIMIT + lane] * normal_impulse)
@@ -430,12 +430,12 @@ def resist_rolling(lane, wa, wb, normal_impulse, c_inout):
 
 
 # ---- impulses --------------------------------------------------------------------------------------------------------
-# Impulses between two motions at a point, and the velocities that they change.
+# Relative velocities of two MOTION rows at a contact point, and impulses between them.
 
 
 @subkernel
 def relative_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the normal at a point of a contact; negative: they approach."""
+    """Return the speed [px/s] of B relative to A along the normal at a contact point; negative: the sides approach."""
     speed = (b.vx - a.vx) * c[NX + lane] + (b.vy - a.vy) * c[NY + lane]
     speed += b.angular_velocity * c[(B_2 if second else B_1) + lane]
     return speed - a.angular_velocity * c[(A_2 if second else A_1) + lane]
@@ -443,7 +443,7 @@ def relative_speed(c, lane, second, a, b):
 
 @subkernel
 def push_pair(c, lane, second, impulse, a_inout, b_inout):
-    """Apply an impulse along the normal at a point of a contact, to B along the normal and to A against it."""
+    """Apply an impulse along the normal at a contact point: to B along the normal, to A in the opposite direction."""
     x, y = impulse * c[NX + lane], impulse * c[NY + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -455,7 +455,7 @@ def push_pair(c, lane, second, impulse, a_inout, b_inout):
 
 @subkernel
 def tangential_speed(c, lane, second, a, b):
-    """Return the speed [px/s] of B relative to A along the tangent at a point, minus the contact's surface speed."""
+    """Return the speed [px/s] of B relative to A along the tangent at a contact point, minus the surface speed."""
     speed = (b.vy - a.vy) * c[NX + lane] - (b.vx - a.vx) * c[NY + lane] - c[SURFACE + lane]
     speed += b.angular_velocity * c[(TANGENT_B_2 if second else TANGENT_B_1) + lane]
     return speed - a.angular_velocity * c[(TANGENT_A_2 if second else TANGENT_A_1) + lane]
@@ -463,7 +463,7 @@ def tangential_speed(c, lane, second, a, b):
 
 @subkernel
 def push_along(c, lane, second, impulse, a_inout, b_inout):
-    """Apply an impulse along the tangent at a point of a contact, to B along the tangent and to A against it."""
+    """Apply an impulse along the tangent at a contact point: to B along the tangent, to A in the opposite direction."""
     x, y = -impulse * c[NY + lane], impulse * c[NX + lane]
     a_inout.vx -= a_inout.inverse_mass * x
     a_inout.vy -= a_inout.inverse_mass * y
@@ -477,8 +477,8 @@ def push_along(c, lane, second, impulse, a_inout, b_inout):
 def speed_of_impact(speed, separation, acceleration):
     """Return the approach speed [px/s] at the moment of impact.
 
-    speed [px/s], acceleration [px/s2] of the approach, and separation [px], all before the step. Sides that already
-    overlap or separate keep their speed.
+    speed [px/s]: approach speed; acceleration [px/s2] of the approach; separation [px]: all three before the step. The
+    result is `speed` if the sides already overlap or separate.
     """
     if speed <= 0.0 or separation <= 0.0:
         return speed
@@ -486,20 +486,20 @@ def speed_of_impact(speed, separation, acceleration):
 
 
 # ---- prepare ---------------------------------------------------------------------------------------------------------
-# From contacts to lanes.
+# Contacts are written into lanes before the substeps.
 #
-# Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c. A lane holds arms from the centres of
-# mass at the start of the step, and a separation that follows from the motion of both sides since. Where two faces
-# stick, the arms stay as they were at detection: arms that rotate with a leaning column give its load a torque, and the
+# Source of the arms and effective masses: Catto, Box2D v3, contact_solver.c. A lane holds moment arms from the centres
+# of mass at the start of the step. The separation is computed from the motion of both sides since then. If two faces
+# stick, the arms of the detection are kept: arms that rotate with a leaning column give its load a torque, and the
 # column buckles (Catto, Box2D v3: contact recycling).
 
 BOTH = (False, True)
-TURNING = 1e-5  # [rad] rotation in a step from which a round contact follows its bodies; bodies at rest rotate less
+TURNING = 1e-5  # [rad] rotation in a step above which the arms of a round contact follow its bodies
 
 
 @subkernel
 def touches_slowly(separation, speed, limits):
-    """Return whether a point touches and approaches too slowly to bounce."""
+    """Return whether a contact point is within the slop, and slower than impact_speed in both directions."""
     return separation <= limits.slop and abs(speed) <= limits.impact_speed
 
 
@@ -507,8 +507,8 @@ def touches_slowly(separation, speed, limits):
 def limit_impulses(a, b, squeeze_a, squeeze_b, h, lane, c_inout):
     """Limit the normal impulses of a contact in an island squeezed between faces, for a substep of h [s].
 
-    The limit also applies to the impulses with which the substep starts. a, b: MOTION rows; squeeze_a, squeeze_b: their
-    SQUEEZE rows.
+    The cached impulses in the lane are limited immediately. a, b: MOTION rows of the sides; squeeze_a, squeeze_b:
+    SQUEEZE rows of the sides.
     """
     c = c_inout
     speed = max(squeeze_a.speed, squeeze_b.speed)
@@ -525,11 +525,11 @@ def limit_impulses(a, b, squeeze_a, squeeze_b, h, lane, c_inout):
 
 @inlined
 def sticks(a, b, contact, distance):
-    """Return whether two faces stick: then the normal and moment arms stay as they were when the contact was found.
+    """Return whether two faces stick: the normal and the moment arms of the detection are then used in the step.
 
-    They stick if they carry a load, neither shape is round, neither body (BODY rows a, b) rotated by more than
-    STICKING_TURN, and their centres moved relative to each other by no more than distance [px]. An unloaded contact
-    never sticks, because it has to leave its overlap.
+    Two faces stick if the contact carries a load, neither shape is round, neither body has rotated by more than
+    STICKING_TURN since detection, and the relative displacement of the centres is at most `distance` [px]. An unloaded
+    contact never sticks, because it has to leave its overlap. a, b: BODY rows.
     """
     c = contact
     x, y = b.center_x - a.center_x - c.apart_x, b.center_y - a.center_y - c.apart_y
@@ -545,13 +545,13 @@ def sticks(a, b, contact, distance):
     )
 
 
-DRIFT_SLOPS = 0.1  # [slops] greatest drift that is taken back
-GRIPPING = 0.99  # share of the limit of friction up to which a contact does not slip
+DRIFT_SLOPS = 0.1  # [slops] greatest drift that friction undoes
+GRIPPING = 0.99  # fraction of the limit of friction below which a contact does not slip
 
 
 @inlined
 def tangential_drift(a, b, contact):
-    """Return how far [px] B has moved along the tangent of a sticking contact since it was found. a, b: BODY rows."""
+    """Return the displacement [px] of B along the tangent of a sticking contact since detection. a, b: BODY rows."""
     c = contact
     x, y = b.center_x - a.center_x - c.apart_x, b.center_y - a.center_y - c.apart_y
     on_a = c.held_ax_1 * c.held_nx + c.held_ay_1 * c.held_ny
@@ -570,14 +570,15 @@ def slips(contact):
 
 @inlined
 def speed_of_drift(a, b, rate, slop, contact_inout):
-    """Return the surface speed [px/s] that moves the bodies of a sticking contact back to where it last slipped.
+    """Return the surface speed [px/s] that undoes the tangential drift of a sticking contact since its last slip.
 
-    Without it a light plank under a heavy load creeps, because the passes leave a small tangential speed. A drift of
-    more than DRIFT_SLOPS slops counts as slipping, and is not taken back. a, b: BODY rows; rate [1/s]; slop [px].
+    Without this speed a light plank under a heavy load creeps, because the passes leave a small tangential speed. A
+    drift of more than DRIFT_SLOPS slops counts as slipping, and is not undone. a, b: BODY rows; rate [1/s]: fraction of
+    the drift that is undone per second; slop [px].
     """
     c = contact_inout
     drift = tangential_drift(a, b, c)
-    # It may have slid in the step in which it came to rest.
+    # The contact may have slid in the step in which it came to rest.
     slipped = slips(c) or abs(drift - c.slipped) > DRIFT_SLOPS * slop
     if slipped or c.slips:
         c.slipped = drift
@@ -589,8 +590,8 @@ def speed_of_drift(a, b, rate, slop, contact_inout):
 def how_it_turns(contact, a, b, dt, lane, c):
     """Return how the normal and moment arms of a contact follow its bodies in the step: FIXED, ARMS or NORMAL_OF_….
 
-    They follow if a shape is round and the bodies (MOTION rows a, b) rotate. Elastic impacts are FIXED: restitution
-    works with the arms at the start of the step.
+    The result is FIXED if no shape is round, if the bodies (MOTION rows a, b) hardly rotate, or for an elastic impact:
+    restitution uses the arms at the start of the step.
     """
     m = contact
     elastic = m.restitution > 0.0 and (c[LOADED + lane] == 0.0 or c[BOUNCING + lane] > 0.0)
@@ -604,7 +605,7 @@ def how_it_turns(contact, a, b, dt, lane, c):
 
 @inlined
 def rocks(body):
-    """Return whether rocking on a body may be damped: it is static, or has rocked in one place for ROCKING_TIME."""
+    """Return whether rocking on a BODY row may be damped: it is static, or has rocked in place for ROCKING_TIME."""
     return body.kind == STATIC or (body.kind == DYNAMIC and body.rocking_time >= ROCKING_TIME)
 
 
@@ -618,15 +619,16 @@ def rolling_limit(contact, p, q, limits):
 
 @inlined
 def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
-    """Write how a contact separates: push-out share, spring, stiffness; whether it is resting, loaded and bouncing.
+    """Write the lane fields that determine how a contact separates, from PUSH_OUT_SHARE to STRIKE_LIMIT and STIFFNESS.
 
-    a, b: MOTION rows of its sides; degrees: their numbers of contacts.
+    Also write whether the contact is resting, loaded and bouncing. a, b: MOTION rows; degrees: numbers of contacts of A
+    and of B.
     """
     m = contact
     limits = context.limits
     degree_a, degree_b = degrees
     against_static = a.inverse_mass == 0.0 or b.inverse_mass == 0.0
-    # One contact below and one above.
+    # Each dynamic side has at most two contacts: one below and one above.
     sole_support = sticking and (a.inverse_mass == 0.0 or degree_a <= 2) and (b.inverse_mass == 0.0 or degree_b <= 2)
     crowd = max(degree_a if a.inverse_mass > 0.0 else 0, degree_b if b.inverse_mass > 0.0 else 0)
     share = CROWD / crowd if crowd > CROWD else 1.0
@@ -638,7 +640,7 @@ def write_softness(contact, sticking, a, b, degrees, context, lane, c_out):
         two and touches_slowly(m.separation_2, m.speed_2, limits)
     )
     # The heavier the load, the slower a contact oscillates: its spring may be stiffer with the same damping. A new
-    # contact carries no load yet, so its spring may not.
+    # contact carries no load yet, so it keeps the softer spring.
     stiffness = 1.0
     if loaded and not bouncing:
         stiffness = context.sole_support_stiffness if sole_support else context.loaded_stiffness
@@ -667,7 +669,7 @@ def make_write_point(second: bool) -> Callable:
     def write_point(contact, p, q, sticking, h, lane, c_out):
         """Write one point of a contact, its separation, and its cached impulses for a substep of h [s].
 
-        p, q: BODY rows of the sides.
+        p, q: BODY rows of A and B; sticking: see sticks.
         """
         m = contact
         c = c_out
@@ -703,7 +705,7 @@ write_first, write_second = make_write_point(False), make_write_point(True)
 
 @inlined
 def copy_first(lane, c_inout):
-    """Write the second point of a contact that has only one: a copy of the first, without impulses."""
+    """Write the second point of a contact with one point: a copy of the first point, without impulses."""
     c = c_inout
     c[AX_2 + lane] = c[AX_1 + lane]
     c[AY_2 + lane] = c[AY_1 + lane]
@@ -722,10 +724,10 @@ def make_prepare_lanes(friction: bool, conveyor: bool) -> Callable:
 
     @kernel
     def prepare_lanes(bodies, motions, plan, group, context, contacts_inout, blocks_out, work_inout):
-        """Write the contacts of a group into the SIMD lanes of blocks, each of one colour. O(edges).
+        """Write the contacts of a group into the lanes of blocks, each block with contacts of one colour. O(edges).
 
-        Return the number of blocks. Contacts are read in memory order, for the prefetcher of the processor; the blocks
-        that are being filled, one of each colour, fit into its cache.
+        plan: see contact_lanes.Plan; group: see contact_lanes.Group. Return the number of blocks. Contacts are read in
+        memory order, which the processor prefetches. The blocks being filled, one for each colour, fit into its cache.
         """
         starts = group.starts
         count = lay_out(starts, blocks_out)

@@ -1,8 +1,8 @@
-"""Release of cached forces under a heavy load that is removed or moved; they would throw the bodies below.
+"""Release of cached forces under a heavy load that is removed or moved; these forces would throw the bodies below.
 
-A contact starts from the force at the end of the step before. After a load of a thousand times the mass of a body is
-removed, the cached force is a thousand times the force needed. A pass removes only a part of it, which depends on the
-order of the contacts; the rest becomes velocity.
+A contact starts from its force at the end of the last step. After a load of a thousand times the mass of a body is
+removed, the cached force is a thousand times the force needed. A solver pass removes only a part of the excess, which
+depends on the order of the contacts; the rest becomes velocity.
 """
 
 import math
@@ -20,10 +20,10 @@ NO_SIDE = -1
 
 @kernel
 def link_contacts(contacts, heads_out, nexts_out):
-    """Link the contacts of each body to a list of sides: 2 i is that of body A of contact i, 2 i + 1 that of body B.
+    """Link the contacts of each body into a list of sides. O(bodies + contacts).
 
-    heads_out (bodies) int64: the first side of each row of BODY; nexts_out (2 · contacts) int64: the next side of the
-    same body. Both hold NO_SIDE after the last. O(bodies + contacts).
+    Side 2 i is body A of contact i, side 2 i + 1 its body B. heads_out (bodies) int64: first side of each BODY row;
+    nexts_out (2 · contacts) int64: next side of the same body. NO_SIDE ends a list.
     """
     for k in range(len(heads_out)):
         heads_out[k] = NO_SIDE
@@ -37,11 +37,12 @@ def link_contacts(contacts, heads_out, nexts_out):
 
 @kernel
 def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
-    """Clear the cached forces below groups of bodies that go, `size` rows each, one group after the other.
+    """Clear the cached forces of the bodies that rest under groups of bodies about to be removed or moved.
 
-    Where a body that goes pressed on one that stays with more than a blow, all contacts of that one and of the stack
-    below it, through dynamic bodies, lose their forces. blow [px/s2]: force per mass. lists_inout: see Lists; stamp:
-    greater than all its marks. Return the greatest stamp used. O(contacts of the bodies that go, and of the stacks).
+    rows: BODY rows of the groups, `size` rows per group. If a body of the group presses on a body outside the group
+    with more than `blow` [px/s2], force per mass, all contacts of the outer body lose their forces. So do all contacts
+    of the dynamic bodies that contacts connect to the outer body. lists_inout: see Lists; stamp: at least as great as
+    all marks. Return the greatest stamp used. O(contacts of the groups and of the connected bodies).
     """
     heads, nexts = lists_inout.heads, lists_inout.nexts
     marks, reached = lists_inout.marks, lists_inout.reached
@@ -81,30 +82,30 @@ def forget_below(rows, size, bodies, blow, stamp, lists_inout, contacts_inout):
 
 
 class Lists(NamedTuple):
-    """Arrays of ContactLists, all int64; rows are those of BODY."""
+    """Arrays of ContactLists, all int64. (rows): one entry for each BODY row."""
 
-    heads: np.ndarray  # (rows) the first side of each body …
-    nexts: np.ndarray  # (2 · contacts) … and the next side of the same body, NO_SIDE after the last
-    marks: np.ndarray  # (rows) stamp of the group that reached a body last
+    heads: np.ndarray  # (rows) first side of each body, NO_SIDE: no contact
+    nexts: np.ndarray  # (2 · contacts) next side of the same body, NO_SIDE after the last
+    marks: np.ndarray  # (rows) stamp of the last group whose search reached the body
     reached: np.ndarray  # (rows) scratch
 
 
 class ContactLists:
-    """The contacts of each body between two steps, linked again when they have changed."""
+    """Lists of the contacts of each body between two steps. They are rebuilt when the contacts have changed."""
 
     def __init__(self) -> None:
-        self.contacts, self.step = None, -1  # that the lists are of
+        self.contacts, self.step = None, -1  # the contacts and the step for which the lists were built
         self.lists = Lists(*(np.zeros(0, np.int64) for _ in range(4)))
         self.stamp = 0
 
     def __getstate__(self):
-        return {}  # the lists belong to tables that a copy does not have
+        return {}  # the lists refer to the tables of this world, not to the tables of a copy
 
     def __setstate__(self, state):
         self.__init__()
 
     def _refresh(self, contacts, bodies, step):
-        """Link the contacts of a world again if they are not those of the last call."""
+        """Rebuild the lists if they were built for other contacts or another step."""
         lists = self.lists
         if contacts is self.contacts and step == self.step and len(lists.heads) >= len(bodies):
             return
@@ -117,10 +118,11 @@ class ContactLists:
         self.lists, self.contacts, self.step = lists, contacts, step
 
     def forget_loads(self, world: Any, rows: np.ndarray, together: bool = False) -> None:
-        """Clear the cached forces under bodies that are removed or moved, one after the other or all together.
+        """Clear the cached forces under bodies that are about to be removed or have been moved, see forget_below.
 
-        rows: of BODY, int64. O(contacts of these bodies), and O(contacts) after each step. The tables are read as they
-        are, see World._row_at. Any stands for World, whose package imports this one.
+        world: a World, annotated Any because its module imports this one. rows: int64 BODY rows. together: True makes
+        all rows one group, False each row its own group. The tables are read without dropping removed rows first, see
+        World._row_at. O(contacts of these bodies); the first call after a step also costs O(bodies + contacts).
         """
         contacts, bodies = world._contact_rows, world._bodies.rows
         if not len(contacts) or not world.stacks or not len(rows):
@@ -133,12 +135,18 @@ class ContactLists:
 
 
 def blow_of(tables: WorldTables) -> float:
-    """Return the force per mass [px/s2] beyond which a cached force is a blow once its load is gone."""
+    """Return the force per mass [px/s2] above which a cached force would throw a body after its load is removed.
+
+    It is BLOW times gravity, and 0 in a world without gravity.
+    """
     return BLOW * math.hypot(*tables.gravity) if tables.effects.gravity else 0.0
 
 
 def is_any_blow(bodies: np.ndarray, contacts: np.ndarray, ids: np.ndarray, blow: float) -> bool:
-    """Return whether the cached force of any contact of these bodies, by id, is a blow to its other side."""
+    """Return whether any contact of these bodies has a cached force per mass of the other body above `blow` [px/s2].
+
+    ids: ids of the bodies.
+    """
     force = contacts["normal_force_1"] + np.where(contacts["count"] == 2, contacts["normal_force_2"], 0.0)
     for side, other in (("body_a", "body_b"), ("body_b", "body_a")):
         mine = (force > 0.0) & np.isin(contacts[side], ids)

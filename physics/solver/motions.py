@@ -1,7 +1,7 @@
-"""Motions: the state of bodies in the substeps of the stacking solvers, gathered from the awake bodies and written
-back.
+"""Motions: the state of bodies in the substeps of the stacking solvers, copied from the awake bodies and back.
 
-Row 0 of MOTION stands for all bodies that do not move in this step: static, sleeping and resting kinematic ones.
+Row 0 of MOTION represents all bodies that do not move in this step: static bodies, sleeping bodies, and kinematic
+bodies at rest.
 """
 
 import math
@@ -57,7 +57,7 @@ def reset_motion(motion_out):
 
 @subkernel
 def write_fixed(motions_out, lists_out):
-    """Write row 0 of MOTION, which stands for all bodies that do not move and that no impulse moves."""
+    """Write row 0 of MOTION, which represents all bodies that do not move in this step."""
     m = motions_out[0]
     reset_motion(m)
     m.vx, m.vy, m.angular_velocity = 0.0, 0.0, 0.0
@@ -72,14 +72,14 @@ def write_fixed(motions_out, lists_out):
 
 
 class MotionLists(NamedTuple):
-    """Arrays with one entry for each MOTION row, and the rows of bodies by kind."""
+    """Arrays with one entry for each MOTION row, and lists of rows by kind."""
 
-    motion_of: np.ndarray  # (bodies) int32 the MOTION row of each body; 0: it does not move
-    has_finite_mass: np.ndarray  # (motions) bool an impulse changes its velocity
-    links_islands: np.ndarray  # (motions) bool it is dynamic: its contacts join islands
+    motion_of: np.ndarray  # (bodies) int32 MOTION row of each body; 0: the body does not move
+    has_finite_mass: np.ndarray  # (motions) bool an impulse changes the velocity of the body
+    links_islands: np.ndarray  # (motions) bool the body is dynamic: its contacts join islands
     rank: np.ndarray  # (motions) int8 contacts with a greater rank are solved later, see islands.graph.color_edges
-    balance: np.ndarray  # BALANCE (motions) energy of each, see energy.py
-    by_kind: np.ndarray  # (2, motions) int32 the MOTION rows of dynamic bodies, and of kinematic ones
+    balance: np.ndarray  # BALANCE (motions) energy of each body, see energy.py
+    by_kind: np.ndarray  # (2, motions) int32 MOTION rows of dynamic bodies (row 0) and moving kinematic bodies (row 1)
 
 
 class Air(NamedTuple):
@@ -97,10 +97,9 @@ def make_gather(gravity: bool, wind: bool, rotation: bool) -> Callable:
 
     @kernel
     def gather_motions(rows, bodies, air, motions_out, lists_out, work_inout):
-        """Write a MOTION row for each body of `rows`. O(rows).
+        """Write a MOTION row for each body of `rows`, from row 1 on. O(rows).
 
-        Return the number of dynamic bodies and that of moving kinematic bodies. air: see Air; lists_out: see
-        MotionLists.
+        Return (number of dynamic bodies, number of moving kinematic bodies). air: see Air; lists_out: see MotionLists.
         """
         write_fixed(motions_out, lists_out)
         dynamic = 0
@@ -158,11 +157,12 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
     @subkernel
     def integrate_substep_velocities(members, h, drag_rate, motions_inout):
-        """Add the accelerations of a substep of h [s] to the velocities of island bodies, rows of MOTION. O(members).
+        """Integrate the velocities of island bodies over a substep of h [s], and warm start their contacts. O(members).
 
-        drag_rate [1/s]: implicit, so stable at any rate. The sum of the contact impulses of the last substep is added
-        again to the velocity of each body. This is the warm start: impulses and arms are unchanged, so it reads no
-        contact.
+        members: MOTION rows. Accelerations are added first (a half of them if `halves`, see accelerate_again), then
+        drag_rate [1/s] is applied implicitly, which is stable at any rate. The warm start adds the change of velocity
+        by the contact impulses of the last substep, v - free_v, once more. Impulses and moment arms are unchanged, so
+        no contact is read.
         """
         keep = 1.0 / (1.0 + drag_rate * h)
         for i in range(len(members)):
@@ -190,10 +190,11 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
 @subkernel
 def accelerate_again(members, h, motions_inout):
-    """Add the second half of their acceleration in a substep of h [s] to jointed bodies without contacts. O(members).
+    """Add the second half of the acceleration of a substep of h [s] to bodies with MOTION.halves. O(members).
 
-    With half of it before the joints move the bodies and half after it, errors of energy are of second order in h: the
-    integrator is that of Verlet with constraints (RATTLE, Andersen 1983).
+    These bodies have rigid joints and no contacts. Half of the acceleration acts before the positions are integrated,
+    half afterwards, so errors of energy are of second order in h: Verlet integration with constraints (RATTLE, Andersen
+    1983).
     """
     for i in range(len(members)):
         m = motions_inout[members[i]]
@@ -214,9 +215,9 @@ def make_substep_positions(rotation: bool) -> Callable:
     def integrate_substep_positions(members, h, push_speed, motions_inout):
         """Move island bodies by their velocity and pseudo-velocity over a substep of h [s]. O(members).
 
-        The pseudo-velocity is limited to push_speed [px/s], and then reset. A body without contacts moves on the exact
-        parabola. With the velocity at the end of each substep, which keeps stacks stable, each flight of a bouncing
-        ball would lose h times its speed in height.
+        members: MOTION rows. The pseudo-velocity is limited to push_speed [px/s], and then reset. Bodies in contact
+        move by the velocity at the end of the substep, which keeps stacks stable. Bodies without contact move on the
+        exact parabola, otherwise each flight of a bouncing ball would lose h times its speed in height.
         """
         for i in range(len(members)):
             m = motions_inout[members[i]]
@@ -243,9 +244,9 @@ def make_substep_positions(rotation: bool) -> Callable:
 
 @subkernel
 def move_kinematic(kinematic, time, motions_inout):
-    """Move kinematic bodies to their poses at a time [s] since the start of the step.
+    """Move kinematic bodies, MOTION rows, to their poses at a time [s] since the start of the step.
 
-    The poses depend on the time alone, so they are the same for every island.
+    The poses depend on the time alone, so they are the same for every group of islands.
     """
     for i in range(len(kinematic)):
         m = motions_inout[kinematic[i]]
@@ -256,18 +257,19 @@ def move_kinematic(kinematic, time, motions_inout):
 
 @subkernel
 def is_usable(body, speed_limit):
-    """Return whether the next step can use the numbers of a body: they are finite and within limits.
+    """Return whether the numbers of a BODY row are finite and within limits, so that the next step can use them.
 
-    Quarantined bodies are not tested, and count as usable.
+    Quarantined bodies are not tested and count as usable. speed_limit [px/s].
     """
     return body.quarantined or (is_within_limits(body) and is_finite_in_step(body, 0.0, 0.0, speed_limit, 0.0))
 
 
 @kernel
 def scatter_motions(rows, motions, speed_limit, lists_inout, bodies_inout):
-    """Write velocities, poses and centres of mass back to the bodies, and the poses before the step as previous poses.
+    """Write velocities, poses and centres of mass back to the bodies, and store the poses before the step. O(rows).
 
-    Return the number of bodies with numbers that no step can use. speed_limit [px/s]. O(rows).
+    rows: BODY rows, in the order of MOTION rows from 1 on. Return the number of bodies that are not usable, see
+    is_usable.
     """
     non_finite_count = 0
     for k in range(len(rows)):
@@ -308,7 +310,7 @@ SUBSTEP_POSITIONS = {r: make_substep_positions(rotation=r) for r in BOTH}
 
 
 class Motions:
-    """The MOTION rows of one world and their lists; the arrays grow and are reused."""
+    """The MOTION rows of one world and their MotionLists. The arrays grow and are reused."""
 
     def __init__(self) -> None:
         self._grow(16, np.zeros(16, np.int32))
@@ -347,7 +349,7 @@ class Motions:
         """Write the MOTION rows back to the bodies."""
         rows, bodies, limit = state.awake.bodies, state.bodies, state.tolerances.speed_limit
         state.non_finite_count = scatter_motions(rows, self.used, limit, self.lists, bodies)
-        # A body that was rotated has an angle for which no raster was drawn ahead.
+        # A rotated mask may be at an angle for which no raster has been drawn yet.
         add_missing_rasters(state.library, state.awake.shapes, bodies, state.shapes, 0.0)
 
 
@@ -365,7 +367,10 @@ WRITES = (
 
 
 def run_solver(state: StepState, solve: Callable[[StepState, Any], float]) -> None:
-    """Run a stacking solver: gather the motions, call solve(state, contacts), and write the motions back."""
+    """Run a stacking solver: gather the motions, call solve(state, contacts), and write the motions back.
+
+    solve is not called in a step of length 0; without awake bodies nothing is done.
+    """
     if not len(state.awake.bodies):
         return
     motions = state.workspace.motions

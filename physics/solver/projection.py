@@ -1,4 +1,4 @@
-"""Projection: overlapping bodies are pushed apart by their inverse masses; PUSH rows for solvers without memory."""
+"""Projection: overlapping bodies are pushed apart by their inverse masses; PUSH rows for solvers without warm start."""
 
 import math
 from collections.abc import Callable
@@ -19,28 +19,28 @@ from physics.tables.body import DYNAMIC, OFF
 from physics.tables.contact import PUSH
 from physics.tables.step_state import RESTITUTION_ROWS, SOLVER_ROWS, TANGENT_ROWS, StepState, stage
 
-ROUNDING = 1e-9  # share of an acceleration below which its part along a normal is rounding
+ROUNDING = 1e-9  # share of an acceleration below which its component along a normal is a rounding error
 
 # ---- pushes ----------------------------------------------------------------------------------------------------------
-# Contacts of the solvers without warm start: one PUSH row for each contact point, but for those of sensors.
+# Contacts of the solvers without warm start: one PUSH row for each contact point. Contacts of sensors have none.
 
 
 class Press(NamedTuple):
-    """The accelerations that press bodies together, and the least approach speed at which pressed bodies bounce."""
+    """The accelerations that press bodies together, and the approach speed up to which pressed bodies do not bounce."""
 
     dt: float  # [s]
-    gravity_x: float  # [px/s2], times the gravity scale of a body
+    gravity_x: float  # [px/s2] before the gravity scale of a body
     gravity_y: float
-    wind_x: float  # [px/s2]
+    wind_x: float  # [px/s2] drag times the velocity of the wind
     wind_y: float
     restitution_speed: float  # [px/s]
 
 
 @subkernel
 def press_of(press, body, nx, ny):
-    """Return the acceleration [px/s2] of a dynamic body, a BODY row, along a normal; 0 for other kinds.
+    """Return the acceleration [px/s2] of a BODY row by gravity and wind along a normal (nx, ny).
 
-    The acceleration is that of gravity and wind. It is infinite if a force was added to the body.
+    The result is 0 for a body that is not dynamic, and infinite if a force acted on the body in this step.
     """
     if body.kind != DYNAMIC:
         return 0.0
@@ -53,9 +53,9 @@ def press_of(press, body, nx, ny):
 
 @subkernel
 def restitution_threshold(press, a, b, nx, ny):
-    """Return the approach speed [px/s] up to which two bodies, BODY rows, do not bounce along a normal.
+    """Return the approach speed [px/s] up to which two BODY rows do not bounce along a normal (nx, ny).
 
-    It is 0 where no acceleration presses them together; see step_context.restitution_threshold.
+    It is 0 if no acceleration presses the bodies together; see step_context.restitution_threshold.
     """
     into = max(press_of(press, a, nx, ny), 0.0) + max(press_of(press, b, -nx, -ny), 0.0)
     if into == 0.0:
@@ -65,9 +65,9 @@ def restitution_threshold(press, a, b, nx, ny):
 
 @kernel
 def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_out):
-    """Write a PUSH row for every contact point that is not of a sensor. Return the number of rows. O(manifolds).
+    """Write a PUSH row for every contact point, except for contacts of sensors. O(manifolds).
 
-    conveyor: 1 to use surface speeds; press: see Press.
+    Return the number of rows. conveyor: 1 to use surface speeds, 0 to ignore them; press: see Press.
     """
     found = 0
     for i in range(len(manifolds)):
@@ -100,9 +100,10 @@ def prepare_pushes(geometry, bodies, shapes, manifolds, conveyor, press, pushes_
 
 @kernel
 def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
-    """Write the greatest displacement [px] by which contacts may push each dynamic body in this step. O(pushes).
+    """Write the greatest displacement [px] by which contacts may push each body in this step. O(pushes).
 
-    It is dt [s] times the sum of push_speed [px/s] and the greater of its speed and its approach speeds.
+    It is dt · (push_speed + v), where v is the greatest of the speed of the body and the approach speeds of its
+    contacts. push_speed [px/s]; dt [s]; reach_out (bodies): written for the bodies of PUSH rows.
     """
     for i in range(len(pushes)):
         r = pushes[i]
@@ -118,7 +119,10 @@ def limit_pushes(pushes, bodies, push_speed, dt, reach_out):
 
 @kernel
 def store_pushes(pushes, manifolds_inout):
-    """Write the impulses back to the manifolds. Overlapping pairs are touching, wherever they end. O(pushes)."""
+    """Write the impulses of PUSH rows back to the manifolds. O(pushes).
+
+    Manifolds that overlapped at detection are marked as `swept`: they count as touching even if they end apart.
+    """
     for i in range(len(pushes)):
         r = pushes[i]
         m = manifolds_inout[r.manifold]
@@ -133,7 +137,7 @@ def store_pushes(pushes, manifolds_inout):
 
 
 class PushSet:
-    """The contacts of one world as PUSH rows, which grow and are reused; without warm start, and not cached."""
+    """The contacts of one world as PUSH rows, without warm start. The arrays grow and are reused."""
 
     def __init__(self) -> None:
         self.data = np.zeros(16, PUSH)
@@ -141,7 +145,7 @@ class PushSet:
         self.reach = np.zeros(16)  # (body rows) see limit_pushes
 
     def prepare(self, state: StepState) -> None:
-        """Fill the PUSH rows from the contacts, and write the contact caches at the poses of detection."""
+        """Fill the PUSH rows from the contacts, and write the contact caches at the present poses."""
         points = 2 * len(state.contact_rows)
         if len(self.data) < points:
             self.data = np.zeros(2 * points, PUSH)
@@ -159,11 +163,11 @@ class PushSet:
         write_caches(tables, state.bodies, state.shapes, state.contact_rows)
 
     def solve(self, state: StepState, run: Callable, *settings: Any) -> None:
-        """Run one pass of a solver, the kernel `run`, over the PUSH rows."""
+        """Run one solver pass over the PUSH rows. run: kernel; settings: first arguments of the kernel."""
         run(*settings, state.bodies, self.rows, state.work)
 
     def store(self, state: StepState) -> None:
-        """Write the impulses back to the manifolds, and update the manifolds to the final poses."""
+        """Write the impulses back to the manifolds, and update the manifolds to the present poses."""
         store_pushes(self.rows, state.contact_rows)
         update_contacts(state.bodies, state.contact_rows)
 
@@ -171,17 +175,18 @@ class PushSet:
 # ---- projection ------------------------------------------------------------------------------------------------------
 # Projection, as arcade games do it: separate overlapping bodies by their inverse masses, and reflect the approach.
 #
-# It differs from `blocking` in that a body slides along an obstacle instead of staying where it was. Contacts are not
-# cached, so stacks are soft. Cost: PROJECTION_PASSES passes over the contacts; none without contacts.
+# Unlike `blocking`, a body slides along an obstacle instead of keeping its old pose. Contacts are not cached, so stacks
+# are soft. Cost: PROJECTION_PASSES passes over the contacts.
 
-IGNORED = ("stacking", "sleeping", "joints")  # effects that it ignores, because impulses are not cached
+IGNORED = ("stacking", "sleeping", "joints")  # effects that this solver ignores, because impulses are not cached
 
 
 @subkernel
 def push(x, y, anchor_x, anchor_y, rotation, body_inout):
-    """Apply an impulse (x, y) at a point of a body.
+    """Apply an impulse (x, y) to a BODY row at a point.
 
-    anchor_x, anchor_y [px]: the point from the centre of mass; rotation: whether the impulse also rotates the body.
+    anchor_x, anchor_y [px]: the point relative to the centre of mass; rotation: whether the impulse also rotates the
+    body.
     """
     body_inout.vx += body_inout.inverse_mass * x
     body_inout.vy += body_inout.inverse_mass * y
@@ -191,7 +196,7 @@ def push(x, y, anchor_x, anchor_y, rotation, body_inout):
 
 @subkernel
 def resist_rolling(push_inout, a_inout, b_inout):
-    """Reduce the relative rotation of two bodies, up to the rolling resistance of their contact, a PUSH row."""
+    """Reduce the relative angular velocity of two BODY rows by the rolling resistance of a PUSH row."""
     turning = a_inout.inverse_inertia + b_inout.inverse_inertia
     if turning <= 0.0:
         return
@@ -205,7 +210,7 @@ def resist_rolling(push_inout, a_inout, b_inout):
 
 
 def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> Callable:
-    """Return one pass over the contacts, for a world with or without rotation, friction and restitution."""
+    """Return the kernel of one pass over the contacts, for a world with or without these effects."""
 
     @kernel
     def project(
@@ -218,7 +223,7 @@ def make_projection_pass(rotation: bool, friction: bool, restitution: bool) -> C
     ):
         """Separate overlapping bodies, stop or reflect their approach, and apply friction. O(contacts).
 
-        first: 1 in the first pass of a step. Impulses accumulate in the PUSH rows.
+        first: 1 in the first pass of a step, else 0. Impulses accumulate in the PUSH rows.
         """
         for i in range(len(pushes_inout)):
             c = pushes_inout[i]
@@ -294,7 +299,7 @@ PASSES = {
 
 
 def solve(state: StepState, contacts: PushSet) -> float:
-    """Separate overlapping bodies in PROJECTION_PASSES passes. Return the step [s]."""
+    """Separate overlapping bodies in PROJECTION_PASSES passes. Return the step length [s]."""
     effects = state.effects
     run = PASSES[effects.rotation, effects.friction, effects.restitution]
     bodies, rows = state.bodies, state.awake.bodies
@@ -310,15 +315,19 @@ def solve(state: StepState, contacts: PushSet) -> float:
 
 
 def _moves(bodies, rows, before):
-    """Return the displacements (n, 2) [px] of the bodies in these rows since `before`, and their lengths (n,) [px]."""
+    """Return (displacements (n, 2) [px] of the bodies in these rows since `before`, their lengths (n,) [px]).
+
+    before: positions (n, 2) [px].
+    """
     moves = np.column_stack([bodies["x"][rows], bodies["y"][rows]]) - before
     return moves, np.hypot(moves[:, 0], moves[:, 1])
 
 
 def _slow_down(bodies, rows, before, reach):
-    """Limit the displacement of each body by contacts to `reach` [px], however many contacts push it.
+    """Limit the displacement of each body by contacts to `reach` (n,) [px], however many contacts push the body.
 
-    It is limited after all passes: a body lifted by one contact and pressed down by the next has hardly moved.
+    Only the sum over all passes is limited, because pushes in opposite directions cancel. before (n, 2) [px]: positions
+    of these rows before the passes.
     """
     moves, ways = _moves(bodies, rows, before)
     far = ways > reach
@@ -328,9 +337,10 @@ def _slow_down(bodies, rows, before, reach):
 
 
 def _hold_back(state, rows, before):
-    """Stop bodies that contacts pushed through a wall: move them back, then forward up to the wall.
+    """Stop bodies that contacts pushed through a wall: move them back, then forward until a resting body blocks them.
 
-    before (n, 2) [px]: the positions of these rows before the passes. Only long pushes are tested.
+    before (n, 2) [px]: positions of these rows before the passes. Only pushes longer than CORE times the least half
+    extent of a body are tested.
     """
     bodies = state.bodies
     moves, ways = _moves(bodies, rows, before)
@@ -355,7 +365,7 @@ def _hold_back(state, rows, before):
     ),
 )  # fmt: skip
 def projection(state: StepState) -> None:
-    """Separate the bodies that overlap after their motion. A step of length 0 reports contacts and moves nothing."""
+    """Separate the bodies that overlap after their motion. A step of length 0 changes nothing."""
     if state.dt > 0.0:
         solve(state, state.workspace.contacts)
         place_shapes(state)

@@ -1,4 +1,4 @@
-"""Restitution after the last substep, for every stacking solver, and several impacts of one body within a step."""
+"""Restitution after the last substep of the stacking solvers, and simulation of several impacts within a step."""
 
 import math
 
@@ -21,32 +21,33 @@ from physics.solver.lanes import (
 from physics.tables.step_state import CAP_HITS, RESTITUTION_ROWS
 
 # ---- impacts ---------------------------------------------------------------------------------------------------------
-# Contacts with an impulse in this step that may bounce, or that pass an impact on to the next body.
+# IMPACT rows: contacts with an impulse in this step that may bounce, or that pass an impact on to another body.
 
-NO_IMPACT, LEFT_OUT = 0, -1  # values of MOTION.last_impact: no impact yet; the body is not simulated
+NO_IMPACT, LEFT_OUT = 0, -1  # values of MOTION.last_impact: no impact; impacts of the body are not simulated
 
 IMPACT = np.dtype(
     [
         ("block", np.int32),
         ("lane", np.int32),
-        ("before", np.int32),  # another impact of the same body, plus one; NO_IMPACT: none
+        ("before", np.int32),  # index of the previous impact of the same body, plus one; NO_IMPACT: none
         ("simulated", np.bool_),
-        ("bounces_1", np.bool_),  # each point bounces; …
+        ("bounces_1", np.bool_),  # whether each point bounces
         ("bounces_2", np.bool_),
         ("speed_1", np.float64),  # [px/s] predicted impact speed of each point
         ("speed_2", np.float64),
-        ("gap_1", np.float64),  # [px] gap before that impact
+        ("gap_1", np.float64),  # [px] gap before the predicted impact
         ("gap_2", np.float64),
-        ("wanted_1", np.float64),  # [px/s] … separation speed after it
+        ("wanted_1", np.float64),  # [px/s] separation speed after the impact
         ("wanted_2", np.float64),
-        ("impulse_1", np.float64),
+        ("impulse_1", np.float64),  # impulse of each point
         ("impulse_2", np.float64),
-        ("blow_1", np.float64),  # of these, those of the present moment
+        ("blow_1", np.float64),  # part of the impulse from the present moment of the simulation
         ("blow_2", np.float64),
-        ("vx", np.float64),  # [px/s] in the last impact of a body: change of its velocity by all of them
+        # Only in the last impact of a body: sums over its simulated impacts.
+        ("vx", np.float64),  # [px/s] change of the velocity of the body
         ("vy", np.float64),
         ("angular_velocity", np.float64),
-        ("x", np.float64),  # [px] and its way up to the last one
+        ("x", np.float64),  # [px] displacement of the body up to its last hit
         ("y", np.float64),
         ("turn", np.float64),
     ],
@@ -61,7 +62,7 @@ def make_impacts(room: int) -> np.ndarray:
 
 @inlined
 def line_of(blocks, impact, line):
-    """Return one field of the contact of an impact; line: offset of the field in a block, such as lanes.NX."""
+    """Return a lane field of the contact of an impact. line: offset of the field in a block, such as lanes.NX."""
     return blocks.lines[impact.block * SIZE + line + impact.lane]
 
 
@@ -73,7 +74,7 @@ def points_of(blocks, impact):
 
 @subkernel
 def list_impacts(blocks, count, impacts_out):
-    """List the contacts of `count` blocks with restitution and an impulse in this step. Return their number."""
+    """List contacts with restitution and an impulse as IMPACT rows. Return their number. count: number of blocks."""
     found = 0
     for block in range(count):
         c = blocks.lines[block * SIZE : (block + 1) * SIZE]
@@ -89,7 +90,7 @@ def list_impacts(blocks, count, impacts_out):
 
 @subkernel
 def predict_impact(blocks, contacts, motions, impact_inout):
-    """Write the approach speeds [px/s] and gaps [px] of an impact, predicted from the state before the step."""
+    """Write the predicted impact speeds [px/s] and the gaps [px] of an impact, from the state before the step."""
     r = impact_inout
     c = contacts[blocks.contact[r.block, r.lane]]
     a = motions[blocks.motion_a[r.block, r.lane]]
@@ -107,19 +108,19 @@ def predict_impact(blocks, contacts, motions, impact_inout):
 # ---- simultaneous impacts on static bodies ---------------------------------------------------------------------------
 # Several impacts of a flying body on static bodies within a step, simulated in the order of their times.
 #
-# A flying body may hit a wall with one end, rotate, and hit it with the other end within the step, or hit the wall and
-# the floor of a corner. The velocity before the step says nothing about the second impact, and the velocity that the
-# substeps removed is not that of a bounce. So the impacts of such a body on static bodies are simulated from one to the
-# next, along straight lines. Each keeps the energy that Newton's law of restitution gives at the time of the impact.
-# Points that hit at the same time, of one manifold or of several, are solved together: a box that lands flat on ground
-# made of pieces would start to rotate otherwise.
+# A flying body may hit a wall with one end, rotate, and hit the wall with the other end within the step. Or it may hit
+# both the wall and the floor of a corner. The speed of the second impact cannot be predicted from the velocity before
+# the step, and the impulses of the substeps do not make the body bounce. So all impacts of such a body on static bodies
+# are simulated in the order of their times, with straight motion in between. Each impact follows Newton's law of
+# restitution at its time. Points that hit at the same time, of one manifold or several, are solved together: otherwise
+# a box that lands flat on ground made of pieces would start to rotate.
 
-MOST_IMPACTS = 16  # moments with impacts of one body within a step; later ones wait for the next step: cap_hits
-TOGETHER = 1.0 / 64.0  # share of a step within which points hit at once
-LATE = 1.0 / 16.0  # share of a step by which an impact may be late: substeps reach further than a parabola
-MOST_ROUNDS = 256  # greatest number of rounds over the points that hit at once
-ROUNDS = 32  # most rounds over bounces that share bodies; what then is missing is left to the next step
-SETTLED = 1e-6  # change of speed in a round, relative to the impact, from which the rounds end
+MOST_IMPACTS = 16  # greatest number of moments with impacts of a body within a step; if exceeded: cap_hits
+TOGETHER = 1.0 / 64.0  # fraction of a step within which hits count as simultaneous
+LATE = 1.0 / 16.0  # fraction of a step by which an impact may be late: substeps reach further than a parabola
+MOST_ROUNDS = 256  # greatest number of rounds over the points that hit at the same time
+ROUNDS = 32  # greatest number of rounds over bounces that share bodies; the remaining error is left to the next step
+SETTLED = 1e-6  # the rounds end at this change of speed in a round, relative to the impact speed
 
 
 @subkernel
@@ -130,7 +131,7 @@ def is_against_static(blocks, impact):
 
 @subkernel
 def mover_of(blocks, impact, motions):
-    """Return the MOTION row of the dynamic body in an impact with a static one, and 1.0 for side B, -1.0 for side A."""
+    """Return (MOTION row of the body of finite mass in an impact on a static body, its side: 1.0 for B, -1.0 for A)."""
     row = blocks.motion_b[impact.block, impact.lane]
     if motions[row].inverse_mass > 0.0:
         return row, 1.0
@@ -139,10 +140,11 @@ def mover_of(blocks, impact, motions):
 
 @subkernel
 def link_impacts(blocks, count, impacts_inout, motions_inout):
-    """Link the impacts of each body into a list. O(count).
+    """Link the impacts of each body on static bodies into a list. O(count).
 
-    MOTION.last_impact, in other functions `last`, is the index of its last impact plus one. IMPACT.before is the index
-    of the impact before plus one. A body that also has a resting contact, or hits a dynamic body, gets LEFT_OUT.
+    MOTION.last_impact, in other functions `last`, is the index of the last impact of the body, plus one. IMPACT.before
+    is the index of the previous impact of the same body, plus one. A body with an impact on a body of finite mass, or
+    with a resting contact among the impacts, gets LEFT_OUT. count: number of impacts.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -162,7 +164,7 @@ def link_impacts(blocks, count, impacts_inout, motions_inout):
 
 @subkernel
 def unlink_impacts(blocks, impacts, count, motions_inout):
-    """Reset MOTION.last_impact of the bodies of the impacts. count: number of impacts."""
+    """Reset MOTION.last_impact of the bodies of all impacts. count: number of impacts."""
     for i in range(count):
         r = impacts[i]
         motions_inout[blocks.motion_a[r.block, r.lane]].last_impact = NO_IMPACT
@@ -171,7 +173,7 @@ def unlink_impacts(blocks, impacts, count, motions_inout):
 
 @subkernel
 def arm_of(blocks, impact, second, sign):
-    """Return the moment arm [px] of a normal impulse at a point on the dynamic body. sign: see mover_of."""
+    """Return the moment arm [px] of a normal impulse on the body of finite mass at a point. sign: see mover_of."""
     if sign > 0.0:
         return line_of(blocks, impact, at.B_2 if second else at.B_1)
     return line_of(blocks, impact, at.A_2 if second else at.A_1)
@@ -181,8 +183,8 @@ def arm_of(blocks, impact, second, sign):
 def is_simulated(blocks, impacts, last, contacts):
     """Return whether the impacts of a body have to be simulated in the order of their times.
 
-    That is so if impulses acted at two or more of its points, and one of these points approached fast enough to bounce.
-    A single manifold of which both points approached so fast does not need it. last: index plus one of its last impact.
+    This is the case if impulses acted at two or more points of the body, and at least one of these points approached
+    fast enough to bounce. Exception: a single manifold with two such fast points. last: see link_impacts.
     """
     points = 0
     rows = 0
@@ -203,9 +205,9 @@ def is_simulated(blocks, impacts, last, contacts):
 
 @inlined
 def speed_now(blocks, impact, second, sign, change):
-    """Return the present approach speed [px/s] of a point, after the simulated impulses on its body.
+    """Return the present approach speed [px/s] of a point, after the simulated impulses on the body.
 
-    change: the last IMPACT row of the body, which sums the changes of its velocity; sign: see mover_of.
+    change: the last IMPACT row of the body, with the sum of the changes of velocity; sign: see mover_of.
     """
     r = impact
     along = change.vx * line_of(blocks, r, at.NX) + change.vy * line_of(blocks, r, at.NY)
@@ -215,7 +217,7 @@ def speed_now(blocks, impact, second, sign, change):
 
 @inlined
 def strike(blocks, impact, second, sign, impulse, mover, change_inout):
-    """Add the effect of an impulse at a point to the summed change of velocity of its body.
+    """Add the change of velocity by an impulse at a point to the sum of the body.
 
     mover: MOTION row of the body; sign: see mover_of; change_inout: the last IMPACT row of the body.
     """
@@ -227,7 +229,7 @@ def strike(blocks, impact, second, sign, impulse, mover, change_inout):
 
 @subkernel
 def soonest_impact(blocks, impacts, last, motions):
-    """Return the time [s] to the next impact of a body, and its speed [px/s], 0: none. last: see link_impacts."""
+    """Return (time [s] to the next hit of a body, approach speed [px/s], 0: no hit). last: see link_impacts."""
     soonest = math.inf
     hit_speed = 0.0
     k = last
@@ -246,7 +248,7 @@ def soonest_impact(blocks, impacts, last, motions):
 
 @subkernel
 def close_gaps(blocks, last, time, motions, impacts_inout):
-    """Advance a body by a time [s]: reduce the gaps at its points. last: index plus one of its last impact."""
+    """Reduce the gaps at the points of a body by its motion over a time [s]. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -259,7 +261,7 @@ def close_gaps(blocks, last, time, motions, impacts_inout):
 
 @subkernel
 def list_hits(blocks, last, span, motions, impacts_inout):
-    """Write which points of a body hit within a span [s], and their speeds afterwards. last: see link_impacts."""
+    """Write which points of a body hit within a span [s], and their separation speeds. last: see link_impacts."""
     k = last
     while k != NO_IMPACT:
         r = impacts_inout[k - 1]
@@ -278,7 +280,7 @@ def list_hits(blocks, last, span, motions, impacts_inout):
 
 @inlined
 def hits_at(impact, second):
-    """Return whether the first or second point of an impact hits now, its impulse, and its speed [px/s] afterwards."""
+    """Return (whether the first or second point hits now, its impulse of this moment, its separation speed [px/s])."""
     r = impact
     if second:
         return r.bounces_2, r.blow_2, r.wanted_2
@@ -287,7 +289,7 @@ def hits_at(impact, second):
 
 @inlined
 def add_blow(second, change, impact_inout):
-    """Add a change of impulse at a point of an impact to the impulse of this moment and to that of the step."""
+    """Add a change of impulse at a point to its impulse of this moment and to its impulse of the step."""
     if second:
         impact_inout.blow_2 += change
         impact_inout.impulse_2 += change
@@ -300,8 +302,8 @@ def add_blow(second, change, impact_inout):
 def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_inout):
     """Solve two points of one body that hit at the same time. Return the greater change of a normal speed [px/s].
 
-    i, j: their IMPACT rows. If both are the same point, it is solved alone. last: index plus one of the body's last
-    impact.
+    i, j: IMPACT rows of the first and the second point; first_point, second_point: True for the second point of the
+    row. If both arguments name the same point, it is solved alone. last: see link_impacts.
     """
     r = impacts_inout[i]
     o = impacts_inout[j]
@@ -342,9 +344,9 @@ def solve_pair(blocks, i, first_point, j, second_point, last, motions, impacts_i
 def solve_together(blocks, last, hit_speed, motions, impacts_inout):
     """Apply the impulses of all points of a body that hit now. Return whether the impulses converged.
 
-    last: index plus one of its last impact; hit_speed [px/s]: approach speed of the hits. Each point separates at least
-    at restitution times its approach speed. The points are solved in pairs: on level ground the first pair with the
-    centre of mass between its points is the solution, and the other pairs agree with it.
+    last: see link_impacts; hit_speed [px/s]: approach speed of the soonest hit. Each point separates at least at
+    restitution times its approach speed. The points are solved in pairs, in rounds. On level ground the first pair with
+    the centre of mass between its points is the solution, and the other pairs do not change it.
     """
     for _ in range(MOST_ROUNDS):
         changed = 0.0
@@ -377,7 +379,7 @@ def solve_together(blocks, last, hit_speed, motions, impacts_inout):
 
 @subkernel
 def solve_alone(blocks, last, motions, impacts_inout):
-    """Solve the only point of a body that hits now. last: index plus one of the last impact of the body."""
+    """Solve the only point of a body that hits now. last: see link_impacts."""
     i = last
     while i != NO_IMPACT:
         for point in range(points_of(blocks, impacts_inout[i - 1])):
@@ -391,9 +393,8 @@ def solve_alone(blocks, last, motions, impacts_inout):
 def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
     """Simulate the impacts of a body over dt [s] in the order of their times, and write their impulses.
 
-    last: index plus one of its last impact; in this row the displacement of the body up to the last hit is written.
-    Return the time [s] of the step that is left after the last hit, and whether MOST_IMPACTS and MOST_ROUNDS were
-    enough.
+    Return (time [s] of the step after the last hit, whether MOST_IMPACTS and MOST_ROUNDS were enough). last: see
+    link_impacts; the IMPACT row last - 1 receives the displacement of the body up to the last hit.
     """
     k = last
     while k != NO_IMPACT:
@@ -422,10 +423,10 @@ def simulate_impacts(blocks, last, dt, contacts, motions, impacts_inout):
 
 @subkernel
 def rub(impact, second, to_rest, motions_inout, blocks_inout):
-    """Remove the friction impulse of the substeps at a point of an impact, or apply friction anew.
+    """Remove the friction impulse at a point of an impact, or apply friction for the simulated normal impulse.
 
-    to_rest: False to remove, True to apply. As in the substeps, the limit of friction is that for the part of the
-    normal impulse that stops the approach. Return the change of the tangential speed [px/s].
+    Return the change of the tangential speed [px/s]. to_rest: False to remove, True to apply. As in the substeps, only
+    the part of the normal impulse that stops the approach counts for the limit of friction.
     """
     r = impact
     lane = r.lane
@@ -446,7 +447,7 @@ def rub(impact, second, to_rest, motions_inout, blocks_inout):
 
 @subkernel
 def greatest_speed(impacts, last):
-    """Return the greatest predicted approach speed [px/s] of a body. last: index plus one of its last impact."""
+    """Return the greatest predicted impact speed [px/s] of a body. last: see link_impacts."""
     fastest = 0.0
     k = last
     while k != NO_IMPACT:
@@ -457,10 +458,10 @@ def greatest_speed(impacts, last):
 
 @subkernel
 def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout):
-    """Replace the impulses of the substeps on a body by those of its simulated impacts, with friction.
+    """Replace the impulses of the substeps on a body by the impulses of its simulated impacts, with friction.
 
-    last: index plus one of its last impact; hit_speed [px/s]: their greatest approach speed. These impulses are not
-    cached for the next step.
+    last: see link_impacts; hit_speed [px/s]: greatest impact speed of the body. The impulses are not cached for the
+    next step.
     """
     k = last
     while k != NO_IMPACT:
@@ -499,8 +500,8 @@ def apply_simulated(last, hit_speed, impacts_inout, motions_inout, blocks_inout)
 def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks_inout, work_inout):
     """Simulate the impacts of flying bodies that hit static bodies several times within a step of dt [s].
 
-    count: number of IMPACT rows; those of such bodies are marked as `simulated`. O(count + impacts · points² of each
-    body).
+    count: number of IMPACT rows. The impacts of such bodies are marked as `simulated`. O(count + impacts · points² of
+    each body).
     """
     link_impacts(blocks_inout, count, impacts_inout, motions_inout)
     for i in range(count):
@@ -515,7 +516,7 @@ def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks
             left, settled = simulate_impacts(blocks_inout, i + 1, dt, contacts, motions_inout, impacts_inout)
             work_inout[CAP_HITS] += int(not settled)
             apply_simulated(i + 1, greatest_speed(impacts_inout, i + 1), impacts_inout, motions_inout, blocks_inout)
-            # The body stays where it hit last: acceleration in the rest of the step would lose energy.
+            # The step of the body ends at its last hit: with the acceleration of the rest it would lose energy.
             m = motions_inout[row]
             half = 0.5 * (dt - left) * (dt - left)
             m.dx = impacts_inout[i].x + half * m.acceleration_x
@@ -530,27 +531,28 @@ def solve_simultaneous(contacts, count, dt, impacts_inout, motions_inout, blocks
 # ---- bounce ----------------------------------------------------------------------------------------------------------
 # Restitution, once, after the last substep, for every stacking solver.
 #
-# It uses the approach speed at the moment of impact, by the parabola from before the step. So a speculative contact
-# that slowed the body does not reduce the bounce (Rapier #919, #974), and no height is lost by the length of steps. Two
-# points of one manifold are solved together, otherwise a box that lands flat would rotate. Where impacts share a body,
-# or a body that bounces presses others, all of them are solved in rounds: contacts that only touch pass the impact on
-# and do not bounce. No single impact adds energy, so their sum adds none.
+# The approach speed at the moment of impact is predicted by a parabola from the state before the step. So a speculative
+# contact that slowed the body does not reduce the bounce (Rapier #919, #974), and the step length costs no height. Two
+# points of one manifold are solved together, otherwise a box that lands flat would rotate. If impacts share a body, or
+# a bouncing body touches other bodies, all their contacts are solved in rounds. Contacts that only touch pass the
+# impact on and do not bounce. No single impact adds energy, so their sum adds none.
 
-LIGHT = 1e-4  # share of an impact impulse below which the load of a contact is neglected
-MOST_BLOWS = 256  # impacts in sequence between bodies without loads; later ones wait for the next step: cap_hits
+LIGHT = 1e-4  # fraction of an impact impulse below which the load of a contact is neglected
+MOST_BLOWS = 256  # greatest number of successive impacts between bodies without loads; if exceeded: cap_hits
 
 
 @subkernel
 def bounces(speed, threshold, total):
-    """Return whether a point bounces: it approached fast enough before the step, and got an impulse in it."""
+    """Return whether a point bounces: impact speed above the threshold [px/s], and an impulse `total` in the step."""
     return speed > threshold and total > 0.0
 
 
 @subkernel
 def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
-    """Apply an impulse at one point of a contact, so that it separates at `wanted` [px/s].
+    """Apply an impulse at one point of a contact, so that the point separates at `wanted` [px/s].
 
-    total: the impulse of the point so far. Return the change of this impulse.
+    Return the change of the impulse. c: the fields of a block; second: True for the second point; total: impulse of the
+    point before.
     """
     mass = c[(at.MASS_2 if second else at.MASS_1) + lane]
     missing = wanted - relative_speed(c, lane, second, a_inout, b_inout)
@@ -561,9 +563,9 @@ def bounce_once(wanted, c, lane, second, total, a_inout, b_inout):
 
 @subkernel
 def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout):
-    """Apply impulses at both points of a contact, so that they separate at `wanted` [px/s] (2 x 2 block solver).
+    """Apply impulses at both points of a contact, so that they separate at wanted_1, wanted_2 [px/s] (block solver).
 
-    old: their impulses so far. Return the changes of both impulses.
+    Return the changes of both impulses. old_1, old_2: impulses of the points before; c: the fields of a block.
     """
     missing_1 = wanted_1 - relative_speed(c, lane, False, a_inout, b_inout)
     missing_2 = wanted_2 - relative_speed(c, lane, True, a_inout, b_inout)
@@ -583,10 +585,10 @@ def bounce_together(wanted_1, wanted_2, old_1, old_2, c, lane, a_inout, b_inout)
 
 @subkernel
 def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, work_inout):
-    """Keep the IMPACT rows with a point that bounces, and write the separation speeds [px/s] after the impact.
+    """Keep the IMPACT rows with a point that bounces, and write their separation speeds [px/s] after the impact.
 
-    count: number of rows. Return the number kept, and whether two of them share a body. The bodies are marked in
-    MOTION.last_impact.
+    Return (number of rows kept, whether two of these share a dynamic body). Simulated impacts are dropped. The bodies
+    are marked in MOTION.last_impact. count: number of rows before.
     """
     blocks = blocks_inout
     kept = 0
@@ -619,7 +621,7 @@ def list_bounces(contacts, count, motions_inout, impacts_inout, blocks_inout, wo
 
 @subkernel
 def mark_bodies(blocks, block, lane, motions_inout):
-    """Mark the dynamic bodies of a contact. Return whether one of them was already marked."""
+    """Mark the bodies of finite mass of a contact. Return whether one of them was already marked."""
     shared = False
     for side in range(2):
         m = motions_inout[(blocks.motion_a if side == 0 else blocks.motion_b)[block, lane]]
@@ -631,11 +633,11 @@ def mark_bodies(blocks, block, lane, motions_inout):
 
 @subkernel
 def list_handed_on(blocks_count, count, motions_inout, impacts_inout, blocks_inout):
-    """Append the contacts with an impulse that can pass an impact on: those that touch a marked body.
+    """Append the contacts that can pass an impact on: contacts of marked bodies with an impulse in this step.
 
-    Their bodies are marked too, until no further contact is found. Such a contact does not bounce: it may keep its
-    approach speed, but not approach faster. blocks_count: number of blocks; count: number of IMPACT rows before. Return
-    the number of IMPACT rows.
+    Return the number of IMPACT rows. The bodies of these contacts are also marked, until no further contact is found.
+    Such a contact does not bounce: its approach speed may remain, but not increase. blocks_count: number of blocks;
+    count: number of IMPACT rows before.
     """
     blocks = blocks_inout
     grown = True
@@ -699,9 +701,9 @@ def bounce_row(impact_inout, motions_inout, blocks_inout):
 
 @subkernel
 def are_unloaded(blocks, impacts, count, contacts, speed, dt):
-    """Return whether the contact forces of the step before are negligible beside an impact at a speed [px/s].
+    """Return whether the cached contact forces are negligible compared with an impact at a speed [px/s].
 
-    count: number of IMPACT rows; dt [s]: length of the step.
+    count: number of IMPACT rows; dt [s]: step length.
     """
     for i in range(count):
         r = impacts[i]
@@ -714,9 +716,9 @@ def are_unloaded(blocks, impacts, count, contacts, speed, dt):
 
 @subkernel
 def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blocks_inout):
-    """Solve IMPACT rows that share bodies in rounds, until none changes a normal speed by more than `least` [px/s].
+    """Solve IMPACT rows in rounds, until a round changes no normal speed by more than `least` [px/s].
 
-    count: number of rows; hits_alone: leave out contacts that only pass an impact on.
+    There are at most ROUNDS rounds. count: number of rows; hits_alone: whether to skip rows without a bouncing point.
     """
     for _ in range(ROUNDS):
         changed = 0.0
@@ -731,9 +733,9 @@ def bounce_in_rounds(count, hits_alone, least, impacts_inout, motions_inout, blo
 def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
     """Replace the impulses of contacts without loads by a sequence of impacts, as in Newton's cradle.
 
-    All contacts that approach are solved together; contacts that approach afterwards are the next impacts. So the
-    impact passes through contacts that only touch. count: number of IMPACT rows; fastest [px/s]: speed of the first
-    impacts. Return whether the sequence ended within MOST_BLOWS.
+    Return whether the sequence ended within MOST_BLOWS. All contacts that approach are solved together; contacts that
+    approach afterwards are the next impacts. So the impact passes through contacts that only touch. count: number of
+    IMPACT rows; fastest [px/s]: greatest separation speed of the first impacts.
     """
     for i in range(count):
         r = impacts_inout[i]
@@ -770,9 +772,9 @@ def hand_on(count, fastest, impacts_inout, motions_inout, blocks_inout):
 
 @subkernel
 def restore_bounces(contacts, count, context, impacts_inout, motions_inout, blocks_inout, work_inout):
-    """Make points that hit in this step separate at restitution times their approach speed. O(lanes).
+    """Make points that hit in this step separate at restitution times their impact speed. O(lanes).
 
-    count: number of blocks; context: see StepContext; impacts_inout: scratch.
+    count: number of blocks; context: see StepContext; impacts_inout: scratch IMPACT rows, one for each contact.
     """
     found = list_impacts(blocks_inout, count, impacts_inout)
     solve_simultaneous(contacts, found, context.dt, impacts_inout, motions_inout, blocks_inout, work_inout)

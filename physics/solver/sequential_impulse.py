@@ -1,11 +1,11 @@
 """Sequential impulses: one step, several passes, warm start, Baumgarte stabilisation.
 
-It differs from `soft_step` in that bodies move once, after all passes, and in that contacts are hard: stacks are
-livelier and sag by the slop. Unloaded contacts separate by a pseudo-velocity (split impulses). A step takes
-ITERATIONS_PER_SUBSTEP passes for each substep that soft_step would take; as there, their number follows from the loads.
-Each pass transmits a load by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at
-8 to 60 px/s for over a minute, and a plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time.
-With passes by load both rest; a step then takes 1.5 times as long. Source: Catto, Iterative Dynamics with Temporal
+Unlike `soft_step`, bodies move once, after all passes, and contacts are rigid: stacks are livelier and sag by the slop.
+Unloaded contacts separate by a pseudo-velocity (split impulses). A step takes ITERATIONS_PER_SUBSTEP
+passes for each substep that soft_step would take. As in soft_step, the loads determine their number. Each pass
+transmits a load by one or two rows of a stack. With ten passes for all islands, a pyramid of 45 rows moves at 8 to
+60 px/s for over a minute, and a plank with a hundredth of the mass of its load creeps by 0.4 to 5 m in that time. With
+passes by load both come to rest, and a step takes 1.5 times as long. Source: Catto, Iterative Dynamics with Temporal
 Coherence, GDC 2005, and Box2D-Lite, 2006.
 """
 
@@ -46,8 +46,9 @@ from physics.solver.step_context import context_of, separation_speed
 from physics.tables.step_state import StepState, stage
 
 BOTH = (False, True)
-# Moment arms and normals of round contacts are those after this share of the step. With 0, its start, planks that rock
-# on a disc swing up to 8 % further in half a minute; with 0.5, its middle, they and eccentric discs stop in seconds.
+# Moment arms and normals of round contacts are taken after this fraction of the step. With 0, the start, planks that
+# rock on a disc swing up to 8 % further in half a minute. With 0.5, the middle, planks and eccentric discs stop within
+# seconds.
 LEAD = 0.1
 
 
@@ -55,17 +56,18 @@ class Passes(NamedTuple):
     """Constants of the passes over the contacts in one step."""
 
     count: int  # number of passes
-    warm: bool  # they start from the cached impulses
-    bias_rate: float  # [1/s] separation speed per overlap of a loaded contact beyond the slop, …
-    bias_speed: float  # [px/s] … and its bound
-    push_rate: float  # [1/s] separation speed per overlap of an unloaded contact; StepContext.push_speed bounds it
+    warm: bool  # whether the passes start from the cached impulses
+    bias_rate: float  # [1/s] separation speed of a loaded contact per px of overlap beyond the slop
+    bias_speed: float  # [px/s] greatest separation speed of a loaded contact
+    push_rate: float  # [1/s] see separation_speed
 
 
 @inlined
 def bias_speed(gap, inverse_h, slop, rate, most):
     """Return the separation speed [px/s] of a point of a loaded contact; negative: the speed at which a gap may close.
 
-    rate [1/s]: separation speed per overlap beyond the slop [px]; most [px/s]: its bound.
+    gap [px]: negative for an overlap; rate [1/s]: speed per px of overlap beyond the slop [px]; most [px/s]: greatest
+    result.
     """
     beyond = -gap - slop
     speed = rate * (beyond if beyond > 0.0 else 0.0)
@@ -90,8 +92,8 @@ def make_sequential_pass(rotation: bool, friction: bool) -> Callable:
         """Solve every contact once: friction first, then both normal impulses together. O(count).
 
         count: number of blocks; context: see StepContext; passes: see Passes. A loaded contact separates by the
-        velocities of its bodies. The separation is part of every pass and of the warm start, otherwise columns would
-        sag.
+        velocities of its bodies. The separation impulses are in every pass and in the cached impulses, otherwise
+        columns would sag.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -175,9 +177,10 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
 
     @inlined
     def push_point(lane, a_arm, b_arm, context, rate, s_inout, c_inout):
-        """Change the pseudo-velocities of the bodies of an unloaded contact such that one of its points separates.
+        """Change the gathered pseudo-velocities of two bodies so that one point of their unloaded contact separates.
 
-        a_arm, b_arm [px]: moment arms of the normal impulse; rate [1/s]: see separation_speed.
+        a_arm, b_arm [px]: moment arms of the normal impulse; rate [1/s]: see separation_speed. A loaded contact is left
+        unchanged.
         """
         c = c_inout
         s = s_inout
@@ -193,7 +196,7 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
         wanted = separation_speed(c[gap_line + lane], context.inverse_h, context.slop, rate, context.push_speed)
         impulse = old + c[mass_line + lane] * (wanted - speed - pushed)
         impulse = impulse if impulse > 0.0 else 0.0
-        # A point that needs no push-out, and got none, is left to the contact's own impulses.
+        # A point that needs no push-out and has received none is handled by the contact impulses.
         idle = (c[at.LOADED + lane] > 0.0) | ((old == 0.0) & (pushed >= 0.0) & (wanted <= 0.0))
         impulse = old if idle else impulse
         c[push_line + lane] = impulse
@@ -210,7 +213,7 @@ def make_push_point(second: bool, rotation: bool) -> Callable:
 
 
 def make_push_pass(rotation: bool) -> Callable:
-    """Return one pass of push-out over all contacts, for a world with or without rotation."""
+    """Return the function of one push-out pass over all contacts, for a world with or without rotation."""
     push_first, push_second = make_push_point(False, rotation), make_push_point(True, rotation)
 
     @noalias
@@ -226,7 +229,7 @@ def make_push_pass(rotation: bool) -> Callable:
         """Give bodies pseudo-velocities that separate their unloaded contacts. O(count).
 
         count: number of blocks; rate [1/s]: see separation_speed. The impulses of the pseudo-velocities accumulate
-        apart from the contact impulses.
+        separately from the contact impulses.
         """
         s = blocks_inout.gathered
         for block in range(count):
@@ -261,10 +264,11 @@ def make_push_pass(rotation: bool) -> Callable:
 
 @subkernel
 def stop_impacts(count, motions_inout, blocks_inout):
-    """Remove the approach speed that is left at points which closed their gap in this step. O(lanes).
+    """Remove the approach speed that remains after the passes at points of contacts that are BOUNCING. O(lanes).
 
-    count: number of blocks. Otherwise these points would meet again in the next step. Slow approaches are left alone:
-    the passes leave a small approach speed in loaded stacks, which the next step removes.
+    count: number of blocks. Only points with a normal impulse are changed; otherwise they would hit again in the next
+    step. Slow contacts are excluded: the passes leave a small approach speed in loaded stacks, which the next step
+    removes.
     """
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
@@ -281,7 +285,7 @@ def stop_impacts(count, motions_inout, blocks_inout):
 
 @subkernel
 def sum_up(count, blocks_inout):
-    """Copy the contact impulses of the only substep to the totals of the step. count: number of blocks. O(lanes)."""
+    """Copy the contact impulses to the totals of the step, which has one substep. count: number of blocks. O(lanes)."""
     for block in range(count):
         c = blocks_inout.lines[block * SIZE : (block + 1) * SIZE]
         for lane in range(lanes_of(blocks_inout.contact, block)):
@@ -293,7 +297,7 @@ def sum_up(count, blocks_inout):
 
 @subkernel
 def turns_any(count, blocks):
-    """Return whether any of the first `count` blocks has a round contact whose bodies turn."""
+    """Return whether any of the first `count` blocks has a round contact whose moment arms follow its bodies."""
     for block in range(count):
         if blocks.turns[block]:
             return True
@@ -302,10 +306,10 @@ def turns_any(count, blocks):
 
 @subkernel
 def foresee_turns(members, kinematic, time, count, motions_inout, blocks_inout):
-    """Write the normals and moment arms of round contacts at the poses that the bodies will have after `time` [s].
+    """Write the normals and moment arms of round contacts at the predicted poses after `time` [s]. O(members + lanes).
 
-    The poses of the bodies are then reset to those at the start of the step. count: number of blocks. O(members +
-    lanes).
+    members, kinematic: MOTION rows; count: number of blocks. The bodies are moved back to the start of the step
+    afterwards.
     """
     for k in range(len(members)):
         m = motions_inout[members[k]]
@@ -324,7 +328,7 @@ PUSH_OUT = {r: make_push_pass(rotation=r) for r in BOTH}
 
 
 def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Callable:
-    """Return the function that does all passes of a step, for a world with or without these effects."""
+    """Return the kernel that runs all passes of a step, for a world with or without these effects."""
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, solve_all, push_out = WARM_LANES[rotation], SOLVE[rotation, friction], PUSH_OUT[rotation]
 
@@ -341,10 +345,10 @@ def make_passes(drag: bool, rotation: bool, friction: bool, joints: bool) -> Cal
         joints_inout,
         blocks_inout,
     ):
-        """Advance island bodies and kinematic bodies, rows of MOTION, by one step under their constraints.
+        """Advance island bodies and kinematic bodies by one step. O(members + passes · constraints).
 
-        count: number of blocks; context: see StepContext; passes: see Passes; joints_inout: a JointSet, 0 for a world
-        without joints. O(members + passes · constraints).
+        members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; passes: see Passes;
+        joints_inout: a JointSet, 0 for a world without joints.
         """
         if not passes.warm:
             clear_impulses(members, count, motions_inout, blocks_inout)
@@ -387,15 +391,15 @@ PASSES = {
 
 
 def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, warm: bool = True) -> float:
-    """Solve the contacts of a step and move the bodies. Return the step [s], to which the impulses belong.
+    """Solve the constraints of a step and move the bodies. Return the step length [s].
 
-    For measurements (studied_solvers.py): passes: number of passes, None for the number by load; warm: whether the
+    For measurements (studied_solvers.py): passes: number of passes, None: see ITERATIONS_PER_SUBSTEP; warm: whether the
     passes start from the cached impulses.
     """
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     run = PASSES[effects.drag, effects.rotation, effects.friction, effects.joints]
     context = context_of(1, False, dt, state.span, state.drag, tolerances)
-    bias_rate = BAUMGARTE / state.span  # a step shorter than those before separates no faster
+    bias_rate = BAUMGARTE / state.span  # a step that is shorter than the last ones does not separate faster
     substeps = state.substeps if passes is None else AUTO_SUBSTEPS[0]
     for group in contacts.choose(state, motions, substeps):
         blocks, count = contacts.prepare(state, motions, group, context)
@@ -422,5 +426,5 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
 
 @stage("sequential_impulse", reads=READS, writes=WRITES)
 def sequential_impulse(state: StepState) -> None:
-    """Solve the contacts and move the bodies of a world that stacks."""
+    """Solve the contacts and joints by sequential impulses, and move the bodies."""
     run_solver(state, solve)

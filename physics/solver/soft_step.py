@@ -41,7 +41,7 @@ from physics.tables.step_state import StepState, stage
 # Passes of the soft step over blocks of lanes; see lanes.py for the layout.
 #
 # The velocities of the bodies of a block are gathered, its contacts are solved side by side without a branch, and the
-# velocities are written back. Push-out by pseudo-velocity is rare and done one contact after the other. Sources: see
+# velocities are written back. Push-out by pseudo-velocity is rare, and is done one contact after another. Sources: see
 # "soft step" below.
 
 BOTH = (False, True)
@@ -49,9 +49,9 @@ BOTH = (False, True)
 
 @subkernel
 def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
-    """Separate two bodies at the points of an unloaded contact, by pseudo-velocities.
+    """Separate two bodies at both points of an unloaded contact, by pseudo-velocities.
 
-    a_inout, b_inout: MOTION rows of the bodies.
+    rotation: whether bodies rotate; a_inout, b_inout: MOTION rows.
     """
     nx = c[at.NX + lane]
     ny = c[at.NY + lane]
@@ -94,18 +94,21 @@ def push_out_unloaded(c, lane, context, rotation, a_inout, b_inout):
 
 @inlined
 def rigid_change(speed, gap, mass, inverse_h):
-    """Return the change of the normal impulse of a hard contact that stops the approach of a point.
+    """Return the change of the normal impulse of a rigid contact that stops the approach of a point.
 
-    If there is a gap, the point keeps the speed that closes it at the end of this substep.
+    speed [px/s]: negative for an approach; mass: effective mass. If there is a gap [px], the point keeps the approach
+    speed that closes the gap at the end of this substep.
     """
     return -mass * (speed + gap * inverse_h if gap > 0.0 else speed)
 
 
 @inlined
 def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
-    """Return the change of the normal impulse of a soft contact at a point, for any gap [px], negative for an overlap.
+    """Return the change of the normal impulse of a soft contact at a point.
 
-    most [px/s]: greatest separation speed. bias_rate, impulse_scale: see Softness.
+    speed [px/s]: negative for an approach; gap [px]: negative for an overlap; mass: effective mass; old: accumulated
+    impulse; bias_rate [1/s]: see Softness; impulse_scale: 1 / (1 + grip), see Softness; most [px/s]: greatest
+    separation speed.
     """
     grip = 1.0 - impulse_scale
     bias = grip * bias_rate * gap
@@ -115,10 +118,10 @@ def soft_change(speed, gap, mass, old, bias_rate, impulse_scale, most):
 
 @inlined
 def greatest_separation_speed(c, lane, gap_1, gap_2, context):
-    """Return the greatest separation speed [px/s] of a contact.
+    """Return the greatest separation speed [px/s] of a contact with gaps [px] at its two points.
 
-    With many substeps a deep overlap separates no faster than with the fewest. A shallow overlap may separate faster,
-    so that it carries its load.
+    With many substeps a deep overlap separates no faster than with the fewest substeps. A shallow overlap may separate
+    faster, so that the contact carries its load.
     """
     most = context.push_speed * abs(c[at.PUSH_OUT_SHARE + lane])
     deep = -gap_2 if gap_2 < gap_1 else -gap_1
@@ -129,7 +132,10 @@ def greatest_separation_speed(c, lane, gap_1, gap_2, context):
 
 @inlined
 def angular_impulses(lane, c):
-    """Return the angular impulses of a contact on its bodies A and B, without rolling resistance."""
+    """Return (angular impulse of a contact about A's centre, about B's centre), without rolling resistance.
+
+    Both are for the impulse in the direction of B; the impulse on A is the opposite one.
+    """
     n_1 = c[at.NORMAL_1 + lane]
     n_2 = c[at.NORMAL_2 + lane]
     t_1 = c[at.TANGENT_1 + lane]
@@ -215,10 +221,10 @@ def clear_impulses(members, count, motions_inout, blocks_inout):
 
 
 def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = False) -> Callable:
-    """Return one pass over all contacts: with bias, which separates overlaps, or without bias, to relax.
+    """Return the function of one pass over all contacts: with bias, to separate overlaps, or without, to relax.
 
-    Friction is part of the relaxing pass. alone: there is no relaxing pass, so the pass with bias measures gaps,
-    applies friction and sums impulses.
+    The relaxing pass measures gaps, applies friction and sums impulses. alone: the pass with bias does so instead,
+    because there is no relaxing pass.
     """
     last = alone or not biased
     rubs = friction and last
@@ -273,13 +279,13 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 change_2 = rigid_change(speed_2, gap_2, mass_2, context.inverse_h)
                 unloaded = False
                 if biased:
-                    # A soft contact would let a fast impact through, so a new contact is rigid first and soft
-                    # afterwards.
+                    # A soft contact would let a fast body sink in. So an approaching contact is rigid until it is
+                    # loaded, and soft afterwards.
                     loaded = (old_1 > calm_speed * mass_1) | (old_2 > calm_speed * mass_2)
                     not_approaching = (speed_1 >= -calm_speed) & (speed_2 >= -calm_speed)
                     rate = c[at.BIAS_RATE + lane]
                     impulse_scale = c[at.IMPULSE_SCALE + lane]
-                    # An impact impulse that is kept whole from substep to substep returns as a bounce.
+                    # If an impact impulse is kept in full from substep to substep, the body bounces.
                     impulse_scale = (
                         impulse_scale + BLOW_GIVE if old_1 + old_2 > c[at.STRIKE_LIMIT + lane] else impulse_scale
                     )
@@ -288,7 +294,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                     soft_2 = soft_change(speed_2, gap_2, mass_2, old_2, rate, impulse_scale, most)
                     change_1 = soft_1 if (not_approaching | loaded) & (gap_1 <= 0.0) else change_1
                     change_2 = soft_2 if (not_approaching | loaded) & (gap_2 <= 0.0) else change_2
-                    # An unloaded contact that is not new separates by pseudo-velocity, and gains no velocity.
+                    # An unloaded contact that did not approach before the step separates by pseudo-velocity alone.
                     unloaded = not_approaching & (not loaded) & (c[at.PUSH_OUT_SHARE + lane] < 0.0)
                 else:
                     # The pass with bias of the next substep handles a gap that closes.
@@ -296,7 +302,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                     apart = (gap_1 > 0.0) & (gap_2 > 0.0) & (carried == 0.0)
                     change_1 = 0.0 if apart else change_1
                     change_2 = 0.0 if apart else change_2
-                # Both points together, otherwise the first would rotate the body, and a box on its base would lean.
+                # Both points are solved together, otherwise the first would rotate the body: a standing box would lean.
                 impulse_1, impulse_2 = solve_two(
                     change_1,
                     change_2,
@@ -326,7 +332,7 @@ def make_soft_pass(biased: bool, rotation: bool, friction: bool, alone: bool = F
                 if rotation:
                     wa -= ii_a * ((impulse_1 - old_1) * a_1 + (impulse_2 - old_2) * a_2)
                     wb += ii_b * ((impulse_1 - old_1) * b_1 + (impulse_2 - old_2) * b_2)
-                # After the normal impulses: relaxing has removed the excess of the bias, which is no pressure.
+                # Friction follows the relaxed normal impulses: the excess by the bias does not count as pressure.
                 if rubs:
                     if rotation:
                         wa, wb = resist_rolling(lane, wa, wb, impulse_1 + impulse_2, c)
@@ -364,9 +370,9 @@ WARM_LANES = {r: make_warm_lanes(rotation=r) for r in BOTH}
 
 @inlined
 def turn_normal(lane, s, c_inout):
-    """Write the normal of a round contact at the present poses, and adapt the base of its separations to the normal.
+    """Write the normal of a round contact at the present poses, and adapt BASE_1 and BASE_2 to the new normal.
 
-    How the normal follows the bodies: see lanes.TURNS.
+    The field lanes.TURNS determines how the normal follows the bodies.
     """
     c = c_inout
     turns = c[at.TURNS + lane]
@@ -402,9 +408,9 @@ def turn_normal(lane, s, c_inout):
 
 @inlined
 def follow_core(lane, s, c_inout):
-    """Write the moment arms of a contact of a round shape with a face, at the present position of the core.
+    """Write the moment arms of the side with the face, for a contact of a round shape with a face.
 
-    The core, the shape without its radius, moves along the face.
+    The core of the round shape, the shape without its radius, may have moved along the face.
     """
     c = c_inout
     turns = c[at.TURNS + lane]
@@ -426,9 +432,8 @@ def follow_core(lane, s, c_inout):
 def turn_arms(count, motions_inout, blocks_inout):
     """Write the normals, moment arms and effective masses of round contacts at the present poses. O(count).
 
-    count: number of blocks. The impulses with which the next substep starts act at the new arms, and along the new
-    normals (see turn_impulses). With the former arms and normals, torques and forces would lag behind the motion, which
-    adds energy.
+    count: number of blocks. The next substep starts with impulses at the new arms, and along the new normals (see
+    turn_impulses). With the former arms and normals, torques and forces would lag behind the motion and add energy.
     """
     s = blocks_inout.gathered
     for block in range(count):
@@ -467,8 +472,8 @@ def turn_arms(count, motions_inout, blocks_inout):
 def turn_impulses(count, motions_inout, blocks_inout):
     """Turn the impulses that remain after the relaxing pass to the present normals of round contacts. O(count).
 
-    count: number of blocks. The next substep starts with these impulses. The relaxing pass has removed impulses along
-    the present normals that were applied along the former normals: the remaining difference is removed here.
+    count: number of blocks. The next substep starts with these impulses. The removed impulses had been applied along
+    the former normals, but the relaxing pass removed them along the present normals: the difference is corrected here.
     """
     for block in range(count):
         if not blocks_inout.turns[block]:
@@ -496,12 +501,11 @@ def turn_impulses(count, motions_inout, blocks_inout):
 
 
 # ---- soft step -------------------------------------------------------------------------------------------------------
-# Small substeps with soft contacts: each substep is solved once with a spring that separates overlaps, and then
-# relaxed.
+# Small substeps with soft contacts: each substep has one pass with springs that separate overlaps, and a relaxing pass.
 #
-# It differs from `sequential_impulse` in that the step is cut into substeps of one pass each, and in that a loaded
-# contact is a damped spring. Unloaded contacts separate by a pseudo-velocity. Cost per substep: three passes over the
-# constraints, two over the bodies. Sources: Macklin et al., Small Steps in Physics Simulation, SCA 2019; Catto, Soft
+# Unlike `sequential_impulse`, the step is divided into substeps of one pass each, and a loaded contact is a damped
+# spring. Unloaded contacts separate by a pseudo-velocity. Cost per substep: two to three passes over the constraints,
+# two over the bodies. Sources: Macklin et al., Small Steps in Physics Simulation, SCA 2019; Catto, Soft
 # Constraints, GDC 2011, and Solver2D, 2024: contacts as damped springs, friction in the relaxing pass alone.
 
 
@@ -514,11 +518,11 @@ def make_substeps(
     warm: bool = True,
     relaxed: bool = True,
 ) -> Callable:
-    """Return the function that does all substeps of a step, for a world with or without these effects.
+    """Return the kernel that runs all substeps of a step, for a world with or without these effects.
 
-    For measurements (studied_solvers.py): iterations: passes with bias in a substep; warm: whether each substep starts
-    from the impulses of the substep before; relaxed: whether a relaxing pass follows, otherwise the pass with bias
-    applies friction.
+    For measurements (studied_solvers.py): iterations: number of passes with bias in a substep; warm: whether each
+    substep starts from the impulses of the last substep; relaxed: whether a relaxing pass follows, otherwise the pass
+    with bias applies friction.
     """
     velocities, positions = SUBSTEP_VELOCITIES[drag, rotation], SUBSTEP_POSITIONS[rotation]
     warm_start, push_out, relax = WARM_LANES[rotation], PUSH_OUT[rotation], RELAX[rotation, friction]
@@ -537,11 +541,11 @@ def make_substeps(
         joints_inout,
         blocks_inout,
     ):
-        """Advance island bodies and kinematic bodies, rows of MOTION, by all substeps of a step.
+        """Advance island bodies and kinematic bodies by all substeps of a step. O(substeps · (members + constraints)).
 
-        count: number of blocks; context: see StepContext; joints_inout: a JointSet, 0 for a world without joints. One
-        kernel holds all substeps: with ten boxes, calls from Python were five sixths of the time of a substep.
-        O(substeps · (members + constraints)).
+        members, kinematic: MOTION rows; count: number of blocks; context: see StepContext; joints_inout: a JointSet, 0
+        for a world without joints. All substeps are in one kernel: with ten boxes, calls from Python took five sixths
+        of the time of a substep.
         """
         h = context.h
         if joints:
@@ -584,7 +588,10 @@ SUBSTEPS = {
 
 
 def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS) -> float:
-    """Solve the constraints of a step, group by group, and move the bodies. Return the shortest substep [s]."""
+    """Solve the constraints of a step, group by group, and move the bodies. Return the shortest substep [s].
+
+    kernels: substeps by effects (drag, rotation, friction, joints).
+    """
     effects, motions, dt = state.effects, state.workspace.motions, state.dt
     run, h = kernels[effects.drag, effects.rotation, effects.friction, effects.joints], dt
     by_load = state.substeps == 0
@@ -606,5 +613,5 @@ def solve(state: StepState, contacts: ContactLanes, kernels: Mapping = SUBSTEPS)
 
 @stage("soft_step", reads=READS, writes=WRITES)
 def soft_step(state: StepState) -> None:
-    """Solve the constraints and move the bodies of a world that stacks."""
+    """Solve the contacts and joints in small soft substeps, and move the bodies."""
     run_solver(state, solve)

@@ -23,18 +23,18 @@ from physics.settings import (
     Tolerances,
 )
 
-NO_PRESS = 1e-9  # share of an acceleration below which its part along a normal is rounding
+NO_PRESS = 1e-9  # share of the accelerations below which their component along a normal is a rounding error
 DRIFT_SHARE = 0.02  # share of the tangential drift of a sticking contact that friction undoes in a step
 
 # ---- context ---------------------------------------------------------------------------------------------------------
-# Constants of the substeps of a group of islands: their length, the softness of contacts, the push-out. Source of the
+# Constants of the substeps of a group of islands: length of a substep, softness of contacts, push-out. Source of the
 # springs: Catto, Soft Constraints, GDC 2011.
 
 
 class Softness(NamedTuple):
     """The spring and damper of a soft contact, as the two constants of its impulse over a substep."""
 
-    bias_rate: float  # [1/s] separation speed per overlap
+    bias_rate: float  # [1/s] separation speed per px of overlap
     grip: float  # weight of the relative velocity against the accumulated impulse: softness 1 / (1 + grip)
 
 
@@ -42,7 +42,7 @@ class StepContext(NamedTuple):
     """The constants of all substeps of a group of islands with the same number of substeps."""
 
     substeps: int
-    dt: float  # [s] of the step …
+    dt: float  # [s] length of the step …
     h: float  # [s] … and of a substep
     inverse_dt: float  # [1/s]
     inverse_h: float
@@ -50,18 +50,18 @@ class StepContext(NamedTuple):
     drag: float  # [1/s]
     restitution_speed: float  # [px/s] slower impacts do not bounce
     sleep_speed: float  # [px/s]
-    push_speed: float  # [px/s]
-    push_turn: float  # [rad/s] the same for angles
-    push_rate: float  # [1/s] separation speed of an unloaded contact per overlap beyond half of …
-    slop: float  # [px] … the overlap that may stay
-    deep_rate: float  # [1/s] greatest separation speed of a loaded contact per overlap, 0: no limit; it is not below …
-    shallow_speed: float  # [px/s] … this speed
+    push_speed: float  # [px/s] greatest separation speed
+    push_turn: float  # [rad/s] greatest angular speed that removes an error of an angle
+    push_rate: float  # [1/s] separation speed of an unloaded contact per px of overlap beyond half a slop
+    slop: float  # [px] overlap that is not removed
+    deep_rate: float  # [1/s] greatest separation speed of a loaded contact per px of overlap; 0: no limit
+    shallow_speed: float  # [px/s] least value of the limit by deep_rate
     spring: Softness  # of contacts between dynamic bodies …
     static_spring: Softness  # … and with static or kinematic ones
-    joint: Softness  # of the hard parts of joints
+    joint: Softness  # of the rigid parts of joints
     loaded_stiffness: float  # factor on the grip of a loaded contact …
     sole_support_stiffness: float  # … and of a sole support
-    strike_factor: float  # factor on the load before the step above which a contact counts as struck, and is softer
+    strike_factor: float  # a contact whose impulse exceeds this multiple of its load counts as struck, and is softer
     drift_rate: float  # [1/s] rate at which friction undoes the tangential drift of a sticking contact
     limits: Limits
 
@@ -69,7 +69,7 @@ class StepContext(NamedTuple):
 def softness(hertz: float, damping: float, h: float) -> Softness:
     """Return the Softness of an implicit spring over a substep of h [s] (Catto, Soft Constraints, 2011).
 
-    hertz [1/s]: its frequency; damping: its damping ratio.
+    hertz [1/s]: frequency of the spring; damping: damping ratio.
     """
     omega = math.tau * hertz
     rate = 2.0 * damping + h * omega
@@ -82,8 +82,8 @@ def context_of(
 ) -> StepContext:
     """Return the constants of a step of dt [s] that is divided into `substeps` substeps.
 
-    by_load: whether the number of substeps follows from the loads. span [s]: length of the step for which springs are
-    tuned, at least dt; in a shorter step they separate overlaps no faster.
+    by_load: whether the number of substeps was chosen from the loads. drag [1/s]. span [s]: length of the step for
+    which springs are tuned, at least dt; a step shorter than span does not separate overlaps faster.
     """
     h = dt / substeps
     # With substeps by load, springs are as stiff as the substeps allow.
@@ -120,15 +120,16 @@ def context_of(
 
 
 # ---- overlaps --------------------------------------------------------------------------------------------------------
-# Separation speed of unloaded contacts, which is a pseudo-velocity.
+# Separation of unloaded contacts, by a pseudo-velocity.
 
 
 @inlined
 def separation_speed(separation, inverse_h, slop, rate, push_speed):
     """Return the separation speed [px/s] of an unloaded point; negative: the speed at which a gap may close.
 
-    rate [1/s]: speed per overlap beyond half a slop; push_speed [px/s]: its bound. Overlaps of up to a slop stay
-    (Jolt's penetration slop): without that, unloaded contacts would creep.
+    separation [px]: negative for an overlap. rate [1/s]: speed per px of overlap beyond half a slop; push_speed [px/s]:
+    greatest result. Overlaps of up to a slop are not removed (Jolt's penetration slop), otherwise unloaded contacts
+    would creep.
     """
     beyond = rate * (-separation - 0.5 * slop)
     beyond = beyond if beyond < push_speed else push_speed
@@ -143,10 +144,11 @@ def separation_speed(separation, inverse_h, slop, rate, push_speed):
 def restitution_threshold(contact, a, b, degrees, context):
     """Return the approach speed [px/s] up to which a contact does not bounce.
 
-    A new contact bounces at any speed if no acceleration presses its bodies together: otherwise a slow ball would stick
-    to a wall in space. A contact that touched in the step before bounces only above the speed that acceleration adds in
-    two steps. a, b: MOTION rows of the bodies; degrees: their numbers of contacts. Two bodies without other contacts
-    fall together: only the difference of their accelerations presses.
+    It is context.restitution_speed, with two exceptions. A new contact bounces at any speed if no acceleration presses
+    its bodies together: otherwise a slow ball would stick to a wall in space. A contact that touched in the last step
+    bounces only above the speed that acceleration adds in two steps, if that is greater. a, b: MOTION rows; degrees:
+    numbers of contacts of A and of B. Two bodies without other contacts fall together: only the difference of their
+    accelerations presses them.
     """
     m = contact
     on_a = a.acceleration_x * m.normal_x + a.acceleration_y * m.normal_y
