@@ -241,11 +241,11 @@ def build_forest(
 ):
     """Choose the joints of the forest and order their elimination. Return the number of chosen joints.
 
-    A joint is not chosen if earlier joints connect its bodies, or if both bodies have infinite mass. The root of a tree is
-    its lowest MOTION row. The result depends only on the order of the joints and on the MOTION rows. O(MOTION
-    rows + joints). order: int64 joints that may be chosen, in the order of ids; motion_a, motion_b (joints,): int32
-    MOTION rows of the bodies of each joint; forest_inout: a Forest with sufficient capacities; taken_out (joints,):
-    bool, whether each joint of `order` was chosen.
+    A joint is not chosen if earlier joints connect its bodies, or if both bodies have infinite mass. The root of a tree
+    is its lowest MOTION row. The result depends only on the order of the joints and on the MOTION rows. O(MOTION rows +
+    joints). order: int64 joints that may be chosen, in the order of ids; motion_a, motion_b (joints,): int32 MOTION
+    rows of the bodies of each joint; forest_inout: a Forest with sufficient capacities; taken_out (joints,): bool,
+    whether each joint of `order` was chosen.
     """
     count = take_joints(order, motion_a, motion_b, motions, forest_inout, taken_out)
     order_bodies(motion_a, motion_b, motions, forest_inout)
