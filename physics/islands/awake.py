@@ -1,8 +1,8 @@
 """The awake rows of a world, which the passes of a step process.
 
-Without sleeping these are all rows. With sleeping they are the awake dynamic bodies, moving kinematic bodies,
-characters, and for one step added or edited bodies. Sleeping bodies and bodies at rest cost nothing. The lists are
-updated as bodies wake and fall asleep, not searched for.
+Without sleeping these are all rows. With sleeping they are the awake dynamic bodies, moving non-dynamic bodies,
+characters, and for one step the added or edited bodies. Sleeping bodies and bodies at rest cost nothing. The lists are
+updated when bodies wake or fall asleep, so a step does not search all bodies.
 """
 
 import math
@@ -23,7 +23,7 @@ NONE = np.zeros(0, np.int64)
 
 @inlined
 def is_active(body):
-    """Return whether a body can change a contact: awake and dynamic, or else edited or moving."""
+    """Return whether a BODY row can change a contact: a dynamic body is awake, another body moves or was moved."""
     if body.kind == DYNAMIC:
         return body.awake
     return (
@@ -38,13 +38,13 @@ def is_active(body):
 
 @subkernel
 def wakes(body, other):
-    """Return whether a body wakes a sleeping one on contact: it may move, or was edited."""
+    """Return whether `body` wakes `other` on contact: `other` sleeps, and `body` is active or was edited. BODY rows."""
     return other.kind == DYNAMIC and not other.awake and (body.dirty or is_active(body))
 
 
 @kernel
 def list_active(bodies, rows, rows_out):
-    """List those of the rows whose body is active and not quarantined. Return their number. O(rows)."""
+    """List the active body rows of `rows` that are not quarantined, see is_active. Return their number. O(rows)."""
     found = 0
     for k in range(len(rows)):
         b = bodies[rows[k]]
@@ -56,9 +56,9 @@ def list_active(bodies, rows, rows_out):
 
 @kernel
 def gather_shapes(rows, order, starts, rows_out):
-    """List the shape rows of distinct body rows; order, starts: shape rows by body row. Return their number.
+    """List the shape rows of distinct body rows. Return their number. O(shapes of these bodies).
 
-    O(shapes of these bodies).
+    order: shape rows sorted by body row; starts: index in order of the first shape row of each body row.
     """
     found = 0
     for k in range(len(rows)):
@@ -69,7 +69,10 @@ def gather_shapes(rows, order, starts, rows_out):
 
 
 class Awake:
-    """The awake rows of one world: `bodies` and `shapes`, int64, ascending."""
+    """The awake rows of one world: `bodies` and `shapes`, int64, ascending.
+
+    sleeping: whether the world has sleeping; otherwise all rows are awake.
+    """
 
     def __init__(self, sleeping: bool) -> None:
         self.sleeping = sleeping
@@ -77,23 +80,23 @@ class Awake:
         self.dynamic = NONE  # rows of the awake dynamic bodies
         self.kinematic = NONE  # rows of all kinematic bodies
         self.dirty = []  # ids of bodies that were added or edited since the last step
-        self.fresh = NONE  # rows of these in the step
+        self.fresh = NONE  # rows of the added or edited bodies during a step
         self.numbers = NONE  # 0, 1, 2 …
         self.order, self.starts = NONE, np.zeros(1, np.int64)  # shape rows by body row
-        self.known = (0, 0)  # number of bodies and shapes that the lists cover
-        self.stale = True  # rows have moved: the lists are built again
+        self.known = (0, 0)  # numbers of bodies and shapes that the lists cover; -1: the shapes have changed
+        self.stale = True  # whether the lists must be rebuilt
 
     def start_over(self) -> None:
-        """Mark the lists to be built again: tables were replaced, rows dropped, or kinds of bodies changed."""
+        """Mark the lists to be rebuilt, after tables were replaced, bodies were quarantined, or a kind changed."""
         self.stale = True
 
     def mark_dirty(self, ids: list[int]) -> None:
-        """Add bodies, by id, to the rows of the next step, because they were added or edited."""
+        """Add bodies that were added or edited, by id, to the rows of the next step. No effect without sleeping."""
         if self.sleeping:
             self.dirty += ids
 
     def all_rows(self, bodies: np.ndarray, shapes: np.ndarray) -> None:
-        """Set the lists to all rows: for worlds without sleeping."""
+        """Set the lists to all rows, for a world without sleeping."""
         if len(self.bodies) != len(bodies) or len(self.shapes) != len(shapes):
             most = max(len(bodies), len(shapes))
             if len(self.numbers) < most:
@@ -101,7 +104,10 @@ class Awake:
             self.bodies, self.shapes = self.numbers[: len(bodies)], self.numbers[: len(shapes)]
 
     def keep_rows(self, kept_bodies: np.ndarray) -> None:
-        """Update the rows in the lists after bodies were dropped. kept_bodies: bool, of the former rows."""
+        """Update the row numbers in the lists after body rows were removed.
+
+        kept_bodies: bool for each row before the removal, False for a removed row.
+        """
         if self.sleeping and not self.stale:
             new = np.cumsum(kept_bodies) - 1
             for name in ("bodies", "dynamic", "kinematic"):
@@ -110,14 +116,14 @@ class Awake:
             self.known = (int(np.count_nonzero(kept_bodies[: self.known[0]])), -1)
 
     def forget_shapes(self) -> None:
-        """Mark the shapes of the bodies to be looked up again, after shape rows were added or dropped."""
+        """Mark the shape rows of the bodies to be looked up again, after shape rows were added or removed."""
         self.known = (self.known[0], -1)
 
     def take_in(self, tables: WorldTables) -> None:
-        """Update the lists with the added rows, or build them again.
+        """Add new rows to the lists, or rebuild the lists if they are marked.
 
-        In the second case the bodies of the last step, by the column `active`, stay in the lists. The next step
-        compares with these, and stores the touching pairs of bodies that have come to rest.
+        Rebuilt lists contain the bodies of the last step, by the column `active`. So the next step can find the bodies
+        that have come to rest since, and store their touching pairs.
         """
         bodies, shapes = tables.bodies, tables.shapes
         count, shape_count = len(bodies), len(shapes)
@@ -156,18 +162,20 @@ class Awake:
         return not self.stale and self.known == (len(bodies), len(shapes))
 
     def may_move(self, bodies: np.ndarray, before: np.ndarray) -> np.ndarray:
-        """Return the body rows whose pose may differ from when the rows of `before` were awake, at most one step
-        ago."""
+        """Return the body rows whose pose may have changed since `before` was the list of awake rows.
+
+        before: `bodies` at most one step ago.
+        """
         dirty = rows_of(bodies, np.array(self.dirty, np.int64))
         return np.unique(np.concatenate([before, self.bodies, self.dynamic, self.kinematic, dirty[dirty >= 0]]))
 
     def shapes_of(self, rows: np.ndarray) -> np.ndarray:
-        """Return the shape rows of these body rows, ascending."""
+        """Return the shape rows of distinct body rows, ascending."""
         gathered = np.empty(len(self.order), np.int64)
         return np.sort(gathered[: gather_shapes(rows, self.order, self.starts, gathered)])
 
     def include(self, tables: WorldTables, rows: np.ndarray) -> None:
-        """Add body rows to the lists, also in the middle of a step; their pairs are searched again."""
+        """Add body rows to the lists. It may be called in a step; the pairs of these bodies are searched again."""
         self.take_in(tables)
         self.bodies = np.union1d(self.bodies, rows)
         new = rows[tables.bodies["kind"][rows] == DYNAMIC]
@@ -177,7 +185,7 @@ class Awake:
         self.shapes = self.shapes_of(self.bodies)
 
     def exclude(self, tables: WorldTables, rows: np.ndarray) -> None:
-        """Drop body rows from the lists; they do not change until they are included again."""
+        """Remove body rows from the lists. The bodies do not change until they are included again."""
         self.take_in(tables)
         self._set_active(tables, rows, False)
         flags = tables.bodies["active"]
@@ -196,7 +204,10 @@ class Awake:
     writes=("awake", "sleeping_set", "pairs", "touching_pairs", "sensing_pairs", "bodies.active", "bodies.dirty"),
 )
 def list_awake(state: StepState) -> None:
-    """List the rows of this step, and update non-dynamic bodies that begin or cease to move."""
+    """List the awake rows of this step: include bodies that began to move, and exclude bodies that stopped.
+
+    Also move the stored touching pairs of these bodies out of the sleeping set, or into it.
+    """
     awake, bodies = state.awake, state.bodies
     awake.take_in(state)
     moving = np.empty(len(awake.kinematic), np.int64)
@@ -230,34 +241,34 @@ def list_awake(state: StepState) -> None:
 # ---- free motion -----------------------------------------------------------------------------------------------------
 # Free motion: how far a body would move in a minute if no friction held it.
 #
-# A body that friction holds may sleep where it is slow. Any other body goes on: nothing stops a slow drift in space, a
-# fall under a low gravity, or a slide on ice. Such a body may sleep only if its free motion stays under the slop.
+# A body that friction holds may sleep when it is slow. Other bodies keep moving: nothing stops a slow drift in space, a
+# fall under low gravity, or a slide on ice. Such a body may sleep only if its free motion is below the slop.
 #
-# Bodies that friction links move as one, a group. A group with friction on a body that stands still is anchored. The
-# others move freely, but for the surfaces that they press on without friction: the projection of their acceleration
-# onto the directions that these surfaces leave open. In the plane, only the surface that the acceleration presses most
-# can remain a face of this projection; any other surface that it meets along that face blocks it.
+# Bodies linked by friction or joints move together, as a group. A group with friction on a resting body is anchored.
+# The other groups move freely, except into surfaces that they press on without friction. Their acceleration is
+# projected onto the directions that these surfaces allow. In the plane, only the surface with the greatest acceleration
+# into it can remain in contact. Any other surface on the way along that surface blocks the group.
 
-LOOSE, PIVOT, RAIL, HELD = 0, 1, 2, 3  # how a joint to a body that stands still holds a group
-SWING = 0.2  # a pendulum may sleep within five slops of its lowest point
-FREE_TIME = 60.0  # [s] for which the motion of a sleeping body would have stayed under the slop
+LOOSE, PIVOT, RAIL, HELD = 0, 1, 2, 3  # how a joint to a resting body holds a group
+SWING = 0.2  # factor on the sideways distance of a pendulum from its rest: it may sleep within five slops
+FREE_TIME = 60.0  # [s] time in which the free motion of a sleeping body would be below the slop
 
 
 class Groups(NamedTuple):
-    """The groups of bodies that friction links: arrays by row of BODY, whose values count at the root of each group."""
+    """Groups of bodies linked by friction or joints: arrays by BODY row. The values of a group are at its root."""
 
-    parents: np.ndarray  # int32, see join_trees
-    anchored: np.ndarray  # bool friction holds it on a body that stands still
-    blocked: np.ndarray  # bool the surfaces that it presses on leave it no way
-    faces: np.ndarray  # bool of each body: two loaded points of one contact keep it from rotating
+    parents: np.ndarray  # int32 union-find, see join_trees
+    anchored: np.ndarray  # bool friction or joints hold the group on a resting body
+    blocked: np.ndarray  # bool the surfaces that the group presses on leave no direction free
+    faces: np.ndarray  # bool, for each body: two loaded points of one contact keep the body from rotating
     masses: np.ndarray
-    ax: np.ndarray  # [px/s2] acceleration, times mass while it is summed; then along the surface
+    ax: np.ndarray  # [px/s2] acceleration, times mass during the summation; at the end along the surface
     ay: np.ndarray
-    press: np.ndarray  # [px/s2] acceleration into the surface that it presses on most; 0: on none
+    press: np.ndarray  # [px/s2] acceleration into the surface that the group presses on most; 0: no surface
     nx: np.ndarray  # normal of that surface, towards the group
     ny: np.ndarray
-    pivots: np.ndarray  # int32 number of joints about which it turns …
-    rails: np.ndarray  # int32 … and of joints along which it slides
+    pivots: np.ndarray  # int32 number of joints about which the group rotates …
+    rails: np.ndarray  # int32 … and number of joints along which it slides
     hold_x: np.ndarray  # [px] the last pivot, or the direction of the last rail
     hold_y: np.ndarray
     center_x: np.ndarray  # [px] centre of mass of the group
@@ -265,11 +276,11 @@ class Groups(NamedTuple):
 
 
 class FreeFall(NamedTuple):
-    """The acceleration of free bodies, and how far motion reaches in FREE_TIME."""
+    """The acceleration of free bodies, and how far they move in FREE_TIME."""
 
-    gravity_x: float  # [px/s2] times gravity_scale
+    gravity_x: float  # [px/s2] before the gravity scale of a body
     gravity_y: float
-    ax: float  # [px/s2] of the wind
+    ax: float  # [px/s2] acceleration by the wind
     ay: float
     velocity_reach: float  # [s] distance per initial speed
     acceleration_reach: float  # [s2] distance per acceleration
@@ -277,7 +288,7 @@ class FreeFall(NamedTuple):
 
 
 def new_groups(room: int) -> Groups:
-    """Return room for that many bodies."""
+    """Return Groups with room for that many BODY rows."""
     flags, numbers = [np.zeros(room, np.bool_) for _ in range(3)], [np.zeros(room) for _ in range(6)]
     counts, holds = [np.zeros(room, np.int32) for _ in range(2)], [np.zeros(room) for _ in range(4)]
     return Groups(np.zeros(room, np.int32), *flags, *numbers, *counts, *holds)
@@ -288,10 +299,11 @@ def free_fall(
 ) -> FreeFall:
     """Return the FreeFall of a world.
 
-    gravity [px/s2], wind [px/s]: (0, 0) where undeclared. drag [1/s]. damped: whether drag slows bodies down.
+    gravity [px/s2], wind [px/s]: (0, 0) without the effect. drag [1/s]. damped: whether drag slows bodies down. slop
+    [px].
     """
     decay = drag * FREE_TIME if damped else 0.0
-    if decay < 1e-4:  # where the closed forms would lose their digits
+    if decay < 1e-4:  # the closed forms would be inaccurate
         first, second = 1.0 - 0.5 * decay, 0.5 - decay / 6.0
     else:
         first = -math.expm1(-decay) / decay
@@ -301,7 +313,7 @@ def free_fall(
 
 @inlined
 def is_loaded(contact):
-    """Return whether a contact bore a force in the last substep, or an impulse in the step."""
+    """Return whether a contact had a normal force in the last substep, or a normal impulse in the step."""
     c = contact
     if c.normal_force_1 > 0.0 or c.normal_impulse_1 > 0.0:
         return True
@@ -310,15 +322,15 @@ def is_loaded(contact):
 
 @inlined
 def is_free(body):
-    """Return whether a body moves by forces: dynamic, awake and finite."""
+    """Return whether a BODY row is dynamic, awake and not quarantined."""
     return body.kind == DYNAMIC and body.awake and not body.quarantined
 
 
 @kernel
 def start_groups(rows, bodies, fall, groups_out):
-    """Make each body a group of its own, with the acceleration of its free fall times its mass. O(rows).
+    """Make each body a separate group, with the acceleration of its free fall times its mass. O(rows).
 
-    fall: see FreeFall; groups_out: see Groups.
+    rows: body rows; fall: see FreeFall; groups_out: see Groups.
     """
     g = groups_out
     for k in range(len(rows)):
@@ -340,9 +352,10 @@ def start_groups(rows, bodies, fall, groups_out):
 
 @kernel
 def join_groups(bodies, contacts, friction, groups_inout):
-    """Join the bodies of loaded contacts with friction, and mark the bodies that they hold on what stands still.
+    """Join the free bodies of loaded contacts with friction, and mark bodies held by friction on a resting body.
 
-    friction 1: the effect is declared. O(contacts).
+    Also mark bodies with two loaded points of one contact in Groups.faces. friction: 1 if the effect friction is
+    declared, else 0. O(contacts).
     """
     g = groups_inout
     for i in range(len(contacts)):
@@ -367,10 +380,10 @@ def join_groups(bodies, contacts, friction, groups_inout):
 
 @kernel
 def list_joint_edges(bodies, joints, count, edges_out):
-    """List the joints that link bodies, or that keep one awake, after `count` edges of contacts. Return the number.
+    """List the joints that link bodies or keep a body awake, as graph edges. Return the number of all edges. O(joints).
 
-    Joints link awake dynamic bodies. A body that is joined to a moving kinematic one stays awake, and so does one with
-    a motor that runs. O(joints).
+    Joints link awake dynamic bodies. A joint to a moving kinematic body, or with a running motor, keeps its bodies
+    awake. count: number of edges of contacts, which precede the edges of joints in edges_out.
     """
     found = count
     for i in range(len(joints)):
@@ -397,9 +410,10 @@ def list_joint_edges(bodies, joints, count, edges_out):
 
 @subkernel
 def hold_of(joint):
-    """Return how a joint to a body that stands still holds the other body: LOOSE, PIVOT, RAIL or HELD.
+    """Return how a joint to a resting body holds the other body: LOOSE, PIVOT, RAIL or HELD.
 
-    A taut rope or a rod is a pivot. A rail with a spring, a motor at rest or a limit that bears a load holds its body.
+    A taut rope or a rod is a PIVOT. A rail with a spring, a motor, equal limits or a loaded limit is HELD; the
+    axis of a Wheel is always a RAIL.
     """
     j = joint
     driven = j.spring_hertz > 0.0 or j.motor_max > 0.0 or j.lower == j.upper
@@ -417,9 +431,9 @@ def hold_of(joint):
 
 @kernel
 def join_jointed_groups(bodies, joints, groups_inout):
-    """Join the bodies of joints, and write how joints to bodies that stand still hold their groups. O(joints).
+    """Join the free bodies of joints, and write how joints to resting bodies hold their groups. O(joints).
 
-    Of pivots and rails the place, or the direction, is written to the row of the body that hangs on them.
+    The position of a pivot, or the direction of a rail, is written to the row of the held body.
     """
     g = groups_inout
     for i in range(len(joints)):
@@ -457,9 +471,9 @@ def join_jointed_groups(bodies, joints, groups_inout):
 
 @kernel
 def hold_groups(rows, bodies, groups_inout):
-    """Sum pivots, rails, and centres of mass of groups at their roots. O(rows).
+    """Write the numbers of pivots and rails, and the centres of mass, of groups to their roots. O(rows).
 
-    A group with two pivots, or with a pivot and a rail, cannot go far, and counts as anchored.
+    A group with two pivots, or with a pivot and a rail, hardly moves and counts as anchored. rows: body rows.
     """
     g = groups_inout
     for k in range(len(rows)):
@@ -485,10 +499,11 @@ def hold_groups(rows, bodies, groups_inout):
 
 @subkernel
 def way_of_hung(root, body, groups, fall):
-    """Return how far [px] a body of a group may still move that hangs on one pivot, or slides on rails.
+    """Return how far [px] a body may still move whose group hangs on one pivot or slides on rails.
 
-    Under an acceleration a group swings to below its pivot: by the distance of its centre of mass from there. Without
-    one it turns on about the pivot.
+    With acceleration, a pivoted group swings to its lowest point: the result is SWING times the sideways distance of
+    its centre of mass from there, infinite if it is above the pivot. Without acceleration, the group continues to
+    rotate about the pivot. root: root row of the group; body: BODY row; fall: see FreeFall.
     """
     g = groups
     ax, ay = g.ax[root], g.ay[root]
@@ -510,7 +525,7 @@ def way_of_hung(root, body, groups, fall):
 
 @kernel
 def sum_groups(rows, bodies, fall, groups_inout):
-    """Write the mean acceleration of each group, weighted by mass, and whether it is anchored, to its root. O(rows)."""
+    """Write mass, mean acceleration by mass, and anchored flag of each group to its root. rows: body rows. O(rows)."""
     g = groups_inout
     for k in range(len(rows)):
         i = rows[k]
@@ -535,7 +550,10 @@ def sum_groups(rows, bodies, fall, groups_inout):
 
 @subkernel
 def choose_surface(root, nx, ny, groups_inout):
-    """Take the surface with a normal towards a group as its own if the group presses on it more than on the others."""
+    """Replace the surface of a group if the group accelerates more strongly into another surface.
+
+    root: root row of the group; nx, ny: normal of the other surface, towards the group.
+    """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
     if into > g.press[root]:
@@ -546,7 +564,10 @@ def choose_surface(root, nx, ny, groups_inout):
 
 @subkernel
 def mark_blocked(root, nx, ny, fall, groups_inout):
-    """Mark a group as blocked if its motion along its surface would enter another surface by more than the slop."""
+    """Mark a group as blocked if its motion along its surface would enter another surface by more than the slop.
+
+    root: root row of the group; nx, ny: normal of the other surface, towards the group; fall: see FreeFall.
+    """
     g = groups_inout
     into = -(g.ax[root] * nx + g.ay[root] * ny)
     if g.press[root] > 0.0 and into * fall.acceleration_reach > fall.slop:
@@ -555,9 +576,9 @@ def mark_blocked(root, nx, ny, fall, groups_inout):
 
 @kernel
 def find_surfaces(rows, bodies, contacts, fall, groups_inout):
-    """Turn the acceleration of each group along the surface that it presses on most, and find the blocked groups.
+    """Project the acceleration of each group onto the surface that it presses on most, and mark blocked groups.
 
-    O(rows + contacts).
+    rows: body rows. O(rows + contacts).
     """
     g = groups_inout
     for turn in range(2):
@@ -588,9 +609,10 @@ def find_surfaces(rows, bodies, contacts, fall, groups_inout):
 
 @kernel
 def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
-    """Write a sleep time of 0 for the islands of bodies whose free motion exceeds the slop. O(rows).
+    """Set the least sleep time of islands to 0 if the free motion of one of their bodies exceeds the slop. O(rows).
 
-    islands (bodies) int32: the root of each body's island; least_out (bodies): its least sleep time [s].
+    rows: body rows; fall: see FreeFall; islands (bodies) int32: root row of the island of each body; least_out
+    (bodies): least sleep time [s] of each island, at its root.
     """
     g = groups
     for k in range(len(rows)):
@@ -607,7 +629,7 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
         if not g.blocked[root]:
             vx, vy = b.vx, b.vy
             away = vx * g.nx[root] + vy * g.ny[root]
-            # Pressed on its surface, a body leaves it by no more than the height of this throw.
+            # A body that is pressed on its surface is thrown off it to this height at most.
             if away * away < 2.0 * g.press[root] * fall.slop:
                 vx -= away * g.nx[root]
                 vy -= away * g.ny[root]
@@ -619,10 +641,10 @@ def keep_free_awake(rows, bodies, groups, fall, islands, least_out):
 
 @kernel
 def keep_sprung_awake(bodies, joints, slop, islands, least_out):
-    """Write a sleep time of 0 for the islands of bodies on springs that still move. O(joints).
+    """Set the least sleep time of islands to 0 if one of their bodies still moves on a spring. O(joints).
 
-    A body on a spring may turn back slowly: it sleeps once it has stayed in place for half a period, and if it would
-    come to rest within a slop [px]. islands, least_out: see keep_free_awake.
+    A body on a spring is slow where it turns back. So it may sleep only after it has stayed in place for half a period,
+    and if its speed corresponds to an amplitude of about a slop [px] or less. islands, least_out: see keep_free_awake.
     """
     for i in range(len(joints)):
         j = joints[i]
@@ -656,9 +678,10 @@ def keep_awake_what_moves_freely(
     islands: np.ndarray,
     least_out: np.ndarray,
 ) -> None:
-    """Keep awake the islands of bodies that no friction holds and whose free motion exceeds the slop.
+    """Keep islands awake if one of their bodies is not held by friction and its free motion exceeds the slop.
 
-    rows: the awake bodies; groups: room for all bodies; islands, least_out: see keep_free_awake.
+    rows: awake body rows; friction: whether the effect is declared; fall: FreeFall of the world; groups: scratch Groups
+    with room for all BODY rows; islands, least_out: see keep_free_awake.
     """
     start_groups(rows, bodies, fall, groups)
     join_groups(bodies, contacts, int(friction), groups)

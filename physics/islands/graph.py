@@ -1,10 +1,11 @@
 """Constraint graph: islands, substep classes and graph colours of constraints.
 
-An edge of the graph is a constraint, its nodes are the one to four bodies on which it acts. Islands are found by
-union-find over the edges in the order of shape ids, with the lowest node as the root. So they do not depend on the
-broad phase (Catto, Box2D v3, Simulation Islands, 2023). No two edges of one colour share a dynamic node. So the order
-of the edges within a colour, and the number of SIMD lanes or threads, does not change a bit of the result (Catto, SIMD
-Matters, 2024). Edges with a body of infinite mass get the last colours: they are solved last, and so prevail.
+An edge of the graph is a constraint. Its nodes are the one to four bodies on which the constraint acts. Islands are
+found by union-find over the edges in the order of shape ids, with the lowest node as the root. So islands do not depend
+on the broad phase (Catto, Box2D v3, Simulation Islands, 2023). No two edges of one colour share a node of finite mass.
+So the order of the edges within a colour, and the number of SIMD lanes or threads, does not change a bit of the result
+(Catto, SIMD Matters, 2024). Edges with a static or kinematic body get the last colours: they are solved last, and so
+prevail.
 """
 
 from typing import NamedTuple
@@ -17,25 +18,25 @@ from physics.tables.table import join_trees, root_of
 
 CONTACT_EDGE, JOINT_EDGE = 0, 1  # kinds of constraints
 MOST_NODES = 4  # bodies that one constraint acts on
-NO_NODE = -1  # in place of a node: no body
+NO_NODE = -1  # value of a node without a body
 
 
 class Edges(NamedTuple):
-    """Constraints as edges of the graph, an array for each property."""
+    """Constraints as edges of the graph, with an array for each property."""
 
-    kinds: np.ndarray  # (edges) int32 kind of the constraint
-    rows: np.ndarray  # (edges) int32 its row in the table of its kind
-    nodes: np.ndarray  # (edges, MOST_NODES) int32 its bodies, NO_NODE after the last
-    impact_speeds: np.ndarray  # (edges) float64 [px/s] speed of an impact within the step; 0: none
-    resting: np.ndarray  # (edges) bool the constraint carries a load without impact
-    keeps_awake: np.ndarray  # (edges) bool its bodies may not sleep
+    kinds: np.ndarray  # (edges) int32 CONTACT_EDGE or JOINT_EDGE
+    rows: np.ndarray  # (edges) int32 CONTACT or JOINT row
+    nodes: np.ndarray  # (edges, MOST_NODES) int32 bodies of the constraint, NO_NODE after the last
+    impact_speeds: np.ndarray  # (edges) float64 [px/s] speed of an impact within the step; 0: no impact
+    resting: np.ndarray  # (edges) bool the first point of the contact touches, and is too slow to bounce
+    keeps_awake: np.ndarray  # (edges) bool bodies of the constraint may not sleep
     overlaps: np.ndarray  # (edges) float64 [px] depth of overlap
-    faces: np.ndarray  # (edges, 2) float64 normal out of an overlapped body of infinite mass; 0: none
-    face_speeds: np.ndarray  # (edges) float64 [px/s] of that body at the contact
+    faces: np.ndarray  # (edges, 2) float64 normal out of an overlapped body of infinite mass; (0, 0): none
+    face_speeds: np.ndarray  # (edges) float64 [px/s] speed of that body at the contact
 
 
 def new_edges(room: int) -> Edges:
-    """Return empty arrays for `room` edges."""
+    """Return Edges with room for a number of edges."""
     return Edges(
         kinds=np.zeros(room, np.int32),
         rows=np.zeros(room, np.int32),
@@ -53,8 +54,8 @@ def new_edges(room: int) -> Edges:
 def write_pair(edge, kind, row, node_a, node_b, edges_out):
     """Write the edge of a constraint between two nodes.
 
-    edge: index of the edge; kind, row: the kind of the constraint and its row in the table of the kind; node_a, node_b:
-    NO_NODE for a body on which the constraint does not act.
+    edge: index of the edge; kind: CONTACT_EDGE or JOINT_EDGE; row: CONTACT or JOINT row; node_b: NO_NODE if the
+    constraint acts on node_a only.
     """
     edges_out.kinds[edge] = kind
     edges_out.rows[edge] = row
@@ -73,7 +74,7 @@ def join(
 ):
     """Join the islands of all nodes of each edge (union-find). O(count).
 
-    count: number of edges; parents_inout (nodes,): parent of each node.
+    count: number of edges; parents_inout (nodes,): parent of each node in the union-find forest.
     """
     for i in range(count):
         for k in range(1, MOST_NODES):
@@ -91,10 +92,10 @@ def find_roots(
     # write
     parents_out,
 ):
-    """Find the islands: write for each node the root of its island, which is its lowest node. O(nodes + count).
+    """Write the root of the island of each node: the lowest node of the island. O(nodes + count).
 
-    count: number of edges; links_islands (nodes,) bool: whether a node joins the islands of its edges, otherwise it is
-    alone; parents_out (nodes,): int32 roots.
+    count: number of edges; links_islands (nodes,) bool: whether a node joins the islands of its edges, otherwise the
+    node is a separate island; parents_out (nodes,): int32 roots.
     """
     for i in range(len(parents_out)):
         parents_out[i] = i
@@ -115,7 +116,7 @@ def find_roots(
 
 @subkernel
 def share_classes(parents, classes_inout):
-    """Raise the substep class of each node to the greatest in its island.
+    """Raise the substep class of each node to the greatest class in its island.
 
     parents (nodes,): int32 root of the island of each node, from find_roots; classes_inout (nodes,): int32.
     """
@@ -126,17 +127,18 @@ def share_classes(parents, classes_inout):
         classes_inout[i] = classes_inout[parents[i]]
 
 
-# Rank of a body of infinite mass: contacts with a higher rank are solved later. 0: all other bodies, and characters.
+# Ranks of bodies of infinite mass: contacts with a higher rank are solved later. All other bodies, and characters that
+# are not wedged, have rank 0.
 KINEMATIC_RANK, STATIC_RANK = 1, 2
 STATIC_COLORS = 12  # number of last colours that are preferred for contacts with static bodies
 
 
 @subkernel
 def free_color(taken, rank):
-    """Return a colour whose bit in `taken` is not set, or -1 if all are taken.
+    """Return a colour whose bit in `taken` is not set, or -1 if all bits are set.
 
-    It is the first free colour for rank 0, and the last one for STATIC_RANK. For KINEMATIC_RANK the search begins
-    STATIC_COLORS before the end.
+    The result is the first free colour for rank 0, and the last free colour for STATIC_RANK. For KINEMATIC_RANK the
+    search starts STATIC_COLORS before the end and goes backwards, then takes the last colours.
     """
     last = COLORS - 1 - (STATIC_COLORS if rank == KINEMATIC_RANK else 0)
     for k in range(COLORS):
@@ -162,10 +164,10 @@ def color_edges(
 ):
     """Colour the edges greedily, so that no two edges of one colour share a node of finite mass. O(nodes + count).
 
-    Later colours are solved later, and so prevail where contacts oppose one another: edges with kinematic nodes get
-    later colours than others, edges with static nodes the last ones. count: number of edges; has_finite_mass (nodes,)
-    bool; rank (nodes,): int8, see KINEMATIC_RANK. taken_out (nodes,): int64 bits of the colours at each node;
-    degrees_out (nodes,): int64 number of edges at each node; colors_out (count,): int32, -1 where no colour was free.
+    Contacts with later colours are solved later, and so prevail if contacts oppose each other. Edges with kinematic
+    nodes get late colours, edges with static nodes the last colours. count: number of edges; has_finite_mass (nodes,)
+    bool; rank (nodes,): int8, see KINEMATIC_RANK; taken_out (nodes,): int64 bits of the colours at each node;
+    degrees_out (nodes,): int64 number of edges at each node; colors_out (count,): int32, -1 if no colour was free.
     """
     for i in range(len(taken_out)):
         taken_out[i] = 0
@@ -194,9 +196,9 @@ def color_edges(
 
 @subkernel
 def slot_of(edge, edges, colors, classes):
-    """Return the sort key of an edge: by class (the greatest of its nodes), then by colour, with no colour first.
+    """Return the sort key of an edge: by the greatest class of its nodes, then by colour; edges without colour first.
 
-    classes (nodes,): empty if there is only one class.
+    edge: index of the edge; colors: colour of each edge; classes (nodes,): empty if there is only one class.
     """
     slot = colors[edge] + 1
     if len(classes) > 0:
@@ -213,7 +215,8 @@ def slot_of(edge, edges, colors, classes):
 def add_up(starts_inout, cursors_out):
     """Turn counts into start indices (prefix sum for a counting sort).
 
-    starts_inout: the count of key k at k + 1, then the start of key k at k; cursors_out: receives a copy.
+    starts_inout: before the call, number of items with key k at index k + 1; afterwards, start of key k at index k.
+    cursors_out: receives a copy of the result.
     """
     for i in range(1, len(starts_inout)):
         starts_inout[i] += starts_inout[i - 1]

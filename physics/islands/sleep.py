@@ -26,25 +26,28 @@ from physics.tables.joint import WORLD
 from physics.tables.step_state import ISLANDS, StepState, WorldTables, stage
 from physics.tables.table import joined, root_of, row_of, rows_of
 
-# ---- sleepers --------------------------------------------------------------------------------------------------------
-# The sleeping set: sleeping islands with their contacts, and the touching pairs of bodies at rest.
+# ---- sleeping set ----------------------------------------------------------------------------------------------------
+# The sleeping set: sleeping islands with their contacts, and touching pairs of bodies that no step visits.
 
 
 class Island(NamedTuple):
     """A sleeping island: its bodies, contacts and touching pairs."""
 
-    bodies: np.ndarray  # ids
+    bodies: np.ndarray  # int64 ids
     contacts: np.ndarray  # CONTACT rows
-    touching: np.ndarray  # EVENT rows: its touching pairs
+    touching: np.ndarray  # EVENT rows of the touching pairs
 
 
 class SleepingSet:
-    """The sleeping set of a world: islands by the lowest id of their bodies, and touching pairs of bodies at rest."""
+    """The sleeping set of a world: islands by the lowest id of their bodies, and touching pairs of bodies at rest.
+
+    "Outside" means not in the island. A "key" is the key of an island in `islands`.
+    """
 
     def __init__(self) -> None:
         self.islands = {}
-        self.links = {}  # id of a body outside -> islands with a manifold that refers to it
-        self.touching_pairs = np.zeros(0, EVENT)  # pairs with no side awake or in a sleeping island
+        self.links = {}  # id of a body outside -> keys of the islands with contacts on this body
+        self.touching_pairs = np.zeros(0, EVENT)  # pairs of bodies that no step visits, outside of islands
         self.sensing_pairs = np.zeros(0, EVENT)
 
     def put(self, key: int, island: Island) -> None:
@@ -55,7 +58,7 @@ class SleepingSet:
     def put_many(self, keys: list[int], islands: list[Island], named: list[int], owners: list[int]) -> None:
         """Store many islands.
 
-        named, owners: ids of bodies outside that manifolds refer to, and the island of each reference.
+        named: body outside (id) for each reference from a contact; owners: key of the island of each reference.
         """
         self.islands.update(zip(keys, islands, strict=True))
         for identity, key in set(zip(named, owners, strict=True)):
@@ -77,12 +80,12 @@ class SleepingSet:
 
     @staticmethod
     def _named(island) -> list:
-        """Return the ids of bodies outside an island that its manifolds refer to."""
+        """Return the ids of the bodies outside an island to which its contacts refer."""
         named = np.union1d(island.contacts["body_a"], island.contacts["body_b"])
         return np.setdiff1d(named, island.bodies).tolist()
 
     def take_naming(self, identity: int) -> list[tuple[np.ndarray, np.ndarray]]:
-        """Remove the contacts with a body from other islands, and return the (contacts, touching) of each."""
+        """Remove the contacts with a body (id) outside from all islands. Return (CONTACT, EVENT rows) of each."""
         found = []
         for key in sorted(self.links.get(identity, ())):
             island = self.take(key)
@@ -94,7 +97,11 @@ class SleepingSet:
         return found
 
     def keep_touching(self, rows: np.ndarray, fell_asleep: np.ndarray, keys: np.ndarray) -> None:
-        """Store the touching pairs, EVENT rows, of islands that have just fallen asleep."""
+        """Store touching pairs in islands that have just fallen asleep.
+
+        rows: EVENT rows of the pairs; fell_asleep: CONTACT rows of the islands in the order of shape ids; keys: island
+        of each CONTACT row.
+        """
         known = fell_asleep["shape_a"] << 32 | fell_asleep["shape_b"]
         place = np.searchsorted(known, rows["shape_a"] << 32 | rows["shape_b"])
         owners = keys[place]
@@ -104,7 +111,7 @@ class SleepingSet:
             self.islands[key] = self.islands[key]._replace(touching=part)
 
     def naming(self, identity: int, own: int) -> np.ndarray:
-        """Return the sleeping CONTACT rows that refer to a body; own: its island, if it sleeps in one."""
+        """Return the sleeping CONTACT rows that refer to a body, by id. own: key of the body's island, -1: none."""
         parts = [np.zeros(0, CONTACT)]
         for key in sorted({own, *self.links.get(identity, ())} & self.islands.keys()):
             m = self.islands[key].contacts
@@ -116,18 +123,18 @@ class SleepingSet:
         return in_order(joined([np.zeros(0, CONTACT), *(each.contacts for each in self.islands.values())]))
 
     def keep_reported(self, tables: WorldTables) -> None:
-        """Store the touching and sensed pairs that have no side in the step any longer."""
+        """Move the touching and sensed pairs whose bodies are both outside of the step from `tables` to this set."""
         self.touching_pairs = np.concatenate([self.touching_pairs, tables.touching_pairs.take_resting(tables.bodies)])
         self.sensing_pairs = np.concatenate([self.sensing_pairs, tables.sensing_pairs.take_resting(tables.bodies)])
 
     def return_all(self, tables: WorldTables) -> None:
-        """Return all stored pairs to the step."""
+        """Move all stored touching and sensed pairs of bodies at rest back to `tables`."""
         for name in ("touching_pairs", "sensing_pairs"):
             getattr(tables, name).give_back(getattr(self, name))
             setattr(self, name, np.zeros(0, EVENT))
 
     def return_reported(self, tables: WorldTables, ids: np.ndarray) -> None:
-        """Return the stored pairs that refer to one of these bodies to the step."""
+        """Move the stored touching and sensed pairs with one of these bodies (ids) back to `tables`."""
         for name in ("touching_pairs", "sensing_pairs"):
             kept = getattr(self, name)
             if len(kept):
@@ -137,29 +144,29 @@ class SleepingSet:
 
 
 def order_of(manifolds: np.ndarray) -> np.ndarray:
-    """Return the order by shape ids, stable for the manifolds of a pair."""
+    """Return the indices that sort manifolds by shape ids, stable for the manifolds of a pair."""
     return np.lexsort((np.arange(len(manifolds)), manifolds["shape_b"], manifolds["shape_a"]))
 
 
 def in_order(manifolds: np.ndarray) -> np.ndarray:
-    """Return manifolds in the order of shape ids."""
+    """Return the manifolds sorted by shape ids."""
     return manifolds[order_of(manifolds)]
 
 
 # ---- sleep -----------------------------------------------------------------------------------------------------------
 # Sleeping and waking: an island keeps its contacts while it sleeps, and wakes with their forces.
 #
-# An island sleeps and wakes as a whole. Its contacts are not tested, solved or reported while it sleeps, and its pairs
-# have not ended. See "rest" below for the condition of sleep.
+# An island sleeps and wakes as a whole. While it sleeps, its contacts are not tested, solved or reported, and its
+# touching pairs do not end. See "rest" below for the condition of sleep.
 #
-# These functions take a world, between steps, or the StepState of a step. Both have the tables, `manifolds`, `anchors`,
-# `awake`, `sleepers`, `pairs`, `touching_pairs` and `sensing_pairs`.
+# These functions take a World, between steps, or the StepState during a step: see WorldTables.
 
 
 def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
-    """Wake the islands of bodies, by id, and those that touch them, because the bodies are moved, edited or removed.
+    """Wake the islands of bodies, and the islands that touch these, before the bodies are moved, edited or removed.
 
-    The bodies take part in the next step, and their sleep time begins at 0.
+    ids: ids of the bodies. The next step visits the bodies, and their sleep time is reset to 0. No effect without
+    sleeping.
     """
     if not tables.awake.sleeping:
         return
@@ -173,10 +180,11 @@ def disturb(tables: WorldTables, ids: Iterable[int]) -> None:
 
 
 def disturb_one(world: Any, identity: int, row: int) -> int:
-    """Do the same as disturb for one body, by id and row, between steps. Return its row, which moves if islands wake.
+    """Disturb one body between steps, as disturb does. Return its present row, which changes if removed rows drop.
 
-    The rows of removed bodies may still be in the tables, see World._row_at: nothing but single numbers is read, unless
-    an island wakes. Any stands for World, whose package imports this one.
+    world: a World, annotated Any because its module imports this one. identity, row: id and row of the body. The rows
+    of removed bodies may still be in the tables, see World._row_at. So only single numbers are read, unless an island
+    wakes or the world has joints.
     """
     awake, sleeping_set = world.awake, world.sleeping_set
     if not awake.sleeping:
@@ -196,7 +204,7 @@ def disturb_one(world: Any, identity: int, row: int) -> int:
 
 
 def with_partners(joints: np.ndarray, ids: list[int]) -> list[int]:
-    """Return ids of bodies, and those of the bodies that joints link to them."""
+    """Return `ids`, followed by the ids of the bodies that joints link to these bodies. joints: JOINT rows."""
     mine = np.isin(joints["body_a"], ids) | np.isin(joints["body_b"], ids)
     if not mine.any():
         return ids
@@ -205,14 +213,17 @@ def with_partners(joints: np.ndarray, ids: list[int]) -> list[int]:
 
 
 def stir(tables: WorldTables, ids: list[int], rows: np.ndarray) -> None:
-    """Let bodies, by id and row, take part in the next step of a world with sleeping, with a sleep time of 0."""
+    """Add bodies, by id and row, to the rows of the next step, and reset their sleep time, in a world with sleeping."""
     tables.sleeping_set.return_reported(tables, ids)
     tables.awake.mark_dirty(ids)
     tables.bodies["sleep_time"][rows] = 0.0
 
 
 def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int]:
-    """Return the keys of the sleeping islands of bodies, by id and row (-1: none), and of those that touch them."""
+    """Return the keys of the sleeping islands of bodies, and of the sleeping islands that touch the bodies.
+
+    ids: ids of the bodies; rows: BODY rows, -1 for a body that does not exist.
+    """
     islands, links, keys = tables.sleeping_set.islands, tables.sleeping_set.links, set()
     if not islands:
         return keys
@@ -229,9 +240,10 @@ def islands_at(tables: WorldTables, ids: list[int], rows: np.ndarray) -> set[int
 
 
 def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bool:
-    """Wake the islands that rest on some shapes, by id, of a body at rest whose other shapes are unchanged.
+    """Wake the islands that rest on changed shapes of a body at rest. Return whether this is sufficient.
 
-    Return False, with nothing changed, if other pairs of the body may be affected: then call disturb.
+    False: nothing was changed, and the caller must call disturb, because other pairs of the body may be affected.
+    identity: id of the body; shapes: ids of the changed shapes.
     """
     sleeping_set = tables.sleeping_set
     row = rows_of(tables.bodies, [identity])[0]
@@ -250,7 +262,7 @@ def disturb_shapes(tables: WorldTables, identity: int, shapes: np.ndarray) -> bo
 
 
 def _islands_beside(tables, manifolds, identity):
-    """Return the keys of other islands connected to a body by manifolds."""
+    """Return the keys of the sleeping islands of bodies that touch a body (id), among the CONTACT rows `manifolds`."""
     own = manifolds[(manifolds["body_a"] == identity) | (manifolds["body_b"] == identity)]
     others = np.union1d(own["body_a"], own["body_b"])
     rows = rows_of(tables.bodies, others)
@@ -264,7 +276,7 @@ def wake_all(tables: WorldTables) -> None:
 
 
 def wake(tables: WorldTables, keys: Iterable[int]) -> None:
-    """Wake islands: return their bodies, and the contacts that refer to these, to the step."""
+    """Wake islands, by key: move their bodies, and all sleeping contacts with these bodies, back to the step."""
     sleeping_set = tables.sleeping_set
     keys = [key for key in sorted(keys) if key in sleeping_set.islands]
     if not keys:
@@ -291,7 +303,7 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
 
 
 def _bring_back(tables, contacts):
-    """Add contacts of pairs that are not in the step yet, with their present rows."""
+    """Add those of the contacts whose pair has no contact in the step, with present body and shape rows."""
     found = tables.contact_rows
     known = found["shape_a"] << 32 | found["shape_b"]
     new = ~np.isin(contacts["shape_a"] << 32 | contacts["shape_b"], known)
@@ -303,21 +315,21 @@ def _bring_back(tables, contacts):
 
 
 def with_rows(tables: WorldTables, contacts: np.ndarray) -> np.ndarray:
-    """Return contacts with the present rows of bodies and shapes, without those of removed ones."""
+    """Write the present body and shape rows to contacts. Return the contacts whose bodies and shapes still exist."""
     there = np.empty(len(contacts), bool)
     refresh_rows(tables.bodies, tables.shapes, contacts, there)
     return contacts if there.all() else contacts[there]
 
 
 def forget(tables: WorldTables) -> None:
-    """Drop the contacts of removed bodies and shapes, and update the rows of the others."""
+    """Drop the contacts of removed bodies and shapes, and update the row numbers in the other contacts."""
     if len(tables.contact_rows):
         tables.contact_rows = with_rows(tables, joined([tables.contact_rows]))
 
 
 @kernel
 def refresh_rows(bodies, shapes, manifolds_inout, there_out):
-    """Write the present rows of the bodies and shapes of manifolds, and whether all of them exist.
+    """Write the present body and shape rows of each manifold, and whether its bodies and shapes all exist.
 
     O(manifolds log shapes).
     """
@@ -339,9 +351,9 @@ def find_disturbed(
     # write
     rows_out,
 ):
-    """List the sleeping bodies that a moving or edited body touches, or will touch within dt [s]. Return their number.
+    """List the rows of sleeping bodies that an active or edited body touches, or may touch within dt [s].
 
-    O(manifolds). rows_out (2 · manifolds) int64; a row may be listed twice.
+    Return the number of rows. rows_out (2 · manifolds) int64; a row may be listed twice. O(manifolds).
     """
     found = 0
     for i in range(len(manifolds)):
@@ -374,9 +386,10 @@ def find_run_over(
     # write
     rows_out,
 ):
-    """List the sleeping bodies that a kinematic one may tunnel through within dt [s]. Return their number. O(pairs).
+    """List the rows of sleeping bodies that a fast kinematic body may tunnel through within dt [s]. O(pairs).
 
-    pairs (n, 2) int64: shape rows whose swept AABBs overlap; rows_out (n,) int64; a row may be listed twice.
+    Return the number of rows. pairs (n, 2) int64: shape rows whose swept AABBs overlap; rows_out (n,) int64; a row may
+    be listed twice.
     """
     found = 0
     for i in range(len(pairs)):
@@ -420,7 +433,7 @@ def find_run_over(
     ),
 )
 def wake_disturbed(state: StepState) -> None:
-    """Wake the islands that a moving body touches, and those on a body at rest that has begun to move."""
+    """Wake the islands that active, edited or fast kinematic bodies touch, and islands linked to moving bodies."""
     sleeping_set, bodies = state.sleeping_set, state.bodies
     if not sleeping_set.islands:
         return
@@ -449,19 +462,19 @@ def wake_disturbed(state: StepState) -> None:
 
 
 # ---- rest ------------------------------------------------------------------------------------------------------------
-# Falling asleep: which islands have stayed in place for long enough, and which contacts go with them.
+# Falling asleep: which islands have stayed in place for long enough, and which contacts move to the sleeping set.
 #
-# The criterion is the distance a body has moved, not its speed: in a heap some bodies tremble without moving away.
+# The criterion is the distance that a body has moved, not its speed: in a heap some bodies tremble without moving away.
 # Source: Jolt Physics, Body::UpdateSleepStateInternal, tests whether three points of a body stay within spheres. Here
-# the displacement of the furthest point since the start of the clock is bounded. Speed and time: Box2D v3.2, solver.c.
-# A body that no friction holds must stay in place for a minute more: see awake.py.
+# the displacement of the furthest point since the start of the sleep time is bounded. Speed and time: Box2D v3.2,
+# solver.c. If no friction holds a body, its predicted motion in a minute must also be small: see awake.py.
 
-COUNTED = 2.0**62  # more sleep periods than this are not an exact integer in a kernel
+COUNTED = 2.0**62  # greatest number of sleep periods that a kernel counts as an integer
 
 
 @inlined
 def is_touching(contact):
-    """Return whether two sides overlap or pressed on each other in the last substep."""
+    """Return whether a contact overlaps, or had a normal force in the last substep."""
     c = contact
     if c.separation_1 <= 0.0 or c.normal_force_1 > 0.0:
         return True
@@ -470,7 +483,7 @@ def is_touching(contact):
 
 @inlined
 def is_pressed(contact):
-    """Return whether two sides touch or have a normal impulse; a speculative contact may have neither."""
+    """Return whether a contact overlaps, or had a normal impulse in the step; a speculative contact may do neither."""
     c = contact
     if c.separation_1 <= 0.0 or c.normal_impulse_1 > 0.0:
         return True
@@ -486,10 +499,11 @@ def list_contact_edges(
     # write
     edges_out,
 ):
-    """List the contacts that link bodies, or that keep one awake, as edges between rows of BODY. Return their number.
+    """List the contacts that link bodies or keep a body awake, as graph edges between BODY rows. O(contacts).
 
-    Contacts link awake dynamic bodies that touch. A body beside a moving kinematic one stays awake, and so does, with
-    conveyor 1, a body on a moving surface. edges_out: room for two edges a contact. O(contacts).
+    Return the number of edges. Contacts link awake dynamic bodies that touch. A contact with a moving kinematic body
+    keeps the other body awake. With conveyor 1, a surface speed also keeps both bodies awake. edges_out: Edges with
+    room for two edges per contact.
     """
     found = 0
     for i in range(len(contacts)):
@@ -517,14 +531,14 @@ def list_contact_edges(
 
 @kernel
 def start_islands(rows, parents_out):
-    """Make each of the rows an island of its own. O(rows)."""
+    """Make each row of `rows` a separate island. O(rows)."""
     for k in range(len(rows)):
         parents_out[rows[k]] = rows[k]
 
 
 @inlined
 def way_from(body, x, y, angle):
-    """Return the greatest distance [px] that a point of a body may have moved from a pose; NaN if the pose has one."""
+    """Return an upper bound [px] for the motion of any point of a BODY row since another pose; NaN for a NaN pose."""
     return norm(body.x - x, body.y - y) + abs(body.angle - angle) * body.extent
 
 
@@ -544,12 +558,13 @@ def advance_sleep_times(
     excess_out,
     bodies_inout,
 ):
-    """Advance the sleep times of the awake bodies. Return (islands of awake dynamic bodies, whether one may be ready).
+    """Advance the sleep times and rocking times of awake bodies by dt [s]. O(rows + count).
 
-    A body starts again when it has moved further than in `patience` [s] at speed `slow` [px/s]. rocking_range [px]: see
-    settings.ROCKING_RANGE; the time of rocking advances beside. rows: the awake bodies;
-    edges, count, parents_inout: see graph.join. least_out, excess_out (bodies): at the root of each island the least
-    sleep time, and the sum of the squares of the speeds beyond that of `slow`. O(rows + count).
+    Return (number of islands of awake dynamic bodies, whether any body has a sleep time of at least `patience` [s]).
+    The sleep time restarts at 0 when a body has moved further than `slow` [px/s] times `patience` from its reference
+    pose. The rocking time restarts beyond rocking_range [px], see settings.ROCKING_RANGE. rows: rows of the awake
+    bodies; edges, count, parents_inout: see graph.join. At the root of each island, least_out (bodies) receives the
+    least sleep time [s] of its bodies, and excess_out (bodies) the sum of speed² - slow² over its bodies.
     """
     distance = slow * patience
     islands = 0
@@ -572,7 +587,7 @@ def advance_sleep_times(
         before = b.sleep_time
         far = way_from(b, b.still_x, b.still_y, b.still_angle) > distance
         b.sleep_time = 0.0 if far or not b.allow_sleep else before + dt
-        # A body that creeps more slowly than this stays near a reference pose that follows it.
+        # The reference pose is renewed once per sleep period, so that a slowly creeping body stays near it.
         times = b.sleep_time / patience
         if far or (abs(times) < COUNTED and math.floor(times) > math.floor(before / patience)):
             b.still_x = b.x
@@ -607,11 +622,11 @@ def fall_asleep(
     # write
     bodies_inout,
 ):
-    """Put the islands to sleep whose bodies have all stayed in place for `patience` [s]. Return the number of bodies.
+    """Put islands to sleep if all their bodies have stayed in place for `patience` [s]. O(rows).
 
-    The mean square speed of the island must not exceed that of the greatest sleep speed. So a few bodies may tremble,
-    and an island that has just begun to fall, or was pushed, stays awake. rows: the awake bodies; parents, least,
-    excess: see advance_sleep_times. O(rows).
+    Return the number of bodies that fell asleep. In addition, the mean square speed of the island must not exceed the
+    square of the sleep speed. So a few bodies may tremble, but an island that has just begun to fall, or was pushed,
+    stays awake. rows: rows of the awake bodies; parents, least, excess: see advance_sleep_times.
     """
     slept = 0
     for k in range(len(rows)):
@@ -622,7 +637,7 @@ def fall_asleep(
             b.vx = 0.0
             b.vy = 0.0
             b.angular_velocity = 0.0
-            b.previous_x = b.x  # else the body would count as moved, and wake
+            b.previous_x = b.x  # otherwise the body would count as moved
             b.previous_y = b.y
             b.previous_angle = b.angle
             slept += 1
@@ -638,7 +653,7 @@ class IslandWorkspace:
         self.edges = new_edges(32)
 
     def grow(self, bodies: int, contacts: int, joints: int) -> None:
-        """Enlarge the arrays; their contents are lost."""
+        """Enlarge the arrays for these numbers of bodies, contacts and joints. Their contents are lost."""
         if len(self.parents) < bodies:
             self.parents = np.zeros(2 * bodies, np.int32)
             self.least, self.excess = np.zeros(2 * bodies), np.zeros(2 * bodies)
@@ -693,7 +708,7 @@ class IslandWorkspace:
     ),
 )
 def rest(state: StepState) -> None:
-    """Put islands to sleep that have stayed in place for long enough; their contacts go with them."""
+    """Put islands to sleep that have stayed in place for long enough, and move them to the sleeping set."""
     awake, bodies, contacts, search = state.awake, state.bodies, state.contact_rows, state.workspace.islands
     if not len(awake.dynamic):
         return
@@ -739,9 +754,9 @@ def rest(state: StepState) -> None:
 
 
 def _park(state, slept):
-    """Move the islands of these rows to the sleeping set with their manifolds, and drop speculative contacts.
+    """Move the islands of these body rows to the sleeping set with their contacts, and drop speculative contacts.
 
-    Return the manifolds that were moved, in order, and the island of each.
+    Return (CONTACT rows that were moved, in the order of shape ids, key of the island of each).
     """
     bodies, m = state.bodies, state.contact_rows
     still = (bodies["kind"][m["body_row_a"]] != DYNAMIC) | ~bodies["awake"][m["body_row_a"]]
@@ -754,7 +769,7 @@ def _park(state, slept):
     kept = parking & touching
     fell_asleep, new = m[kept], new[kept]
     fell_asleep["can_recycle"] = False  # the other side may move meanwhile
-    # A body that is not dynamic is in no island, even if it was in one before its kind changed.
+    # A body that is not dynamic is in no island, even if BODY.island has a value from before its kind changed.
     sides = [
         np.where(bodies["kind"][fell_asleep[side]] == DYNAMIC, bodies["island"][fell_asleep[side]], -1)
         for side in ("body_row_a", "body_row_b")
