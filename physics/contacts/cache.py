@@ -14,41 +14,41 @@ from physics.tables.shape import BOUNDS, CHAIN, CIRCLE, MASK, TILES
 from physics.tables.step_state import StepState, stage
 
 # ---- cache -----------------------------------------------------------------------------------------------------------
-# The contact cache: the points of a manifold in the body spaces of both sides, and the frame its normal rotates with.
+# The contact cache: the points of a manifold in the body spaces of both sides, and the frame that rotates its normal.
 #
 # From the cache, update_contact computes points, normal and separations at any pose, without a new narrow phase. They
-# are exact to second order in the motion. The normal rotates with the side that has the reference face. A point stays
-# with its corner, on whichever side that is. The core of a shape is its outline without the rounding, of a circle its
-# centre.
+# are exact to second order in the motion. The normal rotates with the side that has the reference face. A point at a
+# corner follows the side with this corner. The core of a shape is its outline without the rounding; the core of a
+# circle is its centre.
 
-FACES = 1024  # smaller feature ids are of points on a face, see hulls.py
-SAME = 2.0**-20  # distance at which a point counts as a corner, as a share of the body's extent
+FACES = 1024  # smaller feature ids belong to points on a face, see hulls.py
+SAME = 2.0**-20  # distance below which a point counts as a corner, as a fraction of the body's extent
 
 
 @subkernel
 def core_radius(shape):
-    """Return the distance [px] from a shape's core to its surface: the radius of a circle, the rounding of a hull."""
+    """Return the distance [px] from the core of a SHAPE row to its surface: radius of a circle, rounding of a hull."""
     return shape.radius if is_hull(shape.kind) and shape.kind != BOUNDS else 0.0
 
 
 @subkernel
 def is_ground(shape):
-    """Return whether a shape is a tile grid or chain, whose feature ids include the run or link: hulls.part_feature."""
+    """Return whether a shape is a tile grid or chain: their feature ids have a number of the tile run or link added."""
     return shape.kind == TILES or shape.kind == CHAIN
 
 
 @subkernel
 def has_corners(shape):
-    """Return whether a shape has corners in geometry.polygons: it is a hull, but no box or circle."""
+    """Return whether a shape has corners in geometry.polygons: it is a hull, but not a BOUNDS or a circle."""
     return is_hull(shape.kind) and shape.kind != BOUNDS and shape.kind != CIRCLE
 
 
 @subkernel
 def frame_of(a, b, feature, radii):
-    """Return the frame that the normal of a contact rotates with as the bodies move.
+    """Return the frame with which the normal of a contact rotates: WITH_A, WITH_B, CORES or UPRIGHT.
 
-    WITH_A, WITH_B: body A or B; CORES: the line from A's core to B's; UPRIGHT: the normal never rotates. a, b: SHAPE
-    rows of the contact; feature: feature id of its first point; radii [px]: sum of both core radii.
+    WITH_A, WITH_B: body A or B; CORES: the line from A's core to B's core; UPRIGHT: the normal never rotates. a, b:
+    SHAPE rows; feature: feature id of the first point; radii [px]: sum of both core radii.
     """
     frame = WITH_B if a.kind == CIRCLE else WITH_A
     if a.kind != MASK and b.kind != MASK:
@@ -72,8 +72,8 @@ def frame_of(a, b, feature, radii):
 def is_corner(polygons, table, body, shape, corner, local_x, local_y):
     """Return whether a point is at a given corner of a hull's core.
 
-    polygons, table: geometry.polygons and geometry.corners; corner: index, the number of corners means the first one;
-    local_x, local_y [px]: the point in body space.
+    polygons, table: geometry.polygons and geometry.corners; body, shape: BODY and SHAPE row of the hull; corner: index
+    of the corner, an index that is too large means corner 0; local_x, local_y [px]: the point in body space.
     """
     span = polygons[shape.geometry]
     c = table[span.offset + (corner if corner < span.count else 0)]
@@ -82,21 +82,21 @@ def is_corner(polygons, table, body, shape, corner, local_x, local_y):
 
 @subkernel
 def core_in_body(body, turn, x, y, nx, ny, inside, behind):
-    """Move the world point (x, y) by two distances along the contact's axes, and return it in body space.
+    """Return a world point (x, y), displaced along the normal and the tangent of a contact, in the space of a body.
 
-    inside [px]: along the normal (nx, ny); behind [px]: along (ny, -nx), against the tangent; turn: (cosine, sine) of
-    the body's angle.
+    inside [px]: displacement along the normal (nx, ny); behind [px]: displacement along (ny, -nx), against the tangent;
+    turn: (cosine, sine) of the angle of the BODY row.
     """
     return rotate(x + inside * nx + behind * ny - body.x, y + inside * ny - behind * nx - body.y, turn[0], -turn[1])
 
 
 @subkernel
 def share_of(polygons, table, body_a, body_b, contact, a, b, second):
-    """Return which side a contact point follows as the sides slide along the face: 0 for A, 1 for B, 0.5 for both.
+    """Return which side a contact point follows when the sides slide along the face: 0 for A, 1 for B, 0.5 for both.
 
-    A point at a corner, or at the centre of a disc, follows that side. A point clipped by the end of a face follows the
-    face. contact: CONTACT row whose local points are already written; a, b: its SHAPE rows; second: whether it is the
-    second point; polygons, table: geometry.polygons and geometry.corners.
+    A point at a corner, or under a disc, follows the side with the corner or the disc. A point clipped by the end of a
+    face follows the side with the face. polygons, table: geometry.polygons and geometry.corners; body_a, body_b: BODY
+    rows; contact: CONTACT row with local points already written; a, b: SHAPE rows; second: True for the second point.
     """
     part = (contact.feature_2 if second else contact.feature_1) % PART
     if a.kind == MASK or b.kind == MASK:
@@ -134,8 +134,8 @@ def share_of(polygons, table, body_a, body_b, contact, a, b, second):
 def write_cache(polygons, table, bodies, shapes, contact_inout):
     """Write the cache fields of a CONTACT row that was detected at the present poses.
 
-    polygons, table: geometry.polygons and geometry.corners. The cached points of both sides are on their cores, because
-    a point on a round surface would rotate away with the spin of the body.
+    polygons, table: geometry.polygons and geometry.corners. The cached points are on the cores of both shapes, because
+    a point on a round surface would rotate away with the body.
     """
     c = contact_inout
     a, b = bodies[c.body_row_a], bodies[c.body_row_b]
@@ -187,21 +187,21 @@ def reset_impulses(contact_out):
 
 @kernel
 def write_caches(geometry, bodies, shapes, contacts_inout):
-    """Write the cache fields of contacts that were detected at the present poses, with all forces 0. O(contacts)."""
+    """Write the cache fields of contacts detected at the present poses, and clear all forces. O(contacts)."""
     for i in range(len(contacts_inout)):
         reset_impulses(contacts_inout[i])
         write_cache(geometry.polygons, geometry.corners, bodies, shapes, contacts_inout[i])
 
 
 # ---- update ----------------------------------------------------------------------------------------------------------
-# Update of contacts to moved bodies: points, normal and separations at any pose, from the cache.
+# Update of contacts after a motion of their bodies: points, normal and separations at any pose, from the cache.
 
 
 @inlined
 def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
-    """Return the world position [px] of a contact's point on A's core, and that of B's core relative to it [px].
+    """Return (ax, ay, dx, dy) [px]: a contact's point on A's core in the world, the vector to the point on B's core.
 
-    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of their angles; local_ax … local_by [px]: the points in body space.
+    a, b: BODY rows; turn_a, turn_b: (cosine, sine) of the angles; local_ax … local_by [px]: the points in body space.
     """
     ax, ay = rotate(local_ax, local_ay, turn_a[0], turn_a[1])
     bx, by = rotate(local_bx, local_by, turn_b[0], turn_b[1])
@@ -212,13 +212,13 @@ def cores_at(a, turn_a, b, turn_b, local_ax, local_ay, local_bx, local_by):
 
 @inlined
 def clipped_gap(gap, core, other, apart, with_a, normal, wander):
-    """Return (corrected gap [px] between the cores at a clipped contact point, whether it differs from `gap`).
+    """Return (corrected gap [px] between the cores at a clipped contact point, whether it was corrected).
 
-    A point clipped by the end of a face moves along the incident edge as the sides slide, which changes the gap. The
-    incident edge is the line through both core points of the side without the face. gap [px]: before the correction;
-    core [px]: B's core point relative to A's; other [px]: the same for the other contact point; apart [px]: A's core
-    point of the other contact point relative to this one's; with_a: whether the face is A's; wander [px]: smaller
-    corrections are omitted.
+    A point clipped by the end of a face moves along the incident hull edge when the sides slide, which changes the gap.
+    The incident edge is the line through both core points of the side without the face. gap [px]: gap before the
+    correction; core [px]: vector from A's core point to B's core point; other [px]: the same vector for the other
+    contact point; apart [px]: vector from A's core point of this contact point to A's core point of the other contact
+    point; with_a: whether A has the face; wander [px]: smaller corrections are omitted.
     """
     nx, ny = normal
     edge_x = apart[0] + (other[0] - core[0] if with_a else 0.0)
@@ -226,7 +226,7 @@ def clipped_gap(gap, core, other, apart, with_a, normal, wander):
     along = edge_y * nx - edge_x * ny
     across = edge_x * nx + edge_y * ny
     rise = (core[1] * nx - core[0] * ny) * across
-    # An edge that is too steep is not the one along the face.
+    # A hull edge that is steep against the face is not the incident edge.
     if abs(across) >= abs(along) or along == 0.0 or abs(rise) <= wander * abs(along):
         return gap, False
     return gap - rise / along, True
@@ -234,16 +234,16 @@ def clipped_gap(gap, core, other, apart, with_a, normal, wander):
 
 @inlined
 def is_clipped(contact, share):
-    """Return whether a contact point is clipped by the end of a face; share: of the point, see share_of."""
+    """Return whether a contact point is clipped by the end of a face. share: share_of the point."""
     return (contact.frame == WITH_A and share == 0.0) or (contact.frame == WITH_B and share == 1.0)
 
 
 @inlined
 def point_of(ax, ay, dx, dy, normal, gap, share, radii):
-    """Return a contact point and its separation: (x, y, separation) [px].
+    """Return (x, y, separation) [px] of a contact point.
 
-    ax, ay, dx, dy [px]: result of cores_at; gap [px]: between the cores along the normal, corrected by clipped_gap;
-    share: see share_of; radii: core radii of A and B [px].
+    ax, ay, dx, dy [px]: result of cores_at; gap [px]: gap between the cores along the normal, corrected by clipped_gap;
+    share: see share_of; radii [px]: core radii of A and B.
     """
     nx, ny = normal
     radius_a, radius_b = radii
@@ -258,9 +258,9 @@ def point_of(ax, ay, dx, dy, normal, gap, share, radii):
 def update_contact(a, turn_a, b, turn_b, wander, contact_inout):
     """Write the points, normal and separations [px] of a contact at the present poses, from its cache.
 
-    Return (greatest relative motion of a point since detection, along the face or the normal [px]; motion of a round
-    side around a corner [px]; whether a clipped point was corrected, see clipped_gap). a, b: BODY rows; turn_a, turn_b:
-    (cosine, sine) of their angles; wander [px]: least correction of a clipped point, infinite for none.
+    Return (greatest relative motion [px] of a point since detection, along the face or the normal; motion [px] of a
+    round side around a corner; whether a clipped point was corrected, see clipped_gap). a, b: BODY rows; turn_a,
+    turn_b: (cosine, sine) of the angles; wander [px]: least correction of a clipped point, infinite for no correction.
     """
     c = contact_inout
     two = c.count == 2
@@ -322,8 +322,8 @@ def update_contacts(bodies, contacts_inout):
 
 
 # ---- recycle ---------------------------------------------------------------------------------------------------------
-# Contact recycling: a manifold of the last step is updated and used again, without a new narrow phase. Whether this is
-# possible is tested at the end of a step for the next one, and at its beginning for bodies moved in between.
+# Contact recycling: a manifold of the last step is updated and used again, without a new narrow phase. The test whether
+# this is possible runs at the end of a step for the next step, and again at the start for bodies that moved meanwhile.
 #
 # Source: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 
@@ -340,11 +340,11 @@ def is_finite(contact):
 
 @inlined
 def recycle_distance(contact, distance):
-    """Return the largest relative motion [px] of a contact's points since detection with which it can be recycled.
+    """Return the greatest relative motion [px] since detection up to which a contact may be recycled.
 
-    It is `distance` [px]. For a loaded contact of two sharp faces it is RECYCLE_MOVE times that, because their points
-    are updated exactly, unless the face is short. An unloaded contact is detected again earlier, to find the shortest
-    way out of an overlap.
+    The result is `distance` [px], or RECYCLE_MOVE times `distance` for a loaded contact with two points and without
+    roundings: its points are updated exactly. Exception: points too close together, see RECYCLE_SHARE. An unloaded
+    contact is detected again earlier, to find the shortest way out of an overlap.
     """
     c = contact
     loaded = c.normal_force_1 > 0.0 or c.normal_force_2 > 0.0
@@ -359,9 +359,9 @@ def recycle_distance(contact, distance):
 def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
     """Update a contact to the present poses, and return whether it can be recycled.
 
-    It can if no point has moved by more than recycle_distance, no point by more than `distance` [px] through relative
+    This is the case if points have moved by at most recycle_distance, by at most `distance` [px] through relative
     rotation, and the correction of clipped points is at most `wander` [px]. a, b: BODY rows; turn_a, turn_b: (cosine,
-    sine) of their angles.
+    sine) of the angles.
     """
     c = contact_inout
     moved, rolled, wandered = update_contact(a, turn_a, b, turn_b, wander, c)
@@ -376,13 +376,13 @@ def can_recycle(shapes, a, turn_a, b, turn_b, distance, wander, contact_inout):
 
 @inlined
 def is_settled(body):
-    """Return whether a body has the pose for which its centre of mass was last computed; body: BODY row."""
+    """Return whether a BODY row has the pose for which its centre of mass was last computed."""
     return body.x == body.settled_x and body.y == body.settled_y and body.angle == body.settled_angle
 
 
 @inlined
 def is_unmoved(body):
-    """Return whether a body has the pose to which the last step updated its contacts; body: BODY row.
+    """Return whether a BODY row still has the pose to which the last step updated its contacts.
 
     Moving a body through the API clears has_current_contacts. A direct write to the table is detected by the pose.
     """
@@ -390,17 +390,17 @@ def is_unmoved(body):
 
 
 # ---- final poses -----------------------------------------------------------------------------------------------------
-# Final poses of a step in a world with a stacking solver: AABBs, rasters and contacts are updated to them.
+# Update of AABBs, rasters and contacts to the final poses of a step, in a world with a stacking solver.
 #
-# Solvers, sweeps and characters move bodies one after the other. Reports, sensors and sleeping use the state after all
-# of them. Contacts are updated from the cache, without a second detection.
+# Solver, sweep and characters move the bodies one after another. Reports, sensors and sleeping use the state after all
+# of these. Contacts are updated from the cache, without a second detection.
 
 
 @subkernel
 def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
     """Update all contacts to the present poses, and flag those that can be recycled in the next step. O(contacts).
 
-    distance [px]: see can_recycle. has_current_contacts of their bodies is set, too.
+    Also write BODY.has_current_contacts of the bodies in contact. distance [px]: see can_recycle.
     """
     row_a, row_b = -1, -1
     turn_a = (1.0, 0.0)
@@ -427,7 +427,7 @@ def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
 def update_final_poses(shape_rows, geometry, distance, bodies_inout, shapes_inout, contacts_inout):
     """Update the AABBs of these shapes, and all contacts, to the present poses. O(rows + contacts).
 
-    shape_rows: of SHAPE; distance [px]: see can_recycle.
+    shape_rows: SHAPE rows; distance [px]: see can_recycle.
     """
     refresh_boxes(shape_rows, geometry, bodies_inout, shapes_inout)
     update_and_flag(shapes_inout, distance, bodies_inout, contacts_inout)
@@ -448,9 +448,9 @@ def update_contacts_at_final_poses(state: StepState) -> None:
 
 
 def shift_center(contacts: np.ndarray, identity: int, dx: float, dy: float) -> None:
-    """Update the contact caches of a body after a move of its centre of mass within the body, as by carving.
+    """Update cached contacts after the centre of mass of a body has moved within the body, for example by carving.
 
-    identity: body id; dx, dy [px]: the move, in world axes.
+    contacts: CONTACT rows; identity: body id; dx, dy [px]: displacement of the centre of mass, in world axes.
     """
     for name, sign in (("body_a", -1.0), ("body_b", 1.0)):
         rows = contacts[name] == identity

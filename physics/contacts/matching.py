@@ -29,16 +29,16 @@ from physics.tables.table import joined, rows_of, zeros_in_lines
 NO_CONTACTS, NO_ROWS = np.zeros(0, CONTACT), np.zeros(0, np.int32)
 
 # ---- matching --------------------------------------------------------------------------------------------------------
-# Matching of contacts with those of the last step: a new contact takes over the impulses (warm start).
+# Matching of new contacts with contacts of the last step: a new contact takes over the cached forces (warm start).
 
 LARGEST_FORCE = 1e100  # a larger or non-finite cached force is reset to 0
 
 
 @subkernel
 def transfer_impulses(previous, first, contact_inout):
-    """Copy the cached forces of the last step to those points of a new contact that have the same feature id.
+    """Copy the cached forces of the last step to the points of a new contact, by equal feature id.
 
-    previous: CONTACT rows of the last step; first: the first of these rows of the same pair.
+    previous: CONTACT rows of the last step; first: index in previous of the first row of the same pair of shapes.
     """
     c = contact_inout
     for point in range(c.count):
@@ -66,7 +66,7 @@ def transfer_impulses(previous, first, contact_inout):
 
 @inlined
 def touches(contact):
-    """Return whether a contact of the last step had an impulse, or overlapped without approaching; a CONTACT row."""
+    """Return whether a CONTACT row of the last step had an impulse, or overlapped without approaching."""
     c = contact
     pushed = c.normal_impulse_1 + c.normal_impulse_2 > 0.0
     first = c.separation_1 <= 0.0 and c.speed_1 <= 0.0
@@ -75,9 +75,9 @@ def touches(contact):
 
 @inlined
 def begin_step(geometry, p, q, a, b, contact_inout):
-    """Prepare a contact for a new step: zero its impulses and colour, write mixed materials and closing speeds.
+    """Prepare a contact for a new step: reset impulses and colour, write mixed materials and closing speeds.
 
-    p, q: BODY rows of A and B; a, b: their SHAPE rows.
+    p, q: BODY rows of A and B; a, b: SHAPE rows of A and B.
     """
     c = contact_inout
     c.normal_impulse_1, c.tangent_impulse_1 = 0.0, 0.0
@@ -87,7 +87,7 @@ def begin_step(geometry, p, q, a, b, contact_inout):
     if not forces + abs(c.rolling_force) < LARGEST_FORCE:
         reset_impulses(c)
     c.friction, c.restitution, rolling_resistance, surface_speed = mixed(geometry, a, b, c)
-    # No other field of this cache line is written: unchanged values need not go back to memory.
+    # If these values are unchanged, no field of this cache line is written, and it needs no transfer to memory.
     if c.rolling_resistance != rolling_resistance or c.surface_speed != surface_speed:
         c.rolling_resistance = rolling_resistance
         c.surface_speed = surface_speed
@@ -98,9 +98,10 @@ def begin_step(geometry, p, q, a, b, contact_inout):
 def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_out):
     """Merge recycled and newly detected contacts into contacts_out. Return their number. O(previous + found).
 
-    previous, found: CONTACT rows of the last step and of this one, each in the order of the candidates, as is the
-    result; stale (any,): int32 rows of `previous` that are not recycled, ascending. A new contact takes over the forces
-    of points with the same feature id. If found.previous is not -1, the row is a recycled contact and keeps its cache.
+    previous: CONTACT rows of the last step; found: CONTACT rows of this step. Both, and the result, are in the order of
+    the candidate pairs. stale: int32 rows of `previous` that are not recycled, ascending. A new contact takes over the
+    forces of points with the same feature id. If found.previous is not -1, the row is a recycled contact and keeps its
+    cache.
     """
     count = 0
     kept = 0
@@ -140,9 +141,9 @@ def match_contacts(geometry, bodies, shapes, previous, stale, found, contacts_ou
 
 @kernel
 def copy_recycled(previous, stale, contacts_out):
-    """Copy the manifolds of all contacts of the last step except the stale ones. O(previous).
+    """Copy the manifolds of all contacts of the last step except the stale rows. O(previous).
 
-    stale (any,): int32 rows of `previous`, ascending.
+    stale: int32 rows of `previous`, ascending.
     """
     count = 0
     passed = 0
@@ -155,7 +156,7 @@ def copy_recycled(previous, stale, contacts_out):
 
 
 # ---- recycling -------------------------------------------------------------------------------------------------------
-# Contacts of the last step that are used again, because their bodies have hardly moved relative to each other.
+# Contacts of the last step are used again if their bodies have hardly moved relative to each other.
 #
 # Source: Catto, Box2D v3, contact recycling; Coumans, Bullet, persistent manifolds.
 
@@ -164,7 +165,7 @@ def copy_recycled(previous, stale, contacts_out):
 def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
     """Write the fields of a recycled contact that may have changed since the last step: table rows, candidate, flags.
 
-    a, b: SHAPE rows of A and B, at the row numbers row_a and row_b; candidate: index of the pair; place: row of the
+    a, b: SHAPE rows of A and B; row_a, row_b: numbers of these rows; candidate: index of the pair; place: row of the
     contact in the last step.
     """
     c = contact_inout
@@ -179,14 +180,14 @@ def refresh_recycled(a, b, row_a, row_b, candidate, place, contact_inout):
 
 @kernel
 def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, stale_out, work_inout):
-    """Classify the pairs without sensors (see classify), and recycle the contacts of the last step where possible.
+    """Classify the pairs without sensors (see kind_asked), and recycle contacts of the last step if possible.
 
-    If both bodies of a contact have not moved since the last step, the flag can_recycle of that step decides. Otherwise
-    the contact is tested now, with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids
-    like the candidates; recycled ones are updated to the present poses. A pair whose contacts are recycled gets the
-    kind NOTHING in kinds_out, and is not counted. stale_out (previous,): int32 rows that are not recycled, which
-    include all contacts of masks. Return (number of stale rows, number of pairs left to test plus pairs with a part).
-    O(candidates + contacts).
+    Return (number of stale rows, number of pairs left to test plus number of pairs with a part). If neither body of a
+    contact has moved since the last step, CONTACT.can_recycle of that step decides. Otherwise the contact is tested
+    now, with `distance` [px]. previous_inout: CONTACT rows of the last step, sorted by shape ids like the candidates;
+    recycled rows are updated to the present poses. A pair whose contacts are recycled gets the kind NOTHING in
+    kinds_out, and is not counted in counts_out. stale_out (previous,): int32 rows that are not recycled; all contacts
+    of masks are among these. O(candidates + contacts).
     """
     bodies = batch.bodies
     shapes = batch.shapes
@@ -227,7 +228,7 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
                 fits = not c.swept and can_recycle(shapes, p, turn_p, q, turn_q, distance, math.inf, c)
             last += 1
         if not fits:
-            continue  # the next candidate skips its rows
+            continue  # the next candidate lists the rows of this pair as stale
         for k in range(j, last):
             refresh_recycled(a, b, candidates[i, 0], candidates[i, 1], i, k, previous_inout[k])
             begin_step(batch.geometry, p, q, a, b, previous_inout[k])
@@ -251,19 +252,19 @@ def recycle_contacts(batch, distance, previous_inout, kinds_out, counts_out, sta
 class Found(NamedTuple):
     """Result of ContactCache.find: contacts found in a step, and rows of the last step that are not recycled."""
 
-    rows: np.ndarray  # CONTACT, in the order of their candidates; valid until the next call
+    rows: np.ndarray  # CONTACT rows in the order of the candidate pairs; valid until the next call
     stale: np.ndarray  # int32 rows of the last step that are not recycled, ascending
 
 
 class ContactCache:
-    """Reusable tables for the contacts of one world: one for the present contacts, one for those of the next step."""
+    """Two reusable tables for the contacts of one world: the present contacts, and the contacts of the next step."""
 
     def __init__(self) -> None:
         self.tables = [zeros_in_lines(16, CONTACT) for _ in range(2)]
         self.stale = np.zeros(64, np.int32)
 
     def room_beside(self, contacts: np.ndarray, count: int) -> np.ndarray:
-        """Return a table with room for `count` rows that is not the one of `contacts`, the present contacts."""
+        """Return a table with room for `count` rows, other than the table of the present contacts, `contacts`."""
         if contacts.base is self.tables[0].base:
             self.tables.reverse()
         if len(self.tables[0]) < count:
@@ -273,10 +274,11 @@ class ContactCache:
     def find(
         self, narrow: NarrowPhase, batch: Batch, previous: np.ndarray, distance: float, work: np.ndarray
     ) -> Found | None:
-        """Find the contacts of pairs without sensors, but recycle those whose points moved by at most `distance` [px].
+        """Find the contacts of pairs without sensors, and recycle contacts of the last step if possible.
 
-        previous: CONTACT rows of the last step; recycled ones are updated in place. Return the new contacts and the
-        rows of `previous` that are not recycled, or None if all are recycled and there is nothing to test.
+        Return the new contacts and the rows of `previous` that are not recycled; None if all rows are recycled and no
+        pair is left to test. batch: candidate pairs; previous: CONTACT rows of the last step, recycled rows are updated
+        in place; distance [px]: see recycle_contacts.
         """
         if len(self.stale) < len(previous):
             self.stale = np.zeros(2 * len(previous), np.int32)
@@ -288,7 +290,7 @@ class ContactCache:
         stale = self.stale[:stale_count]
         recycled = 0
         if stale_count < len(previous) and narrow.counts[WITH_CHILD]:
-            # The contact of a part depends on those of the other parts of its shape: all contacts are sorted together.
+            # Contacts of the parts of one shape depend on each other, so all contacts are completed together.
             recycled = len(previous) - stale_count
             copy_recycled(previous, stale, narrow.room_for(recycled))
             stale = self._all_stale(previous)
@@ -305,7 +307,7 @@ class ContactCache:
     writes=("contact_rows", "work", "workspace"),
 )
 def find_contacts(state: StepState) -> None:
-    """Find the contacts at the start of the step, up to the speculative distance, with cached forces."""
+    """Find or recycle the contacts at the start of the step, up to the speculative distance, with cached forces."""
     if not len(state.awake.bodies):
         state.contact_rows = NO_CONTACTS
         return
@@ -334,10 +336,10 @@ def find_contacts(state: StepState) -> None:
 
 
 # ---- replaced shapes -------------------------------------------------------------------------------------------------
-# Contact forces when a shape is replaced: they are transferred where the new surface coincides with the old one.
+# Replacement of a shape: contact forces are transferred to the new shape where its surface coincides with the old one.
 #
 # Feature ids are valid for one shape only, so no cached contact matches a contact of the new shape. Contacts of the new
-# shape are detected at once. Each new point takes the forces of the old point at the same place with the same normal.
+# shape are detected immediately. Each new point takes the forces of the old point at the same place and normal.
 
 # Smallest cosine between normals that count as equal: smoothing the new outline may rotate them slightly.
 ALIKE = 0.9
@@ -346,7 +348,7 @@ ALIKE = 0.9
 class KeptImpulses:
     """Contacts of shapes that are about to be replaced, kept to transfer their forces to the new shapes.
 
-    rows: of SHAPE, about to be removed. In worlds without a contact cache nothing is kept.
+    rows: SHAPE rows about to be removed. In worlds without a contact cache nothing is kept.
     """
 
     def __init__(self, tables: WorldTables, rows: np.ndarray) -> None:
@@ -355,8 +357,8 @@ class KeptImpulses:
         if len(rows) and tables.stacks and len(found):
             going = np.zeros(len(tables.shapes), bool)
             going[rows] = True
-            # Contacts hold the SHAPE rows of the last step. They are valid: new shapes are appended after these rows,
-            # and the contacts of removed shapes are removed, too.
+            # Contacts hold the SHAPE row numbers of the last step, which are valid: new shapes are appended after them,
+            # and contacts of removed shapes are also removed.
             at_a = going[found["row_a"]]
             kept = np.flatnonzero(at_a | going[found["row_b"]])
             if len(kept):
@@ -364,9 +366,9 @@ class KeptImpulses:
                 self.others = np.unique(np.where(at_a, found["shape_b"], found["shape_a"])[kept])
 
     def transfer(self, tables: WorldTables, new: np.ndarray) -> None:
-        """Detect the contacts of new shapes, and give them the kept forces. O(pairs).
+        """Detect the contacts of new shapes with the former partners, and copy the kept forces to them. O(pairs).
 
-        new: rows of SHAPE. Call it after the old shapes are removed.
+        new: SHAPE rows. Call this method after the removal of the old shapes.
         """
         if not len(self.contacts):
             return
@@ -399,10 +401,10 @@ class KeptImpulses:
         tables.contact_rows = known[order_of(known)]
 
     def _stood_on(self, shapes, pairs):
-        """Return CONTACT rows that count as contacts of the last step between new one-way surfaces and touching bodies.
+        """Return CONTACT rows that count as contacts of the last step, for the pairs with a Chain.
 
-        With them a body that stood on the old surface stays on the new one, however deep it is. pairs (n, 2): SHAPE
-        rows.
+        With these rows a body that stood on an old one-way surface is held by the new surface, at any depth. pairs
+        (n, 2): SHAPE rows.
         """
         some = shapes[pairs[(shapes["kind"][pairs] == CHAIN).any(axis=1)]]
         found = np.zeros(len(some), CONTACT)
@@ -412,7 +414,7 @@ class KeptImpulses:
     def _take(self, contact, k, reach):
         """Copy the forces of the nearest kept point with a similar normal to point k (1 or 2) of a new contact.
 
-        Points further away than reach [px] do not count.
+        Kept points further away than reach [px], and contacts of other pairs of bodies, do not count.
         """
         old = self.contacts
         same = (old["body_a"] == contact["body_a"]) & (old["body_b"] == contact["body_b"])
