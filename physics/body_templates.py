@@ -1,8 +1,8 @@
-"""Rows of bodies that were added before: a body with the same shapes and values takes copies of them.
+"""Templates: copies of the rows of an added body, reused for further bodies with the same shapes and values.
 
-add_rows of edit.py checks all arguments and computes the rows of a body: mass, geometry, planes of the broad phase. All
-but its pose and velocity is the same for the next body of this kind. A template keeps it, so that only pose and
-velocity are checked and written. Anything unusual goes through add_rows, which raises the errors.
+add_rows of edit.py checks all arguments and computes the rows of a body: mass, geometry, planes of the broad phase. For
+a further body with equal arguments only pose and velocity differ. A template keeps the other values, so that only pose
+and velocity are checked and written. Unusual arguments go through add_rows, which raises the errors.
 """
 
 from collections.abc import Sequence
@@ -18,24 +18,24 @@ from physics.shapes.shape import Filter, Material, Shape
 from physics.tables.body import DYNAMIC, STATIC
 from physics.world_state import WorldState
 
-MOST = 64  # templates of a world: a program that never adds an equal body twice shall not fill the memory
-MOST_SHAPES = 2**30  # ids beyond are left to add_rows, which counts what is left
+MOST = 64  # greatest number of templates of a world, a bound of memory for programs that never add equal bodies
+MOST_SHAPES = 2**30  # beyond this shape id add_rows is used, which checks the number of remaining ids
 NUMBERS = (float, int, type(None))
 PROXY_VALUES = ("membership", "mask", "plane", "avoids")
 POSE = tuple((name, kept + name) for kept in ("previous_", "still_", "rocking_") for name in ("x", "y", "angle"))
 
 
 class Template(NamedTuple):
-    """The rows of a body, without pose and velocity, and the state of the world on which they depend."""
+    """The rows of a body, and the state of the world on which they depend. Pose and velocity are replaced."""
 
     effects: Effects
     sleeps: bool
     library: Library
     is_static: bool
     is_dynamic: bool
-    body: np.void  # a BODY row, a BODY_DEF row, …
-    definition: np.void
-    shapes: list[tuple[np.void, int, dict[str, int]]]  # … SHAPE rows with the offset of the parent, values of the proxy
+    body: np.void  # BODY row
+    definition: np.void  # BODY_DEF row
+    shapes: list[tuple[np.void, int, dict[str, int]]]  # SHAPE row, index of the parent, values of the proxy; each shape
 
 
 def key_of(
@@ -51,7 +51,7 @@ def key_of(
     gravity_scale: Any,
     allow_sleep: Any,
 ) -> tuple | None:
-    """Return the key of a template from arguments of add_body; None if one of them has an unusual type."""
+    """Return the key of a template from arguments of add_body; None if an argument has an unusual type."""
     plain = (
         type(kind) is type(continuous) is str
         and type(sensor) is type(bullet) is type(fixed_rotation) is type(allow_sleep) is bool
@@ -67,10 +67,10 @@ def key_of(
 
 
 def find(world: WorldState, key: tuple | None) -> Template | None:
-    """Return the template of a key if it fits the world as it is now, else None."""
+    """Return the template of a key if it fits the present effects, library and sleeping of the world, else None."""
     try:
         found = world._templates.get(key)
-    except TypeError:  # a value that cannot be hashed is no shape
+    except TypeError:  # an argument is not hashable, so it is not a Shape
         found = None
     if found is None or found.library is not world.library or found.effects is not world.effects:
         return None
@@ -78,7 +78,7 @@ def find(world: WorldState, key: tuple | None) -> Template | None:
 
 
 def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
-    """Keep the rows of the body that was added last as a template."""
+    """Store the rows of the last added body as the template of a key. Nothing is stored for the key None."""
     if key is None or not all(shape._may_turn for shape in shapes):
         return
     at, kind = world._bodies.count - 1, world.bodies["kind"][-1]
@@ -99,7 +99,7 @@ def keep(world: WorldState, key: tuple | None, shapes: Sequence[Shape]) -> None:
 def add_like(
     world: WorldState, template: Template, shapes: tuple, position: Vec2, velocity: Vec2, angle: float, spin: float
 ) -> int:
-    """Add a body with the rows of a template, and return its id; -1, with nothing added, where add_rows is needed."""
+    """Add a body with the rows of a template. Return its id; -1 if nothing was added because add_rows is needed."""
     parts, free = template.shapes, world.pairs.free
     moves = spin != 0.0 or velocity != (0.0, 0.0)
     if template.is_static and moves or (spin != 0.0 and not template.effects.rotation):
@@ -130,7 +130,7 @@ def add_like(
 
 
 def _add_shapes(world, parts, identity, at):
-    """Append the SHAPE rows of a body, and add their proxies."""
+    """Append the SHAPE rows of a body, by id and row, and add their proxies. parts: see Template.shapes."""
     pairs, first = world.pairs, world._next_shape
     world._next_shape += len(parts)
     for number, (row_bytes, parent, values) in enumerate(parts):

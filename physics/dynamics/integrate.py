@@ -28,15 +28,14 @@ BOTH = (False, True)
 def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) -> Callable:
     """Return the kernel that integrates the velocities of dynamic bodies in a world with these effects.
 
-    Wind adds an acceleration drag_rate · wind; with drag too, bodies approach the velocity of the wind.
+    Wind adds the acceleration drag_rate · wind. With both wind and drag, bodies approach the velocity of the wind.
     """
 
     @kernel
     def integrate_velocities(rows, gravity_x, gravity_y, drag_rate, wind_x, wind_y, dt, bodies_inout):
-        """Add gravity [px/s2], accumulated forces, and drag [1/s] towards the wind [px/s] over dt [s] to the
-        velocities.
+        """Integrate velocities over dt [s], and clear the accumulated forces. O(rows).
 
-        rows: body rows. The accumulated forces are cleared. O(rows).
+        rows: body rows; gravity_x, gravity_y [px/s2]; drag_rate [1/s]; wind_x, wind_y [px/s].
         """
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
@@ -64,14 +63,13 @@ def make_velocity_pass(gravity: bool, drag: bool, wind: bool, rotation: bool) ->
 
 
 def make_position_pass(rotation: bool) -> Callable:
-    """Return the kernel that integrates poses of moving bodies. rotation: bodies turn about their centres of mass."""
+    """Return the kernel that integrates the poses of bodies, with or without rotation about their centres of mass."""
 
     @kernel
     def integrate_positions(rows, dt, bodies_inout, work_inout):
-        """Move bodies by their velocities over dt [s], up to their first impact, and store their poses before as
-        previous ones.
+        """Move bodies by their velocities over dt [s], up to their first impact, and store the old poses. O(rows).
 
-        rows: body rows. The field `fraction` of a body is the share of its motion before the impact. O(rows).
+        rows: body rows. BODY.fraction is the fraction of the motion before the impact.
         """
         for k in range(len(rows)):
             b = bodies_inout[rows[k]]
@@ -98,7 +96,7 @@ def make_position_pass(rotation: bool) -> Callable:
 def put_center(u, v, body_inout):
     """Write the world centre of mass of a BODY row, at offset (u, v) [px] from its origin.
 
-    The pose is also stored as the settled one, the last finite pose, if it is finite.
+    A finite pose is also stored as the settled pose, which is the last finite pose. has_current_contacts is cleared.
     """
     b = body_inout
     b.center_x, b.center_y = b.x + u, b.y + v
@@ -128,7 +126,10 @@ def refresh_centers(rows, bodies_inout):
 
 
 def write_center(bodies: Table, at: int) -> None:
-    """Write the centre of mass of a body, by row, and its last finite pose, as refresh_centers."""
+    """Write the centre of mass of the BODY row `at`, and its last finite pose, as refresh_centers does.
+
+    Single numbers are faster by memory views, so the kernel is only called for a rotated body.
+    """
     columns = bodies.columns
     x, y, angle = columns["x"][at], columns["y"][at], columns["angle"][at]
     if angle != 0.0:
@@ -143,7 +144,7 @@ def write_center(bodies: Table, at: int) -> None:
         columns["settled_x"][at], columns["settled_y"][at], columns["settled_angle"][at] = x, y, angle
 
 
-# One pass per combination of the effects it depends on; made here, compiled on first use.
+# One pass for each combination of the effects on which it depends. Passes are compiled on first use.
 VELOCITIES = {
     (g, d, w, r): make_velocity_pass(gravity=g, drag=d, wind=w, rotation=r)
     for g in BOTH
@@ -160,7 +161,7 @@ POSITIONS = {r: make_position_pass(rotation=r) for r in BOTH}
     writes=tuple(f"bodies.{name}" for name in ("vx", "vy", "angular_velocity", "force_x", "force_y", "torque")),
 )
 def integrate_velocities(state: StepState) -> None:
-    """Integrate velocities from forces."""
+    """Integrate the velocities of awake bodies from forces, gravity, drag and wind."""
     e = state.effects
     integrate = VELOCITIES[e.gravity, e.drag, e.wind, e.rotation]
     integrate(state.awake.bodies, *state.gravity, state.drag, *state.wind, state.dt, state.bodies)
@@ -175,7 +176,7 @@ def integrate_velocities(state: StepState) -> None:
     ),
 )  # fmt: skip
 def integrate_positions(state: StepState) -> None:
-    """Integrate poses from velocities, up to the first impact of each body; update AABBs, and rasters of masks."""
+    """Integrate the poses of awake bodies up to their first impacts, and update AABBs and rasters of masks."""
     rows, bodies = state.awake.bodies, state.bodies
     POSITIONS[state.effects.rotation](rows, state.dt, bodies, state.work)
     refresh_centers(rows, bodies)
@@ -184,23 +185,24 @@ def integrate_positions(state: StepState) -> None:
 
 def place_shapes(state: StepState) -> None:
     """Update the AABBs, and rasters of masks, of awake bodies to their present poses."""
-    # A body that was stopped by a sweep, or rotated by the solver, may be at an angle without a raster.
+    # A body that a sweep stopped, or that a solver rotated, may be at an angle without a raster.
     add_missing_rasters(state.library, state.awake.shapes, state.bodies, state.shapes, 0.0)
     refresh_aabbs(state.awake.shapes, state.library.tables, state.bodies, state.shapes)
 
 
 def shift_bodies(bodies: np.ndarray, rows: np.ndarray, moves: np.ndarray) -> None:
-    """Move the bodies of these rows by (n, 2) [px], without rotation and without an update of their shapes."""
+    """Translate the bodies of rows (n,) by moves (n, 2) [px], without an update of their shapes."""
     for column, axis in enumerate("xy"):
         bodies[axis][rows] += moves[:, column]
         bodies[f"center_{axis}"][rows] += moves[:, column]
 
 
 # ---- quarantine ------------------------------------------------------------------------------------------------------
-# The quarantine stage: bodies that a step cannot use are disabled before they affect others, and reported by id.
+# The quarantine stage: bodies with numbers that a step cannot use are disabled before they affect other bodies, and are
+# reported by id.
 #
-# A number that is not finite spreads through a contact to a neighbour, and from there to a whole heap. So every number
-# that a step reads of a body, a shape or a character is checked before the first stage that reads it.
+# A number that is not finite spreads through contacts to neighbours, and so to a whole heap. So every number of a body,
+# shape or character that a step reads is checked before the first stage that reads it.
 
 NOT_FINITE, BAD_SHAPE, TURNED, BAD_WALK = range(4)
 REASONS = (
@@ -210,7 +212,7 @@ REASONS = (
     "a number of its character is not finite",
 )
 NO_ROWS = np.zeros(0, np.int64)
-LARGEST = 1e100  # of inverse masses and of surface values: products of two larger ones overflow a double
+LARGEST = 1e100  # bound of inverse masses and surface values: products of larger values may overflow a double
 REST = ("previous_x", "previous_y", "previous_angle", "vx", "vy", "angular_velocity", "force_x", "force_y", "torque")
 READS = (
     "bodies", "shapes", "awake", "sleeping_set", "pairs", "contact_rows", "touching_pairs", "sensing_pairs",
@@ -227,7 +229,7 @@ WRITES = (
 
 @subkernel
 def disable_body(body_inout):
-    """Quarantine a body at its present pose: at rest and without forces."""
+    """Quarantine a body at its present pose, and clear its velocity and forces."""
     b = body_inout
     b.previous_x, b.previous_y = b.x, b.y
     b.previous_angle = b.angle
@@ -239,15 +241,15 @@ def disable_body(body_inout):
 
 @subkernel
 def is_within_limits(body):
-    """Return whether position and angle of a body are within POSITION_LIMIT, where a double resolves them."""
+    """Return whether the position and angle of a body are within POSITION_LIMIT, so that a double resolves them."""
     return abs(body.x) < POSITION_LIMIT and abs(body.y) < POSITION_LIMIT and abs(body.angle) < POSITION_LIMIT
 
 
 @subkernel
 def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
-    """Return whether all numbers that a step of dt [s] reads of a body are finite and in range, also after its motion.
+    """Return whether all numbers of a body that a step of dt [s] reads are finite and in range, also after its motion.
 
-    Otherwise the fault would spread to neighbours. gravity [px/s2], speed_limit [px/s].
+    gravity_x, gravity_y [px/s2]; speed_limit [px/s].
     """
     b = body
     vx = b.vx + dt * (b.inverse_mass * b.force_x + b.gravity_scale * gravity_x)
@@ -277,7 +279,7 @@ def is_finite_in_step(body, gravity_x, gravity_y, speed_limit, dt):
 
 @subkernel
 def is_finite_character(character):
-    """Return whether all numbers of a character are finite (x - x == 0) and within the position limit."""
+    """Return whether the sum of the numbers of a character is finite (x - x == 0) and within POSITION_LIMIT."""
     c = character
     total = c.offset_x + c.offset_y + c.climb + c.remainder_x + c.remainder_y + c.slope + c.mass + c.push
     total += c.foot_x + c.foot_y + c.carry_x + c.carry_y + c.belt + c.belt_x + c.push_vx + c.push_vy + c.deep
@@ -285,7 +287,7 @@ def is_finite_character(character):
 
 
 class Course(NamedTuple):
-    """The parameters of the motion of bodies in a step before any contact acts."""
+    """The parameters of the predicted motion of bodies in a step, without contacts."""
 
     gravity_x: float  # [px/s2]
     gravity_y: float
@@ -295,7 +297,10 @@ class Course(NamedTuple):
 
 @subkernel
 def take_body(row, reason, found, bodies_inout, broken_out):
-    """Quarantine a body, and write its row and the reason to row `found` of broken_out. Return found + 1."""
+    """Quarantine a body, and write its row and the reason to row `found` of broken_out. Return found + 1.
+
+    reason: index of REASONS.
+    """
     disable_body(bodies_inout[row])
     broken_out[found, 0] = row
     broken_out[found, 1] = reason
@@ -306,8 +311,8 @@ def take_body(row, reason, found, bodies_inout, broken_out):
 def take_broken_bodies(rows, course, bodies_inout, broken_out):
     """Quarantine bodies whose numbers are not finite or out of range, and list them. Return their number.
 
-    A body whose pose is out of range returns to its last finite pose. rows: body rows. broken_out (bodies, 2): row and
-    reason (index of REASONS).
+    A body whose pose is out of range is moved back to its last finite pose. rows: body rows; broken_out (bodies, 2):
+    body row and reason (index of REASONS).
     """
     found = 0
     for k in range(len(rows)):
@@ -334,10 +339,11 @@ def is_finite_shape(shape):
 
 @kernel
 def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_inout, broken_out):
-    """Quarantine bodies for numbers out of range: their own, their shapes' or their characters'. Return how many.
+    """Quarantine bodies for invalid numbers of the body, its shapes or its character. Return the number of bodies.
 
-    rows: body rows; shape_rows: shape rows; grid_rows: shape rows that may be grids, which only a direct write to the
-    table can rotate. broken_out (bodies, 2): row and reason (index of REASONS), each body once. O(rows + shape_rows).
+    Also quarantine rotated or rotating bodies with a TileGrid; only a direct write to the table can rotate them. rows:
+    body rows; shape_rows: shape rows; grid_rows: shape rows to test for TileGrids. broken_out (bodies, 2): body row and
+    reason (index of REASONS), each body once. O(rows + shape_rows + grid_rows + characters).
     """
     found = take_broken_bodies(rows, course, bodies_inout, broken_out)
     for k in range(len(shape_rows)):
@@ -359,13 +365,16 @@ def take_broken(rows, shape_rows, grid_rows, shapes, characters, course, bodies_
 
 @kernel
 def take_broken_by_solver(rows, course, bodies_inout, broken_out):
-    """Quarantine the bodies that a solver left with numbers out of range, like take_broken but by body rows alone."""
+    """Quarantine bodies whose numbers a solver left out of range, as take_broken does for the numbers of bodies.
+
+    Return the number of bodies.
+    """
     return take_broken_bodies(rows, course, bodies_inout, broken_out)
 
 
 @stage("quarantine", reads=(*READS, "workspace"), writes=(*WRITES, "workspace"))
 def quarantine(state: StepState) -> None:
-    """Disable and report bodies whose numbers are not finite or out of range. Neighbours go on as after a removal."""
+    """Disable and report bodies with numbers that are not finite or out of range, before they affect neighbours."""
     awake, bodies, workspace = state.awake, state.bodies, state.workspace
     gravity = state.gravity if state.effects.gravity else (0.0, 0.0)
     course = Course(*gravity, state.tolerances.speed_limit, state.dt)
@@ -381,7 +390,7 @@ def quarantine(state: StepState) -> None:
 
 @stage("quarantine_solved", reads=(*READS, "non_finite_count", "workspace"), writes=(*WRITES, "workspace"))
 def quarantine_solved(state: StepState) -> None:
-    """Disable the bodies that a solver did not keep finite, and drop their contacts, before sweeps and reports."""
+    """Disable bodies whose numbers a solver left out of range, and drop their contacts, before sweep and reports."""
     if not state.non_finite_count:
         return
     broken, course = np.zeros((len(state.bodies), 2), np.int64), Course(0.0, 0.0, state.tolerances.speed_limit, 0.0)
