@@ -1,7 +1,7 @@
 """Row types of bodies: BODY, one row per body, and BODY_DEF, the default values for the shapes of the body.
 
-Rows are kept in the order of ids, in which every pass visits them. A row number changes when an earlier row is removed.
-An id never changes and is never reused.
+Rows are in the order of ids. A row number changes when an earlier row is removed. An id never changes and is never
+reused.
 """
 
 import numpy as np
@@ -25,10 +25,10 @@ BODY = in_lines(
         ("id", np.int64),
         ("kind", np.int64),  # STATIC KINEMATIC DYNAMIC
         ("awake", np.bool_),
-        ("active", np.bool_),  # in the rows that a step visits; every row is active in a world without sleeping
-        ("dirty", np.bool_),  # dirty: added or edited before this step, in a world with sleeping
-        ("quarantined", np.bool_),  # disabled after its pose or velocity became non-finite
-        ("bullet", np.bool_),  # swept against moving bodies too
+        ("active", np.bool_),  # a step visits the body; True for all bodies in a world without sleeping
+        ("dirty", np.bool_),  # added or edited before this step, in a world with sleeping
+        ("quarantined", np.bool_),  # disabled because a number was not finite or out of range
+        ("bullet", np.bool_),  # also swept against moving bodies
         ("fixed_rotation", np.bool_),
         ("allow_sleep", np.bool_),  # False: its island stays awake
         ("forced", np.bool_),  # a force acted on it in this step, in a world without stacking
@@ -36,18 +36,18 @@ BODY = in_lines(
         ("inverse_mass", np.float64),  # 0: infinite mass
         ("inverse_inertia", np.float64),  # 0: infinite inertia
         ("extent", np.float64),  # [px] distance from the centre of mass to the furthest point of its shapes
-        ("min_half_extent", np.float64),  # [px] from the middle of a shape to its surface, the least of all shapes
+        ("min_half_extent", np.float64),  # [px] least distance from the middle of a shape to its surface
         (
             "inradius",
             np.float64,
-        ),  # [px] the same, of the thinnest part of a shape; a faster body than this per step is swept
+        ),  # [px] the same for the thinnest part of a shape; a body that moves further in a step is swept
         ("previous_x", np.float64),  # [px] pose before the step, for interpolated drawing and for rollback
         ("previous_y", np.float64),
         ("previous_angle", np.float64),
         ("settled_x", np.float64),  # [px] last pose that was finite
         ("settled_y", np.float64),
         ("settled_angle", np.float64),
-        ("fraction", np.float64),  # share of this step's motion before the first impact; 1 without an impact
+        ("fraction", np.float64),  # fraction of this step's motion before the first impact; 1 without an impact
         ("continuous", np.int64),  # OFF RAY SWEPT AUTO TOI
         ("force_x", np.float64),  # accumulated since the last step
         ("force_y", np.float64),
@@ -66,13 +66,13 @@ BODY = in_lines(
         ("rocking_angle", np.float64),
         ("rocking_time", np.float64),  # [s] time spent around that reference pose
         ("island", np.int64),  # lowest body id of its island; -1: none
-        ("reserve", np.float64),  # energy that its contacts have taken lately; see solver/energy.py
-        ("cooldown", np.float64),  # [s] > 0 while fewer substeps would do, < 0 while the most were too few
+        ("reserve", np.float64),  # energy that its contacts have removed recently; see solver/energy.py
+        ("cooldown", np.float64),  # [s] > 0: fewer substeps have been enough for so long; < 0: the most were too few
         ("substeps", np.int64),  # adaptive substeps of its island in the next step; 0: not known yet
     ]
 )
 BODY_DEF = np.dtype(
-    [  # beside BODY, row by row: values of the body for its shapes without values of their own
+    [  # one row for each BODY row: values for the shapes of the body without own values
         ("density", np.float64),
         ("friction", np.float64),
         ("restitution", np.float64),
@@ -80,15 +80,15 @@ BODY_DEF = np.dtype(
         ("surface_speed", np.float64),  # [px/s]
         ("membership", np.int64),  # 32 bits
         ("mask", np.int64),  # 32 bits
-        ("mass", np.float64),  # replaces the mass from the densities; 0: does not
+        ("mass", np.float64),  # replaces the mass from the densities; 0: does not replace it
         ("sensor", np.bool_),
     ],
     align=True,
 )
 RUN = np.dtype(
-    [  # beside BODY, row by row: the SHAPE rows of the body
-        ("first", np.int64),  # id of its first shape
-        ("count", np.int64),  # number of its rows, which follow each other; SCATTERED: they do not
+    [  # one row for each BODY row: the SHAPE rows of the body
+        ("first", np.int64),  # id of the first SHAPE row
+        ("count", np.int64),  # number of SHAPE rows, which are consecutive; SCATTERED: they are not consecutive
     ]
 )
 SCATTERED = -1

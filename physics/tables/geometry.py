@@ -5,8 +5,8 @@ from typing import NamedTuple
 import numpy as np
 
 GRID = np.dtype(
-    [  # one per TileGrid
-        ("offset", np.int64),  # first cell in the flat cell arrays
+    [  # one row for each TileGrid
+        ("offset", np.int64),  # index of the first cell in Geometry.cells
         ("rows", np.int64),
         ("columns", np.int64),
         ("tile_size", np.float64),  # [px]
@@ -16,11 +16,11 @@ GRID = np.dtype(
 
 EMPTY, SOLID, ONE_WAY, SLOPE = 0, 1, 2, 3  # kinds of cells
 CHAIN_SPAN = np.dtype(
-    [  # one per Chain
-        ("offset", np.int64),  # first link
-        ("count", np.int64),  # links
-        ("first_block", np.int64),
-        ("blocks", np.int64),
+    [  # one row for each Chain
+        ("offset", np.int64),  # index of the first link in Geometry.links
+        ("count", np.int64),  # number of links
+        ("first_block", np.int64),  # index in Geometry.link_blocks
+        ("blocks", np.int64),  # number of blocks
     ],
     align=True,
 )
@@ -31,24 +31,24 @@ LINK = np.dtype(
         ("ay", np.float64),
         ("bx", np.float64),
         ("by", np.float64),
-        ("before_x", np.float64),
-        ("before_y", np.float64),  # the far ends of its neighbours
+        ("before_x", np.float64),  # far ends of the neighbours before a and after b
+        ("before_y", np.float64),
         ("after_x", np.float64),
         ("after_y", np.float64),
-        ("has_before", np.bool_),
-        ("has_after", np.bool_),  # whether it has a listed neighbour or a ghost there; else the end is open
-        ("first_owned", np.bool_),
-        ("last_owned", np.bool_),  # this link reports contacts at its corner a (b)
-        ("friction", np.float64),  # of its own material, -1: the shape's
+        ("has_before", np.bool_),  # a neighbour or ghost vertex exists before a (after b); otherwise the end is open
+        ("has_after", np.bool_),
+        ("first_owned", np.bool_),  # this link reports contacts at its corner a (b)
+        ("last_owned", np.bool_),
+        ("friction", np.float64),  # of the link's own material; -1: use the shape's value
         ("restitution", np.float64),
         ("rolling_resistance", np.float64),
-        ("surface_speed", np.float64),  # [px/s] nan: the shape's
+        ("surface_speed", np.float64),  # [px/s] nan: use the shape's value
     ],
     align=True,
 )
 
 LINK_BLOCK = np.dtype(
-    [  # AABB [px, body space] of consecutive links; a query skips long chains block by block
+    [  # AABB [px] in body space of consecutive links, with which a query skips whole blocks of a long chain
         ("min_x", np.float64),
         ("min_y", np.float64),
         ("max_x", np.float64),
@@ -59,22 +59,22 @@ LINK_BLOCK = np.dtype(
 
 BLOCK_LINKS = 16
 RASTER = np.dtype(
-    [  # one per mask and angle at which it was drawn
-        ("offset", np.int64),  # first word in the flat word array
+    [  # one row for each mask and angle at which the mask was drawn
+        ("offset", np.int64),  # index of the first word in Geometry.words
         ("width", np.int64),  # [px]
         ("height", np.int64),
         ("stride", np.int64),  # words per row
-        ("origin_x", np.float64),  # [px] of the body's origin from the raster's top left corner
+        ("origin_x", np.float64),  # [px] body's origin relative to the raster's top left corner
         ("origin_y", np.float64),
         ("set_left", np.int64),  # [px] bounds of the solid pixels; left > right for a raster without any
         ("set_top", np.int64),
         ("set_right", np.int64),  # exclusive
         ("set_bottom", np.int64),
         ("area", np.int64),  # [px2]
-        ("halo", np.int64),  # first word of its halo, see raster/exact.py; -1: none, it is only drawn
-        ("halo_stride", np.int64),  # words per row
-        ("hull", np.int64),  # first of the corners of its convex hull, in body space
-        ("hull_count", np.int64),  # 0: none
+        ("halo", np.int64),  # index of the first word of the halo, see raster/exact.py; -1: none, only drawn
+        ("halo_stride", np.int64),  # words per row of the halo
+        ("hull", np.int64),  # index of the first corner of the convex hull, in body space
+        ("hull_count", np.int64),  # number of corners of the hull; 0: no hull
     ],
     align=True,
 )
@@ -84,19 +84,19 @@ SPAN = np.dtype([("offset", np.int64), ("count", np.int64)])
 CORNER = np.dtype([("x", np.float64), ("y", np.float64)])
 CELL = np.dtype(
     [("kind", np.int64), ("left", np.float64), ("right", np.float64), ("first", np.int64), ("last", np.int64)]
-)  # first, last: columns of the run of equal cells that it belongs to
+)  # first, last: first and last column of the sequence of equal cells that contains this cell
 
 
 class Geometry(NamedTuple):
     """The geometry of all shapes of a world as flat tables, which kernels read."""
 
-    polygons: np.ndarray  # SPAN of corners: polygons; capsules and segments as hulls of two corners
+    polygons: np.ndarray  # SPAN of corners for each polygon; capsules and segments are hulls of two corners
     corners: np.ndarray  # CORNER [px] in body space, clockwise on the screen
     chains: np.ndarray  # CHAIN_SPAN
     links: np.ndarray  # LINK
     link_blocks: np.ndarray  # LINK_BLOCK
     grids: np.ndarray  # GRID
-    cells: np.ndarray  # CELL: kind, surface heights of a slope as fractions, the run it belongs to
+    cells: np.ndarray  # CELL: kind, surface heights of a slope as fractions of a tile, equal neighbours
     rasters: np.ndarray  # RASTER
     words: np.ndarray  # uint64 pixels of all rasters
-    raster_of: np.ndarray  # (masks, buckets) raster row, -1 for an angle bucket that is not drawn yet
+    raster_of: np.ndarray  # (masks, angle buckets) RASTER row, -1 for a bucket that has not been drawn yet

@@ -1,29 +1,29 @@
-"""Row type of joints: JOINT, one row per joint, with its settings, its state, and what the solver keeps of it."""
+"""Row type of joints: JOINT, one row per joint, with its settings, its state and its solver fields."""
 
 import numpy as np
 
 from physics.tables.table import in_lines
 
-WORLD = -1  # in place of a body id or row: the joint is to the world
+WORLD = -1  # value of a body id or row for a joint to the world
 # How a joint holds its two anchors together: not at all, in both directions, or only across its axis.
 FREE, PINNED, ON_AXIS = 0, 1, 2
 # The coordinate on which limits, motor and spring of a joint act: none, the angle of B relative to A [rad], the
 # translation of B's anchor along the axis [px], or the distance of the anchors [px].
 NO_COORDINATE, ANGLE, TRANSLATION, LENGTH = 0, 1, 2, 3
 
-STATE = (  # what the next step depends on
+STATE = (  # fields on which the next step depends
     ("id", np.int64),
     ("kind", np.int64),  # index in joints.kinds.KINDS
     ("body_a", np.int64),  # ids; WORLD: none
     ("body_b", np.int64),
     ("enabled", np.bool_),
-    ("contacts", np.bool_),  # its bodies may touch each other
+    ("contacts", np.bool_),  # the two bodies may touch each other
     ("locks_angle", np.bool_),  # the angle of B relative to A is held
     ("follows_point", np.bool_),  # anchors are held together; False: only their relative velocity is controlled
     ("follows_angle", np.bool_),  # likewise for the angle
-    ("turns_motor", np.bool_),  # the motor acts on the angle, whatever the coordinate is
-    ("awake", np.bool_),  # it was solved in the last step
-    ("direct", np.bool_),  # a tree solves its holds, see solver/joint_direct.py
+    ("turns_motor", np.bool_),  # the motor acts on the angle instead of the coordinate
+    ("awake", np.bool_),  # the joint was solved in the last step
+    ("direct", np.bool_),  # the joint is in a tree, see solver/joint_direct.py
     ("broken", np.bool_),  # a breaking force or torque was exceeded in the last step
     ("hold", np.int64),  # FREE PINNED ON_AXIS
     ("coordinate", np.int64),  # NO_COORDINATE ANGLE TRANSLATION LENGTH
@@ -36,61 +36,61 @@ STATE = (  # what the next step depends on
     ("axis_y", np.float64),
     ("reference", np.float64),  # [rad] angle of B relative to A at which `angle` is 0
     # Settings. A coordinate is in px or rad; forces are torques where it is an angle.
-    ("lower", np.float64),  # limits of the coordinate; -inf and inf: none; equal: it is held there
+    ("lower", np.float64),  # limits of the coordinate; -inf, inf: no limit; equal limits hold the coordinate
     ("upper", np.float64),
     ("motor_speed", np.float64),  # [1/s] times the unit of the coordinate
     ("motor_max", np.float64),  # greatest force or torque of the motor; 0: no motor
     ("spring_hertz", np.float64),  # [1/s] 0: no spring
     ("spring_damping", np.float64),  # damping ratio
-    ("spring_target", np.float64),  # coordinate at which it rests
-    ("point_hertz", np.float64),  # [1/s] of a soft hold of the anchors; 0: rigid
+    ("spring_target", np.float64),  # coordinate at which the spring rests
+    ("point_hertz", np.float64),  # [1/s] frequency of a soft hold of the anchors; 0: rigid
     ("point_damping", np.float64),
     ("point_max", np.float64),  # greatest force that holds the anchors
-    ("angle_hertz", np.float64),  # [1/s] of a soft hold of the angle; 0: rigid
+    ("angle_hertz", np.float64),  # [1/s] frequency of a soft hold of the angle; 0: rigid
     ("angle_damping", np.float64),
     ("angle_max", np.float64),  # greatest torque that holds the angle
-    ("target_vx", np.float64),  # [px/s] relative velocity of B's anchor that is held, in the space of A, …
+    ("target_vx", np.float64),  # [px/s] controlled velocity of B's anchor relative to A, in the space of A
     ("target_vy", np.float64),
-    ("target_spin", np.float64),  # [rad/s] … and relative angular velocity
-    ("break_force", np.float64),  # inf: does not break
+    ("target_spin", np.float64),  # [rad/s] controlled angular velocity of B relative to A
+    ("break_force", np.float64),  # inf: unbreakable
     ("break_torque", np.float64),
     # State after the last step.
-    ("angle", np.float64),  # [rad] of B relative to A, 0 when it was made
-    ("translation", np.float64),  # [px] along the axis, or the distance of the anchors
-    ("speed", np.float64),  # of the coordinate, of the angle where there is none
-    ("separation", np.float64),  # [px] of anchors, or off the axis, or off a held length
-    ("force_x", np.float64),  # on B at its anchor: impulse of the step per second
+    ("angle", np.float64),  # [rad] angle of B relative to A, 0 when the joint was made
+    ("translation", np.float64),  # [px] translation along the axis, or distance of the anchors
+    ("speed", np.float64),  # rate of change of the coordinate; without a coordinate of the angle
+    ("separation", np.float64),  # [px] error: distance of held anchors, distance from the axis, or excess over limits
+    ("force_x", np.float64),  # force on B at its anchor: impulse of the step per second
     ("force_y", np.float64),
     ("torque", np.float64),  # on B, beside that force
     ("strain", np.float64),  # greatest force of late that held the anchors, see joint_direct.add_inertia
     # Impulses per second with which the next step starts.
     ("point_force_x", np.float64),
-    ("point_force_y", np.float64),  # along the axis of an ON_AXIS joint: across
+    ("point_force_y", np.float64),  # for an ON_AXIS joint: force across the axis
     ("hold_torque", np.float64),
     ("spring_force", np.float64),
     ("motor_force", np.float64),
     ("lower_force", np.float64),
     ("upper_force", np.float64),
 )
-SCRATCH = (  # rows in this step, and what the passes of the solver write before they read it
+SCRATCH = (  # rows in this step, and solver fields, which the solver writes before it reads them
     ("body_row_a", np.int32),  # rows of BODY; WORLD: none
     ("body_row_b", np.int32),
     ("motion_a", np.int32),  # rows of MOTION
     ("motion_b", np.int32),
-    ("arm_ax", np.float64),  # [px] anchor relative to the centre of mass, at the start of the step …
+    ("arm_ax", np.float64),  # [px] anchor relative to the centre of mass, at the start of the step
     ("arm_ay", np.float64),
     ("arm_bx", np.float64),
     ("arm_by", np.float64),
-    ("base_x", np.float64),  # [px] from A's anchor to B's at the start of the step
+    ("base_x", np.float64),  # [px] vector from A's anchor to B's anchor at the start of the step
     ("base_y", np.float64),
     ("start_nx", np.float64),  # axis at the start of the step
     ("start_ny", np.float64),
     ("start_angle", np.float64),
-    ("ax", np.float64),  # [px] … and in the present substep
+    ("ax", np.float64),  # [px] moment arms in the present substep, see joint_rows.place_joint
     ("ay", np.float64),
     ("bx", np.float64),
     ("by", np.float64),
-    ("apart_x", np.float64),
+    ("apart_x", np.float64),  # [px] vector from A's anchor to B's anchor in the present substep
     ("apart_y", np.float64),
     ("nx", np.float64),
     ("ny", np.float64),

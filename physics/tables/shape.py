@@ -9,20 +9,20 @@ from physics.tables.table import in_lines
 # ---- proxy -----------------------------------------------------------------------------------------------------------
 
 PROXY = np.dtype(
-    [  # the view of a shape in the broad phase; slots are reused
+    [  # one slot for each shape in the broad phase; slots are reused
         ("lower_x", np.float64),  # [px] swept AABB
         ("lower_y", np.float64),
         ("upper_x", np.float64),
         ("upper_y", np.float64),
-        ("row", np.int64),  # of the shape in this step; -1: the slot is free
-        ("awake", np.bool_),  # in the rows that a step visits: two sleeping proxies never pair
+        ("row", np.int64),  # SHAPE row in this step; -1: the slot is free
+        ("awake", np.bool_),  # a step visits the body: two proxies that are not awake never pair
         ("still", np.bool_),  # static: two still proxies never pair
         ("changed", np.bool_),  # box, filter or existence changed since the last update
         ("body", np.int64),  # id: two shapes of one body never pair
         ("membership", np.int64),
         ("mask", np.int64),
-        ("plane", np.int64),  # one bit: its role in the broad phase, …
-        ("avoids", np.int64),  # … and the bits it never pairs with, whatever the filters allow
+        ("plane", np.int64),  # one bit: role of the shape in the broad phase
+        ("avoids", np.int64),  # bits of the planes with which the shape never pairs, regardless of filters
     ],
     align=True,
 )
@@ -35,7 +35,7 @@ CIRCLE, POLYGON, BOUNDS, TILES, MASK, CAPSULE, SEGMENT, CHAIN = 0, 1, 2, 3, 4, 5
 # Roles of a row. In worlds with collision response a mask has two kinds of rows. PIXELS is the mask itself, for tests
 # by pixels. PARTs are the convex parts of its outline, for response, sweeps, casts and characters.
 WHOLE, PIXELS, PART = 0, 1, 2
-SHARPEST = 0.5 * math.pi  # [rad] the most by which an outline turns at a blunt corner of a part
+SHARPEST = 0.5 * math.pi  # [rad] greatest turn of an outline at a blunt corner of a part
 TURNS = 32766.0 / SHARPEST  # [1/rad] scale of a turn stored in 15 bits
 WHOLE_MASK = -1  # tile number of a row that belongs to no tile
 SHAPE = in_lines(
@@ -49,28 +49,29 @@ SHAPE = in_lines(
         ("kind", np.int64),  # CIRCLE POLYGON BOUNDS TILES MASK CAPSULE SEGMENT CHAIN
         ("sensor", np.bool_),
         ("snap", np.bool_),  # a mask that is tested as drawn, on the pixel grid; else at its exact pose
-        ("own_material", np.bool_),  # its own material, in place of its body's; likewise filter and sensor
+        ("own_material", np.bool_),  # the material is set on the shape, not on the body; likewise filter and sensor
         ("own_filter", np.bool_),
         ("own_sensor", np.bool_),
-        ("parent", np.int64),  # parent id: the shape that this is a part of; else its own id
+        ("parent", np.int64),  # id of the mask of which this shape is a part; otherwise the id of the shape
         ("role", np.int64),  # WHOLE PIXELS PART
         ("geometry", np.int64),  # row of the corners, grids (TILES), masks (MASK) or chains (CHAIN); -1: none
-        ("radius", np.float64),  # [px] of a circle or capsule, or rounding of a polygon
+        ("radius", np.float64),  # [px] radius of a circle or capsule, rounding of a polygon
         ("friction", np.float64),
         ("restitution", np.float64),
         ("rolling_resistance", np.float64),
         ("surface_speed", np.float64),  # [px/s] along the tangent, see Material
-        ("raster", np.int64),  # raster of a mask at its body's angle; left, top: pixel column and row it is drawn at
+        ("raster", np.int64),  # raster of a mask at its body's angle; left, top: pixel column and row of the drawing
         ("left", np.int64),
         ("top", np.int64),
-        ("inner", np.int64),  # four 16-bit fields: edges inside the parent shape, which push nothing out; …
-        # … corners that other parts cover; corners that are blunter in the outline than in this part; the largest turn
-        # of the outline at those corners. See outline/tile_seams.py.
-        ("tile", np.int64),  # tile of a large mask that a PART lies in; else WHOLE_MASK
+        # Four 16-bit fields: polygon edges inside the parent shape, which push nothing out; corners that other parts
+        # cover; corners that are blunter in the outline than in this part; the greatest turn of the outline at these
+        # blunter corners. See outline/tile_seams.py.
+        ("inner", np.int64),
+        ("tile", np.int64),  # tile of a large mask that contains a PART; otherwise WHOLE_MASK
         ("body", np.int64),  # id
         ("local_x", np.float64),  # [px] centre of a circle, in body space
         ("local_y", np.float64),
-        ("wrapped", np.int64),  # kind inside a BOUNDS
+        ("wrapped", np.int64),  # kind of the shape that a BOUNDS encloses
         ("membership", np.int64),  # 32 bits
         ("mask", np.int64),  # 32 bits
         ("density", np.float64),

@@ -23,14 +23,14 @@ COUNTERS = (
 
 
 # ---- world tables ----------------------------------------------------------------------------------------------------
-# WorldTables: the fields that a world between steps and the StepState of a step have in common.
+# WorldTables: the common fields of a World, between steps, and of the StepState of a step.
 
 
 class WorldTables(Protocol):
-    """The fields that a World and the StepState of its step have in common.
+    """The common fields of a World and of the StepState of its step.
 
-    Operations that run both between steps and within one use it: sleeping, waking, new swept AABBs. Any stands for a
-    type of a package that imports this one.
+    Functions that run both between steps and within a step take a WorldTables: sleeping, waking, new swept AABBs. A
+    field annotated Any has a type from a package that imports this one.
     """
 
     awake: Any  # islands.awake.Awake
@@ -72,7 +72,7 @@ class WorldTables(Protocol):
 
     @property
     def stacks(self) -> bool:
-        """True if the solver has a contact cache."""
+        """Whether the solver has a contact cache."""
         ...
 
     @property
@@ -87,11 +87,12 @@ class WorldTables(Protocol):
 
 
 # ---- step state ------------------------------------------------------------------------------------------------------
-# StepState: the data that the stages of a step hand on to each other, and the declaration of each stage's fields.
+# StepState: the data that the stages of a step pass to each other, and the declaration of the fields of each stage.
 #
-# A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that it reads and writes,
-# single columns of a table as "bodies.vx". A test compares every other field byte for byte around the stage. Data that
-# outlives a step belongs to the world, which lends it to the state and takes it back at the end.
+# A stage is a plain function of the state. `@stage(name, reads=…, writes=…)` names the fields that the stage reads and
+# writes; a single column of a table is named as in "bodies.vx". A test compares all other fields byte for byte before
+# and after the stage. Data that outlives a step belongs to the world: `begin` puts it into the state, and `finish`
+# stores it in the world again (both in step.py).
 
 STAGE_FIELDS = (
     # settings of the world
@@ -103,46 +104,46 @@ STAGE_FIELDS = (
     "wind",  # [px/s]
     "dt",  # [s]
     "span",  # averaging window of the cached contact forces [s]; at least dt
-    "substeps",  # 0: each island chooses its own, …
-    "accuracy",  # [px] … so that no contact penetrates deeper
+    "substeps",  # number of substeps; 0: each island chooses its number by the accuracy
+    "accuracy",  # [px] greatest sag of a contact under its load
     "broadphase",
     "steps",  # number of steps before this one
-    "kept_forces",  # the accumulated forces, kept for a later step when this one has length 0; else None
+    "kept_forces",  # accumulated forces before a step of length 0, which keeps them for the next step; otherwise None
     # tables
     "bodies",  # BODY rows
     "shapes",  # SHAPE rows
     "characters",  # CHARACTER rows
     "joints",  # JOINT rows
-    "joint_solver",  # iterative direct auto
+    "joint_solver",  # "iterative", "direct" or "auto"
     "library",  # corners, tiles and pixels of the shapes
-    # the awake bodies and shapes: the rows that a pass visits
-    "awake",
+    # bodies and shapes by sleeping
+    "awake",  # the awake body and shape rows, which the passes visit
     "sleeping_set",
-    # from boxes to manifolds
-    "queries",  # the queries of shapes by boxes
-    "pairs",  # the pair list: proxies and candidates
-    "changed_count",  # number of slots whose swept AABB changed
+    # broad phase and narrow phase
+    "queries",  # index of shapes for queries by boxes
+    "pairs",  # the pair list: proxies and candidate pairs
+    "changed_count",  # number of proxies whose swept AABB changed
     "impacts",  # (n, 8) candidate, fraction, normal, stops, feature, point or nan; computed before the bodies move
-    "contact_rows",  # CONTACT rows in the order of shape ids; those of the step before until the narrow phase
-    "sensed",  # CONTACT rows of sensor contacts; None where they are among `contact_rows`
-    "non_finite_count",  # number of bodies that a solver left non-finite or beyond the speed limit
-    "swept_sensors",  # CONTACT rows of sensors met during the sweep
-    "ghosts",  # (n, 8) bodies stopped by a sweep: id, path, fraction; None without any
-    "fell_asleep",  # CONTACT rows of islands that fell asleep in this step
+    "contact_rows",  # CONTACT rows in the order of shape ids; until the narrow phase the rows of the last step
+    "sensed",  # CONTACT rows of sensor contacts; None if `contact_rows` includes them
+    "non_finite_count",  # number of bodies that a solver left non-finite or beyond the limits
+    "swept_sensors",  # CONTACT rows of sensors that the sweep hit
+    "ghosts",  # (n, 8) bodies stopped by a sweep: id, path, fraction; None if there are none
+    "fell_asleep",  # (CONTACT rows, island key of each) of islands that fell asleep in this step; None: none
     # reports
     "touching_pairs",  # the touching pairs
     "sensing_pairs",  # the pairs with a sensor
     "events",
-    "reported",  # contacts to report: (CONTACT rows, flags of the rows that count)
-    "work",  # counters, int64
-    "workspace",  # reusable arrays; nothing in them outlives a stage
+    "reported",  # contacts to report: (CONTACT rows, bool for each row whether it is reported; None: all)
+    "work",  # work counters, int64
+    "workspace",  # reusable scratch arrays, see step.Workspace
 )
 
 
 class StepState:
-    """The data that the stages of one step hand on to each other; STAGE_FIELDS describes the fields.
+    """The data that the stages of a step pass to each other. The comments of STAGE_FIELDS describe the fields.
 
-    Any stands for a type of a package that imports this one.
+    A field annotated Any has a type from a package that imports this one.
     """
 
     __slots__ = STAGE_FIELDS
@@ -187,7 +188,7 @@ class StepState:
 
 
 class Stage(Protocol):
-    """A function of a StepState that declares the fields it reads and writes."""
+    """A function of a StepState that declares which fields it reads and writes."""
 
     stage: str
     reads: tuple[str, ...]
@@ -201,8 +202,8 @@ def stage(
 ) -> Callable[[Callable[[StepState], None]], Stage]:
     """Return a decorator that marks a function of a StepState as a stage.
 
-    name: its name in `world.stages`; reads, writes: the fields it reads and writes. Raises ValueError for an unknown
-    field.
+    name: name of the stage in `world.stages`; reads, writes: fields that the stage reads and writes. Raises ValueError
+    for an unknown field.
     """
     for each in (*reads, *writes):
         if each.split(".")[0] not in STAGE_FIELDS:
