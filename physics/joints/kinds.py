@@ -1,8 +1,8 @@
-"""The kinds of joints as values: which parts of a JOINT row each one uses, and with which settings.
+"""The kinds of joints as values: the parts of a JOINT row that each kind uses, and their settings.
 
-A joint has two anchors, one on each body, that it holds together in both directions (PINNED), only across an axis of A
-(ON_AXIS) or not at all; it may hold the angle; and on one coordinate (an angle, a translation, a length) it may have
-limits, a motor and a spring. A kind names its parts. Adding a kind is a class here and its name in KINDS.
+A joint has two anchors, one on each body. It holds the anchors together in both directions (PINNED), only across an
+axis of A (ON_AXIS), or not at all (FREE). It may also hold the angle. On one coordinate (an angle, a translation or a
+length) it may have limits, a motor and a spring. To add a kind, define a class here and add it to KINDS.
 """
 
 import math
@@ -21,9 +21,9 @@ from physics.tables.joint import ANGLE, LENGTH, ON_AXIS, PINNED, TRANSLATION
 
 @dataclass(frozen=True)
 class Drive:
-    """A motor: the speed of a joint's coordinate [px/s or rad/s], and the greatest force or torque for it.
+    """A motor of a joint's coordinate: target speed [px/s or rad/s], and greatest force or torque.
 
-    Raises TypeError, ValueError, also for a motor without a maximum.
+    Raises TypeError if a value is not a number; ValueError without max, for max < 0, or a number that is not finite.
     """
 
     speed: float
@@ -38,9 +38,10 @@ class Drive:
 
 @dataclass(frozen=True)
 class Spring:
-    """A spring: frequency [1/s], damping ratio, and the coordinate at which it rests [px or rad].
+    """A spring: frequency [1/s], damping ratio, and rest coordinate [px or rad].
 
-    target None: the present coordinate when the joint is made. Raises TypeError, ValueError.
+    target: None for the coordinate when the joint is made. Raises TypeError if a value is not a number; ValueError for
+    hertz <= 0, damping < 0, or a number that is not finite.
     """
 
     hertz: float
@@ -55,9 +56,10 @@ class Spring:
 
 
 def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
-    """Return limits (low, high) of a coordinate; None for none, None for one side without a limit.
+    """Return the limits of a coordinate as (low, high), with -inf or inf for no limit.
 
-    low: least value that is allowed. Raises TypeError, ValueError for limits the wrong way round.
+    value: a pair, in which None means no limit on that side, or None for no limits. low: least allowed limit. Raises
+    TypeError if value is not a pair of numbers; ValueError for low > high, or a limit below `low`.
     """
     if value is None:
         return -math.inf, math.inf
@@ -75,9 +77,10 @@ def checked_limits(value: Any, low: float | None = None) -> tuple[float, float]:
 
 
 def checked_breaks(value: Any) -> tuple[float, float]:
-    """Return the force and the torque at which a joint breaks; None: it does not, likewise for one of them.
+    """Return (force, torque) above which a joint breaks, inf for unbreakable.
 
-    Raises TypeError, ValueError.
+    value: a pair, in which None means unbreakable, or None for both. Raises TypeError if value is not a pair of
+    numbers; ValueError for a number <= 0.
     """
     if value is None:
         return math.inf, math.inf
@@ -91,7 +94,7 @@ def checked_breaks(value: Any) -> tuple[float, float]:
 
 
 def motor_fields(motor: Any) -> dict[str, float]:
-    """Return the columns of a motor, a Drive or None. Raises TypeError."""
+    """Return the JOINT columns of a motor, a Drive or None. Raises TypeError for anything else."""
     if motor is None:
         return {"motor_speed": 0.0, "motor_max": 0.0}
     if not isinstance(motor, Drive):
@@ -100,14 +103,17 @@ def motor_fields(motor: Any) -> dict[str, float]:
 
 
 def checked_spring(spring: Any, name: str = "spring") -> Spring | None:
-    """Return a Spring or None. Raises TypeError."""
+    """Return the argument, a Spring or None. name: its name in messages. Raises TypeError for anything else."""
     if spring is not None and not isinstance(spring, Spring):
         raise TypeError(f"{name} must be a Spring(hertz, damping, target) (got {checks.shown(spring)})")
     return spring
 
 
 def greatest(name: str, value: Any) -> float:
-    """Return the greatest force or torque of a hold, inf for None. Raises TypeError, ValueError."""
+    """Return the greatest force or torque of a hold, inf for None. name: name of the argument in messages.
+
+    Raises TypeError if the value is not a number, ValueError if it is below 0.
+    """
     return math.inf if value is None else checks.number(name, value, low=0.0)
 
 
@@ -119,23 +125,24 @@ DEFAULTS = {
     "upper": math.inf,
     "point_max": math.inf,
     "angle_max": math.inf,
-}  # columns of JOINT that are not 0 where a kind does not name them
+}  # JOINT columns with another default than 0
 
 # ---- kinds -----------------------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, kw_only=True)
 class Kind:
-    """The arguments of every joint. a, b: Bodies or ids, at least one of them dynamic; None for the world.
+    """The common arguments of all joints. a, b: Bodies or ids, at least one of them dynamic; None for the world.
 
-    contacts: whether the two bodies may touch each other. breaks: (force, torque) above which the joint breaks, None
-    for one that does not. local: anchors and axes are in the space of each body, not in the world. user: any object.
+    contacts: whether the two bodies may touch each other. breaks: (force, torque) above which the joint breaks; None
+    for an unbreakable joint. local: True if anchors and axes are given in body space, False in world space. user: any
+    object.
     """
 
-    PARTS: ClassVar[Mapping[str, Any]] = {}  # columns of JOINT that make the kind
-    POINTS: ClassVar[tuple[str, ...]] = ("at",)  # arguments with the anchors: of both bodies, or of A and of B
-    AXIS: ClassVar[bool] = False  # has an argument `axis`
-    COORDINATE: ClassVar[tuple[str, ...]] = ("limits", "motor", "spring")  # settings that it takes
+    PARTS: ClassVar[Mapping[str, Any]] = {}  # values of JOINT columns that define the kind
+    POINTS: ClassVar[tuple[str, ...]] = ("at",)  # arguments with anchors: one for both bodies, or one for each of A, B
+    AXIS: ClassVar[bool] = False  # whether the kind has an argument `axis`
+    COORDINATE: ClassVar[tuple[str, ...]] = ("limits", "motor", "spring")  # settings of the coordinate
 
     breaks: Any = None
     contacts: bool = False
@@ -143,12 +150,15 @@ class Kind:
     user: Any = None
 
     def sides(self) -> tuple[Any, Any]:
-        """Return A and B as they were given."""
+        """Return the arguments a and b unchanged."""
         given = vars(self)
         return given["a"], given["b"]
 
     def columns(self) -> dict[str, Any]:
-        """Return the columns of JOINT that follow from the settings. Raises TypeError, ValueError."""
+        """Return the JOINT columns that follow from the settings.
+
+        Raises TypeError for a setting of a wrong type, ValueError for a value out of range.
+        """
         given = vars(self)
         force, torque = checked_breaks(self.breaks)
         checks.flag("local", self.local)
@@ -163,12 +173,12 @@ class Kind:
         return found
 
     def with_lengths(self, rows: np.ndarray, lengths: np.ndarray) -> None:
-        """Write the columns that depend on the distances (n,) [px] of the anchors to JOINT rows."""
+        """Write the columns of JOINT rows (n,) that depend on the distances (n,) [px] between the anchors."""
 
 
 @dataclass(frozen=True)
 class Revolute(Kind):
-    """A hinge: two anchors stay together. Its coordinate is the angle [rad]. at: the anchor [px]."""
+    """A hinge, which holds two anchors together. Its coordinate is the angle [rad]. at: the anchor [px]."""
 
     PARTS = {"hold": PINNED, "coordinate": ANGLE}
 
@@ -184,7 +194,7 @@ class Revolute(Kind):
 class Prismatic(Kind):
     """A slider: B moves along an axis of A. Its coordinate is the translation [px], 0 when the joint is made.
 
-    at: the anchor [px]; axis: its direction, of any length; turns: B may turn (a groove).
+    at: the anchor [px]; axis: direction of the axis, of any length; turns: whether B may rotate (a groove).
     """
 
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION}
@@ -205,10 +215,10 @@ class Prismatic(Kind):
 
 @dataclass(frozen=True)
 class Wheel(Kind):
-    """A wheel on a suspension: B turns freely, and moves along an axis of A against a spring.
+    """A wheel on a suspension: B rotates freely, and moves along an axis of A against a spring.
 
-    a: the chassis; b: the wheel; at: the anchor [px]; axis: direction of the suspension. Limits and spring act on the
-    translation [px], the motor on the angle.
+    a: the chassis; b: the wheel; at: the anchor [px]; axis: direction of the suspension, of any length. Limits and
+    spring act on the translation [px], the motor on the angle.
     """
 
     PARTS = {"hold": ON_AXIS, "coordinate": TRANSLATION, "turns_motor": True}
@@ -227,8 +237,9 @@ class Wheel(Kind):
 class Distance(Kind):
     """A rod, rope, spring or winch between two anchors. Its coordinate is their distance [px].
 
-    at_a, at_b: the anchors [px]. length: at which a rod holds them, None for the present distance. With limits the
-    joint is a rope that only they bound; with a spring it rests at `length`, or at the spring's target.
+    at_a, at_b: the anchors [px]. Without limits, motor and spring the joint is a rod: it holds the distance `length`,
+    None for the present distance. With limits only the limits bound the distance (a rope). A spring rests at its
+    target, or at `length` if the target is None.
     """
 
     PARTS = {"coordinate": LENGTH}
@@ -260,9 +271,9 @@ class Distance(Kind):
 
 @dataclass(frozen=True)
 class Weld(Kind):
-    """Two bodies as one: anchors and angle stay as they are. at: the anchor [px].
+    """A rigid connection of two bodies: it holds the anchors together, and the present angle. at: the anchor [px].
 
-    spring, angular_spring: make it soft, in translation and in rotation; their targets do not count.
+    spring, angular_spring: make the joint soft in translation and in rotation; their targets are ignored.
     """
 
     PARTS = {"hold": PINNED, "locks_angle": True}
@@ -299,11 +310,11 @@ class Angle(Kind):
 
 @dataclass(frozen=True)
 class Motor(Kind):
-    """Drives B relative to A, with a bounded force and torque: friction joints, top-down tyres, conveyors of bodies.
+    """A motor that drives B relative to A with bounded force and torque: friction joints, top-down tyres, conveyors.
 
-    velocity [px/s], in the space of A, and angular_velocity [rad/s] are those of B relative to A; max_force and
-    max_torque bound what holds them. at: the anchor [px], None for the centre of B. spring: B is drawn back to where it
-    was when the joint was made, in place of a velocity.
+    velocity [px/s], in the space of A, and angular_velocity [rad/s]: motion of B relative to A. max_force, max_torque:
+    greatest force and torque. at: the anchor [px], None for the centre of mass of B. spring: pulls B back to its pose
+    relative to A when the joint was made, instead of driving the velocity.
     """
 
     PARTS = {"hold": PINNED, "locks_angle": True, "axis_x": 1.0}
@@ -342,10 +353,10 @@ class Motor(Kind):
 
 @dataclass(frozen=True)
 class Target(Kind):
-    """Draws a point of a body to a point of the world: mouse drag, grapple, tractor beam.
+    """A spring that pulls a point of a body to a point of the world: mouse drag, grapple, tractor beam.
 
-    at: the point of the body [px]; point: where it is drawn, None for where it is; it is set each frame, as
-    joint.point. max_force: greatest force, None for no bound.
+    at: the point of the body [px]; point: the target in the world [px], None for `at`. joint.point changes the target.
+    max_force: greatest force, None for no bound.
     """
 
     PARTS = {"hold": PINNED}
@@ -374,7 +385,7 @@ class Target(Kind):
 
 @dataclass(frozen=True)
 class NoContact(Kind):
-    """Lets two bodies pass through each other, and does nothing else."""
+    """A joint without forces, which only prevents contacts between two bodies."""
 
     POINTS = ()
     COORDINATE = ()
