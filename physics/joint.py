@@ -29,8 +29,9 @@ def add(
 ) -> np.ndarray:
     """Append joints of one kind to a world, and return their ids.
 
-    kind: a Kind with the settings of all; bodies_a, bodies_b: ids (n) int64, WORLD for the world; columns: anchors
-    (n, 2) [px], axes (n, 2). Raises TypeError, ValueError naming the argument; the world is then unchanged.
+    kind: a Kind with the settings of all joints; bodies_a, bodies_b: ids (n) int64, WORLD for the world; columns: by
+    argument name, anchors (n, 2) [px] and axes (n, 2). Raises TypeError, ValueError for invalid arguments, KeyError for
+    an unknown body; the world is then unchanged.
     """
     n = len(bodies_a)
     check_bodies(world, bodies_a, bodies_b)
@@ -74,7 +75,7 @@ def add(
 
 
 def _poses(world, ids):
-    """Return the poses (n, 3) of bodies, (0, 0, 0) for the world."""
+    """Return the poses (n, 3) x, y [px], angle [rad] of bodies by id; (0, 0, 0) for WORLD."""
     found = np.zeros((len(ids), 3))
     there = ids != WORLD
     rows = world.rows(ids[there])
@@ -84,7 +85,7 @@ def _poses(world, ids):
 
 
 def _anchors(kind, columns, poses):
-    """Return the anchors of A and of B (n, 2), as they were given."""
+    """Return the given anchors (n, 2) of A and of B, zeros for a kind without anchors."""
     n = len(poses[0])
     if not kind.POINTS:
         return np.zeros((n, 2)), np.zeros((n, 2))
@@ -105,9 +106,9 @@ def _to_world(points, poses):
 
 
 def check_bodies(world: WorldState, bodies_a: np.ndarray, bodies_b: np.ndarray) -> None:
-    """Check that joints have two different bodies, one of them dynamic, and no character.
+    """Check that each joint has two different bodies, at least one dynamic body, and no body of a character.
 
-    Raises ValueError, and KeyError for an unknown body.
+    bodies_a, bodies_b: ids (n), WORLD for the world. Raises ValueError if not, KeyError for an unknown body.
     """
     same = bodies_a == bodies_b
     if same.any():
@@ -131,7 +132,7 @@ def check_bodies(world: WorldState, bodies_a: np.ndarray, bodies_b: np.ndarray) 
 
 
 def _check_effects(world, kind, given):
-    """Check that a world has the effects that a kind with these columns needs. Raises ValueError."""
+    """Check that a world has the solver and the effects for a kind with these columns. Raises ValueError if not."""
     name = type(kind).__name__
     world._needs("joints", name, True)
     if not world.stacks:
@@ -145,7 +146,7 @@ def _check_effects(world, kind, given):
 
 
 def add_one(world: WorldState, kind: Any) -> "Joint":
-    """Add the joint that a Kind describes. Raises TypeError, ValueError, KeyError, RuntimeError."""
+    """Add the joint that a Kind describes, and return its handle. Raises as World.add_joint."""
     world._unlocked()
     if not isinstance(kind, Kind) or type(kind) not in KINDS:
         raise TypeError(f"joint must be one of {_names()} (got {checks.shown(kind)})")
@@ -170,7 +171,10 @@ def _names() -> str:
 
 
 def _default_point(world, kind, name, body):
-    """Return the anchor of a kind for None: for a Target the point itself, for a Motor the centre of B."""
+    """Return the anchor in place of None: kind.at for Target.point, the centre of mass of B for Motor.at, else None.
+
+    name: name of the argument; body: id of B.
+    """
     if name == "point":
         return kind.at
     if "at" not in type(kind).__dataclass_fields__ or type(kind).__dataclass_fields__["at"].default is not None:
@@ -180,7 +184,10 @@ def _default_point(world, kind, name, body):
 
 
 def _body_ids(world, name, values) -> np.ndarray:
-    """Return the ids of Bodies, ids or None (the world) as int64. Raises TypeError, ValueError, KeyError."""
+    """Return the ids (n) int64 of Bodies, ids or None (the world). name: name of the argument in messages.
+
+    Raises TypeError, ValueError for invalid arguments, KeyError for an unknown body.
+    """
     found = [WORLD if each is None else world._identity(name, each) for each in values]
     for each in found:
         if each != WORLD:
@@ -189,7 +196,7 @@ def _body_ids(world, name, values) -> np.ndarray:
 
 
 def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, settings: dict[str, Any]) -> np.ndarray:
-    """Add joints of one kind between pairs of bodies. Return their ids. Raises TypeError, ValueError, KeyError."""
+    """Add joints of one kind between pairs of bodies, and return their ids. See World.add_joints."""
     world._unlocked()
     if not (isinstance(kind, type) and kind in KINDS):
         raise TypeError(f"kind must be one of {_names()} (got {checks.shown(kind)})")
@@ -215,9 +222,9 @@ def add_many(world: WorldState, kind: Any, bodies_a: Any, bodies_b: Any, setting
 
 
 def _column(kind, name, settings, n) -> np.ndarray:
-    """Return the anchors or axes (n, 2) of many joints; one pair counts for all of them.
+    """Return the anchors or axes (n, 2) of many joints. A single pair is used for all joints.
 
-    Raises TypeError, ValueError for anything else.
+    Raises TypeError, ValueError for invalid arguments.
     """
     if name not in settings and name != "axis":
         raise TypeError(f"add_joints() needs {name}, an array (n, 2) of points, for {kind.__name__}")
@@ -231,7 +238,10 @@ def _column(kind, name, settings, n) -> np.ndarray:
 
 
 def joints_changed(world: WorldState, rows: np.ndarray) -> None:
-    """Refresh what depends on joints after some (JOINT rows) were added, changed or removed, and wake their bodies."""
+    """Refresh the rows and pairs that depend on joints, after JOINT rows were added, changed or removed.
+
+    Also wake the bodies of these joints.
+    """
     world._refresh_joint_rows()
     ids = np.unique(np.concatenate([rows["body_a"], rows["body_b"]]))
     ids = [each for each in ids.tolist() if each in world._shapes_of]
@@ -240,7 +250,10 @@ def joints_changed(world: WorldState, rows: np.ndarray) -> None:
 
 
 def set_apart(world: WorldState, ids: Sequence[int]) -> None:
-    """Tell the broad phase which pairs of bodies must not touch, after a change of joints of these bodies (ids)."""
+    """Pass the pairs of bodies whose joints forbid contacts to the broad phase, after a change of joints.
+
+    ids: bodies of the changed joints. Their boxes are tested again if the pairs changed.
+    """
     joints = world.joints
     apart = joints[~joints["contacts"] & joints["enabled"] & (joints["body_a"] != WORLD) & (joints["body_b"] != WORLD)]
     low, high = np.minimum(apart["body_a"], apart["body_b"]), np.maximum(apart["body_a"], apart["body_b"])
@@ -249,12 +262,16 @@ def set_apart(world: WorldState, ids: Sequence[int]) -> None:
 
 
 def measure_joints(world: WorldState, first: int = 0) -> None:
-    """Write angle, translation, speed and separation of joints, from row `first` on, at the present poses."""
+    """Write angle, translation, speed and separation of the joints from row `first` on, at the present poses."""
     report_joints(world.bodies, world.joints[first:])
 
 
 def remove(world: WorldState, ids: Any) -> None:
-    """Remove joints by id. Raises KeyError for an unknown one, TypeError. Nothing is removed then."""
+    """Remove joints, given as Joints or ids, one or many.
+
+    Raises KeyError for an unknown joint, TypeError for anything but Joints and ids, ValueError for a Joint of another
+    world, RuntimeError during a step. Nothing is removed then.
+    """
     world._unlocked()
     rows = joint_rows(world, ids)
     drop(world, rows)
@@ -273,7 +290,7 @@ def drop(world: WorldState, rows: np.ndarray) -> np.ndarray:
 
 
 def drop_of_bodies(world: WorldState, ids: np.ndarray) -> None:
-    """Remove the joints of bodies that are removed; the next step reports them as broken."""
+    """Remove the joints of bodies (ids) that are about to be removed. The next step reports the joints as broken."""
     joints = world.joints
     mine = np.flatnonzero(np.isin(joints["body_a"], ids) | np.isin(joints["body_b"], ids))
     if len(mine):
@@ -281,7 +298,7 @@ def drop_of_bodies(world: WorldState, ids: np.ndarray) -> None:
 
 
 def told(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
-    """Return BROKEN rows of JOINT rows."""
+    """Return a BROKEN row for each JOINT row. reason: "force", "torque" or "removed", one or one per row."""
     found = np.zeros(len(rows), BROKEN)
     found["joint"], found["body_a"], found["body_b"] = rows["id"], rows["body_a"], rows["body_b"]
     found["force"], found["torque"], found["reason"] = (
@@ -293,7 +310,10 @@ def told(rows: np.ndarray, reason: str | np.ndarray) -> np.ndarray:
 
 
 def break_joints(world: WorldState, events: Any) -> None:
-    """Remove the joints that broke in the last step, and report them and those of removed bodies in its events."""
+    """Remove the joints that broke in the last step, and report them in events.broken.
+
+    Joints of bodies that were removed before the step are also reported.
+    """
     joints = world.joints
     broken = np.flatnonzero(joints["broken"])
     lost = np.array(world._lost_joints, BROKEN) if world._lost_joints else NONE_BROKEN
@@ -307,7 +327,11 @@ def break_joints(world: WorldState, events: Any) -> None:
 
 
 def joint_rows(world: WorldState, ids: Any) -> np.ndarray:
-    """Return the rows of Joints or ids, one or many, each once. Raises KeyError for an unknown one, TypeError."""
+    """Return the rows of joints, given as Joints or ids, one or many. Each row is listed once.
+
+    Raises KeyError for an unknown joint, TypeError for anything but Joints and ids, ValueError for a Joint of another
+    world.
+    """
     if isinstance(ids, (Joint, int, np.integer)):
         ids = [ids]
     if not isinstance(ids, Iterable):
@@ -338,8 +362,10 @@ def _identity(world, value):
 
 
 class Joint:
-    """A handle on one joint of a world. A setter raises TypeError or ValueError naming the argument, KeyError for a
-    joint that was removed or broke, RuntimeError during a step. The world is then unchanged.
+    """A handle on one joint of a world.
+
+    Properties other than world and id raise KeyError for a joint that was removed or broke. A setter raises TypeError
+    or ValueError for an invalid value, RuntimeError during a step. The world is then unchanged.
     """
 
     __slots__ = ("_world", "_id")
@@ -371,7 +397,7 @@ class Joint:
         return self._id
 
     def _must_exist(self) -> int:
-        """Return the row number. Raises KeyError for a joint that is gone."""
+        """Return the row number of the joint. Raises KeyError if it was removed or broke."""
         row = row_number(self._world._joints, self._id)
         if row < 0:
             raise checks.NoSuchId(f"joint {self._id} is not in this world (removed, broken, or never added)")
@@ -382,7 +408,7 @@ class Joint:
         return self._world._joints.data[self._must_exist()]
 
     def _set(self, **columns) -> None:
-        """Write columns of the row, and wake the bodies."""
+        """Write columns of the JOINT row, and wake the two bodies."""
         self._world._unlocked()
         at = self._must_exist()
         rows = self._world.joints[at : at + 1]
@@ -394,7 +420,7 @@ class Joint:
 
     @property
     def kind(self) -> str:
-        """The name of its kind: "Revolute", "Distance", …"""
+        """The name of the kind of the joint: "Revolute", "Distance", …"""
         return KINDS[self._row["kind"].item()].__name__
 
     @property
@@ -433,38 +459,38 @@ class Joint:
 
     @property
     def angle(self) -> float:
-        """The angle of B relative to A [rad], 0 when the joint was made; after the last step."""
+        """The angle of B relative to A [rad] after the last step. It was 0 when the joint was made."""
         return self._row["angle"].item()
 
     @property
     def translation(self) -> float:
-        """The translation of B along the axis [px], or the distance of the anchors of a Distance."""
+        """The translation of B along the axis [px] after the last step; for a Distance the distance of the anchors."""
         return self._row["translation"].item()
 
     @property
     def speed(self) -> float:
-        """Rate of change of the coordinate that limits and motor act on [px/s or rad/s]."""
+        """Rate of change of the coordinate [px/s or rad/s] after the last step; without a coordinate of the angle."""
         return self._row["speed"].item()
 
     @property
     def separation(self) -> float:
-        """The error of the joint [px]: distance of anchors that it holds together, or off its axis or length."""
+        """The error of the joint [px]: distance between held anchors, distance from the axis, or excess over limits."""
         return self._row["separation"].item()
 
     @property
     def force(self) -> float:
-        """Size of the force in the last step, its impulse per second; the columns force_x and force_y act on B."""
+        """Magnitude of the force in the last step: impulse per second. Its vector is in the columns force_x, force_y."""
         row = self._row
         return math.hypot(row["force_x"].item(), row["force_y"].item())
 
     @property
     def torque(self) -> float:
-        """The torque on B in the last step, beside that force."""
+        """The torque on B in the last step, in addition to the torque of the force at the anchor."""
         return self._row["torque"].item()
 
     @property
     def awake(self) -> bool:
-        """Whether a side is dynamic and awake, so that the joint is solved."""
+        """Whether the joint is enabled and at least one of its bodies is dynamic and awake."""
         row, world = self._row, self._world
         ids = [row[name].item() for name in ("body_a", "body_b")]
         return bool(row["enabled"]) and any(
@@ -509,7 +535,7 @@ class Joint:
 
     @property
     def limits(self) -> tuple[float, float] | None:
-        """The limits (low, high) of the coordinate, -inf or inf for a side without one; None: no limits."""
+        """The limits (low, high) of the coordinate, with -inf or inf for no limit on a side; None: no limits."""
         row = self._row
         lower, upper = row["lower"].item(), row["upper"].item()
         return None if (lower, upper) == (-math.inf, math.inf) else (lower, upper)
@@ -528,7 +554,7 @@ class Joint:
 
     @property
     def breaks(self) -> tuple[float, float]:
-        """The force and torque at which it breaks; inf: it does not."""
+        """The (force, torque) above which the joint breaks, inf: unbreakable."""
         row = self._row
         return row["break_force"].item(), row["break_torque"].item()
 
@@ -539,7 +565,7 @@ class Joint:
 
     @property
     def contacts(self) -> bool:
-        """Whether its two bodies may touch each other."""
+        """Whether the two bodies may touch each other."""
         return bool(self._row["contacts"])
 
     @contacts.setter
@@ -548,7 +574,7 @@ class Joint:
 
     @property
     def enabled(self) -> bool:
-        """Whether it acts. A disabled joint keeps its settings."""
+        """Whether the joint acts. A disabled joint keeps its settings."""
         return bool(self._row["enabled"])
 
     @enabled.setter
@@ -557,7 +583,7 @@ class Joint:
 
     @property
     def point(self) -> Vec2:
-        """The point of the world to which a Target draws its body [px]."""
+        """The point of the world to which a Target pulls its body [px]. Raises AttributeError for other kinds."""
         self._is_target("point")
         return self.anchor_a
 
@@ -575,7 +601,7 @@ class Joint:
 
     @property
     def user(self) -> Any:
-        """Any object of the user's, None if there is none."""
+        """Any object set by the user, or None."""
         self._must_exist()
         return self._world._joint_users.get(self._id)
 
@@ -585,5 +611,5 @@ class Joint:
         self._world._joint_users[self._id] = value
 
     def remove(self) -> None:
-        """Remove the joint; its bodies wake."""
+        """Remove the joint and wake its bodies."""
         remove(self._world, self)

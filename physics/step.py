@@ -45,16 +45,18 @@ from physics.tables.table import rows_of
 from physics.world_state import WorldState
 
 # ---- targets ---------------------------------------------------------------------------------------------------------
-# Targets of kinematic bodies: a pose for the end of the next step, and the velocity that leads there.
+# Targets of kinematic bodies: the pose at the end of the next step, and the velocity that reaches this pose.
 #
-# They are set between steps. The velocity is set when a step begins, from its length; when the step ends, the pose is
-# reached to the bit.
+# Targets are set between steps. The velocity is computed at the start of the step, from the step length. At the end of
+# the step, the pose is set exactly.
 
 
 def set_target(world: WorldState, identity: int, position: Pair, angle: float | None) -> None:
     """Set the pose that a kinematic body reaches at the end of the next step.
 
-    position [px]; angle [rad], None: unchanged. Raises TypeError, ValueError.
+    position [px]; angle [rad], None: unchanged. Raises TypeError for arguments of a wrong type; ValueError for a body
+    that is not kinematic, a position too far away for one step, or a rotation without the effect or of a TileGrid;
+    KeyError for an unknown body; RuntimeError during a step.
     """
     world._unlocked()
     row = world._body_row(identity)
@@ -76,9 +78,9 @@ def set_target(world: WorldState, identity: int, position: Pair, angle: float | 
 
 
 def _velocities(bodies: np.ndarray, targets: np.ndarray, dt: float) -> np.ndarray:
-    """Return the velocities (n, 3) with which BODY rows reach poses (n, 3) in dt [s].
+    """Return the velocities (n, 3) with which BODY rows (n,) reach the poses `targets` (n, 3) in dt [s].
 
-    A row is vx, vy [px/s] of the centre of mass and the angular velocity [rad/s].
+    A velocity is vx, vy [px/s] of the centre of mass, and the angular velocity [rad/s].
     """
     cosine, sine = np.cos(targets[:, 2]), np.sin(targets[:, 2])
     x, y = bodies["local_center_x"], bodies["local_center_y"]
@@ -98,7 +100,7 @@ def _rows(world) -> tuple[np.ndarray, np.ndarray]:
 
 
 def aim(world: WorldState, dt: float) -> None:
-    """Give the bodies with a target the velocities that reach it in dt [s]. Do nothing in a step of length 0."""
+    """Set the velocities with which the bodies with targets reach them in dt [s]. Do nothing for a step of length 0."""
     if not world._targets or dt == 0.0:
         return
     rows, targets = _rows(world)
@@ -108,9 +110,9 @@ def aim(world: WorldState, dt: float) -> None:
 
 
 def arrive(world: WorldState, dt: float) -> None:
-    """Place the bodies with a target exactly at their target poses, at rest, and clear the targets.
+    """Move the bodies with targets exactly to their target poses, set their velocities to 0, and clear the targets.
 
-    A body that was quarantined in the step stays where it is. Do nothing in a step of length 0.
+    A body that was quarantined in the step is not moved. Do nothing for a step of length 0.
     """
     if not world._targets or dt == 0.0:
         return
@@ -127,11 +129,12 @@ def arrive(world: WorldState, dt: float) -> None:
 
 
 # ---- step ------------------------------------------------------------------------------------------------------------
-# The step: the order of its stages by effects, and the state that they share.
+# The step: the order of its stages by effects, and the state that the stages share.
 #
-# Without `stacking` bodies move first, as far as the sweep allows, and are pushed out of overlaps afterwards. With it
-# contacts are found first, the solver solves them and moves the bodies, and fast bodies are moved back to their first
-# impact. A stage that no effect needs is not in the plan: it never runs, and its kernels are never compiled.
+# With a solver that does not stack, bodies first move, as far as the sweep allows, and are then pushed out of overlaps.
+# With a stacking solver, contacts are found first, the solver solves them and moves the bodies, and fast bodies are
+# moved back to their first impact. A stage that no effect needs is not in the plan: it never runs, and its kernels are
+# never compiled.
 
 SOLVERS = ("blocking", "projection", "sequential_impulse", "soft_step")
 STACKING = {"sequential_impulse": sequential_impulse, "soft_step": soft_step}
@@ -147,14 +150,14 @@ IGNORED = {"blocking": IGNORED_BY_BLOCKING, "projection": IGNORED_BY_PROJECTION}
     writes=(*quarantine.writes, *motion_rectangles.writes),
 )
 def swept_aabbs_of_finite_bodies(state: StepState) -> None:
-    """Quarantine the bodies that are not finite, and write the swept AABBs of the others."""
+    """Quarantine bodies with invalid numbers, and write the swept AABBs of the other bodies."""
     quarantine(state)
     motion_rectangles(state)
 
 
 @stage("rest", reads=rest.reads, writes=rest.writes)
 def evaluate_contacts_before_sleep(state: StepState) -> None:
-    """Put islands at rest to sleep. Their contacts are evaluated at the final poses and are then valid on waking."""
+    """Put islands at rest to sleep. Evaluate their contacts at the final poses, so that they are valid on waking."""
     rest(state)
     if state.fell_asleep is not None:
         for key in np.unique(state.fell_asleep[1]).tolist():
@@ -163,23 +166,23 @@ def evaluate_contacts_before_sleep(state: StepState) -> None:
 
 
 def ignored_effects(effects: Effects, solver: str) -> tuple[str, ...]:
-    """Return the names of the declared effects that a solver does not honour, in the order of Effects.names().
+    """Return the names of the declared effects that a solver ignores, in the order of Effects.names().
 
-    Without the effect response no solver runs, and the result is empty.
+    The result is empty without the effect response, because no solver runs.
     """
     ignored = IGNORED.get(solver, ()) if effects.response else ()
     return tuple(name for name in effects.names() if name in ignored)
 
 
 class Plan(NamedTuple):
-    """The stages of a step, in order, and their names."""
+    """The stages of a step in the order of execution, and their names."""
 
     stages: tuple[Stage, ...]
     names: tuple[str, ...]
 
 
 def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
-    """Return the stages that these effects need, in order. characters: whether the world has a Character."""
+    """Return the Plan of a step with these effects. characters: whether the world has a Character."""
     e = effects
     forces = e.gravity or e.drag or e.wind or e.response
     if solver in STACKING:
@@ -223,18 +226,21 @@ def plan(effects: Effects, solver: str, characters: bool = True) -> Plan:
 
 
 def plans(effects: Effects, solver: str) -> tuple[Plan, Plan]:
-    """Return two Plans of the step: for a world without a Character, and for one with a Character."""
+    """Return the Plans of a step (for a world without a Character, for a world with a Character)."""
     return plan(effects, solver, characters=False), plan(effects, solver)
 
 
 class Workspace:
-    """Scratch arrays that the stages of one world grow and reuse. Their contents never outlive a stage."""
+    """The scratch arrays of the stages of one world, which grow and are reused.
+
+    Except for CONTACT rows, their contents do not outlive a stage.
+    """
 
     def __init__(self, effects: Effects, solver: str) -> None:
         self.stacks = stacks = solver in STACKING
         boxes_only, one_way = not effects.narrowphase, effects.one_way
         self.narrow = NarrowPhase(False, one_way, boxes_only)
-        # On demand: the areas of mask contacts. Where masks respond, the contacts of their outlines are complete.
+        # For the areas of mask contacts, which are computed on demand, only in worlds without response.
         self.telling = NarrowPhase(True, one_way, boxes_only) if not effects.response else None
         self.sensing = NarrowPhase(False, one_way, boxes_only) if effects.response and effects.sensors else None
         self.sweep = Sweeper() if effects.continuous or effects.response else None
@@ -253,10 +259,10 @@ class Workspace:
 
 
 def next_span(span: float, dt: float, usual: float) -> float:
-    """Return the averaging window [s] of the cached contact forces after a step of dt [s]. span: the window before.
+    """Return the averaging window [s] of the cached contact forces after a step of dt [s].
 
-    After a step at least as long as `span` it is dt, limited to STALL times the larger of `span` and the usual step. A
-    shorter step moves it from `span` towards dt by the share dt / span.
+    span [s]: window before the step; usual [s]: world.dt. For dt >= span the result is dt, limited to STALL times the
+    greater of span and usual. A shorter step moves the window from span towards dt by the fraction dt / span.
     """
     if dt >= span:
         return min(dt, STALL * max(span, usual))
@@ -264,14 +270,18 @@ def next_span(span: float, dt: float, usual: float) -> float:
 
 
 def step_length(world: WorldState, dt: float | None) -> float:
-    """Return the length [s] of a step: world.dt for None, and 0 for less than SHORTEST_STEP. Raises ValueError."""
+    """Return the length [s] of a step: world.dt for None, 0 for dt < SHORTEST_STEP.
+
+    Raises TypeError if dt is not a number, ValueError if dt is negative or not finite.
+    """
     dt = world.dt if dt is None else checks.number("dt", dt, low=0.0)
     return 0.0 if dt < SHORTEST_STEP else dt
 
 
 def begin(world: WorldState, dt: float) -> StepState:
-    """Return the StepState with which a step begins: the settings and tables of the world, and the contacts of the last
-    step.
+    """Set the velocities of targets, and return the StepState for a step of dt [s].
+
+    The state has the settings and tables of the world, and the contacts of the last step.
     """
     world.refresh_character_rows()
     aim(world, dt)
@@ -313,7 +323,7 @@ def finish(world: WorldState, state: StepState) -> None:
         break_joints(world, state.events)
     arrive(world, state.dt)
     if state.kept_forces is not None:
-        # A step of length 0 used no forces: they stay for the next step, without what the stages added.
+        # A step of length 0 uses no forces: restore the accumulated forces, without forces added by the stages.
         going_on = ~world.bodies["quarantined"]
         for name in FORCES:
             world.bodies[name][going_on] = state.kept_forces[name][going_on]
@@ -323,17 +333,16 @@ def finish(world: WorldState, state: StepState) -> None:
 
 
 # ---- staged step -----------------------------------------------------------------------------------------------------
-# A step that pauses after each of its stages, for inspection. World.step makes it in one go.
+# A step that pauses after each of its stages, for inspection. World.step runs without pauses.
 
 
 def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage | None, None, None]:
-    """Run the step of World.step(dt) stage by stage: yield None before the first stage, and each stage after it has
-    run.
+    """Run the step of World.step(dt) stage by stage. Yield None before the first stage, and each stage after its run.
 
-    Between stages the world shows intermediate results: bodies, candidates, contacts and events so far, seconds and
-    counters in `profile`. It cannot be changed, and its state is not valid for further steps. A caller that stops
-    before the end, or lets debug or a query read the world between stages, restores a snapshot afterwards. Raises
-    ValueError as World.step.
+    Between stages the world shows intermediate results: bodies, candidates, contacts and events, and times and counters
+    in `profile`. The world cannot be changed then, and its state is not valid for further steps. A caller that stops
+    before the end, or reads the world by debug or a query between stages, must restore a snapshot afterwards. Raises
+    ValueError for a negative or non-finite dt, RuntimeError during a step.
     """
     world._unlocked()
     dt = step_length(world, dt)
@@ -355,9 +364,7 @@ def staged_step(world: WorldState, dt: float | None = None) -> Generator[Stage |
 
 
 def _show(world: WorldState, state: StepState) -> None:
-    """Show the results of the stages so far in the world. Before events are reported, its contacts are those that
-    touch.
-    """
+    """Store the results of the stages so far in the world; before the stage `events`, report touching contacts."""
     world.contact_rows, world.sensed = state.contact_rows, state.sensed
     world.ghosts, world.events = state.ghosts, state.events
     _, keep = state.reported
@@ -365,10 +372,10 @@ def _show(world: WorldState, state: StepState) -> None:
 
 
 def _touching(state: StepState) -> np.ndarray:
-    """Return a bool per CONTACT row: whether it touches and has no sensor, by the same rule as the later stage
-    `events`.
+    """Return a bool for each CONTACT row: whether it touches and has no sensor, by the rule of the stage `events`.
 
-    A contact touches if it overlaps, has an impulse, was hit by the sweep, or touched before and is within the slop.
+    A contact touches if it overlaps, has an impulse, or was found by the sweep. A pair that touched in the last step
+    also touches if it is within the slop.
     """
     rows, before = state.contact_rows, state.touching_pairs.rows
     second = rows["count"] > 1

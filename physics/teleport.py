@@ -1,4 +1,4 @@
-"""Bodies moved between steps without a motion: one, or many at once."""
+"""Teleporting between steps: a new pose of one body, or of many bodies in one call."""
 
 import math
 from typing import Any, NamedTuple
@@ -22,7 +22,10 @@ NOT_SET = np.zeros((1, 2))
 
 
 def move_to(world: WorldState, identity: int, position: Pair | None, angle: float | None) -> None:
-    """Move a body to a position [px] and an angle [rad], None: unchanged. Raises ValueError for a rotated TileGrid."""
+    """Move a body to a position [px] and an angle [rad]; None leaves the value unchanged.
+
+    Raises ValueError for an angle of a TileGrid other than 0, RuntimeError during a step.
+    """
     world._unstepped()
     at, columns = world._row_at(identity), world._bodies.columns
     if angle:
@@ -39,22 +42,22 @@ def move_to(world: WorldState, identity: int, position: Pair | None, angle: floa
 
 
 class Motions(NamedTuple):
-    """Where bodies are moved to. Arrays of one row stand for values that stay."""
+    """The new poses and velocities of n bodies. Angles or velocities that are not set have a dummy array."""
 
-    positions: np.ndarray  # (n, 2) float64 px
-    angles: np.ndarray  # (n,) float64 rad
-    velocities: np.ndarray  # (n, 2) float64 px/s
-    turns: bool  # the angles are set
-    speeds: bool  # the velocities are set
+    positions: np.ndarray  # (n, 2) float64 [px]
+    angles: np.ndarray  # (n,) float64 [rad]
+    velocities: np.ndarray  # (n, 2) float64 [px/s]
+    turns: bool  # whether the angles are set
+    speeds: bool  # whether the velocities are set
 
 
 @kernel
 def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout):
-    """Write the rows of bodies, and those of the dynamic ones among them. Return the number of these, -1 on any fault.
+    """Write the rows of bodies, and the rows of the dynamic bodies among them. Return the number of dynamic bodies.
 
-    Faults are an id that is absent or listed twice, numbers that are not finite, a position at the limit [px] or
-    beyond, and a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; marks_inout (bodies) bool: all
-    False, and again at the end. O(n) if no body was removed, else O(n log bodies).
+    The result is -1 for any fault: an id that is absent or listed twice, a number that is not finite, a position of at
+    least `limit` [px], or a velocity of a static body. ids, rows_out, dynamic_out (n,) int64; marks_inout (bodies)
+    bool: all False before and after the call. O(n) if no body was ever removed, otherwise O(n log bodies).
     """
     found = 0
     known = 0
@@ -88,10 +91,10 @@ def find_movable(ids, motions, limit, bodies, rows_out, dynamic_out, marks_inout
 
 @kernel
 def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
-    """Write the poses and velocities of bodies, and mark their boxes for the broad phase of the next step.
+    """Write the poses and velocities of bodies, and mark their proxies as changed for the next step.
 
-    runs: RUN rows. The boxes of bodies whose shapes are SCATTERED are left to the caller; return the number of these.
-    O(shapes of these bodies) if no shape was removed, else O(log shapes) more for each body.
+    Return the number of bodies with SCATTERED shape rows: the caller must mark their proxies. rows: BODY rows; runs:
+    RUN rows. O(shapes of these bodies) if no shape was ever removed, otherwise O(log shapes) more for each body.
     """
     scattered = 0
     for k in range(len(rows)):
@@ -120,10 +123,10 @@ def place_bodies(rows, motions, runs, shapes, bodies_inout, proxies_inout):
 def move(
     world: WorldState, ids: Any, positions: ArrayLike, angles: ArrayLike | None, velocities: ArrayLike | None
 ) -> None:
-    """Move bodies, named once each, to positions (n, 2) [px] and angles (n,) [rad], with velocities (n, 2) [px/s].
+    """Move bodies to positions (n, 2) [px], angles (n,) [rad] and velocities (n, 2) [px/s]; None: unchanged.
 
-    The same as position, angle and velocity of each Body, set one after the other in the order of ids. None: unchanged.
-    Raises KeyError, TypeError, ValueError, RuntimeError during a step; nothing is changed then.
+    The result is the same as setting position, angle and velocity of one Body after another, in the order of `ids`.
+    Raises as World.move; nothing is changed then.
     """
     world._unlocked()
     ids = world._identities("ids", ids, repeats=True)
@@ -147,7 +150,10 @@ def move(
 
 
 def _numbers(name, value, count, width=2) -> np.ndarray:
-    """Return an argument as a float64 array of `count` rows. Raises TypeError, ValueError."""
+    """Return an argument as a float64 array (count, width), or (count,) for width 1.
+
+    Raises TypeError, ValueError for invalid arguments.
+    """
     if type(value) is np.ndarray and value.dtype == np.float64 and value.flags.c_contiguous:
         if value.shape == ((count, width) if width > 1 else (count,)):
             return value
@@ -155,7 +161,7 @@ def _numbers(name, value, count, width=2) -> np.ndarray:
 
 
 def _explain(world, ids, motions):
-    """Raise the error of the first argument of move that is wrong."""
+    """Raise the error of the first invalid argument of move."""
     checks.ids("ids", ids)
     rows = world.rows(ids)
     positions = checks.columns("positions", motions.positions)
@@ -176,7 +182,7 @@ def _move(world, ids, rows, dynamic, motions):
     if sleeping:
         keys = sleep.islands_at(world, listed, rows)
     if keys and is_any_blow(bodies, _contacts_at(world, keys), bodies["id"][dynamic], blow_of(world)):
-        # The forces that a body releases depend on the islands that were woken before.
+        # Which forces a body releases depends on the islands that were woken before, so bodies are moved one by one.
         for k, identity in enumerate(listed):
             angle = motions.angles.item(k) if motions.turns else None
             move_to(world, identity, motions.positions[k].tolist(), angle)
@@ -193,7 +199,7 @@ def _move(world, ids, rows, dynamic, motions):
 
 
 def _contacts_at(world, keys):
-    """Return the CONTACT rows of the step, of sleeping islands, and of those that refer to bodies of these."""
+    """Return the CONTACT rows of the step, of the sleeping islands `keys`, and of islands that touch their bodies."""
     sleeping_set = world.sleeping_set
     keys = set(keys)
     for key in [*keys]:
@@ -203,7 +209,7 @@ def _contacts_at(world, keys):
 
 
 def touch(world: WorldState, ids: Any) -> None:
-    """Refresh what follows from the columns of bodies. Raises KeyError, TypeError, ValueError."""
+    """Wake bodies, and refresh their centres of mass and boxes, after their columns were written. See World.touch."""
     numbers = world._identities("ids", ids)
     rows = world.rows(numbers)
     sleep.disturb(world, numbers)

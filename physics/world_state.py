@@ -25,7 +25,7 @@ from physics.tables.step_state import COUNTERS
 from physics.tables.table import Table, row_number, rows_in, rows_of
 
 # ---- profile ---------------------------------------------------------------------------------------------------------
-# Time and work of a step, by stage. Counters are an int64 array that kernels add to.
+# Times of the stages of a step, and its work counters, an int64 array to which kernels add.
 
 
 class Profile:
@@ -36,8 +36,9 @@ class Profile:
         self.begin(names)
 
     def begin(self, names: Sequence[str]) -> list[float]:
-        """Reset the profile for a step with the named stages. Return the list to which the caller adds the seconds of
-        each.
+        """Reset the profile for a step with the named stages. Return the list to which the caller appends their times.
+
+        The times are in seconds, in the order of `names`.
         """
         self.work.fill(0)
         self._names, self._spent = names, []
@@ -62,14 +63,17 @@ class Profile:
 
 
 def checked_substeps(value: Any) -> int | str:
-    """Return the value if it is a number of substeps, 1 to 1000, or "auto" (adaptive). Raises TypeError, ValueError."""
+    """Return a number of substeps from 1 to 1000, or "auto" (adaptive), unchanged.
+
+    Raises TypeError, ValueError for invalid arguments.
+    """
     if isinstance(value, str):
         return checks.choice("substeps", value, ("auto",))
     return checks.whole("substeps", value, 1, 1000)
 
 
 def checked_accuracy(value: Any) -> float | None:
-    """Return the value if it is a positive length [px] or None. Raises TypeError, ValueError."""
+    """Return a positive length [px], or None, unchanged. Raises TypeError, ValueError for invalid arguments."""
     return None if value is None else checks.number("accuracy", value, above=0.0)
 
 
@@ -123,7 +127,7 @@ class WorldState:
     events: Events
     steps: int  # number of steps so far
     time: float  # their total length [s]
-    span: float  # averaging window of the cached contact forces [s]: a short step says little about them
+    span: float  # averaging window [s] of the cached contact forces, so that a short step changes them little
     profile: Profile
     workspace: Any  # a Workspace of step.py
     # Properties of World.
@@ -142,24 +146,24 @@ class WorldState:
     sleeps: bool
 
     _effects: Effects
-    _plans: tuple[Any, Any]  # Plans of step.py, without characters, and with
+    _plans: tuple[Any, Any]  # Plans of step.py: for a world without characters, with characters
     _stepping: bool
     _bodies: Table
-    _definitions: Table  # BODY_DEF rows, one beside each body
+    _definitions: Table  # BODY_DEF rows, one for each BODY row
     _shapes: Table
-    _runs: Table  # RUN, beside the bodies
+    _runs: Table  # RUN rows, one for each BODY row
     _contact_rows: np.ndarray
     _joints: Table
     _drop_joints_of: Callable[[np.ndarray], None]  # a method of World
     _joint_users: dict[int, Any]
     _lost_joints: list[tuple]  # BROKEN rows of joints whose bodies were removed since the last step
     _next_joint: int
-    _removed: dict[int, None]  # ids of removed bodies, in turn, whose rows are dropped when the tables are read
-    _templates: dict[Any, Any]  # by arguments of add_body: body_templates.Template
+    _removed: dict[int, None]  # ids of removed bodies, in order, whose rows are dropped when the tables are read
+    _templates: dict[Any, Any]  # body_templates.Template by arguments of add_body
     _next_body: int
     _next_shape: int
-    _carved_pixels: int  # since the last step
-    _users: dict[int, Any]  # these five: by body id
+    _carved_pixels: int  # number of pixels carved since the last step
+    _users: dict[int, Any]  # this and the next four fields: by body id
     _targets: dict[int, tuple[float, float, float]]  # poses at the end of the next step
     _shapes_of: dict[int, tuple[Shape, ...]]
     _tiers: dict[int, str]
@@ -186,25 +190,23 @@ class WorldState:
 
     @property
     def contacts(self) -> np.ndarray:
-        """CONTACT_POINT rows of the pairs that touched in the last step, or that its sweep hit, in the order of shape
-        ids.
-        """
+        """CONTACT_POINT rows of pairs that touched, or that the sweep hit, in the last step; sorted by shape ids."""
         if self._contacts is None:
             self._contacts = contacts_of(with_areas(self, self.reported_rows()))
         return self._contacts
 
     def reported_rows(self) -> np.ndarray:
-        """Return the CONTACT rows whose points `contacts` lists."""
+        """Return the CONTACT rows that `contacts` lists."""
         rows, keep = self._reported
         return rows if keep is None or keep.all() else rows[keep]
 
     @property
     def sleeping_contacts(self) -> np.ndarray:
-        """CONTACT_POINT rows of the pairs of sleeping bodies, as they were when the bodies fell asleep."""
+        """CONTACT_POINT rows of the contacts of sleeping islands, evaluated when the islands fell asleep."""
         return contacts_of(with_areas(self, self.sleeping_set.contacts()))
 
     def report_contacts(self, rows: np.ndarray, keep: np.ndarray | None = None) -> None:
-        """Store the CONTACT rows that `contacts` lists. keep: bool per row, whether it is listed; None: all are."""
+        """Store the CONTACT rows for `contacts`. keep: bool for each row, whether it is listed; None: all."""
         self._reported, self._contacts = (rows, keep), None
 
     @property
@@ -213,7 +215,10 @@ class WorldState:
         return self.pairs.ids(self.shapes).astype(np.int32)
 
     def rows(self, ids: Any) -> np.ndarray:
-        """Return the row numbers in `world.bodies` of Bodies or ids, as an array of the same shape. Raises KeyError."""
+        """Return the row numbers in `world.bodies` of Bodies or ids, as an array of the same shape.
+
+        Raises KeyError for a body that is not in this world.
+        """
         if isinstance(ids, Handle) or (isinstance(ids, (list, tuple)) and any(isinstance(x, Handle) for x in ids)):
             ids = self._identities("ids", ids)
         ids = np.asarray(ids, np.int64)
@@ -225,13 +230,13 @@ class WorldState:
         return rows.reshape(ids.shape)
 
     def refresh_character_rows(self) -> None:
-        """Update the body row of every character, as rows change when bodies are removed."""
+        """Update the body row of every character, because rows change when bodies are removed."""
         if self.characters.count:
             characters = self.characters.rows
             characters["body_row"] = rows_of(self.bodies, characters["body"])
 
     def rebuild_proxies(self) -> None:
-        """Replace the broad phase by an empty one and add the proxies of all shapes, after the tables were replaced."""
+        """Replace the broad phase and add the proxies of all shapes again, after the tables were replaced."""
         self.pairs = PairList(self.sleeps)
         self.awake.start_over()
         self._broadphase = self._broadphase.fresh()
@@ -254,7 +259,7 @@ class WorldState:
 
     @property
     def stages(self) -> list[str]:
-        """Names of the stages that the effects need, in their order.
+        """Names of the stages of a step with the present effects, in the order of execution.
 
         The stages of characters are included while the world has a character.
         """
@@ -263,7 +268,7 @@ class WorldState:
     # --- for World, Body and edit -----------------------------------------------------------------------------------
 
     def _unlocked(self) -> None:
-        """Raise RuntimeError during a step. Drop the rows of removed bodies."""
+        """Raise RuntimeError during a step; otherwise drop the rows of removed bodies."""
         self._unstepped()
         if self._removed:
             self._drop_removed()
@@ -274,16 +279,19 @@ class WorldState:
             raise RuntimeError("the world cannot be changed during its step: read the events after it")
 
     def _row_number(self, identity: int) -> int:
-        """Return the row number of a body, valid until one is removed. Raises KeyError."""
+        """Return the row number of a body, after dropping the rows of removed bodies.
+
+        The number is valid until a body is removed. Raises KeyError for an unknown body.
+        """
         if self._removed:
             self._drop_removed()
         return self._row_at(identity)
 
     def _row_at(self, identity: int) -> int:
-        """Return the row number of a body in the tables as they are, valid until they are read. Raises KeyError.
+        """Return the row number of a body, without dropping the rows of removed bodies first.
 
-        The rows of removed bodies may still be in the tables. So this is for single numbers, by Table.columns: `bodies`
-        and `shapes` drop these rows first, and others move.
+        The number is valid until `bodies` or `shapes` is read, which drops these rows and moves other rows. So use it
+        only to access single numbers by Table.columns. Raises KeyError for an unknown body.
         """
         row = -1 if identity in self._removed else row_number(self._bodies, identity)
         if row < 0:
@@ -291,7 +299,7 @@ class WorldState:
         return row
 
     def _shape_rows(self, row: int) -> np.ndarray:
-        """Return the SHAPE rows of a body row, ascending, in the tables as they are."""
+        """Return the SHAPE rows of a body row, ascending, without dropping the rows of removed bodies first."""
         run = self._runs.data
         count = run["count"].item(row)
         if count == SCATTERED:
@@ -302,7 +310,7 @@ class WorldState:
         return np.arange(first, first + count)
 
     def _shape_rows_of(self, rows: np.ndarray) -> np.ndarray:
-        """Return the SHAPE rows of body rows, in any order, in the tables as they are."""
+        """Return the SHAPE rows of body rows, in any order, without dropping the rows of removed bodies first."""
         runs, shapes = self._runs.data[rows], self._shapes.rows
         firsts, counts = runs["first"], runs["count"]
         least = int(counts.min()) if len(rows) else 0
@@ -321,7 +329,7 @@ class WorldState:
         return np.repeat(starts - ends + counts, counts) + np.arange(ends[-1])
 
     def _write_runs(self) -> None:
-        """Write which SHAPE rows belong to each body, after the tables were replaced."""
+        """Write the RUN rows of all bodies, after the tables were replaced."""
         bodies, owners, ids = self._bodies.count, self.shapes["body_row"], self.shapes["id"]
         self._runs.count = 0
         runs, numbers = self._runs.append(bodies), np.arange(len(owners))
@@ -332,15 +340,16 @@ class WorldState:
         runs["first"][counts > 0] = ids[starts[counts > 0]]
 
     def _write_run(self, row: int) -> None:
-        """Write which SHAPE rows belong to a body, after its shapes changed."""
+        """Write the RUN row of a body row, after its shapes changed."""
         mine, run = np.flatnonzero(self.shapes["body_row"] == row), self._runs.data
         run["count"][row] = len(mine) if not len(mine) or mine[-1] - mine[0] + 1 == len(mine) else SCATTERED
         run["first"][row] = self.shapes["id"][mine[0]] if len(mine) else 0
 
     def _identity(self, name: str, value: Any) -> int:
-        """Return the id of a Body of this world; a valid id is returned as it is. name: of the argument, for messages.
+        """Return the id of a Body or an id, without testing whether the body exists.
 
-        Raises TypeError, ValueError.
+        name: name of the argument in messages. Raises TypeError for anything else, ValueError for a Body of another
+        world, KeyError for a number that is not a valid id.
         """
         if isinstance(value, Handle):
             if value.world is not self:
@@ -353,9 +362,10 @@ class WorldState:
         return int(value)
 
     def _identities(self, name: str, value: Any, repeats: bool = False) -> np.ndarray:
-        """Return the ids of one or many Bodies or ids (int64). No id may repeat unless `repeats` is True.
+        """Return the ids (n) int64 of one or many Bodies or ids, without testing whether the bodies exist.
 
-        Raises TypeError, ValueError.
+        name: name of the argument in messages; repeats: whether an id may repeat. Raises TypeError, ValueError,
+        KeyError for invalid arguments.
         """
         if isinstance(value, (Handle, int, np.integer)):
             value = [value]
@@ -374,7 +384,7 @@ class WorldState:
         return checks.ids(name, np.array(each, np.int64), repeats)
 
     def _tidy_library(self) -> None:
-        """Drop the geometry that no shape uses, once it may be half of the library."""
+        """Drop the geometry that no shape uses, if it may be half of the library."""
         if self.library.may_be_half_unused(self._shapes.count):
             self.library = self.library.without_unused(self.shapes)
 
@@ -391,7 +401,7 @@ class WorldState:
         self.awake.forget_shapes()
 
     def _remove(self, ids: Sequence[int] | np.ndarray) -> None:
-        """Remove bodies by id. Raises KeyError for an unknown id, before any body is removed."""
+        """Remove bodies by id. Raises KeyError for an unknown id; the bodies are then unchanged."""
         self._unlocked()
         ids = np.asarray(ids, np.int64)
         if not len(ids):
@@ -405,14 +415,17 @@ class WorldState:
         self._drop_rows(ids, rows)
 
     def _remove_one(self, identity: int) -> None:
-        """Remove a body by id; its rows are dropped when the tables are read. Raises KeyError."""
+        """Remove a body by id. Raises KeyError for an unknown id.
+
+        In a world without characters and joints, its rows are dropped later, when the tables are read.
+        """
         self._unstepped()
         if self.characters.count or self._joints.count:
             self._remove([identity])
             return
         at = sleep.disturb_one(self, identity, self._row_at(identity))
         self.contact_lists.forget_loads(self, np.array([at]))
-        self._bodies.columns["inverse_mass"][at] = 0.0  # the loads of other bodies do not pass it any more
+        self._bodies.columns["inverse_mass"][at] = 0.0  # forget_below stops at this body
         self._forget_values(identity)
         self._removed[identity] = None
 
@@ -424,7 +437,7 @@ class WorldState:
                 joints[f"body_row_{side}"] = rows_in(self._bodies, joints[f"body_{side}"])
 
     def _forget_values(self, identity: int) -> None:
-        """Forget what is kept of a body beside the tables."""
+        """Delete the values of a body that are kept by id, outside of the tables."""
         del self._shapes_of[identity]
         for values in (self._users, self._tiers, self._sources, self._targets):
             if values:
