@@ -479,7 +479,7 @@ class Joint:
 
     @property
     def force(self) -> float:
-        """Magnitude of the force in the last step: impulse per second. Its vector is in the columns force_x, force_y."""
+        """Magnitude of the force in the last step: impulse per second; columns force_x and force_y hold the vector."""
         row = self._row
         return math.hypot(row["force_x"].item(), row["force_y"].item())
 
