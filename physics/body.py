@@ -436,10 +436,10 @@ class Body(Handle):
         return edit.shape_ids(self.world, self.id)
 
     def set_shapes(self, *shapes: Shape) -> None:
-        """Replace the shapes. The body keeps its own values, such as its material; a tier ends.
+        """Replace the shapes. The body keeps its own values, such as its material; Body.tier becomes None.
 
-        The new shapes get new ids. But if the old shapes and as many new shapes are all masks, the ids stay. Contacts
-        on unchanged surface keep their impulses.
+        The new shapes get new ids, except if all old and all new shapes are masks, and there are equally many: then the
+        ids stay. Contacts on unchanged surface keep their impulses. Raises TypeError, ValueError for invalid shapes.
         """
         edit.set_shapes(self.world, self.id, shapes)
 

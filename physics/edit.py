@@ -428,9 +428,10 @@ def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
 
 
 def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> None:
-    """Replace the shapes of a body; its own values stay, and contacts on unchanged surface keep their impulses.
+    """Replace the shapes of a body, and end its tier. Its own values stay; contacts on unchanged surface keep impulses.
 
-    Masks that replace as many masks keep their ids. Raises TypeError, ValueError.
+    If all old and all new shapes are masks, and there are equally many, the ids stay; otherwise the shapes get new ids.
+    Raises TypeError, ValueError for invalid shapes.
     """
     ids, before = shape_ids(world, identity), world._shapes_of.get(identity, ())
     _check(world, identity, shapes, ids)

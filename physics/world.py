@@ -644,7 +644,7 @@ class World(WorldState):
         return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
     def shape_cast(self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL) -> RayHit | None:
-        """Return the first shape that a moving shape touches, from a pose along a translation [px], or None."""
+        """Return the first RayHit of a shape that moves from a pose by a translation [px], or None without a hit."""
         return casts.shape_cast(self, shape, pose, translation, filter)
 
     def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:

@@ -346,10 +346,10 @@ class WorldState:
         run["first"][row] = self.shapes["id"][mine[0]] if len(mine) else 0
 
     def _identity(self, name: str, value: Any) -> int:
-        """Return the id of a Body or an id, without testing whether the body exists.
+        """Return the id that `value` gives, a Body or an id, without testing whether the body exists.
 
         name: name of the argument in messages. Raises TypeError for anything else, ValueError for a Body of another
-        world, KeyError for a number that is not a valid id.
+        world, KeyError for a number outside the range of ids (0 to 2**62 - 1).
         """
         if isinstance(value, Handle):
             if value.world is not self:

@@ -340,10 +340,11 @@ def move_out(me, row, walk_inout):
 
 @subkernel
 def give_way(walk_inout):
-    """Move characters out of loose bodies that moved into them. Flag characters without space as squeezed.
+    """Move characters out of loose bodies (solids.is_loose) that moved into them. Flag those without space as squeezed.
 
     walk_inout: see Walk. A body that has just fallen onto a character overlaps it until the solver has separated them.
-    So a loose body squeezes a character only if it is at least as deep in the next step. O(characters · nearby solids).
+    So an overlap with loose bodies squeezes a character only if it was deeper than GIVE and is at least as deep one
+    step later. O(characters · nearby solids).
     """
     for me in range(len(walk_inout.characters)):
         c = walk_inout.characters[me]

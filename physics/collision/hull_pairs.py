@@ -66,9 +66,9 @@ def needs_ccd(body, distance):
 def speculative_distance(a, b, speed, margin, lookahead):
     """Return the largest gap [px] at which two bodies get a speculative contact.
 
-    The gap is the margin [px] or, if greater, the distance that the bodies may close in `lookahead` [s], even if one of
-    them is stopped. It is the margin if a body needs continuous collision detection. a, b: BODY rows; speed [px/s]:
-    speed of B relative to A.
+    If a body needs continuous collision detection, the gap is `margin` [px]. Otherwise it is the greater of `margin`
+    and the distance covered in `lookahead` [s] at the greatest of three speeds: `speed`, and those of the two bodies,
+    because one may be stopped on the way. a, b: BODY rows; speed [px/s]: speed of B relative to A.
     """
     distance = lookahead * max(speed, norm(a.vx, a.vy), norm(b.vx, b.vy))
     return margin if needs_ccd(a, distance) or needs_ccd(b, distance) else max(margin, distance)

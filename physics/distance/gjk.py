@@ -178,9 +178,10 @@ def reduce_simplex(a, b, state_inout, simplex_inout):
 
 @subkernel
 def start_walk(a, b, i, j, state_out, simplex_out):
-    """Start a GJK search at corner a[i] - b[j] of the Minkowski difference of two hulls.
+    """Start a GJK search for two hulls, at the corner a[i] - b[j] of their Minkowski difference.
 
-    Any corner is valid; a corner near the result of the search before saves rounds.
+    Any corner is valid, but one near the result of the previous search saves rounds. state_out, simplex_out: arrays of
+    a GapWorkspace.
     """
     write_corner(a, b, i, j, 0, simplex_out)
     state_out[COUNT] = 1.0

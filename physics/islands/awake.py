@@ -23,7 +23,7 @@ NONE = np.zeros(0, np.int64)
 
 @inlined
 def is_active(body):
-    """Return whether a BODY row can change a contact: a dynamic body is awake, another body moves or was moved."""
+    """Return whether a body can change a contact: a dynamic one if it is awake, others if they move or were moved."""
     if body.kind == DYNAMIC:
         return body.awake
     return (

@@ -43,10 +43,10 @@ from physics.tables.table import root_of
 
 @kernel
 def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b_out):
-    """List the joints of a group with parts that a tree can solve. Return the number of these joints. O(rows).
+    """List the joints of a group of which a tree can solve at least one part. Return their number. O(rows).
 
-    rows: JOINT rows of the group, in the order of ids; order_out: indices into `rows` of the listed joints; counts_out:
-    number of tree rows of each joint of `rows`, 0 to 3; motion_a_out, motion_b_out: MOTION rows of its bodies.
+    rows: JOINT rows of the group, in the order of ids; order_out: indices into `rows` of the listed joints. For every
+    joint of `rows`: counts_out: number of tree rows, 0 to 3; motion_a_out, motion_b_out: MOTION rows of its two bodies.
     """
     found = 0
     for k in range(len(rows)):

@@ -408,9 +408,10 @@ def turn_normal(lane, s, c_inout):
 
 @inlined
 def follow_core(lane, s, c_inout):
-    """Write the moment arms of the side with the face, for a contact of a round shape with a face.
+    """Write the moment arms of the body with the face (A or B), in a contact of a face with a round shape.
 
-    The core of the round shape, the shape without its radius, may have moved along the face.
+    The arms follow the core of the round shape (the shape without its radius), which may have moved along the face.
+    Contacts whose lanes.TURNS is neither NORMAL_OF_A nor NORMAL_OF_B keep their arms.
     """
     c = c_inout
     turns = c[at.TURNS + lane]
