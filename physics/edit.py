@@ -26,14 +26,14 @@ from physics.tables.table import row_number, rows_of
 from physics.world_state import WorldState
 
 # ---- shape rows ------------------------------------------------------------------------------------------------------
-# The SHAPE rows of a body's shapes, and of the parts of its masks' outlines.
+# SHAPE rows of the shapes of a body, and of the parts of the outlines of its masks.
 
 MATERIAL = ("density", "friction", "restitution", "rolling_resistance", "surface_speed")
-LAST_SHAPE = 2**31 - 1  # of ids: candidates are reported in 32 bits
+LAST_SHAPE = 2**31 - 1  # greatest shape id, because candidates are reported in 32 bits
 
 
 def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError if the world has no ids left for the shapes of so many new bodies."""
+    """Raise ValueError if too few shape ids are left. bodies: number of new bodies, each with these shapes."""
     room = LAST_SHAPE - world._next_shape
     if room < LAST_SHAPE // 2 and bodies * len(rows_of_shapes(shapes, world.effects.response)) > room:
         raise ValueError(
@@ -43,9 +43,10 @@ def check_ids(world: WorldState, bodies: int, shapes: Sequence[Shape]) -> None:
 
 
 def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[Shape]) -> np.ndarray:
-    """Append the SHAPE rows of new shapes for the bodies that start at a row, add their proxies, and return their ids.
+    """Append the SHAPE rows of new shapes, add their proxies, and return the ids of the rows that are not parts.
 
-    A shape's own values override those of its body.
+    first_row: row of the first body; bodies: number of consecutive body rows, each of which gets these shapes. Own
+    values of a shape override the values of the body.
     """
     pieces = rows_of_shapes(shapes, world.effects.response)
     rows = _append_rows(world, first_row, bodies, pieces)
@@ -56,7 +57,7 @@ def add_shapes(world: WorldState, first_row: int, bodies: int, shapes: Sequence[
 
 
 def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
-    """Append the SHAPE rows of pieces for the bodies that start at a row, without their parent ids."""
+    """Append the SHAPE rows of pieces for consecutive body rows, without parent ids, and return the rows."""
     n, k = bodies, len(pieces)
     ids = np.arange(world._next_shape, world._next_shape + n * k)
     if n * k == 0:
@@ -79,18 +80,18 @@ def _append_rows(world, first_row, bodies, pieces) -> np.ndarray:
 
 
 class NewParts(NamedTuple):
-    """Convex parts of a mask's outline that have no rows yet."""
+    """Convex parts of a mask's outline without SHAPE rows."""
 
-    tiles: ArrayLike  # (n,) int64, as `tile` in SHAPE
-    inner: ArrayLike  # (n,) int64, as in SHAPE
-    shapes: Sequence[Shape]  # in body space
+    tiles: ArrayLike  # (n,) int64 values of SHAPE.tile
+    inner: ArrayLike  # (n,) int64 values of SHAPE.inner
+    shapes: Sequence[Shape]  # (n,) parts in body space
 
 
 NONE = NewParts((), (), ())
 
 
 def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> None:
-    """Append SHAPE rows of further parts of a mask; the template holds the one row of the mask."""
+    """Append SHAPE rows of further parts of a mask. template: SHAPE rows (1,), the row of the mask."""
     count = len(parts.shapes)
     if not count:
         return
@@ -106,16 +107,16 @@ def append_parts(world: WorldState, template: np.ndarray, parts: NewParts) -> No
 
 
 def _enter(world, rows):
-    """Add the proxies of new rows."""
+    """Add the proxies of new SHAPE rows."""
     owners = rows["body_row"]
     world.pairs.add_proxies(rows, np.arange(len(rows)), world.bodies["kind"][owners] == STATIC)
     if world.sleeps:
-        # A body that is awake already is not woken again.
+        # A body that is already awake is not included again, so its new proxies are marked as awake here.
         world.pairs.set_awake(rows["proxy"][world.bodies["active"][owners]], True)
 
 
 def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
-    """Write the values that a body (GIVEN rows) or a shape itself gives to SHAPE rows."""
+    """Write material, filter and sensor of a shape to SHAPE rows; without own values those of BODY_DEF rows."""
     for name in (*MATERIAL, "membership", "mask", "sensor"):
         rows[name] = given[name]
     for name in ("material", "filter", "sensor"):
@@ -130,17 +131,17 @@ def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
 
 
 class Piece(NamedTuple):
-    """One SHAPE row to be: a shape, or a part of a mask's outline."""
+    """The values of a future SHAPE row: of a shape, or of a part of a mask's outline."""
 
     shape: Shape
-    role: int
+    role: int  # WHOLE, PIXELS or PART
     inner: int  # see SHAPE
-    parent: int  # index of the piece that it is a part of
+    parent: int  # index of the piece of the whole mask; otherwise of this piece
     tile: int  # see SHAPE
 
 
 def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
-    """Return the pieces of a body's shapes: one each, and with `response` the parts of each mask's outline."""
+    """Return a piece for each shape of a body; if `pushed` (response), also for each part of a mask's outline."""
     found: list[Piece] = []
     for shape in shapes:
         tiles, owner = shape._response_parts() if pushed else (), len(found)
@@ -160,10 +161,11 @@ def rows_of_shapes(shapes: Sequence[Shape], pushed: bool) -> list[Piece]:
 def replace_mask(
     world: WorldState, identity: int, place: int, shape_id: int, mask: PixelMask, changed: Sequence[int] | None = None
 ) -> None:
-    """Replace a mask of a body by another one. Its id stays, and so do the parts of its outline that are equal.
+    """Replace a mask of a body by another mask. The shape id does not change, and equal parts keep their SHAPE rows.
 
-    place: index of the shape in the body. changed: the tiles in which the masks differ, None: any. Bodies that touch a
-    change wake. Contacts on unchanged surface keep their impulses. O(changes), and a few passes over the SHAPE rows.
+    place: index of the shape in the body; shape_id: id of the shape; changed: tiles in which the masks may differ,
+    None: all. Bodies that touch changed parts wake. Contacts on unchanged parts keep their cached forces. O(changes),
+    and a few passes over the SHAPE rows.
     """
     at, shapes = world._row_number(identity), world.shapes
     body, used = world.bodies[at : at + 1], list(world._shapes_of[identity])
@@ -173,8 +175,8 @@ def replace_mask(
     if not (still and sleep.disturb_shapes(world, identity, shapes["id"][old])):
         sleep.disturb(world, [identity])
     kept = KeptImpulses(world, old)
-    own = rows_of(shapes, [shape_id])  # its parts come after it, so removals do not move it
-    world._templates.clear()  # geometry of a mask may be written in place
+    own = rows_of(shapes, [shape_id])  # the parts follow this row, so their removal does not move it
+    world._templates.clear()  # the geometry of a mask may be overwritten in place
     shapes["geometry"][own] = world.library.replace(before.bare, mask.bare, changed, shapes)
     if len(old):
         keep = np.ones(len(shapes), bool)
@@ -193,10 +195,12 @@ def replace_mask(
 
 
 def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> None:
-    """Make cells of a body's TileGrid solid or empty. Its shape id stays, and only what touches a changed cell wakes.
+    """Make cells of the TileGrid of a body solid or empty. The shape id does not change.
 
-    cells (n, 2) int (column, row); solid: a bool, or (n,) bools. Contacts keep their impulses. O(cells of the grid).
-    Raises TypeError, ValueError, RuntimeError during a step.
+    cells (n, 2) int (column, row); solid: a bool, or (n,) bools. Bodies that touch a changed cell wake. Contacts with
+    shapes near changed cells are detected again, and keep their cached forces only where the new surface coincides with
+    the old one. All other contacts are unchanged. O(cells of the grid). Raises TypeError if cells or solid have a wrong
+    type; ValueError for cells outside the grid, or a body without exactly one TileGrid; RuntimeError during a step.
     """
     world._unlocked()
     at, used = world._row_number(identity), list(world._shapes_of[identity])
@@ -225,7 +229,7 @@ def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> 
         (found["shape_b"] == shape_id) & np.isin(found["shape_a"], near)
     )
     kept = KeptImpulses(world, own)
-    if len(kept.contacts):  # those of the other contacts stay as they are
+    if len(kept.contacts):  # only contacts near changed cells are detected again
         kept.contacts, kept.others = found[goes], np.intersect1d(kept.others, near)
         world.contact_rows = found[~goes]
     used[place] = after
@@ -237,7 +241,7 @@ def exchange_cells(world: WorldState, identity: int, cells: Any, solid: Any) -> 
 
 
 def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return cells (n, 2) int64 within a grid, and (n,) bools. Raises TypeError, ValueError."""
+    """Return (cells (n, 2) int64, solid (n,) bool). Raises TypeError, ValueError for invalid arguments."""
     found = checks.columns("cells", cells)
     if found.size and np.asarray(cells).dtype.kind not in "iu":
         raise TypeError(f"cells must be whole numbers (column, row) (got {checks.shown(cells)})")
@@ -259,7 +263,7 @@ def checked_cells(cells: Any, solid: Any, rows: int, columns: int) -> tuple[np.n
 def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, margin: float) -> np.ndarray:
     """Return the SHAPE rows of other bodies whose AABB, enlarged by a margin [px], meets a marked cell of a grid.
 
-    at: row of the grid's body; size [px] of a tile; cells [row, column] bool.
+    at: row of the grid's body; size [px]: size of a tile; cells (rows, columns) bool: the marked cells.
     """
     body, marked = world.bodies[at], np.argwhere(cells)
     origin = np.array([body["x"], body["y"]])
@@ -271,7 +275,7 @@ def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, ma
     spans = []
     for axis, count in enumerate(cells.shape[::-1]):
         name = "xy"[axis]
-        first = np.ceil((shapes[f"min_{name}"] - margin - origin[axis]) / size) - 1.0  # closed: its edge counts
+        first = np.ceil((shapes[f"min_{name}"] - margin - origin[axis]) / size) - 1.0  # closed: boundaries count
         last = np.floor((shapes[f"max_{name}"] + margin - origin[axis]) / size) + 1.0
         spans += [np.clip(each, 0, count).astype(np.int64) for each in (first, last)]
     left, right, top, bottom = spans
@@ -279,7 +283,7 @@ def rows_at_cells(world: WorldState, at: int, size: float, cells: np.ndarray, ma
 
 
 def _wake_at_cells(world, at, rows):
-    """Wake the islands of the dynamic bodies at changed cells, and return the pairs of the others there to the step."""
+    """Wake islands at changed cells, and disturb bodies there that may touch the grid. rows: SHAPE rows there."""
     if not world.sleeps:
         return
     bodies = world.bodies[np.unique(world.shapes["body_row"][rows])]
@@ -297,12 +301,12 @@ def _wake_at_cells(world, at, rows):
 
 
 def rows_of_parent(world: WorldState, shape_id: int) -> np.ndarray:
-    """Return the SHAPE rows of a shape and of its parts."""
+    """Return the SHAPE rows of a shape and its parts. shape_id: id of the shape."""
     return np.flatnonzero(world.shapes["parent"] == shape_id)
 
 
 def _differences(world, shape_id, before, mask, changed):
-    """Return (rows of the parts to remove, NewParts), and update the rows that stay."""
+    """Return (SHAPE rows of parts to remove, NewParts to add) for a new mask, and update the remaining rows."""
     shapes = world.shapes
     if not world.effects.response:
         return np.zeros(0, np.int64), NONE
@@ -322,7 +326,7 @@ def _differences(world, shape_id, before, mask, changed):
 
 
 def _differences_in_tiles(world, shape_id, before, mask, changed):
-    """Return the same as _differences for masks that differ in a few tiles."""
+    """Return the result of _differences for tiled masks that differ only in the tiles `changed`."""
     tiles = keep_tiles(mask.bare, before.bare, before.tiles.differences(mask.tiles, changed))
     if not tiles:
         return np.zeros(0, np.int64), NONE
@@ -339,7 +343,7 @@ def _differences_in_tiles(world, shape_id, before, mask, changed):
 
 
 def _rewrite_own_values(world, at, shape_id, mask):
-    """Write the own values of a mask to its rows."""
+    """Write the own values and `snap` of a mask to its SHAPE rows. at: row of the body."""
     rows = rows_of_parent(world, shape_id)
     shapes, pairs = world.shapes, world.pairs
     some = shapes[rows]
@@ -351,7 +355,7 @@ def _rewrite_own_values(world, at, shape_id, mask):
 
 
 def _rejoin(world, at, touched):
-    """Mark shape rows of a body as changed for the broad phase of the next step."""
+    """Mark SHAPE rows of a body as changed for the broad phase of the next step. at: row of the body."""
     world.pairs.touch(world.shapes["proxy"][touched])
     if world.bodies["quarantined"][at]:
         world.pairs.free_proxies(world.shapes["proxy"][touched])
@@ -369,7 +373,7 @@ def _rejoin(world, at, touched):
 
 
 def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular_velocity") -> None:
-    """Raise ValueError for a TileGrid whose body is rotated or rotates."""
+    """Raise ValueError for a TileGrid if `turn`, an angle or angular velocity, is not 0. what: name of turn."""
     for shape in shapes if turn != 0.0 else ():
         if not shape._may_turn:
             raise ValueError(
@@ -378,7 +382,7 @@ def check_grid_stands(shapes: Sequence[Shape], turn: float, what: str = "angular
 
 
 def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
-    """Set the mass of a body, in place of the mass by its densities."""
+    """Set the mass of a body [density px2], which replaces the mass from the densities of its shapes."""
     at = world._row_number(identity)
     world._definitions.rows["mass"][at] = mass
     used, density = world._shapes_of[identity], float(world._definitions.rows["density"][at])
@@ -387,7 +391,7 @@ def set_mass_of(world: WorldState, identity: int, mass: float) -> None:
 
 
 def _weigh(world, at, used):
-    """Write mass, inertia and centre of mass of a body with these shapes; its contacts stay where they are."""
+    """Write mass, inertia and centre of mass of a body row with shapes `used`; update its cached contacts."""
     given, body = world._definitions.rows[at], world.bodies[at]
     x, y = body["center_x"], body["center_y"]
     mass = weigh(used, float(given["density"]), float(given["mass"]))
@@ -397,16 +401,16 @@ def _weigh(world, at, used):
 
 
 def refresh_mass(world: WorldState, identity: int) -> None:
-    """Recompute mass and inertia of a body after its shapes, kind or material changed. Its neighbours wake."""
+    """Recompute mass and inertia of a body after its shapes, kind or material changed. Disturb the body."""
     at = world._row_number(identity)
     _weigh(world, at, world._shapes_of[identity])
     refresh_pose(world, identity, at)
 
 
 def refresh_pose(world: WorldState, identity: int, at: int) -> int:
-    """Recompute centre of mass and swept AABBs of a body, by id and row, after it was moved. Its neighbours wake.
+    """Refresh the centre of mass of a moved body, mark its proxies as changed, and disturb it.
 
-    Return its row, which moves if islands wake.
+    Return the present row of the body, see sleep.disturb_one. identity, at: id and row of the body.
     """
     at = sleep.disturb_one(world, identity, at)
     write_center(world._bodies, at)
@@ -421,7 +425,7 @@ def refresh_pose(world: WorldState, identity: int, at: int) -> int:
 
 
 def shape_ids(world: WorldState, identity: int) -> tuple[int, ...]:
-    """Return the ids of a body's shapes, in their order."""
+    """Return the ids of a body's shapes, in the order of the shapes."""
     at = world._row_number(identity)
     own = world.shapes[world._shape_rows(at)]
     return tuple(own["id"][own["role"] != PART].tolist())
@@ -451,7 +455,7 @@ def set_shapes(world: WorldState, identity: int, shapes: Sequence[Shape]) -> Non
 
 
 def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
-    """Append a shape to a body and return its id. Raises TypeError, ValueError."""
+    """Append a shape to a body and return its id. Raises TypeError, ValueError if the body cannot have it."""
     world._row_number(identity)
     together = (*world._shapes_of[identity], shape)
     _check(world, identity, together, [])
@@ -460,7 +464,7 @@ def add_shape(world: WorldState, identity: int, shape: Shape) -> int:
 
 
 def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
-    """Remove a shape of a body. Raises KeyError for an id that is not of this body, TypeError, ValueError."""
+    """Remove a shape. Raises KeyError if the body has no such shape, ValueError if the body cannot lose it."""
     shape_id, ids = checks.whole("shape_id", shape_id, 0, 2**62), shape_ids(world, identity)
     if shape_id not in ids:
         raise checks.NoSuchId(f"shape_id must be one of body {identity}'s, {list(ids)} (got {shape_id})")
@@ -472,7 +476,7 @@ def remove_shape(world: WorldState, identity: int, shape_id: int) -> None:
 
 
 def check_own_values(world: WorldState, shapes: Sequence[Shape]) -> None:
-    """Raise ValueError for shapes that are sensors, or open from below, in a world without that effect."""
+    """Raise ValueError for sensor shapes without the effect sensors, and one-way shapes without the effect one_way."""
     world._needs("sensors", "a shape with_(sensor=True)", any(shape.sensor for shape in shapes))
     for shape in shapes:
         world._needs("one_way", f"{type(shape).__name__} with one_way", bool(np.any(getattr(shape, "one_way", False))))
@@ -488,7 +492,7 @@ def check_weight(world: WorldState, shapes: Sequence[Shape], kind: int, mass: fl
 
 
 def _check(world, identity, shapes, gone):
-    """Raise an error if a body cannot have these shapes or lose the shapes with these ids."""
+    """Raise an error if a body cannot have these shapes. gone: ids of the shapes that it would lose."""
     world._unlocked()
     if np.isin(world.characters.rows["shape"], gone).any():
         raise ValueError(f"shapes of body {identity} must stay: it is a Character's, who walks by its shape")
@@ -500,7 +504,7 @@ def _check(world, identity, shapes, gone):
 
 
 def _add(world, identity, shapes, new) -> np.ndarray:
-    """Give a body its shapes, of which the new ones have no rows yet, and return the ids of the new ones."""
+    """Set the shapes of a body. Add rows for its shapes without rows, `new`, and return their ids."""
     at = world._row_number(identity)
     world._shapes_of[identity] = shapes
     ids = add_shapes(world, at, 1, new)
@@ -518,7 +522,7 @@ def _add(world, identity, shapes, new) -> np.ndarray:
 
 
 def rebuild_masks(world: WorldState) -> None:
-    """Rebuild the rows of all masks for the world's effects: with `response`, with the parts of their outlines.
+    """Rebuild the SHAPE rows of bodies with masks: masks have parts only with the effect response.
 
     Bodies keep their tiers; their shapes get new ids.
     """
@@ -533,7 +537,7 @@ def rebuild_masks(world: WorldState) -> None:
 
 
 def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
-    """Return the shapes that replace one PixelMask in a tier; unchanged for None. Raises ValueError, TypeError."""
+    """Return the shapes of a tier for one PixelMask; `shapes` for None. Raises ValueError for an unknown tier."""
     if tier is None:
         return tuple(shapes)
     if len(shapes) != 1 or not isinstance(shapes[0], PixelMask):
@@ -542,7 +546,7 @@ def shapes_for_tier(shapes: Sequence[Shape], tier: str | None) -> tuple:
 
 
 def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
-    """Set the tier of a body's sprite. Raises ValueError for an unknown tier or a body without a sprite."""
+    """Set the tier of a body made from one PixelMask. Raises ValueError for an unknown tier or other bodies."""
     world._row_number(identity)
     source = world._sources.get(identity, world._shapes_of[identity])
     set_shapes(world, identity, shapes_for_tier(source, tier))
@@ -551,12 +555,12 @@ def set_tier(world: WorldState, identity: int, tier: str | None) -> None:
 
 
 # ---- editing ---------------------------------------------------------------------------------------------------------
-# Adding bodies, and changing their poses and values; World and Body call these functions. Arguments are checked first,
-# so that wrong ones leave the world unchanged.
+# Adding bodies, and changing their values; World and Body call these functions. Arguments are checked first, so that
+# invalid arguments leave the world unchanged.
 
 
 class BodyDef(NamedTuple):
-    """The arguments of World.add_body but shapes and motion."""
+    """The arguments of World.add_body except shapes, position, angle and velocity."""
 
     kind: str = "dynamic"
     angular_velocity: float = 0.0
@@ -581,7 +585,11 @@ def add_rows(
     angles: Sequence[float] | np.ndarray,
     wanted: BodyDef,
 ) -> np.ndarray:
-    """Check the arguments of new bodies, append their rows, and return the ids. Raises TypeError, ValueError."""
+    """Check the arguments of new bodies, append their rows, and return the ids (n) int64.
+
+    positions (n, 2) [px]; velocities (n, 2) [px/s]; angles (n) [rad]; wanted: the other arguments. Raises TypeError,
+    ValueError for invalid arguments; the world is then unchanged.
+    """
     world._unlocked()
     kind = KINDS.index(checks.choice("kind", wanted.kind, KINDS))
     material, filter = checked_material(wanted.material), checked_filter(wanted.filter)
@@ -632,7 +640,7 @@ def add_rows(
     add_shapes(world, world._bodies.count - n, n, used)
     runs, each = world._runs.append(n), (world._next_shape - first) // n
     runs["first"], runs["count"] = np.arange(first, world._next_shape, each) if each else 0, each
-    source = tuple(shapes)  # one tuple for all: each body of a swarm costs two entries and no object
+    source = tuple(shapes)  # one tuple shared by all bodies, to save memory
     for identity in ids.tolist():
         world._shapes_of[identity] = used
         if wanted.user is not None:
@@ -646,35 +654,35 @@ def add_rows(
 
 
 def checked_material(value: Any) -> Material:
-    """Return a Material. Raises TypeError."""
+    """Return a Material unchanged. Raises TypeError for anything else."""
     if not isinstance(value, Material):
         raise TypeError(f"material must be a Material (got {checks.shown(value)})")
     return value
 
 
 def checked_filter(value: Any) -> Filter:
-    """Return a Filter. Raises TypeError."""
+    """Return a Filter unchanged. Raises TypeError for anything else."""
     if not isinstance(value, Filter):
         raise TypeError(f"filter must be a Filter (got {checks.shown(value)})")
     return value
 
 
 def checked_sensor(world: WorldState, value: Any) -> bool:
-    """Return a bool. Raises TypeError, and ValueError for True without the effect sensors."""
+    """Return a bool. Raises TypeError for anything else, ValueError for True without the effect sensors."""
     value = checks.flag("sensor", value)
     world._needs("sensors", "sensor=True", value)
     return value
 
 
 def checked_bullet(world: WorldState, value: Any) -> bool:
-    """Return a bool. Raises TypeError, and ValueError for True without the effect continuous."""
+    """Return a bool. Raises TypeError for anything else, ValueError for True without the effect continuous."""
     value = checks.flag("bullet", value)
     world._needs("continuous", "bullet=True", value)
     return value
 
 
 def checked_continuous(world: WorldState, value: Any) -> int:
-    """Return the number of a kind of continuous collision. Raises TypeError, ValueError (effect continuous)."""
+    """Return the index in CONTINUOUS. Raises TypeError, ValueError for other values or without the effect."""
     swept = CONTINUOUS.index(checks.choice("continuous", value, CONTINUOUS))
     world._needs("continuous", f"continuous={value!r}", swept not in (OFF, AUTO))
     return swept
@@ -684,30 +692,30 @@ def checked_continuous(world: WorldState, value: Any) -> int:
 
 
 def write_material(rows: np.ndarray, material: Material) -> None:
-    """Write a material to rows that have its columns."""
+    """Write a material to SHAPE or BODY_DEF rows."""
     for name in MATERIAL:
         rows[name] = getattr(material, name)
 
 
 def _own_rows(world, identity, own) -> np.ndarray:
-    """Return the rows of a body's shapes that have no own value of this name."""
+    """Return the SHAPE rows of a body without an own value. own: "own_material", "own_filter" or "own_sensor"."""
     return np.flatnonzero((world.shapes["body"] == identity) & ~world.shapes[own])
 
 
 def material_of(world: WorldState, identity: int) -> Material:
-    """Return the material of those shapes of a body that have none of their own."""
+    """Return the material of a body, which its shapes without an own material have."""
     given = world._definitions.rows[world._row_number(identity)]
     return Material(*(given[name].item() for name in MATERIAL))
 
 
 def filter_of(world: WorldState, identity: int) -> Filter:
-    """Return the filter of those shapes of a body that have none of their own."""
+    """Return the filter of a body, which its shapes without an own filter have."""
     given = world._definitions.rows[world._row_number(identity)]
     return Filter(given["membership"].item(), given["mask"].item())
 
 
 def set_material(world: WorldState, identity: int, value: Material) -> None:
-    """Set the material of a body's shapes that have none of their own. Raises TypeError."""
+    """Set the material of a body, for shapes without an own material. Raises TypeError if not a Material."""
     world._unlocked()
     value = checked_material(value)
     at = world._row_number(identity)
@@ -718,7 +726,7 @@ def set_material(world: WorldState, identity: int, value: Material) -> None:
 
 
 def set_filter(world: WorldState, identity: int, value: Filter) -> None:
-    """Set the filter of a body's shapes that have none of their own. Raises TypeError."""
+    """Set the filter of a body, for shapes without an own filter. Raises TypeError if not a Filter."""
     world._unlocked()
     value = checked_filter(value)
     given = world._definitions.rows[world._row_number(identity)]
@@ -730,7 +738,7 @@ def set_filter(world: WorldState, identity: int, value: Filter) -> None:
 
 
 def set_sensor(world: WorldState, identity: int, value: bool) -> None:
-    """Set whether a body's shapes that have no own value are sensors. Raises TypeError, ValueError."""
+    """Set whether shapes without an own value are sensors. Raises as checked_sensor."""
     world._unlocked()
     value = checked_sensor(world, value)
     world._definitions.rows["sensor"][world._row_number(identity)] = value
@@ -741,14 +749,14 @@ def set_sensor(world: WorldState, identity: int, value: bool) -> None:
 
 
 def set_continuous(world: WorldState, identity: int, value: str) -> None:
-    """Set the continuous collision of a body. Raises TypeError, ValueError."""
+    """Set the kind of continuous collision of a body. Raises as checked_continuous."""
     world._unlocked()
     swept, row = checked_continuous(world, value), world._body_row(identity)
     row["continuous"] = swept
 
 
 def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
-    """Set whether contacts and impulses leave the rotation of a body unchanged; True stops it. Raises TypeError."""
+    """Set whether impulses leave the rotation unchanged; True also stops it. Raises TypeError if not a bool."""
     world._unlocked()
     value, row = checks.flag("fixed_rotation", value), world._body_row(identity)
     row["fixed_rotation"] = value
@@ -758,7 +766,7 @@ def set_fixed_rotation(world: WorldState, identity: int, value: bool) -> None:
 
 
 def set_kind(world: WorldState, identity: int, kind: str) -> None:
-    """Set the kind of a body. Raises ValueError for a dynamic TileGrid, and for a character, which is kinematic."""
+    """Set the kind of a body. Raises ValueError for a dynamic TileGrid, or a character that is not kinematic."""
     world._unlocked()
     row = world._body_row(identity)
     if kind != "kinematic" and (world.characters.rows["body"] == identity).any():
@@ -778,7 +786,7 @@ def set_kind(world: WorldState, identity: int, kind: str) -> None:
 
 
 def restore(world: WorldState, identity: int) -> None:
-    """Return a quarantined body to the simulation."""
+    """Add a quarantined body to the simulation again. Do nothing for a body that is not quarantined."""
     world._unlocked()
     row = world._body_row(identity)
     if row["quarantined"]:

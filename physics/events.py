@@ -1,6 +1,4 @@
-"""Events: pairs that begin, continue or cease to touch, hits, and overlaps of sensors, as arrays valid until the next
-step.
-"""
+"""Events of a step: pairs that begin, continue or cease to touch, hits, and overlaps of sensors, as arrays."""
 
 import math
 from typing import NamedTuple
@@ -24,8 +22,9 @@ UNBROKEN, NO_ROWS, NO_BROKEN = np.zeros(0, QUARANTINE), np.zeros(0, np.int64), n
 
 @subkernel
 def write_event(contact, second, at, events_out):
-    """Write ids, point and normal of a contact to row `at` of events_out (EVENT). second: its second point, else its
-    first.
+    """Write the ids, one point and the normal of a CONTACT row to row `at` of EVENT rows.
+
+    second: True for the second point, False for the first point.
     """
     e = events_out[at]
     e.body_a, e.body_b = contact.body_a, contact.body_b
@@ -36,16 +35,16 @@ def write_event(contact, second, at, events_out):
 
 
 class Comparison(NamedTuple):
-    """The output arrays of compare_pairs: how the touching pairs of a step differ from those of the step before."""
+    """The output arrays of compare_pairs: differences between the touching pairs of a step and of the last step."""
 
-    now: np.ndarray  # EVENT: the pairs that touch
-    begin: np.ndarray
-    persist: np.ndarray
-    end: np.ndarray
-    aside: np.ndarray  # EVENT: pairs that touched and fell asleep
-    hits: np.ndarray  # HIT
-    keep: np.ndarray  # bool: contacts of pairs that touch
-    counts: np.ndarray  # number of rows: now, begin, persist, end, asleep, hits; points of pairs that touch
+    now: np.ndarray  # EVENT rows of the pairs that touch
+    begin: np.ndarray  # EVENT rows of the pairs that began to touch
+    persist: np.ndarray  # EVENT rows of the pairs that continue to touch
+    end: np.ndarray  # EVENT rows of the pairs that ceased to touch
+    aside: np.ndarray  # EVENT rows of the touching pairs that fell asleep
+    hits: np.ndarray  # HIT rows
+    keep: np.ndarray  # bool for each contact, whether its pair touches
+    counts: np.ndarray  # (7) numbers of rows: now, begin, persist, end, aside, hits; number of points of touching pairs
 
 
 def new_comparison(room: int) -> Comparison:
@@ -56,12 +55,11 @@ def new_comparison(room: int) -> Comparison:
 
 @subkernel
 def look_at_pair(contacts, first, last, slop):
-    """Return how a pair of shapes touches, from its CONTACT rows first … last - 1. slop [px]: separation that still
-    touches.
+    """Return how a pair of shapes touches, from its CONTACT rows first … last - 1.
 
-    (touches, has impulses, row of the deepest point, whether that is the second point of its row, row of the point with
-    the fastest approach, whether that is the second point of its row, its approach speed [px/s], sum of the normal
-    impulses).
+    The result is (whether the pair touches, whether it has impulses, row of the deepest point, whether this is the
+    second point of the row, row of the fastest approaching point, whether this is the second point of the row, its
+    approach speed [px/s], sum of the normal impulses). slop [px]: greatest separation that counts as touching.
     """
     active = False
     pushed = False
@@ -95,14 +93,15 @@ def look_at_pair(contacts, first, last, slop):
 
 @kernel
 def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_speed, comparison_inout):
-    """Compare the pairs that touched in the step before with the contacts of this step, and write the changes.
+    """Compare the pairs that touched in the last step with the contacts of this step, and write the changes.
 
-    before: EVENT rows; contacts: CONTACT rows; both in the order of shape ids. fell_asleep: CONTACT rows of pairs whose
-    island fell asleep: they still touch and report nothing, but move to the sleeping set. sensors: 1 to read contacts
-    of sensors only, 0 to read the others only. persisting: 1 to report pairs that continue to touch. slop [px]: a pair
-    that touched before counts as touching up to this separation. hit_speed [px/s]: approach speed above which a hit is
-    reported. comparison_inout: Comparison. Return False if the comparison stopped at a contact of a child shape, which
-    the caller must name by its parent shape first; otherwise True. O(before + contacts).
+    Return False if the comparison stopped at a contact of a child shape, whose ids the caller must first replace by the
+    parent ids; otherwise True. before: EVENT rows of the touching pairs of the last step; contacts: CONTACT rows; both
+    in the order of shape ids. fell_asleep: CONTACT rows of pairs whose island fell asleep: these pairs still touch, are
+    not reported, and are written to `aside`. sensors: 1 to read only contacts of sensors, 0 to read only the other
+    contacts. persisting: 1 to report pairs that continue to touch. slop [px]: greatest separation of a touching pair
+    that also touched in the last step. hit_speed [px/s]: approach speed above which a hit is reported.
+    comparison_inout: Comparison. O(before + contacts).
     """
     counts = comparison_inout.counts
     now = comparison_inout.now
@@ -118,7 +117,7 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
         if j < len(contacts) and contacts[j].sensor != (sensors == 1):
             j += 1
             continue
-        # The contacts of one pair, unless the next pair that touched before comes first.
+        # Merge in the order of shape ids. old: the next pair touched before; new: the next pair has contacts now.
         old = j >= len(contacts)
         new = i >= len(before)
         if not (old or new):
@@ -145,7 +144,7 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
         while last < len(contacts) and contacts[last].shape_a == m.shape_a and contacts[last].shape_b == m.shape_b:
             last += 1
         if last - j == 1 and m.count == 1:
-            # By far the most pairs have one contact.
+            # Most pairs have one contact with one point.
             impulse = m.normal_impulse_1
             pushed = impulse > 0.0
             active = m.separation_1 <= (slop if old else 0.0) or pushed or m.swept
@@ -187,35 +186,33 @@ def compare_pairs(before, contacts, fell_asleep, sensors, persisting, slop, hit_
 
 
 class Changes:
-    """The changes of the touching pairs in one step: arrays that are valid until the next Pairs.compare()."""
+    """The changes of the touching pairs in one step, see Comparison. The arrays are valid until the next compare()."""
 
     __slots__ = ("aside", "begin", "end", "hits", "keep", "persist", "points")
 
     begin: np.ndarray  # EVENT
     persist: np.ndarray
     end: np.ndarray
-    aside: np.ndarray  # EVENT: pairs that touched and fell asleep
+    aside: np.ndarray  # EVENT rows of the touching pairs that fell asleep
     hits: np.ndarray  # HIT
-    keep: np.ndarray  # bool: contacts of pairs that touch
-    points: int  # number of contact points of pairs that touch
+    keep: np.ndarray  # bool for each contact, whether its pair touches
+    points: int  # number of contact points of touching pairs
 
 
 class Pairs:
-    """The pairs that touch, and how they changed in the last step."""
+    """The touching pairs, and their changes in the last step."""
 
     def __init__(self) -> None:
         self._make_room(16)
         self.count = 0
 
     def _make_room(self, room):
-        """Allocate the arrays for the last comparison and the next one, with room for `room` pairs. Old contents are
-        dropped.
-        """
+        """Allocate arrays with room for a number of pairs, for two comparisons. The old contents are dropped."""
         compared = new_comparison(room)
         self.compared, self.last, self.changes = compared, compared._replace(now=np.zeros(room, EVENT)), Changes()
 
     def __getstate__(self):
-        return self.rows.copy()  # the rest is room for later comparisons
+        return self.rows.copy()  # the other arrays are scratch for later comparisons
 
     def __setstate__(self, touching):
         self._make_room(16)
@@ -237,7 +234,7 @@ class Pairs:
     ) -> Changes | None:
         """Update the touching pairs from the contacts of a step, and return the changes. Arguments: see compare_pairs.
 
-        Return None, and change nothing, if a contact belongs to a child shape.
+        If a contact belongs to a child shape, the result is None, and nothing is changed.
         """
         if self.count + len(contacts) > len(self.compared.keep):
             self._grow(2 * (self.count + len(contacts)))
@@ -245,7 +242,7 @@ class Pairs:
         flags = int(sensors), int(persisting)
         if not compare_pairs(self.rows, contacts, fell_asleep, *flags, slop, hit_speed, compared):
             return None
-        # The pairs that touch now are those of the step before in the next comparison.
+        # The next comparison starts from the pairs that touch now.
         self.compared, self.last = self.last, compared
         self.count, begin, persist, end, aside, hits, changes.points = compared.counts.tolist()
         changes.begin = compared.begin[:begin] if begin else NO_EVENTS
@@ -262,20 +259,20 @@ class Pairs:
         self.last.now[: len(before)] = before
 
     def give_back(self, rows: np.ndarray) -> None:
-        """Add touching pairs (EVENT rows) that were kept in the sleeping set."""
+        """Add touching pairs, EVENT rows, from the sleeping set."""
         if len(rows):
             both = joined([self.rows, rows])
             self.restore(both[np.lexsort((both["shape_b"], both["shape_a"]))])
 
     def take_resting(self, bodies: np.ndarray) -> np.ndarray:
-        """Remove and return the pairs (EVENT rows) of which neither body is visited by a step, for the sleeping set."""
+        """Remove the pairs whose bodies are both not active, and return their EVENT rows, for the sleeping set."""
         rows = self.rows
         if not len(rows):
             return rows.copy()
         resting = np.ones(len(rows), bool)
         for side in ("body_a", "body_b"):
             at = rows_of(bodies, rows[side])
-            resting &= (at >= 0) & ~bodies["active"][at]  # removed shapes stay, and their pairs end
+            resting &= (at >= 0) & ~bodies["active"][at]  # pairs of removed bodies remain, and end
         taken = rows[resting]
         if len(taken):
             self.restore(rows[~resting])
@@ -290,11 +287,11 @@ class Pairs:
 
 
 def touching_bodies(world: WorldTables) -> np.ndarray:
-    """Return the (n, 2) int64 ids a < b of the bodies that touch, awake or asleep, each pair once and in order."""
+    """Return the pairs (n, 2) int64 of ids a < b of touching bodies, awake or asleep; each pair once, sorted."""
     asleep = world.sleeping_set
     parts = [world.touching_pairs.rows, asleep.touching_pairs, *(each.touching for each in asleep.islands.values())]
     rows = joined(parts)
-    for side in ("shape_a", "shape_b"):  # a removed shape has touched nothing since
+    for side in ("shape_a", "shape_b"):  # pairs of shapes that were removed after the step are left out
         there = rows_of(world.shapes, rows[side]) >= 0
         rows = rows if there.all() else rows[there]
     pairs = np.sort(np.stack([rows["body_a"], rows["body_b"]], axis=1), axis=1)
@@ -305,7 +302,7 @@ def touching_bodies(world: WorldTables) -> np.ndarray:
 
 
 # ---- sensors ---------------------------------------------------------------------------------------------------------
-# Overlaps of sensors at the final poses of a step, in worlds that respond.
+# Overlaps of sensors at the final poses of a step, in worlds with the effect response.
 
 
 @kernel
@@ -333,10 +330,10 @@ def is_any_sensor(pairs, shapes):
     writes=("sensed", "swept_sensors", "pairs", "broadphase", "work", "workspace", "library", *PLACED),
 )
 def sense(state: StepState) -> None:
-    """Detect sensor overlaps at the final poses of the step, and add those that swept bodies met on their way."""
+    """Detect sensor overlaps at the final poses of the step, and add the sensors that the sweep hit."""
     bodies, shapes, swept = state.bodies, state.shapes, state.swept_sensors
-    # Without sensors the loops are empty. The kernels are those of every step, so none is compiled when the first
-    # sensor is added.
+    # Without sensors the loops are empty. The same kernels are called in every step, so that none has to be compiled
+    # when the first sensor is added.
     asked = state.pairs.sensors > 0
     cover_final_poses(state, state.awake.shapes if asked else NO_ROWS)
     pairs = state.pairs.rows
@@ -357,7 +354,7 @@ def sense(state: StepState) -> None:
 
 
 class Events:
-    """Events of the last step, one structured array for each kind."""
+    """Events of the last step, one structured array for each kind, valid until the next step."""
 
     def __init__(self) -> None:
         self.begin = self.persist = self.end = self.sensor_begin = self.sensor_end = NO_EVENTS
@@ -375,7 +372,7 @@ class Events:
     writes=("touching_pairs", "sensing_pairs", "sleeping_set", "events", "reported", "work"),
 )  # fmt: skip
 def report_events(state: StepState) -> None:
-    """Compare the touching pairs with those of the step before, and write the changes to the world's Events."""
+    """Compare the touching pairs of this step and of the last step, and write the changes to the Events of the step."""
     contacts, events, tolerances, effects = state.contact_rows, state.events, state.tolerances, state.effects
     fell_asleep, keys = state.fell_asleep or (NOTHING, None)
     usual = False, effects.persist, tolerances.slop, tolerances.hit_speed

@@ -41,11 +41,11 @@ from physics.tables.table import joined
 from physics.world_state import WorldState, checked_substeps
 
 # ---- stored shapes ---------------------------------------------------------------------------------------------------
-# The shapes of a world as arrays and facts, for a file, and back.
+# Conversion of the shapes of a world to arrays and JSON values, for files, and back.
 
 
 def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
-    """Return shapes in a form for files: (arrays by name, other values as a dict for JSON)."""
+    """Return shapes in the form for files: (arrays by name, other values as a dict for JSON)."""
     arrays = {}
     for number, shape in enumerate(geometry.outlines):
         arrays[f"hull_{number}"] = np.array(shape.points)
@@ -69,7 +69,7 @@ def pack_geometry(geometry: Geometries) -> tuple[dict[str, np.ndarray], dict[str
 
 
 def unpack_geometry(arrays: dict[str, np.ndarray], facts: dict[str, Any]) -> Geometries:
-    """Return the shapes from the result of pack_geometry. Raises KeyError, TypeError, ValueError."""
+    """Return the shapes from the result of pack_geometry. Raises KeyError, TypeError, ValueError for damaged data."""
     outlines, masks = [], []
     types = {each.__name__: each for each in SHAPES if issubclass(each, Convex)}
     for number, (name, given) in enumerate(facts["hulls"]):
@@ -105,10 +105,11 @@ SETTINGS = (
     "drag",
     "wind",
 )  # restore() sets these
-FIELDS = ("gravity", "drag", "wind")  # set even if their effect is off: they stay, inert, when effects are replaced
+# These settings are restored without checking their effects: after set_effects they may have inert values.
+FIELDS = ("gravity", "drag", "wind")
 DAMAGE = (
     ValueError, TypeError, KeyError, IndexError, EOFError,
-    OSError,  # of data that is marked as bzip2 and is not
+    OSError,  # for data that is marked as bzip2 but is not
     lzma.LZMAError, OverflowError, AttributeError, zipfile.BadZipFile, zlib.error, RuntimeError, SyntaxError,
     tokenize.TokenError,
 )  # fmt: skip
@@ -132,9 +133,9 @@ LATER = {"joints": np.zeros(0, JOINT), "lost_joints": np.zeros(0, BROKEN)}  # ab
 
 
 def _as_laid_out(name, rows, dtype) -> np.ndarray:
-    """Return the rows of a stored table in this program's dtype. The columns must be the same, in any order.
+    """Return the rows of a stored table in this program's dtype. The order of the columns may differ.
 
-    Raises ValueError.
+    Raises ValueError if the columns are not the same.
     """
     columns = rows.dtype.fields or {}
     if {each: columns[each][0] for each in columns} != {each: dtype.fields[each][0] for each in dtype.names}:
@@ -150,7 +151,7 @@ def _as_laid_out(name, rows, dtype) -> np.ndarray:
 
 
 class Snapshot:
-    """The state of a world at one moment. `save` writes it to a file, `load` reads one."""
+    """A copy of the state of a world. `save` writes a snapshot to a file, `load` reads a file."""
 
     def __init__(self, arrays: dict[str, np.ndarray], facts: dict[str, Any], geometry: Any = None) -> None:
         for name, value in (("arrays", arrays), ("facts", facts)):
@@ -158,16 +159,15 @@ class Snapshot:
                 raise TypeError(f"{name} must be a dict, as World.snapshot() makes it (got {checks.shown(value)})")
         self.arrays = arrays
         self.facts = facts
-        # The shapes of a library by kind and row. Shapes are immutable, and carved masks share unchanged tiles:
+        # The shapes of a library by kind and row. Shapes are immutable, and carved masks share unchanged tiles, so
         # nothing is copied before the snapshot is saved.
         self.geometry = geometry
 
     def save(self, path: str | PathLike[str]) -> None:
-        """Write the snapshot to a versioned .npz file by atomic replace. Raises OSError; an existing file is then
-        unchanged.
+        """Write the snapshot to a versioned .npz file, which replaces an existing file atomically.
 
-        The data is first written to <path>.<process id>.part. Such files that killed programs left over an hour ago are
-        removed.
+        The data is first written to <path>.<process id>.part. Files of this form that were last written more than an
+        hour ago are removed. Raises OSError if writing fails; an existing file is then unchanged.
         """
         arrays, facts = pack_geometry(self.geometry)
         named: dict[str, Any] = {"facts": np.array(json.dumps(self.facts | facts)), **self.arrays, **arrays}
@@ -187,8 +187,10 @@ class Snapshot:
 
     @classmethod
     def load(cls, path: str | PathLike[str]) -> "Snapshot":
-        """Read a snapshot file. Raises ValueError with the path and the reason if the file is damaged or of another
-        version.
+        """Read a snapshot file, and return the Snapshot.
+
+        Raises OSError if the file cannot be opened; ValueError with path and reason if the file is damaged or has
+        another version.
         """
         with open(path, "rb") as file:
             content = io.BytesIO(file.read())
@@ -209,7 +211,7 @@ class Snapshot:
 
 
 def _remove_abandoned(path: str) -> None:
-    """Remove the .part files of this path that no program has written to for an hour."""
+    """Remove the .part files of this path that were last written more than an hour ago, see Snapshot.save."""
     folder, name = os.path.split(os.path.abspath(path))
     part = re.compile(re.escape(name) + r"\.[0-9]+\.part")
     with contextlib.suppress(OSError):
@@ -220,7 +222,7 @@ def _remove_abandoned(path: str) -> None:
 
 
 def take(world: WorldState) -> Snapshot:
-    """Return a Snapshot: a copy of the state of a world."""
+    """Return a Snapshot of a world."""
     library = world.library
     arrays = {
         "bodies": world.bodies.copy(),
@@ -258,9 +260,10 @@ def take(world: WorldState) -> Snapshot:
 
 
 def restore(world: WorldState, taken: Snapshot) -> None:
-    """Set a world to the state in a snapshot. Both must have the same effects and pixels_per_meter.
+    """Set a world to the state in a snapshot.
 
-    Raises TypeError, ValueError; the world is then unchanged.
+    Raises TypeError for anything but a Snapshot; ValueError if the snapshot is damaged, or has other effects or another
+    pixels_per_meter than the world. The world is then unchanged.
     """
     if not isinstance(taken, Snapshot):
         raise TypeError(f"snapshot must be a Snapshot (got {checks.shown(taken)})")
@@ -318,8 +321,9 @@ def restore(world: WorldState, taken: Snapshot) -> None:
 
 
 def _islands_apart(islands) -> dict:
-    """Return the sleeping islands as arrays by name: keys of islands, rows of all islands joined, and numbers of rows
-    of each.
+    """Return the sleeping islands as arrays by name: keys, rows of all islands joined, numbers of rows per island.
+
+    islands: SleepingSet.islands.
     """
     keys = sorted(islands)
     apart: dict[str, np.ndarray] = {"island_keys": np.array(keys, np.int64)}
@@ -335,7 +339,7 @@ def _islands_apart(islands) -> dict:
 
 
 def _sleepers(arrays) -> SleepingSet:
-    """Return the SleepingSet from the arrays that _islands_apart made."""
+    """Return the SleepingSet from the arrays of a snapshot, see _islands_apart."""
     sleeping_set, fields = SleepingSet(), ("bodies", "contacts", "touching")
     parts = {
         name: np.split(arrays["island_" + name], np.cumsum(arrays[f"island_{name}_counts"])[:-1]) for name in fields
@@ -348,10 +352,9 @@ def _sleepers(arrays) -> SleepingSet:
 
 
 def _unpack(arrays, facts, geometry):
-    """Check a snapshot, and return (library, shapes of each body, original masks of approximated bodies, random
-    generator).
+    """Check the data of a snapshot. Return (library, shapes by body id, original masks by body id, random generator).
 
-    Raises one of DAMAGE.
+    Original masks exist for bodies with a tier. Raises one of the errors DAMAGE for invalid data.
     """
     library = Library.of(geometry)
     shapes_of: dict[int, tuple[Shape, ...]] = {identity: () for identity in arrays["bodies"]["id"].tolist()}
@@ -386,7 +389,7 @@ def _unpack(arrays, facts, geometry):
 
 
 def _with_own_values(shape, row) -> Shape:
-    """Return a shape with the material, filter and sensor flag of its SHAPE row, where these are not the body's."""
+    """Return a shape with the own material, filter and sensor flag of its SHAPE row; the body's values are left out."""
     material = Material(*(row[name].item() for name in MATERIAL)) if row["own_material"] else None
     filter = Filter(row["membership"].item(), row["mask"].item()) if row["own_filter"] else None
     return shape.with_(material, filter, row["sensor"].item() if row["own_sensor"] else None)
@@ -401,13 +404,14 @@ def _targets(arrays) -> dict:
 # ---- digest ----------------------------------------------------------------------------------------------------------
 # The digest of a world: two worlds with equal digests continue equally.
 
-# Increased by every change that changes the digest of some world: older recordings still play, and diverge.
+# Increased by every change of the program that changes the digest of some world. Older recordings can still be played,
+# but may diverge.
 PHYSICS_VERSION = 7
 STATE = ("id", "x", "y", "angle", "vx", "vy", "angular_velocity", "awake", "quarantined")
 CLOCK = tuple(f"{test}_{name}" for test in ("still", "rocking") for name in ("x", "y", "angle"))
 CLOCK = (*CLOCK, "sleep_time", "rocking_time")
-ASKED = ("substeps", "cooldown")  # only with substeps by load
-# Values of bodies and shapes. Materials are left out, because they are inert without their effect.
+ASKED = ("substeps", "cooldown")  # hashed only if substeps is "auto" and the solver stacks
+# Hashed values of bodies and shapes. Materials are left out, because they may be inert without their effect.
 GIVEN_COLUMNS = ("kind", "inverse_mass", "inverse_inertia", "gravity_scale", "continuous", "bullet")
 SHAPE_COLUMNS = ("id", "membership", "mask", "sensor")
 NARROW = {"kind": np.int8, "continuous": np.int8, "membership": np.uint32, "mask": np.uint32}
@@ -419,10 +423,11 @@ WALK = (
 
 
 def digest(world: WorldState) -> str:
-    """Return the blake2b-128 hash of all that the next step depends on.
+    """Return the blake2b-128 hash of the state on which the next step depends, as hexadecimal digits.
 
-    It covers dt and solver, then in id order poses, velocities, flags, masses, filters, characters, contacts and
-    impulses, then the targets and forces of the next step. −0.0 counts as 0.0.
+    It covers the solver, dt and substeps; in the order of ids poses, velocities, flags, masses, filters, characters,
+    contacts and impulses; then joints, targets and forces of the next step. −0.0 counts as 0.0. Materials and random
+    numbers are not included.
     """
     found = hashlib.blake2b(digest_size=16)
     auto = world.substeps == "auto"

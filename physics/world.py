@@ -50,17 +50,17 @@ def own_solver(effects: Effects) -> str:
 
 
 class World(WorldState):
-    """The bodies of a simulation, the effects that act on them, and the stages that these effects need.
+    """A simulation: its bodies, the declared effects, and the stages of a step that these effects need.
 
     effects: the declared effects, None for Effects.rigid_bodies(). broadphase: an instance of one of the four
-    strategies, None for SpatialHashGrid(). solver: one of SOLVERS, None for soft_step with the effect stacking and for
-    projection without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s]. dt [s].
-    restitution_speed [px/s]: slower impacts do not bounce; None: 1 m/s. seed: of `world.random`. Gravity, drag and wind
-    other than 0 need their effects.
+    strategies, None for SpatialHashGrid(). solver: one of SOLVERS; None: "soft_step" with the effect stacking,
+    "projection" without it. gravity [px/s2], None for 9.8 m/s2 downwards. drag [1/s]. wind [px/s]. dt [s].
+    restitution_speed [px/s]: slower impacts do not bounce; None: 1 m/s. seed: seed of `world.random`. Gravity, drag and
+    wind other than 0 need their effects.
 
-    substeps: the number of substeps of the stacking solvers, or "auto". With "auto" each island takes 4 to 32 substeps,
-    as many as keep its contacts from sagging by more than accuracy [px] (None: 1 mm). An island that leans takes up to
-    128. An island that needs more is counted in cap_hits. Raises TypeError or ValueError naming the argument.
+    substeps: the number of substeps of the stacking solvers, or "auto". With "auto" each island takes 4 to 32 substeps:
+    as many as keep the sag of its contacts within accuracy [px] (None: 1 mm). A leaning island takes up to 128. An
+    island that needs more than it may take is counted in cap_hits. Raises TypeError or ValueError naming the argument.
     """
 
     _solver: str
@@ -127,7 +127,7 @@ class World(WorldState):
         self._plan()
 
     def __setattr__(self, name: str, value: Any) -> None:
-        """Set an attribute. Raises AttributeError for an unknown one; a subclass may have attributes of its own."""
+        """Set an attribute. Raises AttributeError for an unknown attribute; a subclass may add attributes."""
         if "profile" in self.__dict__ and name not in self.__dict__ and not hasattr(type(self), name):
             checks.known_attribute(self, name, type(self) is World)
         object.__setattr__(self, name, value)
@@ -144,10 +144,10 @@ class World(WorldState):
     # --- the step ------------------------------------------------------------------------------------------------
 
     def step(self, dt: float | None = None) -> None:
-        """Advance the simulation by dt [s], by world.dt if dt is None.
+        """Advance the simulation by dt [s], or by world.dt if dt is None.
 
-        A step of 0, or of less than SHORTEST_STEP, moves nothing and keeps forces and targets for the next step. Raises
-        ValueError for a negative or non-finite dt, RuntimeError during a step.
+        A step shorter than SHORTEST_STEP counts as 0: it moves nothing, and keeps forces and targets for the next step.
+        Raises TypeError if dt is not a number, ValueError for a negative or non-finite dt, RuntimeError during a step.
         """
         self._unlocked()
         if tiers.arrived:
@@ -190,10 +190,11 @@ class World(WorldState):
         tier: str | None = None,
         user: Any = None,
     ) -> Body:
-        """Add one body and return it. mass replaces the mass that follows from the densities of the shapes. A dynamic
-        body with allow_sleep=False keeps its island awake.
+        """Add one body and return it.
 
-        Raises TypeError or ValueError naming the argument. The world is then unchanged.
+        mass [density px2] replaces the mass from the densities of the shapes. A dynamic body with allow_sleep=False
+        keeps its island awake. Raises TypeError or ValueError naming the argument, RuntimeError during a step. The
+        world is then unchanged.
         """
         position, velocity = checks.position("position", position), checks.vector("velocity", velocity)
         angle, spin = checks.number("angle", angle), checks.number("angular_velocity", angular_velocity)
@@ -219,9 +220,10 @@ class World(WorldState):
         angles: ArrayLike | None = None,
         **definition: Any,
     ) -> np.ndarray:
-        """Add a body of the same shape at each of positions (n, 2) [px] and return their ids.
+        """Add a body with the same shape at each position, and return the ids (n,) of the bodies.
 
-        definition: the other arguments of add_body, the same for all. Raises as add_body.
+        positions (n, 2) [px]; velocities (n, 2) [px/s], None: 0; angles (n,) [rad], None: 0; definition: the other
+        arguments of add_body, the same for all bodies. Raises as add_body.
         """
         for name in sorted(definition.keys() - set(edit.BodyDef._fields)):
             raise TypeError(f"World.add_bodies() got an unexpected keyword argument {name!r}")
@@ -236,13 +238,17 @@ class World(WorldState):
         return edit.add_rows(self, (shape,), positions, velocities, angles, edit.BodyDef(**definition))
 
     def remove_body(self, body: Body | int) -> None:
-        """Remove a body, given as a Body or an id. Raises KeyError for an unknown body, TypeError, ValueError."""
+        """Remove a body, given as a Body or an id.
+
+        Raises KeyError for an unknown body, TypeError for anything but a Body or an id, ValueError for a Body of
+        another world, RuntimeError during a step.
+        """
         self._remove_one(self._identity("body", body))
 
     def remove_bodies(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
-        """Remove many bodies, given as Bodies or ids, in one pass over the tables. A body may be named more than once.
+        """Remove many bodies, given as Bodies or ids, in one pass over the tables. A body may be listed more than once.
 
-        Raises KeyError for a body that is not in the world, TypeError. Nothing is removed then.
+        Raises as remove_body. Nothing is removed then.
         """
         self._remove(np.unique(self._identities("ids", ids, repeats=True)))
 
@@ -255,25 +261,25 @@ class World(WorldState):
     ) -> None:
         """Teleport bodies to positions (n, 2) [px], as Body.position does, in one call.
 
-        ids: n Bodies or ids, each once. angles (n,) [rad] and velocities (n, 2) [px/s]: None leaves them unchanged.
-        Bodies wake, and so does what they touched; targets are cancelled. Raises KeyError for a body that is not in the
-        world, TypeError, ValueError, also for velocities of static bodies other than 0 and for the rotation of a
-        TileGrid, RuntimeError during a step. Nothing is moved then.
+        ids: n Bodies or ids, each once. angles (n,) [rad] and velocities (n, 2) [px/s]: None for no change. The bodies
+        and the islands that they touched wake; targets are cancelled. Raises KeyError for an unknown body; TypeError,
+        ValueError for invalid arguments, a velocity other than 0 of a static body, or a rotation of a TileGrid;
+        RuntimeError during a step. Nothing is moved then.
         """
         teleport.move(self, ids, positions, angles, velocities)
 
     def touch(self, ids: Body | int | Iterable[Body | int] | np.ndarray) -> None:
-        """Report that columns of these bodies were written: dynamic bodies wake, and the boxes are refreshed in the
-        next step.
+        """Report that columns of these bodies were written: dynamic bodies wake, and the next step refreshes the boxes.
 
         ids: a Body, an id, or many. Awake bodies, and worlds without the effect sleeping, need no touch. Raises
-        KeyError, TypeError, ValueError. Nothing is touched then.
+        KeyError for an unknown body; TypeError, ValueError for anything but different Bodies or ids; RuntimeError
+        during a step. Nothing is touched then.
         """
         self._unlocked()
         teleport.touch(self, ids)
 
     def clear(self) -> None:
-        """Remove all bodies and the geometry of their shapes. Ids continue where they were."""
+        """Remove all bodies. New bodies and shapes do not reuse the ids."""
         self.remove_bodies(self.bodies["id"])
 
     # --- joints ----------------------------------------------------------------------------------------------------
@@ -282,26 +288,27 @@ class World(WorldState):
     def joints(self) -> np.ndarray:
         """JOINT rows in the order of ids: a view, valid until a joint is added, removed or broken.
 
-        Columns with settings may be written between steps; `touch` wakes the bodies.
+        Columns with settings may be written between steps; afterwards call `touch` to wake the bodies.
         """
         if self._removed:
             self._drop_removed()
         return self._joints.rows
 
     def add_joint(self, joint_of: Kind) -> Joint:
-        """Add one joint, given as a Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target or NoContact.
+        """Add one joint, and return its handle. The bodies of the joint wake.
 
-        Return its handle. Its bodies wake. Raises ValueError without the effect joints, for two equal bodies, for two
-        sides that are not dynamic and for the body of a character, TypeError, KeyError. The world is then unchanged.
+        joint_of: a Revolute, Prismatic, Wheel, Distance, Weld, Angle, Motor, Target or NoContact. Raises TypeError for
+        anything else; ValueError without the effect joints, for equal bodies, without a dynamic body, or for the body
+        of a character; KeyError for an unknown body; RuntimeError during a step. The world is then unchanged.
         """
         return joint.add_one(self, joint_of)
 
     def add_joints(self, kind: type[Kind], bodies_a: Any, bodies_b: Any, **settings: Any) -> np.ndarray:
         """Add a joint of one kind between each of n pairs of bodies, and return their ids (n,).
 
-        bodies_a, bodies_b: n Bodies or ids; None for the world, as a whole or for single entries. settings: the
-        arguments of the kind, the same for all; anchors (at, or at_a and at_b) are arrays (n, 2) [px], an axis may be
-        one. Raises as add_joint.
+        bodies_a, bodies_b: n Bodies or ids; an entry None, or None instead of all entries, means the world. settings:
+        the arguments of the kind, the same for all joints. Anchors (at, or at_a and at_b) are arrays (n, 2) [px], and
+        an axis may be an array (n, 2). Raises as add_joint.
         """
         return joint.add_many(self, kind, bodies_a, bodies_b, settings)
 
@@ -310,9 +317,10 @@ class World(WorldState):
         return Joint(self, self.joints["id"].item(joint.row_of(self, identity)))
 
     def remove_joints(self, ids: Any) -> None:
-        """Remove joints, given as Joints or ids. A joint may be named more than once. Their bodies wake.
+        """Remove joints, given as Joints or ids. A joint may be listed more than once. The bodies of the joints wake.
 
-        Raises KeyError for a joint that is not in the world, TypeError. Nothing is removed then.
+        Raises KeyError for an unknown joint, TypeError for anything but Joints and ids, ValueError for a Joint of
+        another world, RuntimeError during a step. Nothing is removed then.
         """
         joint.remove(self, ids)
 
@@ -329,13 +337,14 @@ class World(WorldState):
     def touching(self, users: Literal[True]) -> list[tuple[Any, Any]]: ...
 
     def touching(self, users: bool = False) -> np.ndarray | list[tuple[Any, Any]]:
-        """Return the pairs of bodies that touch after the last step, (n, 2) int64 ids a < b, each once and sorted; with
-        users=True a list of pairs of their `user` values, in the same order.
+        """Return the pairs of touching bodies after the last step: (n, 2) int64 ids a < b, each pair once, sorted.
 
-        They are the pairs that `events.begin` has reported and `events.end` has not, pairs that sleep included. Without
-        response, masks touch where they share pixels, other shapes where separation <= 0. With response, a pair begins
-        at separation <= 0, by an impulse or by a sweep that hits, and ends beyond the slop without an impulse. A sensor
-        touches nothing: `events.sensor_begin` and `.sensor_end` report its overlaps. Raises TypeError.
+        With users=True the result is a list of pairs of the `user` values, in the same order. The pairs are those that
+        `events.begin` has reported and `events.end` has not; sleeping pairs are included. Without the effect response,
+        masks touch if they share pixels, other shapes if separation <= 0. With response, a pair begins to touch by
+        separation <= 0, an impulse or a hit of the sweep; it ends beyond the slop without an impulse. Sensors are not
+        included: `events.sensor_begin` and `.sensor_end` report their overlaps. Raises TypeError if users is not a
+        bool.
         """
         pairs = touching_bodies(self)
         if not checks.flag("users", users):
@@ -345,7 +354,7 @@ class World(WorldState):
 
     @property
     def contact_rows(self) -> np.ndarray:
-        """CONTACT rows of the last step, in the order of shape ids; worlds that stack keep them for the next step."""
+        """CONTACT rows of the last step, in the order of shape ids. Stacking solvers read them in the next step."""
         if self._removed:
             self._drop_removed()
         return self._contact_rows
@@ -357,19 +366,20 @@ class World(WorldState):
     # --- digest, snapshot ------------------------------------------------------------------------------------
 
     def digest(self) -> str:
-        """Return the blake2b-128 hash of the state that the next step depends on, independent of rows and times."""
+        """Return the blake2b-128 hash of the state on which the next step depends, see snapshot.digest."""
         return digest(self)
 
     def snapshot(self) -> Snapshot:
-        """Return a copy of the state."""
+        """Return a copy of the state of the world, for restore() or a file."""
         return snapshot.take(self)
 
     def restore(self, taken: Snapshot) -> None:
-        """Restore a snapshot: bodies, time, random numbers, and solver, dt, substeps, accuracy, restitution_speed,
-        gravity, drag and wind.
+        """Set the world to the state in a snapshot: bodies, joints, time, random numbers and settings.
 
-        The broad phase stays, and so does the `user` of bodies that exist already. Raises ValueError when the snapshot
-        does not fit this version's tables, this world's effects or its pixels_per_meter.
+        The settings are solver, joint_solver, dt, substeps, accuracy, restitution_speed, gravity, drag and wind. The
+        kind of broad phase is unchanged. `user` values are not part of a snapshot: present values are kept for the ids
+        in the snapshot. Raises TypeError for anything but a Snapshot; ValueError if the snapshot is damaged, or has
+        other effects or another pixels_per_meter; RuntimeError during a step.
         """
         self._unlocked()
         snapshot.restore(self, taken)
@@ -378,7 +388,7 @@ class World(WorldState):
 
     @property
     def solver(self) -> str:
-        """The name of the solver, one of SOLVERS. It can be set between steps."""
+        """The name of the solver, one of SOLVERS. It can be set between steps, which wakes all bodies."""
         return self._solver
 
     @solver.setter
@@ -395,16 +405,17 @@ class World(WorldState):
 
     @property
     def ignored_effects(self) -> tuple[str, ...]:
-        """Names of the declared effects that the present solver does not honour, in the order of Effects.names().
+        """Names of the declared effects that the present solver ignores, in the order of Effects.names().
 
-        A run with and without such an effect is the same. Two remarks: under blocking a body rotates by its own angular
-        velocity, although contacts do not rotate it. Characters stand on dynamic bodies wherever stacking is declared.
+        A run with and without such an effect is the same, with two exceptions: with the solver blocking, a body rotates
+        by its own angular velocity, although contacts do not rotate it. Characters stand on dynamic bodies if the
+        effect stacking is declared, with any solver.
         """
         return ignored_effects(self._effects, self._solver)
 
     @property
     def sleeps(self) -> bool:
-        """Whether bodies at rest are left out of the steps."""
+        """Whether bodies at rest are left out of the steps: effect sleeping and a stacking solver."""
         return self.stacks and self._effects.sleeping
 
     def _checked_solver(self, name):
@@ -415,16 +426,17 @@ class World(WorldState):
         return name
 
     def set_narrowphase(self, on: bool) -> None:
-        """Switch between the narrow phase and plain AABBs, between steps."""
+        """Use the narrow phase (True), or only AABBs (False), from the next step on. Raises TypeError otherwise."""
         self.set_effects(self._effects.with_(narrowphase=checks.flag("narrowphase", on)))
 
     def set_effects(self, effects: Effects) -> None:
         """Replace the effects from the next step on, and wake all bodies.
 
-        Values that belong to an effect that is no longer declared stay and are inert (angular velocity, bullet, sensor,
-        material). The solver stays where the effects allow it, otherwise it becomes the default solver. When `response`
-        is added or dropped, masks get other parts and new shape ids. Raises TypeError, and ValueError for effects
-        without response in a world that has Characters.
+        Values for effects that are no longer declared are kept, but have no effect (angular velocity, bullet, sensor,
+        material). If stacking is added or removed, or if the solver cannot solve present joints, the solver becomes the
+        default solver. If response is added or removed, the shapes of bodies with masks get new ids. Raises TypeError
+        for anything but an Effects, ValueError for effects without response in a world with Characters, RuntimeError
+        during a step.
         """
         self._unlocked()
         if not isinstance(effects, Effects):
@@ -443,7 +455,7 @@ class World(WorldState):
         before, self.workspace = self.workspace, Workspace(self._effects, self._solver)
         self._plans = plans(self._effects, self._solver)
         if before is None or before.stacks != self.stacks:
-            # Stacking worlds and the others cache different data of their contacts.
+            # Contact rows of solvers with and without a contact cache are not compatible.
             self.contact_rows = np.zeros(0, CONTACT)
             self.sensed = None
         if (self.sensed is not None) != self._effects.response:
@@ -453,20 +465,20 @@ class World(WorldState):
         self.profile = Profile(self._plan_now.names)
 
     def _let_sleep(self, sleeping):
-        """Set whether later steps process only the awake bodies, or all."""
+        """Set whether later steps process only the awake bodies (True), or all bodies (False)."""
         self.awake = Awake(sleeping)
         self.bodies["active"] = not sleeping
         self.awake.mark_dirty(self.bodies["id"][self.bodies["kind"] != DYNAMIC].tolist())
         self.pairs.let_sleep(sleeping)
-        self._broadphase = self._broadphase.fresh()  # it receives all present proxies, and none of removed ones
+        self._broadphase = self._broadphase.fresh()  # an empty instance, which receives all present proxies
         self.sleeping_set.return_all(self)
 
     @property
     def substeps(self) -> int | str:
         """Number of substeps of the stacking solvers, or "auto". It can be set between steps.
 
-        With "auto" each island takes 4 to 32 substeps, as many as keep its contacts from sagging by more than
-        `accuracy`, and up to 128 where it leans.
+        With "auto" each island takes 4 to 32 substeps: as many as keep the sag of its contacts within `accuracy`. A
+        leaning island takes up to 128.
         """
         return self._substeps
 
@@ -477,10 +489,9 @@ class World(WorldState):
 
     @property
     def accuracy(self) -> float:
-        """Greatest sag [px] of a contact under its load where substeps are "auto", as far as 32 substeps reach; None: 1
-        mm.
+        """Greatest sag [px] of a contact under its load if substeps is "auto"; with 32 substeps the sag may be greater.
 
-        It can be set between steps.
+        It can be set between steps; None sets 1 mm.
         """
         return ACCURACY * self.tolerances.pixels_per_meter if self._accuracy is None else self._accuracy
 
@@ -491,7 +502,7 @@ class World(WorldState):
 
     @property
     def broadphase(self) -> Strategy:
-        """The strategy that finds the candidate pairs. It can be set between steps, and changes no result."""
+        """The strategy that finds the candidate pairs. It can be set between steps, and does not change results."""
         return self._broadphase
 
     @broadphase.setter
@@ -509,8 +520,9 @@ class World(WorldState):
     def joint_solver(self) -> str:
         """The solver of joints: "iterative", "direct" or "auto". It can be set between steps.
 
-        "direct" solves each tree of joints exactly, at about three times the cost of "iterative", which converges from
-        substep to substep. "auto" takes the direct one where loads need it.
+        "iterative" converges from substep to substep. "direct" solves each tree of joints exactly, at about three times
+        the cost. "auto" solves trees directly, and meshes, in which many joints close loops, iteratively. A change
+        wakes all bodies.
         """
         return self._joint_solver
 
@@ -524,7 +536,7 @@ class World(WorldState):
 
     @property
     def gravity(self) -> Vec2:
-        """Gravity [px/s2]. It can be set between steps."""
+        """Gravity [px/s2]. It can be set between steps; a change wakes all bodies."""
         return self._gravity
 
     @gravity.setter
@@ -552,7 +564,7 @@ class World(WorldState):
 
     @property
     def drag(self) -> float:
-        """Drag [1/s]. It can be set between steps; a change wakes all bodies, as one of gravity or wind does."""
+        """Drag [1/s]. It can be set between steps; a change wakes all bodies."""
         return self._drag
 
     @drag.setter
@@ -564,7 +576,7 @@ class World(WorldState):
 
     @property
     def wind(self) -> Vec2:
-        """Velocity of the air [px/s], which acts through the drag. It can be set between steps."""
+        """Velocity of the air [px/s], which acts through the drag. A change, between steps, wakes all bodies."""
         return self._wind
 
     @wind.setter
@@ -575,7 +587,7 @@ class World(WorldState):
         self._wind = self._felt(self._wind, wind, self._effects.wind)
 
     def _needs_fields(self, gravity: Vec2 | None = None, drag: float = 0.0, wind: Vec2 | None = None) -> None:
-        """Raise ValueError for a force field other than 0 without its effect. Wind acts through drag, too."""
+        """Raise ValueError for a force field other than 0 without its effect. Drag also counts with wind."""
         self._needs("gravity", f"gravity={gravity}", bool(gravity and any(gravity)))
         self._needs("drag", f"drag={drag}", drag != 0.0 and not self._effects.wind)
         self._needs("wind", f"wind={wind}", bool(wind and any(wind)))
@@ -597,10 +609,13 @@ class World(WorldState):
             speed = checks.number("restitution_speed", value, low=0.0)
         self.tolerances = replace(self.tolerances, restitution_speed=speed)
 
-    # --- queries: see queries/casts.py for what each returns --------------------------------------------------------
+    # --- queries: see queries/casts.py for details -------------------------------------------------------------------
 
     def body(self, identity: Body | int) -> Body:
-        """Return the Body of an id, or of a Body. Raises KeyError for an unknown body, TypeError, ValueError."""
+        """Return the handle of a body, given as an id or a Body.
+
+        Raises KeyError for an unknown body, TypeError for anything else, ValueError for a Body of another world.
+        """
         identity = self._identity("identity", identity)
         self._row_at(identity)
         return Body(self, identity)
@@ -610,20 +625,20 @@ class World(WorldState):
         return self._bodies.count - len(self._removed)
 
     def __bool__(self) -> bool:
-        """Return True: a world without bodies is true, too."""
+        """Return True, also for a world without bodies."""
         return True
 
     def __iter__(self) -> Iterator[Body]:
         """Yield the bodies that exist now, in the order of ids.
 
-        Bodies that are added during the iteration are left out, and so are bodies that are removed before their turn.
+        Bodies that are added during the iteration are not included, nor bodies that are removed before their turn.
         """
         for identity in self.bodies["id"].tolist():
             if identity in self:
                 yield Body(self, identity)
 
     def __contains__(self, body: object) -> bool:
-        """Return whether a Body, a Joint, or the id of a body, belongs to this world."""
+        """Return whether a Body, a Joint or the id of a body is in this world."""
         if isinstance(body, Joint):
             return body.world is self and bool((self.joints["id"] == body.id).any())
         if isinstance(body, Body):
@@ -635,12 +650,15 @@ class World(WorldState):
     def ray_cast(
         self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False
     ) -> RayHit | None:
-        """Return the first shape that a ray [px] hits, or None. See casts.RayHit."""
+        """Return the first hit of a ray from `origin` along `translation` [px], or None. sensors: also hit sensors."""
         hits = casts.ray_cast_all(self, origin, translation, filter, sensors, first=True)
         return hits[0] if hits else None
 
     def ray_cast_all(self, origin: Pair, translation: Pair, filter: Filter = Filter.ALL, sensors: bool = False) -> list:
-        """Return all shapes that a ray [px] hits, nearest first, ties by shape id."""
+        """Return the RayHits of all shapes on a ray from `origin` along `translation` [px], nearest first.
+
+        Ties are in the order of shape ids. sensors: also hit sensors.
+        """
         return casts.ray_cast_all(self, origin, translation, filter, sensors)
 
     def shape_cast(self, shape: Shape, pose: Pose, translation: Pair, filter: Filter = Filter.ALL) -> RayHit | None:
@@ -648,7 +666,7 @@ class World(WorldState):
         return casts.shape_cast(self, shape, pose, translation, filter)
 
     def closest(self, point: Pair, filter: Filter = Filter.ALL) -> tuple[Body, Vec2, float] | None:
-        """Return (body, point, distance [px]) of the nearest point of any shape, or None."""
+        """Return (body, point, distance [px]) of the point of a shape that is nearest to `point` [px], or None."""
         return casts.closest(self, point, filter)
 
     def overlap(self, shape: Shape, pose: Pose, filter: Filter = Filter.ALL) -> list[Body]:
@@ -656,13 +674,16 @@ class World(WorldState):
         return casts.overlap(self, shape, pose, filter)
 
     def query_aabb(self, lower: Pair, upper: Pair) -> list[Body]:
-        """Return the bodies with a shape whose AABB meets a closed box [px], in the order of ids."""
+        """Return the bodies with a shape whose AABB meets a box [px], boundary included, in the order of ids.
+
+        lower, upper: corners of the box with the least and the greatest coordinates.
+        """
         return casts.query_aabb(self, lower, upper)
 
     def query_rect(self, rect: Sequence[float] | Sequence[Pair]) -> list[Body]:
-        """Return the bodies with a shape whose AABB meets a closed rectangle [px], in the order of ids.
+        """Return the bodies with a shape whose AABB meets a rectangle [px], boundary included, in the order of ids.
 
-        rect: (x, y, width, height) or ((x, y), (width, height)), as pygame's Rect takes it.
+        rect: (x, y, width, height) or ((x, y), (width, height)), as for pygame.Rect.
         """
         return casts.query_rect(self, rect)
 
