@@ -116,7 +116,7 @@ def _enter(world, rows):
 
 
 def write_own_values(rows: np.ndarray, given: np.ndarray, shape: Shape) -> None:
-    """Write material, filter and sensor of a shape to SHAPE rows; without own values those of BODY_DEF rows."""
+    """Write material, filter and sensor of a shape to SHAPE rows; without own values copy BODY_DEF rows."""
     for name in (*MATERIAL, "membership", "mask", "sensor"):
         rows[name] = given[name]
     for name in ("material", "filter", "sensor"):

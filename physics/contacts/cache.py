@@ -311,7 +311,7 @@ def update_contacts(bodies, contacts_inout):
     for i in range(len(contacts_inout)):
         c = contacts_inout[i]
         a, b = bodies[c.body_row_a], bodies[c.body_row_b]
-        # The contacts of a pair, and often those of a body, are adjacent.
+        # The contacts of a pair, and often all contacts of a body, are adjacent.
         if c.body_row_a != row_a:
             row_a = c.body_row_a
             turn_a = rotation_of(a.angle)
@@ -398,7 +398,7 @@ def is_unmoved(body):
 
 @subkernel
 def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
-    """Update all contacts to the present poses, and flag those that can be recycled in the next step. O(contacts).
+    """Update all contacts to the present poses, and write which of them can be recycled in the next step. O(contacts).
 
     Also write BODY.has_current_contacts of the bodies in contact. distance [px]: see can_recycle.
     """
@@ -408,7 +408,7 @@ def update_and_flag(shapes, distance, bodies_inout, contacts_inout):
     for i in range(len(contacts_inout)):
         c = contacts_inout[i]
         a, b = bodies_inout[c.body_row_a], bodies_inout[c.body_row_b]
-        # The contacts of a pair, and often those of a body, are adjacent.
+        # The contacts of a pair, and often all contacts of a body, are adjacent.
         if c.body_row_a != row_a:
             row_a = c.body_row_a
             turn_a = rotation_of(a.angle)

@@ -1,4 +1,4 @@
-"""Narrow phase of worlds with a stacking solver: contacts are recycled, or detected and matched with old ones."""
+"""Narrow phase of worlds with a stacking solver: contacts are recycled, or detected and matched with the last step."""
 
 import math
 from typing import NamedTuple

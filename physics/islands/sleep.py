@@ -123,7 +123,7 @@ class SleepingSet:
         return in_order(joined([np.zeros(0, CONTACT), *(each.contacts for each in self.islands.values())]))
 
     def keep_reported(self, tables: WorldTables) -> None:
-        """Move the touching and sensed pairs whose bodies are both outside of the step from `tables` to this set."""
+        """Move the touching and sensed pairs whose bodies are both not active from `tables` to this set."""
         self.touching_pairs = np.concatenate([self.touching_pairs, tables.touching_pairs.take_resting(tables.bodies)])
         self.sensing_pairs = np.concatenate([self.sensing_pairs, tables.sensing_pairs.take_resting(tables.bodies)])
 
@@ -276,7 +276,7 @@ def wake_all(tables: WorldTables) -> None:
 
 
 def wake(tables: WorldTables, keys: Iterable[int]) -> None:
-    """Wake islands, by key: move their bodies, and all sleeping contacts with these bodies, back to the step."""
+    """Wake islands, by key: move their bodies, and all sleeping contacts with these, back to the awake tables."""
     sleeping_set = tables.sleeping_set
     keys = [key for key in sorted(keys) if key in sleeping_set.islands]
     if not keys:
@@ -303,7 +303,7 @@ def wake(tables: WorldTables, keys: Iterable[int]) -> None:
 
 
 def _bring_back(tables, contacts):
-    """Add those of the contacts whose pair has no contact in the step, with present body and shape rows."""
+    """Add contacts to tables.contact_rows, with present rows, unless their pair already has a contact there."""
     found = tables.contact_rows
     known = found["shape_a"] << 32 | found["shape_b"]
     new = ~np.isin(contacts["shape_a"] << 32 | contacts["shape_b"], known)

@@ -29,7 +29,7 @@ LANES = 8 if JIT else 1
 # relaxing pass, the passes before and after the substeps.
 (
     PUSH_OUT_SHARE,  # factor on the push-out speed; negative: the sides did not approach before the step
-    RESTING,  # 1: touching before the step, too slow to bounce; 0: not
+    RESTING,  # 1: touched before the step, and was too slow to bounce; 0: not
     BIAS_RATE,  # [1/s] see Softness
     IMPULSE_SCALE,  # fraction of the accumulated impulse that a soft contact gives up in a substep
     STRIKE_LIMIT,  # impulse above which the contact counts as struck
@@ -85,7 +85,7 @@ LANES = 8 if JIT else 1
     THRESHOLD,  # [px/s] slower impacts do not bounce
     LISTED,  # 1: among the impacts of the step, see restitution.py; 0: not
     STIFFNESS,  # factor on the stiffness; negative: the sole support of one side
-    LOADED,  # 1: had an impulse in the step before; 0: not
+    LOADED,  # 1: had a normal force at the end of the last step; 0: not
     BOUNCING,  # 1: the sides approached fast enough to bounce; 0: not
     PUSH_1,  # impulses of the pseudo-velocities, of sequential impulses
     PUSH_2,
@@ -99,11 +99,11 @@ LANES = 8 if JIT else 1
     MOST,  # greatest normal impulse of a substep at one point
     SIZE,
 ) = (line * LANES for line in range(70))
-FIXED = 0.0  # normal and moment arms are those of the start of the step
-ARMS = 1.0  # moment arms turn with the bodies
-NORMAL_OF_A = 2.0  # … and the normal is that of a face of A on the core of B …
-NORMAL_OF_B = 3.0  # … or of a face of B on the core of A …
-NORMAL_OF_CORES = 4.0  # … or points from core to core
+FIXED = 0.0  # normal and moment arms of the start of the step are used
+ARMS = 1.0  # moment arms rotate with the bodies
+NORMAL_OF_A = 2.0  # arms rotate, and the normal rotates with a face of A, against the core of B
+NORMAL_OF_B = 3.0  # arms rotate, and the normal rotates with a face of B, against the core of A
+NORMAL_OF_CORES = 4.0  # arms rotate, and the normal points from core to core
 # Offsets of the values that a pass gathers from the motions of each block. They are in a separate array of one block:
 # as fields of each block they made up a quarter of the memory traffic of a pass.
 (VX_A, VY_A, W_A, DX_A, DY_A, COS_A, SIN_A, VX_B, VY_B, W_B, DX_B, DY_B, COS_B, SIN_B, OUTCOME, GATHERED) = (

@@ -399,7 +399,7 @@ def solve(state: StepState, contacts: ContactLanes, passes: int | None = None, w
     effects, motions, tolerances, dt = state.effects, state.workspace.motions, state.tolerances, state.dt
     run = PASSES[effects.drag, effects.rotation, effects.friction, effects.joints]
     context = context_of(1, False, dt, state.span, state.drag, tolerances)
-    bias_rate = BAUMGARTE / state.span  # a step that is shorter than the last ones does not separate faster
+    bias_rate = BAUMGARTE / state.span  # a step shorter than span does not separate faster
     substeps = state.substeps if passes is None else AUTO_SUBSTEPS[0]
     for group in contacts.choose(state, motions, substeps):
         blocks, count = contacts.prepare(state, motions, group, context)

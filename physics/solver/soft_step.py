@@ -384,7 +384,7 @@ def turn_normal(lane, s, c_inout):
     start_y = c[at.START_NY + lane]
     nx = cosine * start_x - sine * start_y
     ny = sine * start_x + cosine * start_y
-    # Vector from the core of A to that of B; cores are shapes without their radius.
+    # Vector from the core of A to the core of B; cores are shapes without their radius.
     apart_x = c[at.BX_1 + lane] - c[at.AX_1 + lane]
     apart_y = c[at.BY_1 + lane] - c[at.AY_1 + lane]
     x = c[at.BX_1 + lane] + c[at.RADIUS_B + lane] * start_x

@@ -56,8 +56,8 @@ class StepContext(NamedTuple):
     slop: float  # [px] overlap that is not removed
     deep_rate: float  # [1/s] greatest separation speed of a loaded contact per px of overlap; 0: no limit
     shallow_speed: float  # [px/s] least value of the limit by deep_rate
-    spring: Softness  # of contacts between dynamic bodies …
-    static_spring: Softness  # … and with static or kinematic ones
+    spring: Softness  # for contacts between dynamic bodies
+    static_spring: Softness  # for contacts with static or kinematic bodies
     joint: Softness  # of the rigid parts of joints
     loaded_stiffness: float  # factor on the grip of a loaded contact …
     sole_support_stiffness: float  # … and of a sole support

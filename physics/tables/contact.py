@@ -62,7 +62,7 @@ CONTACT = in_lines(
         ("row_a", np.int32),
         ("row_b", np.int32),
         ("candidate", np.int32),  # row of the candidate pair
-        ("previous", np.int32),  # recycled: row of this contact in the step before; -1: detected anew
+        ("previous", np.int32),  # recycled: row of this contact in the last step; -1: detected anew
         ("count", np.int32),  # number of points
         ("sensor", np.bool_),
         ("swept", np.bool_),  # found by the sweep, not at the final poses
@@ -84,7 +84,7 @@ CONTACT = in_lines(
         ("normal_impulse_2", np.float64),
         ("tangent_impulse_2", np.float64),
         ("tangential_offset", np.float64),  # [px] motion of B along (-ny, nx) before contact; see hull_pairs.py
-        ("persisted_1", np.bool_),  # the same feature was in contact in the step before
+        ("persisted_1", np.bool_),  # the same feature was in contact in the last step
         ("persisted_2", np.bool_),
         ("of_new_pair", np.bool_),  # the pair of shapes had no contact in the last step
         ("touched", np.bool_),  # the pair had a contact in the last step that touched or had an impulse

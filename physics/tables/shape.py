@@ -48,7 +48,7 @@ SHAPE = in_lines(
         ("id", np.int64),
         ("kind", np.int64),  # CIRCLE POLYGON BOUNDS TILES MASK CAPSULE SEGMENT CHAIN
         ("sensor", np.bool_),
-        ("snap", np.bool_),  # a mask that is tested as drawn, on the pixel grid; else at its exact pose
+        ("snap", np.bool_),  # a mask that is tested as drawn, on the pixel grid; otherwise at its exact pose
         ("own_material", np.bool_),  # the material is set on the shape, not on the body; likewise filter and sensor
         ("own_filter", np.bool_),
         ("own_sensor", np.bool_),
