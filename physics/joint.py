@@ -10,7 +10,17 @@ import numpy as np
 from physics import checks
 from physics.checks import Pair
 from physics.islands import sleep
-from physics.joints.kinds import KINDS, Drive, Kind, Spring, Weld, checked_breaks, checked_limits, motor_fields
+from physics.joints.kinds import (
+    KINDS,
+    Drive,
+    Kind,
+    Spring,
+    Weld,
+    checked_breaks,
+    checked_limits,
+    checked_spring,
+    motor_fields,
+)
 from physics.math2d import Vec2, rotate
 from physics.solver.joint_rows import report_joints
 from physics.tables.body import DYNAMIC
@@ -42,6 +52,7 @@ def add(
         rows[name] = 0.0 if value is None else value
     rows["kind"] = KINDS.index(type(kind))
     rows["body_a"], rows["body_b"] = bodies_a, bodies_b
+    rows["body_row_a"], rows["body_row_b"] = (rows_in(world._bodies, ids) for ids in (bodies_a, bodies_b))
     poses = [_poses(world, ids) for ids in (bodies_a, bodies_b)]
     rows["reference"] = poses[1][:, 2] - poses[0][:, 2]
     anchors = _anchors(kind, columns, poses)
@@ -69,8 +80,8 @@ def add(
     world._joints.append(n)[:] = rows
     if kind.user is not None:
         world._joint_users.update(dict.fromkeys(rows["id"].tolist(), kind.user))
-    joints_changed(world, rows)
-    measure_joints(world, world._joints.count - n)
+    set_apart(world, wake(world, rows))
+    report_joints(world.bodies, world.joints[world._joints.count - n :])
     return rows["id"].copy()
 
 
@@ -237,16 +248,12 @@ def _column(kind, name, settings, n) -> np.ndarray:
 # ---- changes ---------------------------------------------------------------------------------------------------------
 
 
-def joints_changed(world: WorldState, rows: np.ndarray) -> None:
-    """Refresh the rows and pairs that depend on joints, after JOINT rows were added, changed or removed.
-
-    Also wake the bodies of these joints.
-    """
-    world._refresh_joint_rows()
+def wake(world: WorldState, rows: np.ndarray) -> list[int]:
+    """Wake the bodies of JOINT rows that still exist, and return their ids."""
     ids = np.unique(np.concatenate([rows["body_a"], rows["body_b"]]))
     ids = [each for each in ids.tolist() if each in world._shapes_of]
     sleep.disturb(world, ids)
-    set_apart(world, ids)
+    return ids
 
 
 def set_apart(world: WorldState, ids: Sequence[int]) -> None:
@@ -259,11 +266,6 @@ def set_apart(world: WorldState, ids: Sequence[int]) -> None:
     low, high = np.minimum(apart["body_a"], apart["body_b"]), np.maximum(apart["body_a"], apart["body_b"])
     if world.pairs.keep_apart(np.unique(low << 32 | high)) and len(ids):
         world.pairs.touch(world.shapes["proxy"][world._shape_rows_of(world.rows(np.array(ids, np.int64)))])
-
-
-def measure_joints(world: WorldState, first: int = 0) -> None:
-    """Write angle, translation, speed and separation of the joints from row `first` on, at the present poses."""
-    report_joints(world.bodies, world.joints[first:])
 
 
 def remove(world: WorldState, ids: Any) -> None:
@@ -285,7 +287,7 @@ def drop(world: WorldState, rows: np.ndarray) -> np.ndarray:
     world._joints.keep(keep)
     for identity in gone["id"].tolist():
         world._joint_users.pop(identity, None)
-    joints_changed(world, gone)
+    set_apart(world, wake(world, gone))
     return gone
 
 
@@ -414,7 +416,9 @@ class Joint:
         rows = self._world.joints[at : at + 1]
         for name, value in columns.items():
             rows[name] = value
-        joints_changed(self._world, rows)
+        ids = wake(self._world, rows)
+        if columns.keys() & {"contacts", "enabled"}:
+            set_apart(self._world, ids)
 
     # --- state ------------------------------------------------------------------------------------------------------
 
@@ -520,8 +524,7 @@ class Joint:
     @spring.setter
     def spring(self, value: Spring | None) -> None:
         self._takes("spring", value is not None)
-        if value is not None and not isinstance(value, Spring):
-            raise TypeError(f"spring must be a Spring or None (got {checks.shown(value)})")
+        value = checked_spring(value)
         if value is None:
             self._set(spring_hertz=0.0, spring_force=0.0)
         else:

@@ -332,7 +332,7 @@ def are_mixed(motions, degrees, classes):
 def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out):
     """List the constraints to solve as graph edges, and colour the edges of contacts. O(constraints + motions).
 
-    Return (number of contacts, number of all edges). Also find islands that are squeezed between faces, see
+    Return the number of contacts. Also find islands that are squeezed between faces, see
     energy.find_squeezed, and clear MOTION.halves of bodies with contacts. lists_inout: see MotionLists.
     """
     nodes = len(motions_inout)
@@ -350,7 +350,7 @@ def list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, pla
         plan_out.squeezed[0] = find_squeezed(
             plan_out.edges, edges, lists_inout, motions_inout, limits, parents, squeeze
         )
-    return count, edges
+    return count
 
 
 @subkernel
@@ -376,7 +376,7 @@ def order_in_one_group(contacts, bodies, dt, limits, motions_inout, lists_inout,
 
     Return (number of contacts to solve, number of these without a colour).
     """
-    count, _ = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
+    count = list_and_color(contacts, bodies, dt, limits, motions_inout, lists_inout, plan_out)
     starts = plan_out.starts[: COLORS + 2]
     order_edges(plan_out.edges, count, plan_out.colors, plan_out.classes[:0], starts, plan_out.cursors, plan_out.places)
     return count, starts[1] - starts[0]
@@ -391,7 +391,7 @@ def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_in
     plan, motions = plan_out, motions_inout
     nodes = len(motions)
     classes = plan.classes[:nodes]
-    count, edges = list_and_color(contacts, bodies, dt, limits, motions, lists_inout, plan)
+    count = list_and_color(contacts, bodies, dt, limits, motions, lists_inout, plan)
     choices, by_load = islands.choices, islands.by_load
     unknown = class_motions(motions, plan.degrees, islands, classes)
     expect_impacts(plan.edges, count, motions, islands.rate, choices[: by_load + 1], classes)
@@ -400,7 +400,7 @@ def order_by_load(contacts, bodies, islands, dt, limits, motions_inout, lists_in
     plan.joined[0] = are_mixed(motions, plan.degrees, classes)
     if plan.joined[0]:
         parents = plan.parents[:nodes]
-        find_roots(plan.edges, edges, lists_inout.links_islands, parents)
+        find_roots(plan.edges, count + plan.joint_count[0], lists_inout.links_islands, parents)
         share_classes(parents, classes)
     order_edges(plan.edges, count, plan.colors, classes, plan.starts, plan.cursors, plan.places)
     order_nodes(islands.members, classes, plan.firsts, plan.cursors, plan.members)

@@ -40,6 +40,12 @@ from physics.solver.joint_trees import (
 from physics.tables.joint import ANGLE, PINNED
 from physics.tables.table import root_of
 
+FADING = 0.25  # [s] for which a tension counts
+SLACK = 0.05  # growth of an inertia by tension, from which on bend() is nothing
+SLOW = 0.01  # [rad²] square of a turn in a substep, from which on bend() is nothing
+
+# ---- trees -----------------------------------------------------------------------------------------------------------
+
 
 @kernel
 def list_tree_joints(rows, joints, order_out, counts_out, motion_a_out, motion_b_out):
@@ -102,11 +108,6 @@ def mark_direct(rows, taken, joints_inout):
     for k in range(len(rows)):
         joints_inout[rows[k]].direct = taken[k]
 
-
-FADING = 0.25  # [s] for which a tension counts
-SLACK = 0.05  # growth of an inertia by tension, from which on bend() is nothing
-
-SLOW = 0.01  # [rad²] square of a turn in a substep, from which on bend() is nothing
 
 # ---- rows ------------------------------------------------------------------------------------------------------------
 
@@ -204,7 +205,7 @@ def bend(joint, a, b, h):
 
 @subkernel
 def write_targets(joint, rate, context, a, b, first, rows_inout):
-    """Write the wanted velocities of the rows of a joint. a, b: MOTION rows; first: index of the rows of the joint.
+    """Write the wanted velocities of the rows of a joint. a, b: MOTION rows.
 
     rate [1/s]: fraction of the errors of position that is removed per second; 0 in the solve at the end of a substep.
     first: index of the first row of the joint in rows_inout.

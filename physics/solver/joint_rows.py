@@ -9,6 +9,7 @@ import math
 
 from physics.jit import inlined, kernel, subkernel
 from physics.math2d import norm, rotation_of
+from physics.solver.motions import change_velocity
 from physics.tables.joint import ANGLE, FREE, LENGTH, NO_COORDINATE, ON_AXIS, PINNED, TRANSLATION
 from physics.tables.step_state import JOINTS_SOLVED, StepState, stage
 
@@ -66,6 +67,14 @@ def list_joints(motion_of, motions_inout, joints_inout, links_out, work_inout):
 # ---- geometry --------------------------------------------------------------------------------------------------------
 
 
+@inlined
+def arm_of(body, x, y):
+    """Return the arm (x, y) [px] from the centre of mass of a BODY row to a point (x, y) [px] in its space."""
+    c, s = rotation_of(body.angle)
+    u, v = x - body.local_center_x, y - body.local_center_y
+    return c * u - s * v, s * u + c * v
+
+
 @subkernel
 def begin_joint(bodies, h, joint_inout):
     """Write the anchors, axis and angle of a joint at the start of a step, and its cached impulses for a substep.
@@ -80,17 +89,14 @@ def begin_joint(bodies, h, joint_inout):
     if j.body_row_a >= 0:
         body = bodies[j.body_row_a]
         angle_a = body.angle
-        c, s = rotation_of(angle_a)
-        x, y = ax - body.local_center_x, ay - body.local_center_y
-        j.arm_ax, j.arm_ay = c * x - s * y, s * x + c * y
+        j.arm_ax, j.arm_ay = arm_of(body, ax, ay)
         ax, ay = body.center_x + j.arm_ax, body.center_y + j.arm_ay
+        c, s = rotation_of(angle_a)
         j.start_nx, j.start_ny = c * j.axis_x - s * j.axis_y, s * j.axis_x + c * j.axis_y
     if j.body_row_b >= 0:
         body = bodies[j.body_row_b]
         angle_b = body.angle
-        c, s = rotation_of(angle_b)
-        x, y = bx - body.local_center_x, by - body.local_center_y
-        j.arm_bx, j.arm_by = c * x - s * y, s * x + c * y
+        j.arm_bx, j.arm_by = arm_of(body, bx, by)
         bx, by = body.center_x + j.arm_bx, body.center_y + j.arm_by
     j.base_x, j.base_y = bx - ax, by - ay
     j.start_angle = angle_b - angle_a - j.reference
@@ -145,22 +151,10 @@ def push(joint, x, y, torque, a_inout, b_inout):
     """
     j = joint
     a, b = a_inout, b_inout
-    vx, vy = a.inverse_mass * x, a.inverse_mass * y
     w = a.inverse_inertia * (j.ax * y - j.ay * x + torque)
-    a.vx -= vx
-    a.vy -= vy
-    a.angular_velocity -= w
-    a.free_vx -= vx
-    a.free_vy -= vy
-    a.free_w -= w
-    vx, vy = b.inverse_mass * x, b.inverse_mass * y
+    change_velocity(-(a.inverse_mass * x), -(a.inverse_mass * y), -w, a)
     w = b.inverse_inertia * (j.bx * y - j.by * x + torque)
-    b.vx += vx
-    b.vy += vy
-    b.angular_velocity += w
-    b.free_vx += vx
-    b.free_vy += vy
-    b.free_w += w
+    change_velocity(b.inverse_mass * x, b.inverse_mass * y, w, b)
 
 
 @subkernel
@@ -202,6 +196,13 @@ def coordinate_speed(joint, a, b):
     """Return the rate at which the coordinate of a joint changes [px/s or rad/s]."""
     j = joint
     return b.angular_velocity - a.angular_velocity if j.coordinate == ANGLE else speed_across(j, j.nx, j.ny, a, b)
+
+
+@subkernel
+def coordinate_inverse_mass(joint, a, b):
+    """Return the inverse effective mass, or inertia, of the coordinate of a joint. a, b: MOTION rows."""
+    j = joint
+    return a.inverse_inertia + b.inverse_inertia if j.coordinate == ANGLE else inverse_mass_along(j, j.nx, j.ny, a, b)
 
 
 @inlined
@@ -260,18 +261,17 @@ def holds_coordinate(joint):
 def solve_motor(context, joint_inout, a_inout, b_inout):
     """Solve the motor of a joint, which drives the coordinate, or the angle, at motor_speed with a bounded force."""
     j, a, b = joint_inout, a_inout, b_inout
-    of_angle = j.turns_motor or j.coordinate == ANGLE
-    if of_angle:
+    if j.turns_motor:
         inverse = a.inverse_inertia + b.inverse_inertia
         speed = b.angular_velocity - a.angular_velocity
     else:
-        inverse = inverse_mass_along(j, j.nx, j.ny, a, b)
-        speed = speed_across(j, j.nx, j.ny, a, b)
+        inverse = coordinate_inverse_mass(j, a, b)
+        speed = coordinate_speed(j, a, b)
     if inverse <= 0.0:
         return
     before = j.motor
     j.motor = bounded(before + (j.motor_speed - speed) / inverse, j.motor_max * context.h)
-    if of_angle:
+    if j.turns_motor:
         push(j, 0.0, 0.0, j.motor - before, a, b)
     else:
         push_coordinate(j, j.motor - before, a, b)
@@ -296,9 +296,7 @@ def limit_change(gap, speed, old, mass, soft, most, inverse_h):
 def solve_coordinate(biased, context, joint_inout, a_inout, b_inout):
     """Solve the spring, the motor and the limits on the coordinate of a joint. biased: see solve_joints."""
     j, a, b = joint_inout, a_inout, b_inout
-    inverse = a.inverse_inertia + b.inverse_inertia
-    if j.coordinate != ANGLE:
-        inverse = inverse_mass_along(j, j.nx, j.ny, a, b)
+    inverse = coordinate_inverse_mass(j, a, b)
     if inverse <= 0.0:
         return
     mass = 1.0 / inverse

@@ -189,6 +189,21 @@ def make_substep_velocities(drag: bool, rotation: bool) -> Callable:
 
 
 @subkernel
+def change_velocity(vx, vy, w, motion_inout):
+    """Add to the velocity of a MOTION row, and as much to its velocity before contacts (free_vx, free_vy, free_w).
+
+    So the warm start of contacts in the next substep does not add the change again.
+    """
+    m = motion_inout
+    m.vx += vx
+    m.vy += vy
+    m.angular_velocity += w
+    m.free_vx += vx
+    m.free_vy += vy
+    m.free_w += w
+
+
+@subkernel
 def accelerate_again(members, h, motions_inout):
     """Add the second half of the acceleration of a substep of h [s] to bodies with MOTION.halves. O(members).
 
@@ -199,13 +214,8 @@ def accelerate_again(members, h, motions_inout):
     for i in range(len(members)):
         m = motions_inout[members[i]]
         if m.halves:
-            x, y, w = 0.5 * h * m.acceleration_x, 0.5 * h * m.acceleration_y, 0.5 * h * m.angular_acceleration
-            m.vx += x
-            m.vy += y
-            m.angular_velocity += w
-            m.free_vx += x
-            m.free_vy += y
-            m.free_w += w
+            half = 0.5 * h
+            change_velocity(half * m.acceleration_x, half * m.acceleration_y, half * m.angular_acceleration, m)
 
 
 def make_substep_positions(rotation: bool) -> Callable:
